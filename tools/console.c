@@ -233,5 +233,5 @@ int console_close(command_console *console, sl_status status) {
     if (status != SL_OK && message[0])
         console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
-    return exit_status(status);
+    return status == SL_OK && console->fault ? 3 : exit_status(status);
 }

@@ -32,6 +32,7 @@ typedef struct command_console {
     pthread_t main_thread; ///< the only one that writes
     progress_line line;    ///< shown where stderr is a terminal
     bool quiet;            ///< --quiet: neither notes nor progress
+    bool fault;            ///< check --strict found a fault: the exit status is 3
 } command_console;
 
 /// False where there is no memory; a message has been printed.
@@ -47,7 +48,8 @@ bool console_is_asked(void);
 void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
 
 /// Checks that all of stdout was written, prints the message of a failure, and gives the exit
-/// status of the program: 0 done, 1 the work failed, 2 the arguments or an input file are wrong.
+/// status of the program: 0 done, 1 the work failed, 2 the arguments or an input file are wrong, 3
+/// a fault that a check was to find.
 int console_close(command_console *console, sl_status status);
 
 #endif

@@ -65,7 +65,7 @@ option_table input_option_table(input_options *input) {
          .text = &to->unit, .given = given},
         {"weld", 0, "T",
          "join wall ends up to this far apart, in map units;\n0: none (default: on oblique maps, "
-         "2^-46 of the\nlargest coordinate)",
+         "2^-46 of the\nlargest coordinate; in drawings, 5 units of the\nlast digit, if larger)",
          .number = &input->clean.weld, .needs = "0 or a number over 0 is needed", .given = given},
         {"threshold", 0, "T", "darkness from which a pixel is solid, up to 1",
          .number = &to->threshold, .over_0 = true, .most = 1,

@@ -1,6 +1,7 @@
 #include "pipeline.h"
 
 #include "inputs.h"
+#include "sightline/faults.h"
 #include "sightline/support.h"
 #include "solvers.h"
 
@@ -136,6 +137,23 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     if (status == SL_OK) status = sl_bake_space(context, &map, &options, baked, &account);
     sl_map_destroy(context, &map);
     return status;
+}
+
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline,
+                               const sl_baked *baked) {
+    sl_inside doubt;
+    SL_TRY(sl_doubt_inside(context, &baked->map, &baked->space, &doubt));
+    if (doubt == SL_INSIDE_LEAKS)
+        sl_note(context,
+                "a start leads out of the map, so the outside counts as inside; "
+                "sightline check %s shows where",
+                pipeline->path);
+    if (doubt == SL_INSIDE_SMALL)
+        sl_note(context,
+                "the map has no start, and walls enclose less than half of it, so inside is "
+                "doubtful; sightline check %s --start X,Y tells more",
+                pipeline->path);
+    return SL_OK;
 }
 
 // --- help

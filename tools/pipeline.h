@@ -47,6 +47,10 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, sl_baked *baked);
 
+/// Notes where it is in doubt what is inside.
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline,
+                               const sl_baked *baked);
+
 /// For --help: the names that the options take.
 void pipeline_print_subdivisions(void);
 void pipeline_print_effects(void);

@@ -42,6 +42,7 @@ void plan_add_json(json_fields *fields, const sl_map *map) {
 static void print_welding(const sl_clean_account *account) {
     const char *between = "";
     printf("  welded    ");
+    if (!account->welded && !account->crossings) printf("walls to ends beside them");
     if (account->welded) {
         printf("%zu end%s", account->welded, account->welded == 1 ? "" : "s");
         between = ", ";
@@ -70,7 +71,7 @@ void cleaning_print(const sl_clean_account *account) {
         any = true;
     }
     putchar('\n');
-    if (account->welded || account->crossings) print_welding(account);
+    if (account->welded || account->crossings || account->largest_move > 0) print_welding(account);
 }
 
 // --- how much a cell sees

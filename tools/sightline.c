@@ -38,7 +38,8 @@ static void print_help(void) {
     for (size_t i = 0; i < COMMAND_COUNT; i++)
         printf("  %-11s%s\n", commands[i].name, commands[i].summary);
     puts("\n'sightline COMMAND --help', or 'sightline help COMMAND', tells what each takes.\n"
-         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
+         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong;\n"
+         "3 'check --strict' found a fault.\n\n"
          "example:\n"
          "  sightline bake office.map -o office.slv\n"
          "  sightline draw office.slv -o office.png");

@@ -212,10 +212,10 @@ sl_status way_frames(sl_context *context, const walk_way *way, double step, doub
                        MOST_FRAMES);
     walker eye = {.way = way}, seen = {.way = way};
     double look = 0;
-    sl_point at = advance(&eye, 0), toward = advance(&seen, ahead);
+    sl_point toward = advance(&seen, ahead);
     // The last step may come out a little short of the end by rounding.
     for (size_t i = 0; i < (size_t)(steps + 1e-6); i++) {
-        at = advance(&eye, i ? step : 0);
+        const sl_point at = advance(&eye, i ? step : 0);
         toward = i ? advance(&seen, step) : toward;
         if (at.x != toward.x || at.y != toward.y)
             look = atan2(toward.y - at.y, toward.x - at.x) * (180 / acos(-1));

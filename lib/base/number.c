@@ -20,7 +20,7 @@ static void replace(char *text, const char *from, const char *to) {
     if (!at) return;
     const char *rest = at + strlen(from);
     memmove(at + strlen(to), rest, strlen(rest) + 1);
-    memcpy(at, to, strlen(to));
+    while (*to) *at++ = *to++;
 }
 
 void sl_number_write(double value, char text[SL_NUMBER_TEXT]) {

@@ -303,9 +303,16 @@ static sl_status read_sections(drawing *dxf) {
 
 static const double pi = 3.14159265358979323846;
 
+static sl_status read_coordinate(drawing *dxf, dxf_range entity, int code, double *value) {
+    const dxf_pair *pair = find(dxf, entity, code);
+    if (!pair) return SL_OK;
+    sli_pen_digits(&dxf->pen, pair->value.at, pair->value.length, 1);
+    return read_number(dxf, pair, value);
+}
+
 static sl_status read_point(drawing *dxf, dxf_range entity, int code, sl_point *point) {
-    SL_TRY(dxf_number(dxf, entity, code, &point->x));
-    return dxf_number(dxf, entity, code + 10, &point->y);
+    SL_TRY(read_coordinate(dxf, entity, code, &point->x));
+    return read_coordinate(dxf, entity, code + 10, &point->y);
 }
 
 /// Entities drawn in their own plane: one seen from below is mirrored, one that leans is left out.
@@ -644,6 +651,7 @@ static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
     SL_TRY(check_layers(dxf));
     SL_TRY(take_unit(dxf));
     SL_TRY(dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0));
+    dxf->pen.map->precision = sli_precision_of(dxf->pen.map, dxf->pen.finest);
     sl_note(dxf->context,
             "%s: %zu entities give %zu walls (unit: %s%s%s); left out: %zu on other layers, %zu of "
             "other kinds, %zu on the paper, %zu out of the plan's plane, %zu lines of no length",

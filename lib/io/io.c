@@ -10,10 +10,14 @@ static bool knows_svg(const char *text, size_t size) {
     return *text == '<' && strstr(text, "<svg");
 }
 
+static bool is_one_of(const char *characters, char c) {
+    return c && strchr(characters, c);
+}
+
 static bool knows_image(const char *text, size_t size) {
     return (size > 4 && memcmp(text, "\x89PNG", 4) == 0) ||
-           (size > 3 && text[0] == 'P' && memchr("1245", text[1], 4) &&
-            memchr(" \t\r\n#", text[2], 5));
+           (size > 3 && text[0] == 'P' && is_one_of("1245", text[1]) &&
+            is_one_of(" \t\r\n#", text[2]));
 }
 
 static bool knows_tmx(const char *text, size_t size) {

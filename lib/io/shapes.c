@@ -1,4 +1,4 @@
-/// Walls from lines, curves and tiles.
+/// Walls from lines, curves and tiles, and how exactly a file writes their places.
 ///
 /// A curve becomes chords that end on the curve. Their number follows from the tolerance: a chord
 /// over an angle s of a circle is r (1 - cos(s / 2)) from it, and n even steps of a curve B are at
@@ -9,6 +9,51 @@
 #include "sightline/support.h"
 
 #include <math.h>
+
+// --- digits
+
+/// The unit of the last decimal place of a number as written: 0.01 for "2.50"; at most 1.
+static double decimal_unit(const char *text, size_t length) {
+    const char *end = text + sl_number_length(text, length), *at = text;
+    int places = 0;
+    for (bool behind = false; at < end && (*at | 0x20) != 'e'; at++) {
+        places -= behind;
+        behind |= *at == '.';
+    }
+    double exponent = 0, unit = 0;
+    if (at < end) (void)sl_number_read(at + 1, (size_t)(end - at - 1), &exponent);
+    exponent += places;
+    if (exponent >= 0) return 1;
+    char power[32];
+    snprintf(power, sizeof power, "1e%d", (int)fmax(exponent, -300));
+    (void)sl_number_read(power, strlen(power), &unit);
+    return unit;
+}
+
+double sli_shortest_unit(double value) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value, text);
+    return decimal_unit(text, strlen(text));
+}
+
+void sli_keep_finest(double *finest, double unit) {
+    if (unit > 0 && (*finest == 0 || unit < *finest)) *finest = unit;
+}
+
+/// An end and a wall that are each off by a unit are 2 units apart. Cleaning takes an end to a wall
+/// within half of the tolerance: that makes 4. One more is for what transforms add.
+#define UNITS 5
+
+double sli_precision_of(const sl_map *map, double finest) {
+    const sl_box b = sl_map_bounds(map);
+    const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
+    const double largest =
+        fmax(fmax(fabs(b.min.x), fabs(b.min.y)), fmax(fabs(b.max.x), fabs(b.max.y)));
+    // With so coarse a unit, the drawing lies on a grid: its places are equal or far apart.
+    if (finest == 0 || finest > 1e-3 * size) return 0;
+    // Digits beyond the rounding of doubles say nothing.
+    return UNITS * fmax(finest, 0x1p-51 * largest);
+}
 
 // --- the pen
 
@@ -67,6 +112,12 @@ sl_status sli_pen_line(sli_pen *pen, sl_point to) {
                           "the drawing gives more than %zu walls", MOST_WALLS);
     if (pen->walls++ % 1024 == 0) SL_TRY(sl_check_cancelled(pen->context));
     return sl_map_add_wall(pen->context, pen->map, a, b, pen->line);
+}
+
+void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit) {
+    const sli_affine *affine = &pen->affine;
+    const double scale = fmax(hypot(affine->xx, affine->yx), hypot(affine->xy, affine->yy));
+    sli_keep_finest(&pen->finest, decimal_unit(text, length) * unit * scale);
 }
 
 /// How far the map makes a vector at most.

@@ -23,6 +23,15 @@ sli_affine sli_affine_after(sli_affine outer, sli_affine inner);
 /// About the origin; multiples of a quarter turn are exact.
 sli_affine sli_affine_turn(double degrees);
 
+// --- digits: how exactly a file writes its places
+
+/// The unit of the last decimal place of a number in its shortest text: 0.1 for 2.5; at most 1.
+double sli_shortest_unit(double value);
+/// Keeps the finer of two units in `finest`, where 0 stands for none yet.
+void sli_keep_finest(double *finest, double unit);
+/// What sl_map.precision is by the finest unit, in the map's unit, that the map's places have.
+double sli_precision_of(const sl_map *map, double finest);
+
 typedef struct sli_pen {
     sl_context *context;
     const char *name; ///< of the file, for messages
@@ -33,7 +42,11 @@ typedef struct sli_pen {
     sl_point at;       ///< the pen, in the drawing's coordinates
     size_t walls;      ///< drawn
     size_t points;     ///< lines of no length, left out
+    double finest;     ///< the finest unit of the coordinates, in the map's unit
 } sli_pen;
+
+/// Takes note of how a coordinate is written, which the file has in `unit` drawing units.
+void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit);
 
 /// Each draws from where the pen is, and moves it. SL_BAD_INPUT where the map's coordinate would
 /// not be usable, or where there are more walls than 2^24.

@@ -57,6 +57,15 @@ static sl_status svg_number(const sli_pen *pen, svg_text *text, double *value) {
     return SL_OK;
 }
 
+/// The next number, as a coordinate of what is drawn.
+static sl_status svg_coordinate(sli_pen *pen, svg_text *text, double *value) {
+    svg_skip(text);
+    const char *begin = text->at;
+    SL_TRY(svg_number(pen, text, value));
+    sli_pen_digits(pen, begin, (size_t)(text->at - begin), 1);
+    return SL_OK;
+}
+
 // --- transforms
 
 static sli_affine skewed(bool x, double degrees) {
@@ -137,8 +146,8 @@ static sl_status read_flag(path *p, bool *flag) {
 }
 
 static sl_status read_point(path *p, bool relative, sl_point *point) {
-    SL_TRY(svg_number(p->pen, &p->text, &point->x));
-    SL_TRY(svg_number(p->pen, &p->text, &point->y));
+    SL_TRY(svg_coordinate(p->pen, &p->text, &point->x));
+    SL_TRY(svg_coordinate(p->pen, &p->text, &point->y));
     if (relative) {
         point->x += p->pen->at.x;
         point->y += p->pen->at.y;
@@ -224,7 +233,7 @@ static sl_status draw_straight(path *p, char command, bool relative) {
         SL_TRY(read_point(p, relative, &to));
         return sli_pen_line(p->pen, to);
     }
-    SL_TRY(svg_number(p->pen, &p->text, &value));
+    SL_TRY(svg_coordinate(p->pen, &p->text, &value));
     if (command == 'H')
         to.x = relative ? to.x + value : value;
     else
@@ -313,17 +322,22 @@ static sl_status read_length(svg *s, xmlNode *node, const char *name, double *va
     if (!text) return SL_OK;
     svg_text scan = svg_text_of(text, name);
     double number = 0;
+    skip_space(&scan);
+    const char *begin = scan.at;
     sl_status status = svg_number(&s->pen, &scan, &number);
+    const size_t written = (size_t)(scan.at - begin);
     if (status == SL_OK) {
         size_t length = strcspn(scan.at, " \t\r\n"), i = 0;
         const sli_word unit = {scan.at, length};
         while (i < sizeof units / sizeof *units && !sli_word_is(unit, units[i].name)) i++;
-        if (i < sizeof units / sizeof *units)
+        if (i < sizeof units / sizeof *units) {
             *value = number * units[i].size;
-        else
+            sli_pen_digits(&s->pen, begin, written, units[i].size);
+        } else {
             status = sl_fail_at(s->context, s->pen.name, s->pen.line,
                                 "%s: the unit '%s' is not known here (px, in, cm, mm, pt, pc are)",
                                 name, sli_show(unit).text);
+        }
     }
     sli_xml_free(text);
     return status;
@@ -392,8 +406,8 @@ static sl_status draw_points(svg *s, xmlNode *node, bool closed) {
     size_t count = 0;
     for (svg_skip(&text); status == SL_OK && text.at < text.end; svg_skip(&text)) {
         sl_point to;
-        status = svg_number(&s->pen, &text, &to.x);
-        if (status == SL_OK) status = svg_number(&s->pen, &text, &to.y);
+        status = svg_coordinate(&s->pen, &text, &to.x);
+        if (status == SL_OK) status = svg_coordinate(&s->pen, &text, &to.y);
         if (status != SL_OK) break;
         if (count++)
             status = sli_pen_line(&s->pen, to);
@@ -642,6 +656,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
         SL_TRY(read_length(s, root, "height", &height));
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
+    s->pen.map->precision = sli_precision_of(s->pen.map, s->pen.finest);
     sl_note(s->context,
             "%s: %zu shapes give %zu walls; left out: %zu hidden elements or groups, %zu texts and "
             "pictures, %zu lines of no length",

@@ -3,6 +3,7 @@
 #include "geometry/orient.h"
 #include "io/document.h"
 #include "io/names.h"
+#include "io/shapes.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 
@@ -14,7 +15,8 @@ typedef struct uvtt {
     sl_context *context;
     const sl_import_options *options;
     sl_map *map;
-    double top; ///< the file's y that is 0 in the map, which has y up
+    double top;    ///< the file's y that is 0 in the map, which has y up
+    double finest; ///< the finest unit of the coordinates
     size_t walls, points;
     size_t open, closed;
 } uvtt;
@@ -22,12 +24,14 @@ typedef struct uvtt {
 static const char *const layer_names[] = {"line_of_sight", "objects_line_of_sight", "portals"};
 enum { LAYER_COUNT = sizeof layer_names / sizeof *layer_names };
 
-static sl_status read_point(const uvtt *reader, const sli_json *at, sl_point *point) {
+static sl_status read_point(uvtt *reader, const sli_json *at, sl_point *point) {
     SL_TRY(sli_json_object(at));
     const sli_json x = sli_json_member(at, "x"), y = sli_json_member(at, "y");
     sl_point read = {0};
     SL_TRY(sli_json_number(&x, &read.x));
     SL_TRY(sli_json_number(&y, &read.y));
+    sli_keep_finest(&reader->finest, sli_shortest_unit(read.x));
+    sli_keep_finest(&reader->finest, sli_shortest_unit(read.y));
     read.y = reader->top - read.y;
     if (!sl_coordinate_usable(read.y)) return sli_json_fail(&y, "out of range once y points up");
     *point = read;
@@ -144,6 +148,7 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     const size_t of_lines = reader->walls;
     if (takes(reader, layer_names[1]) && objects.value) SL_TRY(read_polylines(reader, &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
+    reader->map->precision = sli_precision_of(reader->map, reader->finest);
     const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
@@ -190,7 +195,8 @@ typedef struct foundry {
     sl_context *context;
     const sl_import_options *options;
     sl_map *map;
-    double top; ///< the file's y that is 0 in the map, which has y up: the largest of any wall
+    double top;    ///< the file's y that is 0 in the map, which has y up: the largest of any wall
+    double finest; ///< the finest unit of the coordinates
     size_t walls, oneways, open, shut, secret;
     size_t unseen, limited, near, points; ///< left out
 } foundry;
@@ -200,7 +206,7 @@ typedef struct record {
     int64_t sight, side, door, state;
 } record;
 
-static sl_status read_ends(const foundry *reader, const sli_json *wall, sl_segment *at) {
+static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at) {
     const sli_json c = sli_json_member(wall, "c");
     size_t count;
     SL_TRY(sli_json_array(&c, &count));
@@ -210,6 +216,7 @@ static sl_status read_ends(const foundry *reader, const sli_json *wall, sl_segme
     for (size_t i = 0; i < 4; i++) {
         const sli_json number = sli_json_item(&c, i);
         SL_TRY(sli_json_number(&number, &values[i]));
+        sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]));
     }
     *at = (sl_segment){{values[0], reader->top - values[1]}, {values[2], reader->top - values[3]}};
     if (!sl_coordinate_usable(at->a.y) || !sl_coordinate_usable(at->b.y))
@@ -217,7 +224,7 @@ static sl_status read_ends(const foundry *reader, const sli_json *wall, sl_segme
     return SL_OK;
 }
 
-static sl_status read_record(const foundry *reader, const sli_json *wall, record *read) {
+static sl_status read_record(foundry *reader, const sli_json *wall, record *read) {
     SL_TRY(sli_json_object(wall));
     SL_TRY(read_ends(reader, wall, &read->at));
     const sli_json sight = sli_json_member(wall, "sight"), sense = sli_json_member(wall, "sense");
@@ -301,6 +308,7 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
         SL_TRY(read_record(reader, &wall, &read));
         SL_TRY(take(reader, &read));
     }
+    reader->map->precision = sli_precision_of(reader->map, reader->finest);
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
     sl_note(reader->context,

@@ -3,7 +3,8 @@
 /// 1. Walls are sorted into uprights, levels and oblique ones; walls of no length are dropped.
 /// 2. Uprights and levels in one line that overlap or touch are joined; copies are dropped.
 /// 3. With nothing oblique, a sweep cuts walls where they cross or touch. Else the walls, together
-///    with all else that the map holds, become one planar graph (clean_oblique.c).
+///    with all else that the map holds, become one planar graph (clean_oblique.c). So they do where
+///    ends of axial walls miss each other by no more than the tolerance.
 ///
 /// The sweep goes over the uprights by x, and keeps the set of levels that are there at x:
 ///
@@ -361,15 +362,17 @@ static sl_status clean_axial(cleaning *work, sl_map *map) {
     return SL_OK;
 }
 
-static sl_status clean_oblique(cleaning *work, sl_map *map, double weld) {
+/// `idle` as in sli_clean_oblique.
+static sl_status clean_oblique(cleaning *work, sl_map *map, double weld, bool *idle) {
     sl_wall *walls = NULL;
     size_t count = 0;
     SL_TRY(list_walls(work, &work->uprights, &work->levels, &walls, &count));
     const sl_status status =
-        sli_clean_oblique(work->context, map, walls, count, weld, &work->account);
+        sli_clean_oblique(work->context, map, walls, count, weld, idle, &work->account);
     sl_free(work->context, walls);
     SL_TRY(status);
-    if (map->wall_count) qsort(map->walls, map->wall_count, sizeof *map->walls, compare_walls);
+    if (!(idle && *idle) && map->wall_count)
+        qsort(map->walls, map->wall_count, sizeof *map->walls, compare_walls);
     return SL_OK;
 }
 
@@ -386,13 +389,51 @@ bool sl_map_is_axial(const sl_map *map) {
     return axial;
 }
 
+// --- the tolerance
+
+static double shorter(double length, sl_segment at, double least) {
+    const double own = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
+    return own > least && own < length ? own : length;
+}
+
+/// The shortest wall, door or glass that is longer than `least`.
+static double shortest(const sl_map *map, double least) {
+    double length = HUGE_VAL;
+    for (size_t i = 0; i < map->wall_count; i++)
+        length = shorter(length, (sl_segment){map->walls[i].a, map->walls[i].b}, least);
+    for (size_t i = 0; i < map->door_count; i++)
+        length = shorter(length, map->doors[i].segment, least);
+    const sl_glass *const glass[] = {map->mirrors, map->oneways, map->seams};
+    const size_t counts[] = {map->mirror_count, map->oneway_count, map->seam_count};
+    for (int kind = 0; kind < 3; kind++)
+        for (size_t i = 0; i < counts[kind]; i++)
+            length = shorter(length, glass[kind][i].segment, least);
+    return length;
+}
+
+/// The map's precision, kept below what would close real gaps or eat real walls.
+static double safe_precision(const sl_map *map, const sl_box *bounds) {
+    if (!(map->precision > 0)) return 0;
+    const double size = fmax(bounds->max.x - bounds->min.x, bounds->max.y - bounds->min.y);
+    const double noise = fmin(map->precision, 1e-5 * size);
+    return fmin(map->precision, fmin(1e-3 * size, shortest(map, noise) / 2));
+}
+
+/// An axial map stays axial unless ends really miss each other. The planar graph shows whether
+/// anything would move.
 static sl_status clean(cleaning *work, sl_map *map, double weld) {
+    const sl_box bounds = sl_map_bounds(map);
     const bool axial = sl_map_is_axial(map) && !(weld > 0) && !map->cell_count;
+    const double precision = weld < 0 ? safe_precision(map, &bounds) : 0;
+    if (weld < 0) weld = axial ? precision : fmax(sli_planar_tolerance(&bounds), precision);
     SL_TRY(sort_out(work, map));
     merge(&work->uprights, &work->account);
     merge(&work->levels, &work->account);
     drop_duplicates(&work->others, &work->account);
-    return axial ? clean_axial(work, map) : clean_oblique(work, map, weld);
+    if (!axial) return clean_oblique(work, map, weld, NULL);
+    bool idle = true;
+    if (weld > 0) SL_TRY(clean_oblique(work, map, weld, &idle));
+    return idle ? clean_axial(work, map) : SL_OK;
 }
 
 sl_clean_options sl_clean_options_default(void) {
@@ -411,6 +452,8 @@ sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options 
     sl_free(context, work.others.items);
     sl_free(context, work.upright_parts.items);
     sl_free(context, work.level_parts.items);
-    if (status == SL_OK && account) *account = work.account;
-    return status;
+    if (status != SL_OK) return status;
+    map->precision = 0; // every place is settled
+    if (account) *account = work.account;
+    return SL_OK;
 }

@@ -230,15 +230,14 @@ static sl_status take_graph(maker *m, sl_map *map) {
 }
 
 sl_status sli_clean_oblique(sl_context *context, sl_map *map, const sl_wall *walls, size_t count,
-                            double weld, sl_clean_account *account) {
-    const sl_box bounds = sl_map_bounds(map);
-    const double own = weld < 0 ? sli_planar_tolerance(&bounds) : weld;
+                            double weld, bool *idle, sl_clean_account *account) {
     maker m = {.context = context, .walls = walls, .account = account};
     sl_status status = list_segments(context, walls, count, map, &m.list);
     if (status == SL_OK)
         status = sli_planar_make(context, map->source ? map->source : "the map", m.list.items.items,
-                                 m.list.items.count, fmax(own, 2 * map->snap), &m.graph);
-    if (status == SL_OK) status = take_graph(&m, map);
+                                 m.list.items.count, fmax(weld, 2 * map->snap), &m.graph);
+    if (idle) *idle = m.graph.largest_move == 0;
+    if (status == SL_OK && !(idle && *idle)) status = take_graph(&m, map);
     sli_planar_destroy(context, &m.graph);
     sl_free(context, m.list.items.items);
     return status;

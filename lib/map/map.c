@@ -314,7 +314,8 @@ static sl_status copy_things(sl_context *context, const sl_map *from, sl_map *to
 }
 
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
-    sl_map map = {.range = from->range, .range_line = from->range_line};
+    sl_map map = {
+        .precision = from->precision, .range = from->range, .range_line = from->range_line};
     sl_status status = copy_walls(context, from, &map);
     if (status == SL_OK) status = copy_effects(context, from, &map);
     if (status == SL_OK) status = copy_cells(context, from, &map);

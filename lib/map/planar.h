@@ -51,9 +51,10 @@ void sli_planar_destroy(sl_context *context, sli_planar *planar); ///< and zeroe
 double sli_planar_tolerance(const sl_box *bounds);
 
 /// Cleans a map with oblique walls (clean_oblique.c). `walls` are to stand for the map's own;
-/// mirrors are among them. `weld` as in sl_clean_options. The walls come out in no order.
+/// mirrors are among them. The walls come out in no order. Where `idle` is not NULL, it says
+/// whether no wall had to move; the map and the account then stay as they were.
 sl_status sli_clean_oblique(sl_context *context, sl_map *map, const sl_wall *walls, size_t count,
-                            double weld, sl_clean_account *account);
+                            double weld, bool *idle, sl_clean_account *account);
 
 static inline sl_segment sli_planar_at(const sli_planar *planar, sli_planar_link link) {
     const sli_planar_edge *e = &planar->edges[link / 2];

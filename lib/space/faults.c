@@ -1,19 +1,20 @@
-/// The search for faults; here leaks to the outside, thin cells and rooms that no start reaches.
+/// The search for faults; here thin cells, rooms that no start reaches, and whether it is in doubt
+/// what is inside. Leaks are in faults_leaks.c, faults between walls in faults_walls.c.
 ///
-/// A leak is a way from a start to the border. Among all ways, the one is reported whose narrowest
-/// portal is the widest. Cells are joined over portals, the widest first (as in Kruskal's
-/// algorithm), until the start's cell and the border are in one set:
+/// Cells that portals join make a room. A cell is open where a piece of its boundary lies on the
+/// map's border and no wall covers it. A room with a start and an open cell leaks:
 ///
-///     start o)  6  (  5  (  0.02  (   border       the portal that joined the two sets last, here
-///                                                  the one of 0.02, is the place to look at
+///     +------------+        walls lie on the border; the piece without a wall opens the cell, and
+///     |  o  |      :        with it the room of the start o
+///     +------------+
 ///
-/// The shortest way through portals no narrower than that one is then shown. A cell is as thin as
-/// the least distance from one of its edges to the farthest corner. Time O(n log n).
+/// A cell is as thin as the least distance from one of its edges to the farthest corner. Time
+/// O(n log n).
 #include "space/faults.h"
 
+#include "map/planar.h"
 #include "sightline/support.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,192 +83,64 @@ static sl_status read_border(sl_context *context, const sl_space *space, border 
     return SL_OK;
 }
 
+/// Covers are apart, so the last one that begins at `low` or before it decides.
 static bool is_covered(const border *b, int side, double low, double high) {
-    for (size_t i = 0; i < b->counts[side]; i++)
-        if (b->covers[side][i].low <= low && b->covers[side][i].high >= high) return true;
-    return false;
+    size_t first = 0, last = b->counts[side];
+    while (first < last) {
+        const size_t middle = first + (last - first) / 2;
+        if (b->covers[side][middle].low <= low)
+            first = middle + 1;
+        else
+            last = middle;
+    }
+    return first > 0 && b->covers[side][first - 1].high >= high;
 }
 
-/// Whether a cell touches a part of the border that has no wall. `at` is its middle.
-static bool is_open(const sl_space *space, const border *b, uint32_t number, sl_point *at) {
+/// Whether a cell touches a part of the border that has no wall.
+static bool is_open(const sl_space *space, const border *b, uint32_t number) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point p = corners[i], q = corners[(i + 1) % cell->vertex_count];
         for (int side = 0; side < 4; side++) {
             double from, to;
-            if (!side_of(&space->bounds, side, p, &from) ||
-                !side_of(&space->bounds, side, q, &to) ||
-                is_covered(b, side, fmin(from, to), fmax(from, to)))
-                continue;
-            *at = (sl_point){p.x / 2 + q.x / 2, p.y / 2 + q.y / 2};
-            return true;
+            if (side_of(&space->bounds, side, p, &from) && side_of(&space->bounds, side, q, &to) &&
+                !is_covered(b, side, fmin(from, to), fmax(from, to)))
+                return true;
         }
     }
     return false;
 }
 
-// --- connected cells
+// --- rooms
 
-static double width_of(const sl_portal *portal) {
-    return sli_apart(portal->left, portal->right);
-}
-
-static uint32_t find_root(uint32_t *parents, uint32_t cell) {
-    while (parents[cell] != cell) cell = parents[cell] = parents[parents[cell]];
-    return cell;
-}
-
-/// Sets of connected cells, and the cells open to the border.
+/// What a search from cell to cell needs.
 typedef struct rooms {
-    uint32_t *parents;
-    uint32_t *queue, *from; ///< of a breadth-first search; `from` has portals
-    uint32_t *order;        ///< portals, the widest first
-    sl_bits *open;
-    border edge;
+    uint32_t *queue;
+    sl_bits *open; ///< the cells open to the border
 } rooms;
 
 static void destroy_rooms(sl_context *context, rooms *r) {
-    sl_free(context, r->parents);
     sl_free(context, r->queue);
-    sl_free(context, r->from);
-    sl_free(context, r->order);
     sl_free(context, r->open);
-    destroy_border(context, &r->edge);
-}
-
-typedef struct wide_portal {
-    double width;
-    uint32_t number;
-} wide_portal;
-
-static int compare_widths(const void *left, const void *right) {
-    const wide_portal *a = left, *b = right;
-    if (a->width != b->width) return a->width > b->width ? -1 : 1;
-    return (a->number > b->number) - (a->number < b->number);
-}
-
-static sl_status order_portals(sl_context *context, const sl_space *space, uint32_t *order) {
-    wide_portal *wide = sl_alloc_array(context, space->portal_count, sizeof *wide);
-    if (!wide) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->portal_count; i++)
-        wide[i] = (wide_portal){width_of(&space->portals[i]), i};
-    if (space->portal_count) qsort(wide, space->portal_count, sizeof *wide, compare_widths);
-    for (uint32_t i = 0; i < space->portal_count; i++) order[i] = wide[i].number;
-    sl_free(context, wide);
-    return SL_OK;
 }
 
 static sl_status make_rooms(sl_context *context, const sl_space *space, rooms *out) {
-    rooms r = {0};
-    SL_TRY(read_border(context, space, &r.edge));
-    const uint32_t count = space->cell_count;
-    r.parents = sl_alloc_array(context, count, sizeof *r.parents);
-    r.queue = sl_alloc_array(context, count, sizeof *r.queue);
-    r.from = sl_alloc_array(context, count, sizeof *r.from);
-    r.order = sl_alloc_array(context, space->portal_count, sizeof *r.order);
-    r.open = sl_alloc_array(context, sl_bits_words(count), sizeof *r.open);
-    const bool room = r.parents && r.queue && r.from && r.order && r.open;
-    const sl_status status = room ? order_portals(context, space, r.order) : SL_NO_MEMORY;
-    if (status != SL_OK) {
+    border edge;
+    SL_TRY(read_border(context, space, &edge));
+    rooms r = {.queue = sl_alloc_array(context, space->cell_count, sizeof *r.queue),
+               .open = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *r.open)};
+    const bool room = r.queue && r.open;
+    for (uint32_t i = 0; room && i < space->cell_count; i++)
+        if (is_open(space, &edge, i)) sl_bits_add(r.open, i);
+    destroy_border(context, &edge);
+    if (!room) {
         destroy_rooms(context, &r);
-        return status;
+        return SL_NO_MEMORY;
     }
-    sl_point at;
-    for (uint32_t i = 0; i < count; i++)
-        if (is_open(space, &r.edge, i, &at)) sl_bits_add(r.open, i);
     *out = r;
     return SL_OK;
 }
-
-// --- leaks
-
-/// The narrowest portal on the widest way from a start's cell to an open cell. UINT32_MAX if the
-/// start's cell itself is open. There must be some way.
-static uint32_t find_bottleneck(const sl_space *space, rooms *r, uint32_t start) {
-    const uint32_t count = space->cell_count;
-    if (sl_bits_has(r->open, start)) return UINT32_MAX;
-    for (uint32_t i = 0; i < count; i++) r->parents[i] = i;
-    // Open cells are one set from the beginning.
-    uint32_t open = UINT32_MAX;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!sl_bits_has(r->open, i)) continue;
-        if (open == UINT32_MAX) open = i;
-        r->parents[i] = open;
-    }
-    uint32_t next = 0;
-    while (find_root(r->parents, start) != find_root(r->parents, open)) {
-        assert(next < space->portal_count);
-        const sl_portal *each = &space->portals[r->order[next++]];
-        const uint32_t a = find_root(r->parents, each->cell[0]);
-        r->parents[a] = find_root(r->parents, each->cell[1]);
-    }
-    return r->order[next - 1];
-}
-
-/// The shortest way, in portals no narrower than `width`, to an open cell; SL_NO_CELL for none.
-static uint32_t find_way(const sl_space *space, rooms *r, uint32_t start, double width) {
-    uint32_t end = 0;
-    for (uint32_t i = 0; i < space->cell_count; i++) r->from[i] = UINT32_MAX;
-    r->queue[end++] = start;
-    for (uint32_t begin = 0; begin < end; begin++) {
-        const uint32_t number = r->queue[begin];
-        if (sl_bits_has(r->open, number)) return number;
-        const sl_cell *cell = &space->cells[number];
-        for (uint32_t i = 0; i < cell->directed_count; i++) {
-            const sl_directed_portal *directed = &space->directed[cell->first_directed + i];
-            if (directed->cell == start || r->from[directed->cell] != UINT32_MAX ||
-                width_of(&space->portals[directed->portal]) < width)
-                continue;
-            r->from[directed->cell] = directed->portal;
-            r->queue[end++] = directed->cell;
-        }
-    }
-    return SL_NO_CELL;
-}
-
-static sl_status add_point(sli_fault_search *search, sl_point point) {
-    SL_TRY(SL_ARRAY_ROOM(search->context, &search->points, 1));
-    search->points.items[search->points.count++] = point;
-    return SL_OK;
-}
-
-/// Adds the way from the start through the middles of portals to the border. It is found backwards.
-static sl_status add_leak(sli_fault_search *search, rooms *r, sl_point start, uint32_t first,
-                          uint32_t last, uint32_t narrowest) {
-    const sl_space *space = search->space;
-    sl_fault leak = {.kind = SL_FAULT_LEAK,
-                     .walls = {UINT32_MAX, UINT32_MAX},
-                     .cell = last,
-                     .cells = 1,
-                     .first_point = (uint32_t)search->points.count};
-    sl_point border_point = start;
-    is_open(space, &r->edge, last, &border_point);
-    if (narrowest != UINT32_MAX) {
-        leak.at = (sl_segment){space->portals[narrowest].left, space->portals[narrowest].right};
-        leak.size = width_of(&space->portals[narrowest]);
-    } else {
-        leak.at = (sl_segment){border_point, border_point};
-    }
-    SL_TRY(add_point(search, border_point));
-    for (uint32_t cell = last; cell != first; leak.cells++) {
-        const sl_portal *portal = &space->portals[r->from[cell]];
-        SL_TRY(add_point(search, (sl_point){portal->left.x / 2 + portal->right.x / 2,
-                                            portal->left.y / 2 + portal->right.y / 2}));
-        cell = portal->cell[portal->cell[0] == cell];
-    }
-    SL_TRY(add_point(search, start));
-    leak.point_count = (uint32_t)search->points.count - leak.first_point;
-    sl_point *points = search->points.items + leak.first_point;
-    for (uint32_t i = 0, j = leak.point_count - 1; i < j; i++, j--) {
-        const sl_point swapped = points[i];
-        points[i] = points[j];
-        points[j] = swapped;
-    }
-    return sli_add_fault(search, leak);
-}
-
-// --- rooms
 
 /// Marks all cells that a cell reaches. Returns whether one of them is open to the border.
 static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t start) {
@@ -288,21 +161,21 @@ static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t st
     return open;
 }
 
-/// Finds one leak for each room with a start, and marks the cells that starts reach.
+/// Finds the leaks of each room with a start, and marks the cells that starts reach.
 static sl_status find_leaks(sli_fault_search *search, rooms *r, sl_bits *reached) {
     const sl_map *map = search->map;
-    for (size_t i = 0; i < map->start_count; i++) {
+    sli_leak_search *leaks = NULL;
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < map->start_count && status == SL_OK; i++) {
         const uint32_t start = sl_space_locate(search->space, map->starts[i].at);
         if (start == SL_NO_CELL || sl_bits_has(reached, start)) continue;
-        SL_TRY(sl_check_cancelled(search->context));
         if (!reach(search->space, r, reached, start)) continue;
-        const uint32_t narrowest = find_bottleneck(search->space, r, start);
-        const double width =
-            narrowest == UINT32_MAX ? 0 : width_of(&search->space->portals[narrowest]);
-        const uint32_t last = find_way(search->space, r, start, width);
-        SL_TRY(add_leak(search, r, map->starts[i].at, start, last, narrowest));
+        if (!leaks) status = sli_leak_search_begin(search, &leaks);
+        if (status == SL_OK) status = sli_find_leaks_of(leaks, map->starts[i].at);
+        if (status == SL_OK) status = sl_check_cancelled(search->context);
     }
-    return SL_OK;
+    sli_leak_search_end(search->context, leaks);
+    return status;
 }
 
 static sl_point middle_of(const sl_space *space, uint32_t number) {
@@ -411,6 +284,38 @@ static sl_status find_space_faults(sli_fault_search *search) {
     return status;
 }
 
+// --- whether it is in doubt what is inside
+
+/// Whether a cell that counts as inside is open to the border.
+static bool inside_is_open(const sl_space *space, const border *edge) {
+    for (uint32_t i = 0; i < space->cell_count; i++)
+        if (space->cells[i].inside && is_open(space, edge, i)) return true;
+    return false;
+}
+
+static double inside_share(const sl_space *space) {
+    double all = 0, inside = 0;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const double area = sl_space_area(space, i);
+        all += area;
+        if (space->cells[i].inside) inside += area;
+    }
+    return inside / all;
+}
+
+/// Without a start, all cells count as inside where the border leads to all of them.
+sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
+                          sl_inside *out) {
+    border edge;
+    SL_TRY(read_border(context, space, &edge));
+    const bool open = inside_is_open(space, &edge);
+    destroy_border(context, &edge);
+    *out = SL_INSIDE_SURE;
+    if (map->start_count && open) *out = SL_INSIDE_LEAKS;
+    if (!map->start_count && (open || inside_share(space) < 0.5)) *out = SL_INSIDE_SMALL;
+    return SL_OK;
+}
+
 // --- all faults
 
 const char *sl_fault_name(sl_fault_kind kind) {
@@ -440,8 +345,9 @@ static int compare(const void *left, const void *right) {
 
 /// Whether a fault was found twice, as happens to walls that share several squares of the grid.
 static bool is_same(const sl_fault *a, const sl_fault *b) {
-    return a->kind == b->kind && a->walls[0] == b->walls[0] && a->walls[1] == b->walls[1] &&
-           a->walls[0] != UINT32_MAX && a->at.a.x == b->at.a.x && a->at.a.y == b->at.a.y;
+    return a->kind == b->kind && a->kind != SL_FAULT_LEAK && a->walls[0] == b->walls[0] &&
+           a->walls[1] == b->walls[1] && a->walls[0] != UINT32_MAX && a->at.a.x == b->at.a.x &&
+           a->at.a.y == b->at.a.y;
 }
 
 static void finish(sli_fault_search *search, sl_faults *out) {
@@ -459,11 +365,20 @@ static void finish(sli_fault_search *search, sl_faults *out) {
     *out = faults;
 }
 
+/// The tolerance that the map is cleaned with.
+static double weld_of(const sl_map *map, const sl_clean_options *clean, const sl_box *box) {
+    const sl_clean_options usual = sl_clean_options_default();
+    const double weld = clean ? clean->weld : usual.weld;
+    if (sl_map_is_axial(map) && !(weld > 0) && !map->cell_count) return 0;
+    return fmax(weld < 0 ? sli_planar_tolerance(box) : weld, 2 * map->snap);
+}
+
 sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                          const sl_faults_options *options, sl_faults *out) {
     const sl_box box = sl_map_bounds(map);
     const double usual = sli_apart(box.min, box.max) / 1000;
     sli_fault_search search = {.context = context, .map = map, .space = space, .options = *options};
+    search.weld = weld_of(map, options->clean, &box);
     if (!(options->gap >= 0 && options->thin >= 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "a gap or width cannot be less than 0");
     if (options->gap == 0) search.options.gap = usual;

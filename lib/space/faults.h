@@ -1,4 +1,4 @@
-/// The search for faults, shared by faults.c and faults_walls.c.
+/// The search for faults, shared by faults.c, faults_leaks.c and faults_walls.c.
 #ifndef SL_SPACE_FAULTS_H
 #define SL_SPACE_FAULTS_H
 
@@ -13,6 +13,7 @@ typedef struct sli_fault_search {
     const sl_map *map;
     const sl_space *space;
     sl_faults_options options;
+    double weld; ///< ends at most this far apart are one, as are an end and a wall at half of it
     SL_ARRAY(sl_fault) faults;
     SL_ARRAY(sl_point) points;
 } sli_fault_search;
@@ -29,5 +30,13 @@ static inline double sli_apart(sl_point a, sl_point b) {
 
 /// Gaps, overlaps and crossings (faults_walls.c).
 sl_status sli_find_wall_faults(sli_fault_search *search);
+
+/// The plan without its walls, as a net of free pieces (faults_leaks.c).
+typedef struct sli_leak_search sli_leak_search;
+
+sl_status sli_leak_search_begin(sli_fault_search *search, sli_leak_search **out);
+void sli_leak_search_end(sl_context *context, sli_leak_search *leaks); ///< takes NULL
+/// Adds the leaks of a start, with their ways.
+sl_status sli_find_leaks_of(sli_leak_search *leaks, sl_point start);
 
 #endif

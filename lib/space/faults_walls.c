@@ -11,7 +11,8 @@
 ///
 /// A gap is an end near another wall, with no wall that joins the two and none between them.
 /// Snapping moves the ends near an often used place onto that place, and then free ends onto a near
-/// wall. Axial walls stay axial where they can. Time about O(n log n) for walls that are short
+/// wall. Axial walls stay axial where they can. What snapping does not close is found by trying it.
+/// Time about O(n log n) for walls that are short
 /// against the map.
 #include "space/faults.h"
 
@@ -46,26 +47,41 @@ static bool crosses(const sl_wall *wall, sl_point a, sl_point b) {
            sli_orient(a, b, wall->a) * sli_orient(a, b, wall->b) < 0;
 }
 
+/// Whether an end touches a wall, or is so near that cleaning welds it to the wall.
+static bool joins_wall(const sl_wall *wall, sl_point p, double weld) {
+    if (touches_wall(wall, p)) return true;
+    return weld > 0 && (sli_apart(wall->a, p) <= weld || sli_apart(wall->b, p) <= weld ||
+                        sli_apart(nearest_on_wall(wall, p), p) < weld / 2);
+}
+
+/// Whether two walls join at an end of one of them.
+static bool walls_join(const sl_wall *a, const sl_wall *b, double weld) {
+    return joins_wall(a, b->a, weld) || joins_wall(a, b->b, weld) || joins_wall(b, a->a, weld) ||
+           joins_wall(b, a->b, weld);
+}
+
 // --- gaps
 
 /// Whether two walls meet at an end of one of them, within `reach` of a point.
-static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach) {
-    return (touches_wall(a, b->a) && sli_apart(b->a, point) <= reach) ||
-           (touches_wall(a, b->b) && sli_apart(b->b, point) <= reach) ||
-           (touches_wall(b, a->a) && sli_apart(a->a, point) <= reach) ||
-           (touches_wall(b, a->b) && sli_apart(a->b, point) <= reach);
+static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach,
+                      double weld) {
+    return (sli_apart(b->a, point) <= reach && joins_wall(a, b->a, weld)) ||
+           (sli_apart(b->b, point) <= reach && joins_wall(a, b->b, weld)) ||
+           (sli_apart(a->a, point) <= reach && joins_wall(b, a->a, weld)) ||
+           (sli_apart(a->b, point) <= reach && joins_wall(b, a->b, weld));
 }
 
 /// Whether a wall closes the gap from a wall's end to another wall: it joins the two, or passes
 /// between them.
-static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, sl_point end,
-                      const sl_wall *other, sl_point to) {
-    const double reach = 2 * sli_apart(end, to);
+static bool is_closed(const sli_fault_search *search, const uint32_t *near, uint32_t count,
+                      sl_point end, const sl_wall *other, sl_point to) {
+    const sl_map *map = search->map;
+    const double weld = search->weld, reach = 2 * sli_apart(end, to) + weld;
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *wall = &map->walls[near[i]];
         if (wall == other) continue;
         if (crosses(wall, end, to)) return true;
-        if (touches_wall(wall, end) && meet_near(wall, other, end, reach)) return true;
+        if (joins_wall(wall, end, weld) && meet_near(wall, other, end, reach, weld)) return true;
     }
     return false;
 }
@@ -95,11 +111,11 @@ static sl_status find_gap(sli_fault_search *search, const sli_wall_grid *grid, u
     sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *other = &map->walls[near[i]];
-        if (near[i] == wall || touches_wall(other, end)) continue;
+        if (near[i] == wall || joins_wall(other, end, search->weld)) continue;
         const sl_point to = nearest_on_wall(other, end);
         const double width = sli_apart(end, to);
         if (!(width <= search->options.gap) || width >= gap.size) continue;
-        if (is_closed(map, near, count, end, other, to)) continue;
+        if (is_closed(search, near, count, end, other, to)) continue;
         gap.size = width;
         gap.at = (sl_segment){end, to};
         gap.walls[0] = wall;
@@ -139,6 +155,7 @@ static sl_status compare_walls(sli_fault_search *search, uint32_t i, uint32_t j)
     const sl_wall *a = &search->map->walls[i], *b = &search->map->walls[j];
     sl_fault fault = {.walls = {i, j}, .cell = SL_NO_CELL};
     if (crosses(a, b->a, b->b)) {
+        if (search->weld > 0 && walls_join(a, b, search->weld)) return SL_OK;
         fault.kind = SL_FAULT_CROSSING;
         fault.at.a = fault.at.b = crossing_point(a, b);
         return sli_add_fault(search, fault);
@@ -158,6 +175,18 @@ static sl_status compare_in_square(sli_fault_search *search, const uint32_t *wal
     return SL_OK;
 }
 
+static sl_status find_gaps(sli_fault_search *search, const sli_wall_grid *grid) {
+    for (uint32_t i = 0; i < search->map->wall_count; i++) {
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
+        SL_TRY(find_gap(search, grid, i, search->map->walls[i].a));
+        SL_TRY(find_gap(search, grid, i, search->map->walls[i].b));
+        // A trial has no space, and is not reported.
+        if (search->space)
+            sl_report(search->context, "check", "walls", i + 1, search->map->wall_count);
+    }
+    return SL_OK;
+}
+
 static sl_status search_grid(sli_fault_search *search, const sli_wall_grid *grid) {
     const size_t squares = (size_t)grid->columns * grid->rows;
     for (size_t i = 0; i < squares; i++) {
@@ -165,21 +194,7 @@ static sl_status search_grid(sli_fault_search *search, const sli_wall_grid *grid
         SL_TRY(compare_in_square(search, grid->walls + grid->offsets[i],
                                  grid->offsets[i + 1] - grid->offsets[i]));
     }
-    for (uint32_t i = 0; i < search->map->wall_count; i++) {
-        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
-        SL_TRY(find_gap(search, grid, i, search->map->walls[i].a));
-        SL_TRY(find_gap(search, grid, i, search->map->walls[i].b));
-        sl_report(search->context, "check", "walls", i + 1, search->map->wall_count);
-    }
-    return SL_OK;
-}
-
-sl_status sli_find_wall_faults(sli_fault_search *search) {
-    sli_wall_grid grid;
-    SL_TRY(sli_wall_grid_create(search->context, search->map, search->options.gap, &grid));
-    const sl_status status = search_grid(search, &grid);
-    sli_wall_grid_destroy(search->context, &grid);
-    return status;
+    return find_gaps(search, grid);
 }
 
 // --- closing gaps
@@ -312,14 +327,18 @@ static void put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_end *e
 
 // --- both
 
-static void drop_points(snapper *s) {
+/// Drops walls of no length, and counts them. `numbers` (NULL for none) gets the old number of each
+/// wall that is kept.
+static size_t drop_points(sl_wall *walls, size_t *count, uint32_t *numbers) {
     size_t kept = 0;
-    for (size_t i = 0; i < s->map->wall_count; i++) {
-        const sl_wall wall = s->map->walls[i];
-        if (!sli_same_point(wall.a, wall.b)) s->map->walls[kept++] = wall;
+    for (size_t i = 0; i < *count; i++) {
+        if (sli_same_point(walls[i].a, walls[i].b)) continue;
+        if (numbers) numbers[kept] = (uint32_t)i;
+        walls[kept++] = walls[i];
     }
-    s->account.vanished = s->map->wall_count - kept;
-    s->map->wall_count = kept;
+    const size_t dropped = *count - kept;
+    *count = kept;
+    return dropped;
 }
 
 static sl_status snap_to_ends(snapper *s) {
@@ -349,17 +368,122 @@ static sl_status snap_to_walls(snapper *s) {
     return SL_OK;
 }
 
-sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_account *account) {
-    if (!(gap > 0 && sl_coordinate_usable(gap)))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the gap to close must be a positive number");
+/// Moves the ends of a map's walls. Walls that lose their length stay.
+static sl_status snap_walls(sl_context *context, sl_map *map, double gap,
+                            sl_snap_account *account) {
     snapper s = {.context = context, .map = map, .gap = gap};
     s.ends = sl_alloc_array(context, 2 * map->wall_count, sizeof *s.ends);
     if (!s.ends) return SL_NO_MEMORY;
     sl_status status = snap_to_ends(&s);
     if (status == SL_OK) status = snap_to_walls(&s);
-    if (status == SL_OK) drop_points(&s);
-    if (status == SL_OK) sl_map_drop_cells(context, map);
     sl_free(context, s.ends);
-    if (status == SL_OK && account) *account = s.account;
+    *account = s.account;
     return status;
+}
+
+sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_account *account) {
+    sl_snap_account own = {0};
+    if (!(gap > 0 && sl_coordinate_usable(gap)))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the gap to close must be a positive number");
+    SL_TRY(snap_walls(context, map, gap, &own));
+    own.vanished = drop_points(map->walls, &map->wall_count, NULL);
+    sl_map_drop_cells(context, map);
+    if (account) *account = own;
+    return SL_OK;
+}
+
+// --- gaps that snapping does not close
+
+/// A list of gaps for each wall: those that a trial of snapping leaves.
+typedef struct left_gaps {
+    uint32_t *first; ///< by wall: its last gap's entry; UINT32_MAX for none
+    uint32_t *next;  ///< two entries by gap, one for each of its walls
+    const sl_fault *gaps;
+    uint32_t count;
+} left_gaps;
+
+/// Whether a gap is left at a wall, near a place.
+static bool is_left(const left_gaps *left, uint32_t wall, sl_point at, double reach) {
+    for (uint32_t i = left->first[wall]; i != UINT32_MAX; i = left->next[i])
+        if (sli_apart(left->gaps[i / 2].at.a, at) <= reach ||
+            sli_apart(left->gaps[i / 2].at.b, at) <= reach)
+            return true;
+    return false;
+}
+
+static void list_left(left_gaps *left, const uint32_t *numbers, size_t wall_count) {
+    for (size_t i = 0; i < wall_count; i++) left->first[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < 2 * left->count; i++) {
+        const uint32_t wall = numbers[left->gaps[i / 2].walls[i % 2]];
+        left->next[i] = left->first[wall];
+        left->first[wall] = i;
+    }
+}
+
+/// Finds the gaps of the snapped map, and marks those of the search that are still there. An end
+/// has moved by twice the gap at most.
+static sl_status mark_stays(sli_fault_search *search, const sl_map *snapped,
+                            const uint32_t *numbers) {
+    sl_context *context = search->context;
+    sli_fault_search after = {
+        .context = context, .map = snapped, .options = search->options, .weld = search->weld};
+    sli_wall_grid grid = {0};
+    left_gaps left = {.first = sl_alloc_array(context, search->map->wall_count, sizeof(uint32_t))};
+    sl_status status = left.first ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK)
+        status = sli_wall_grid_create(context, snapped, search->options.gap, &grid);
+    if (status == SL_OK) status = find_gaps(&after, &grid);
+    left.gaps = after.faults.items;
+    left.count = (uint32_t)after.faults.count;
+    if (status == SL_OK) {
+        left.next = sl_alloc_array(context, 2 * (size_t)left.count, sizeof *left.next);
+        if (!left.next) status = SL_NO_MEMORY;
+    }
+    if (status == SL_OK) list_left(&left, numbers, search->map->wall_count);
+    for (size_t i = 0; i < search->faults.count && status == SL_OK; i++) {
+        sl_fault *gap = &search->faults.items[i];
+        if (gap->kind != SL_FAULT_GAP) continue;
+        for (int k = 0; k < 2; k++)
+            gap->stays |= is_left(&left, gap->walls[k], gap->at.a, 2 * search->options.gap);
+    }
+    sli_wall_grid_destroy(context, &grid);
+    sl_free(context, left.first);
+    sl_free(context, left.next);
+    sl_free(context, after.faults.items);
+    return status;
+}
+
+/// Snaps a copy of the walls.
+static sl_status try_snapping(sli_fault_search *search) {
+    sl_context *context = search->context;
+    const size_t count = search->map->wall_count;
+    sl_map copy = {.wall_count = count};
+    sl_snap_account account;
+    copy.walls = sl_alloc_array(context, count, sizeof *copy.walls);
+    uint32_t *numbers = sl_alloc_array(context, count, sizeof *numbers);
+    sl_status status = copy.walls && numbers ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < count && status == SL_OK; i++) copy.walls[i] = search->map->walls[i];
+    if (status == SL_OK) status = snap_walls(context, &copy, search->options.gap, &account);
+    if (status == SL_OK) {
+        drop_points(copy.walls, &copy.wall_count, numbers);
+        if (copy.wall_count) status = mark_stays(search, &copy, numbers);
+    }
+    for (size_t i = 0; i < search->faults.count && !copy.wall_count; i++)
+        search->faults.items[i].stays = search->faults.items[i].kind == SL_FAULT_GAP;
+    sl_free(context, copy.walls);
+    sl_free(context, numbers);
+    return status;
+}
+
+// --- all of it
+
+sl_status sli_find_wall_faults(sli_fault_search *search) {
+    sli_wall_grid grid;
+    SL_TRY(sli_wall_grid_create(search->context, search->map, search->options.gap, &grid));
+    const sl_status status = search_grid(search, &grid);
+    sli_wall_grid_destroy(search->context, &grid);
+    SL_TRY(status);
+    for (size_t i = 0; i < search->faults.count; i++)
+        if (search->faults.items[i].kind == SL_FAULT_GAP) return try_snapping(search);
+    return SL_OK;
 }

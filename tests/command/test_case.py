@@ -6,7 +6,7 @@ import sandbox
 
 FAILING = {
     "wrong status": ("run -c 'exit 0'\nstatus 1\n", "status 1 is due"),
-    "no such status": ("run -c 'exit 3'\nstatus 3\n", "ends with status 3"),
+    "no such status": ("run -c 'exit 4'\nstatus 4\n", "ends with status 4"),
     "killed": ("run -c 'kill -9 $$'\nstatus 1\n", "ends with status -9"),
     "stdout lacks": ("run -c 'echo one'\nstatus 0\nstdout two\n", "stdout lacks two"),
     "stderr lacks": ("run -c 'echo note: one >&2'\nstatus 0\nstderr two\n", "stderr lacks two"),

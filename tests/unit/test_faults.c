@@ -1,6 +1,7 @@
 // The search for faults on maps made to have them, one by one; and what snapping mends.
 #include "testing.h"
 
+#include "geometry/orient.h"
 #include "map_same.h"
 
 #include <math.h>
@@ -77,15 +78,17 @@ static void test_leak(void **state) {
         "walls 0 0 10 0 10 4\nwall 10 5 10 10\nwalls 0 10 0 0\nwalls 0 10 4 10\nwall 7 10 10 10\n"
         "start 5 5 0\n",
         0.5, 0.1, &e);
-    assert_counts(&e, 1, 0, 0, 0, 0, 0);
-    const sl_fault *leak = &e.faults.items[0];
+    // The way out of the room is the one to close; those out of the frame are shown as well.
+    assert_counts(&e, 3, 0, 0, 0, 0, 0);
+    assert_true(e.faults.items[0].size == 1 && e.faults.items[2].size == 3);
+    const sl_fault *leak = &e.faults.items[1];
     assert_true(leak->size == 2);
     assert_true(leak->at.a.y == 2 && leak->at.b.y == 2);
     const sl_point *way = e.faults.points + leak->first_point;
     assert_true(way[0].x == 5 && way[0].y == 5);
     const sl_point end = way[leak->point_count - 1];
     assert_true(end.x == 0 || end.x == 10 || end.y == 0 || end.y == 10);
-    assert_int_equal(leak->point_count, leak->cells + 1);
+    assert_true(leak->point_count > 2);
     finish(&e);
     // Two starts in the same room leak once; one in a closed room does not.
     examine("walls 4 2 2 2 2 8 8 8 8 2 6 2\nwalls 20 2 25 2 25 8 20 8 20 2\n"
@@ -93,6 +96,109 @@ static void test_leak(void **state) {
             0.5, 0.1, &e);
     assert_int_equal(e.faults.counts[SL_FAULT_LEAK], 1);
     finish(&e);
+}
+
+/// Whether a way goes through no wall of the map.
+static void assert_free(const examined *e, const sl_fault *leak) {
+    const sl_point *way = e->faults.points + leak->first_point;
+    for (uint32_t i = 1; i < leak->point_count; i++) {
+        for (size_t k = 0; k < e->map.wall_count; k++) {
+            const sl_wall *w = &e->map.walls[k];
+            const int a = sli_orient(w->a, w->b, way[i - 1]), b = sli_orient(w->a, w->b, way[i]);
+            const int c = sli_orient(way[i - 1], way[i], w->a);
+            const int d = sli_orient(way[i - 1], way[i], w->b);
+            assert_false(a * b <= 0 && c * d <= 0 && (a || b) && (c || d));
+        }
+    }
+}
+
+static void test_leak_is_the_opening(void **state) {
+    (void)state;
+    examined e;
+    // One cell reaches over the hole in the border, which is not at its middle.
+    examine("wall 0 0 9.9 0\nwall 10 0 10 10\nwall 10 10 0 10\nwall 0 10 0 0\nstart 5 5 0\n", 0, 0,
+            &e);
+    assert_counts(&e, 1, 0, 0, 0, 0, 0);
+    const sl_fault *leak = &e.faults.items[0];
+    assert_true(fmin(leak->at.a.x, leak->at.b.x) == 9.9 && fmax(leak->at.a.x, leak->at.b.x) == 10);
+    assert_true(leak->at.a.y == 0 && leak->at.b.y == 0 && fabs(leak->size - 0.1) < 1e-12);
+    assert_int_equal(leak->walls[0] + leak->walls[1], 1);
+    assert_free(&e, leak);
+    finish(&e);
+    // The narrowest first, then the next larger one.
+    examine("wall 0 0 9.9 0\nwall 10 0 10 4\nwall 10 6 10 10\nwall 10 10 0 10\nwall 0 10 0 0\n"
+            "wall 3 0 3 9\nwall 6 1 6 10\nstart 1 5 0\n",
+            0, 0, &e);
+    assert_counts(&e, 3, 0, 0, 0, 0, 0);
+    assert_true(e.faults.items[0].size < 0.11 && e.faults.items[2].size == 2);
+    // Between them the narrowest place on the way to the larger one.
+    assert_true(e.faults.items[1].size == 1);
+    for (int i = 0; i < 3; i++) assert_free(&e, &e.faults.items[i]);
+    finish(&e);
+    // An end near the side of a wall, within the bounds.
+    examine("walls 2 2 8 2 8 8 2 8 2 2.5\nwall 0 0 10 10\nwalls 1 2.25 3 2.25\nstart 4 5 0\n", 0.01,
+            0.01, &e);
+    for (uint32_t i = 0; i < e.faults.counts[SL_FAULT_LEAK]; i++)
+        assert_free(&e, &e.faults.items[i]);
+    assert_true(e.faults.counts[SL_FAULT_LEAK] > 0 && e.faults.items[0].size == 0.25);
+    finish(&e);
+}
+
+/// Walls in all leaks part the start from the outside.
+static void test_leaks_closed(void **state) {
+    (void)state;
+    sl_random random = {7};
+    size_t leaks = 0;
+    for (int round = 0; round < 60; round++) {
+        char text[3000] = "start 3.4871 16.3917 0\n";
+        for (int i = 0; i < 24; i++) {
+            const unsigned x = (unsigned)(sl_random_next(&random) % 16);
+            const unsigned y = (unsigned)(sl_random_next(&random) % 18);
+            const unsigned length = 1 + (unsigned)(sl_random_next(&random) % 9);
+            const bool level = sl_random_next(&random) % 2;
+            snprintf(text + strlen(text), sizeof text - strlen(text), "wall %u %u %u %u\n", x, y,
+                     x + level * length, y + !level * length);
+        }
+        strcat(text, "wall 0 19 25 19\nwall 2 16 4 16\nwall 4 16 4 18\n");
+        examined e;
+        examine(text, 0, 0, &e);
+        for (uint32_t i = 0; i < e.faults.counts[SL_FAULT_LEAK]; i++) {
+            const sl_fault *leak = &e.faults.items[i];
+            assert_free(&e, leak);
+            snprintf(text + strlen(text), sizeof text - strlen(text),
+                     "wall %.17g %.17g %.17g %.17g\n", leak->at.a.x, leak->at.a.y, leak->at.b.x,
+                     leak->at.b.y);
+            leaks++;
+        }
+        finish(&e);
+        examine(text, 0, 0, &e);
+        assert_int_equal(e.faults.counts[SL_FAULT_LEAK], 0);
+        finish(&e);
+    }
+    assert_true(leaks > 60);
+}
+
+static void test_doubt(void **state) {
+    (void)state;
+    static const struct {
+        const char *map;
+        sl_inside doubt;
+    } cases[] = {
+        {ROOM, SL_INSIDE_SURE},
+        {ROOM "start 5 5 0\n", SL_INSIDE_SURE},
+        {"walls 0 0 9.9 0\nwalls 10 0 10 10 0 10 0 0\n", SL_INSIDE_SMALL},
+        {"walls 0 0 9.9 0\nwalls 10 0 10 10 0 10 0 0\nstart 5 5 0\n", SL_INSIDE_LEAKS},
+        {"walls 0 0 4 0 4 4 0 4 0 0\nwall 9 9 10 9\n", SL_INSIDE_SMALL},
+        {"walls 0 0 4 0 4 4 0 4 0 0\nwall 9 9 10 9\nstart 1 1 0\n", SL_INSIDE_SURE},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        examined e;
+        sl_inside doubt;
+        examine(cases[i].map, 0, 0, &e);
+        assert_ok(e.context, sl_doubt_inside(e.context, &e.map, &e.space, &doubt));
+        assert_int_equal(doubt, cases[i].doubt);
+        finish(&e);
+    }
 }
 
 static void test_gaps(void **state) {
@@ -222,7 +328,8 @@ static void test_memory(void **state) {
         sl_map map = {0}, cleaned = {0};
         sl_space space = {0};
         sl_faults faults = {0};
-        const char *const text = ROOM "wall 5 0.25 5 6\nwall 2 5 8 5\nstart 1 1 0\n";
+        const char *const text = "walls 0 0 9.5 0\nwalls 10 0 10 10 0 10 0 0\n"
+                                 "wall 5 0.25 5 6\nwall 2 5 8 5\nstart 1 1 0\n";
         read_into(context, text, &map);
         testing_space(context, text, &cleaned, &space);
         const long live = memory.live;
@@ -247,10 +354,17 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing), cmocka_unit_test(test_leak),
-        cmocka_unit_test(test_gaps),    cmocka_unit_test(test_pairs),
-        cmocka_unit_test(test_cells),   cmocka_unit_test(test_order),
-        cmocka_unit_test(test_snap),    cmocka_unit_test(test_snap_drops_cells),
+        cmocka_unit_test(test_nothing),
+        cmocka_unit_test(test_leak),
+        cmocka_unit_test(test_leak_is_the_opening),
+        cmocka_unit_test(test_doubt),
+        cmocka_unit_test(test_leaks_closed),
+        cmocka_unit_test(test_gaps),
+        cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_cells),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_snap),
+        cmocka_unit_test(test_snap_drops_cells),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

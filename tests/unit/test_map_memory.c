@@ -114,6 +114,12 @@ static sl_status clean(sl_context *context, sl_map *map) {
     return sl_map_clean(context, map, NULL, NULL);
 }
 
+/// As a drawing's: the planar graph is made, and not taken where nothing moves.
+static sl_status clean_drawing(sl_context *context, sl_map *map) {
+    map->precision = 1e-4;
+    return sl_map_clean(context, map, NULL, NULL);
+}
+
 static sl_status print_plan(sl_context *context, sl_map *map) {
     sl_status status;
     free(map_plan_text(context, map, &status));
@@ -161,6 +167,7 @@ static void test_others(void **state) {
     fail_on_map(read_cells, copy);
     fail_on_map(read_text, clean);
     fail_on_map(read_plan, clean);
+    fail_on_map(read_plan, clean_drawing);
     fail_on_map(read_plan, print_plan);
     fail_on_map(read_text, write_text);
     fail_on_map(read_plan, write_plan);

@@ -11,7 +11,7 @@ extern "C" {
 
 /// What may be wrong with a map.
 typedef enum sl_fault_kind {
-    SL_FAULT_LEAK,        ///< a way from a start to the map's border
+    SL_FAULT_LEAK,        ///< an opening through which a start leads to the map's border
     SL_FAULT_GAP,         ///< the end of a wall is near another wall, with nothing between
     SL_FAULT_OVERLAP,     ///< two walls share a piece
     SL_FAULT_CROSSING,    ///< two walls cross; this may be intended
@@ -26,18 +26,20 @@ SL_API const char *sl_fault_name(sl_fault_kind kind);
 /// One fault, and where it is.
 typedef struct sl_fault {
     sl_fault_kind kind;
-    /// Leak: its narrowest portal. Gap: from the wall's end to the other wall. Overlap: the shared
-    /// piece. Crossing: its point, twice. Thin cell: from a corner to the opposite edge.
+    /// Leak: the opening, from end to end. Gap: from the wall's end to the other wall. Overlap: the
+    /// shared piece. Crossing: its point, twice. Thin cell: from a corner to the opposite edge.
     /// Unreachable room: the middle of its largest cell, twice.
     sl_segment at;
-    /// Leak: the width of its narrowest portal. Gap: its width. Overlap: the length of the piece.
+    /// Leak, gap: its width. Overlap: the length of the piece.
     /// Crossing: 0. Thin cell: its width. Unreachable room: its area.
     double size;
-    uint32_t walls[2]; ///< gap, overlap, crossing: the map's walls; else UINT32_MAX
-    uint32_t cell;     ///< the thin cell, the room's largest, the leak's last; else SL_NO_CELL
-    uint32_t cells;    ///< the number of cells of the room, or on the leak's way; else 0
+    /// Gap, overlap, crossing: the map's walls. Leak: those at its two ends. UINT32_MAX for none.
+    uint32_t walls[2];
+    uint32_t cell;  ///< the thin cell, the room's largest, one at the leak; else SL_NO_CELL
+    uint32_t cells; ///< the number of cells of the room; else 0
+    bool stays;     ///< a gap that sl_map_snap does not close
     /// The way of a leak: points[first_point .. first_point + point_count), from the start through
-    /// the middles of portals to the border.
+    /// the middle of the leak to the border. It goes through no wall.
     uint32_t first_point, point_count;
 } sl_fault;
 
@@ -57,14 +59,31 @@ SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and 
 typedef struct sl_faults_options {
     double gap;  ///< the largest width of a gap; 0 for 1/1000 of the map's diagonal
     double thin; ///< cells below this width are thin; 0 for the same
+    const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap and no
+                                   ///< crossing; NULL for the default
 } sl_faults_options;
 
 /// Finds all faults. `map` is as read, not cleaned, so that walls keep their lines; `space` was
-/// made from it. Whether walls touch, cross or overlap is exact; widths are rounded. There is one
-/// leak for each room with a start: its widest way. Reports stage "check". Time about O(n log n)
-/// for maps whose walls are short against the map.
+/// made from it. Whether walls touch, cross or overlap is exact; widths are rounded. Reports stage
+/// "check". Time about O(n log n) for maps whose walls are short against the map.
+///
+/// The leaks of a room with a start are openings that would part it from the outside if all of them
+/// were closed: each is the narrowest place of a way out. Holes in walls along the border are leaks
+/// as well, wherever the start leads to them. The first start of a room counts.
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
+
+/// Whether it is in doubt what is inside.
+typedef enum sl_inside {
+    SL_INSIDE_SURE,
+    SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
+    SL_INSIDE_SMALL, ///< there is no start, and less than half of the bounds is inside
+} sl_inside;
+
+/// Looks at the cells alone, in a time of about O(n): sl_find_faults tells where. `space` was made
+/// from `map`.
+SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
+                                 sl_inside *out);
 
 /// What sl_map_snap did.
 typedef struct sl_snap_account {

@@ -86,6 +86,10 @@ typedef struct sl_map {
     double snap; ///< corners of cells and ends of walls within this distance of each other, or of a
                  ///< side or wall, are one place with it
     uint32_t snap_line;
+    /// How far apart two writings of one place may be by the digits of the map's file, in map
+    /// units; 0 for a map whose numbers are exact. Readers of drawings set it, cleaning sets it
+    /// back to 0.
+    double precision;
     double range; ///< the view range; 0 for no limit
     uint32_t range_line;
 } sl_map;
@@ -153,8 +157,12 @@ typedef struct sl_clean_account {
 typedef struct sl_clean_options {
     /// Ends at most this far apart become one, and a wall nearer than half of it to an end goes
     /// through this end. 0: only equal ends become one, and only an end exactly on a wall counts.
-    /// Negative (default): 2^-46 of the largest coordinate if something is oblique, which closes
-    /// the gaps that turning and moving a map in doubles opens; 0 if all is axial.
+    ///
+    /// Negative (default): the larger of two. One is 2^-46 of the largest coordinate if something
+    /// is oblique, else 0. It closes the gaps that turning and moving a map in doubles opens. The
+    /// other is the map's `precision`, cut to 1/1000 of the map's longer side and to half of the
+    /// shortest wall, door, glass or seam. Anything shorter than both the precision and 1/100000
+    /// of the map counts as rounding there, and not as the shortest.
     double weld;
 } sl_clean_options;
 
@@ -165,12 +173,12 @@ SL_API sl_clean_options sl_clean_options_default(void);
 /// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
 /// sorted by place. All later stages are exact for the clean map.
 ///
-/// If all is axial and nothing is to be welded, no coordinate is computed: walls in one line that
-/// overlap or touch are joined, and walls are split where they cross or touch. Else doors, glass
-/// and seams are made planar together with the walls: ends are welded, and crossing walls are split
-/// at the nearest representable point. A door that is cut has `parts`; mirrors, glass and seams
-/// become several. A sightline that stays farther than `largest_move` from every wall as read is
-/// never lost.
+/// If all is axial and welding by default would move nothing, no coordinate is computed: walls in
+/// one line that overlap or touch are joined, and walls are split where they cross or touch. Else
+/// doors, glass and seams are made planar together with the walls: ends are welded, and crossing
+/// walls are split at the nearest representable point. A door that is cut has `parts`; mirrors,
+/// glass and seams become several. A sightline that stays farther than `largest_move` from every
+/// wall as read is never lost.
 ///
 /// Sides of the map's own cells take part, as seams do. The tolerance is then at least twice the
 /// map's `snap`. Cells of which nothing is left are dropped.
