@@ -381,8 +381,8 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
          "told",
          .bytes = &see->row_bytes, .given = &plan.memory_given},
         {"passes", 0, "N",
-         "sectors that multipass cuts directions into, at most;\n8 unless told; 0: at all portals' "
-         "own",
+         "sectors that multipass cuts directions into, at most\n(default 8; 0: at all portals' "
+         "own)",
          .count32 = &see->sectors, .given = &plan.passes_given},
         {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
         {"tree-memory", 0, "SIZE", "for them at most, as 64K, 256M (the default), 2G",

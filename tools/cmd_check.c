@@ -500,7 +500,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         {"width", 0, "PX", "of the picture, 64 to 20000 pixels or points",
          .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
         {"dark", 0, NULL, "light on dark", .flag = &plan.drawing.dark},
-        {"most", 0, "N", "print so many faults of a kind, 10 unless told", .count = &plan.most,
+        {"most", 0, "N", "print up to N faults of a kind (default 10)", .count = &plan.most,
          .most = UINT32_MAX},
         {.group = &pipeline},
         {"strict", 0, NULL, "exit with status 3 if a fault is found", .flag = &plan.strict},

@@ -319,7 +319,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
         .name = "eye",
         .synopsis = "FILE.slv --at X,Y [--look DEG --fov DEG] [options]",
         .operands = {"FILE.slv"},
-        .what = "Tells what one viewpoint sees: the cells that each culling method keeps, their "
+        .what = "Shows what one viewpoint sees: the cells that each culling method keeps, their "
                 "share of\nthe area, and what it costs.",
         .tables = print_methods,
         .examples = "  sightline eye office.slv --at 53,20\n"

@@ -17,7 +17,7 @@ static name_table kind_table(void) {
 static void print_kinds(void) {
     size_t count;
     const sl_map_kind *kinds = sl_map_kinds(&count);
-    puts("\nkinds, and what --size counts (in parentheses what it is unless told):");
+    puts("\nkinds, and what --size counts (defaults in parentheses):");
     for (size_t i = 0; i < count; i++)
         printf("  %-9s %s\n            %s (%llu)\n", kinds[i].name, kinds[i].what, kinds[i].size_is,
                (unsigned long long)kinds[i].usual_size);

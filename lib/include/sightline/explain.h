@@ -72,7 +72,7 @@ typedef struct sl_explanation {
     uint32_t from, to;
     sl_sight sight;
     bool seen;     ///< with that sight: SL_STABBED, or SL_GRAZING with closed sight
-    bool complete; ///< false: most_tests ended the search, and what is told is what it knew by then
+    bool complete; ///< false: most_tests ended the search; the rest is what it had found by then
     sl_stab_verdict verdict; ///< with closed sight and open; SL_STABBED for a cell and itself
     uint32_t distance;       ///< portals on the shortest way, seen or not; 0 for a cell and itself
     /// Where not SL_HIDDEN: of all sequences with that verdict one with the fewest portals. Ends:
@@ -105,7 +105,7 @@ SL_API sl_status sl_explain(sl_context *context, const sl_space *space,
 
 /// Adds to an explanation whether its pair is seen by mirror as well, with `depth` reflections at
 /// most, and how. `map`: whose walls the space was made from. Exact behind axial mirrors as long as
-/// sums of coordinates are, else rounded, which is told.
+/// sums of coordinates are, else rounded, and marked so.
 SL_API sl_status sl_explain_by_mirror(sl_context *context, const sl_space *space, const sl_map *map,
                                       const sl_explain_options *options, uint32_t depth,
                                       sl_explanation *explanation);
