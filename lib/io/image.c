@@ -166,6 +166,7 @@ static sl_status image_add_walls(sl_context *context, const sl_image *image, con
     grid.origin = plan->origin;
     grid.step = (sl_point){plan->step, plan->step};
     grid.open_outside = true;
+    grid.sure = true;
     *solid = 0;
     for (size_t i = 0; i < image->width * image->height; i++) {
         const int value = plan->light ? image->pixels[i] : 255 - image->pixels[i];

@@ -83,9 +83,10 @@ static uint32_t lower_line(uint32_t a, uint32_t b) {
 static sl_status make_walls(maker *m, replacement *out) {
     const sli_planar *graph = &m->graph;
     uint32_t *lines = sl_alloc_array(m->context, graph->edge_count, sizeof *lines);
+    uint32_t *ground = sl_alloc_array(m->context, graph->edge_count, sizeof *ground);
     bool *walled = sl_alloc_array(m->context, graph->edge_count, sizeof *walled);
     out->walls = sl_alloc_array(m->context, graph->edge_count, sizeof *out->walls);
-    const bool done = lines && walled && out->walls;
+    const bool done = lines && ground && walled && out->walls;
     for (size_t i = 0; i < m->list.mirrors && done; i++) {
         const size_t parts = graph->first[i + 1] - graph->first[i];
         m->account->split += parts > 1;
@@ -96,13 +97,17 @@ static sl_status make_walls(maker *m, replacement *out) {
             lines[edge] = walled[edge] ? lower_line(lines[edge], line) : line;
             m->account->merged += walled[edge];
             walled[edge] = true;
+            const uint32_t own = m->walls[i].ground;
+            ground[edge] |= graph->links[k] % 2 ? sl_ground_turned(own) : own;
         }
     }
     for (size_t i = 0; i < graph->edge_count && done; i++)
         if (walled[i])
-            out->walls[out->wall_count++] = (sl_wall){graph->points[graph->edges[i].a],
-                                                      graph->points[graph->edges[i].b], lines[i]};
+            out->walls[out->wall_count++] =
+                (sl_wall){graph->points[graph->edges[i].a], graph->points[graph->edges[i].b],
+                          lines[i], ground[i]};
     sl_free(m->context, lines);
+    sl_free(m->context, ground);
     sl_free(m->context, walled);
     return done ? SL_OK : SL_NO_MEMORY;
 }

@@ -42,7 +42,7 @@ static void assert_shape(const char *bytes, size_t size, double threshold, bool 
     options.threshold = threshold;
     sl_map map = {0};
     assert_ok(context, sl_map_read_image(context, "f", bytes, size, &options, &map));
-    char *text = map_text(&map), expected[] = SHAPE;
+    char *text = map_walls_text(&map), expected[] = SHAPE;
     sort_lines(text + strlen("sightline 1\n"));
     sort_lines(expected);
     if (is)
@@ -125,7 +125,7 @@ static void read_ros(const char *yaml, const char *expected, const char *message
     const sl_status status = sl_map_read_ros(context, path, yaml, strlen(yaml), &options, &map);
     if (expected) {
         assert_ok(context, status);
-        char *text = map_text(&map);
+        char *text = map_walls_text(&map);
         sort_lines(text);
         assert_string_equal(text, expected);
         free(text);
