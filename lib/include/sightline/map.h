@@ -198,8 +198,9 @@ typedef struct sl_clean_options {
 SL_API sl_clean_options sl_clean_options_default(void);
 
 /// Makes the walls a planar set: no two of them cross, overlap or touch, except in common ends, by
-/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
-/// sorted by place. All later stages are exact for the clean map.
+/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls with
+/// solid ground at both sides are dropped. Walls are sorted by place. All later stages are exact
+/// for the clean map.
 ///
 /// If all is axial and welding by default would move nothing, no coordinate is computed: walls in
 /// one line that overlap or touch are joined, and walls are split where they cross or touch. Else
