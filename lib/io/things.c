@@ -63,8 +63,9 @@ void sli_says_add(sli_says *says, const char *property, bool value) {
 }
 
 double sli_heading_of(double clockwise) {
-    const double heading = fmod(-clockwise, 360);
-    return heading < 0 ? heading + 360 : heading + 0.0;
+    double heading = fmod(-clockwise, 360);
+    if (heading < 0) heading += 360;
+    return sl_coordinate_usable(heading) && heading < 360 ? heading + 0.0 : 0;
 }
 
 static bool is_named(sli_word word, const char *name) {

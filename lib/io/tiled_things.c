@@ -88,16 +88,25 @@ void sli_tiled_destroy_templates(sl_context *context, sli_tiled_templates *templ
     *templates = (sli_tiled_templates){0};
 }
 
-/// Adds the properties of the template behind those of the instance, so that the latter decide.
-static bool add_properties(json_t *object, json_t *of_template) {
-    json_t *own = json_object_get(object, "properties");
-    if (!own) return json_object_set(object, "properties", of_template) == 0;
-    if (!json_is_array(own) || !json_is_array(of_template)) return true;
-    json_t *both = json_array();
-    const bool good =
-        both && json_array_extend(both, of_template) == 0 && json_array_extend(both, own) == 0;
-    if (good) return json_object_set_new(object, "properties", both) == 0;
-    json_decref(both);
+static bool has_property(const json_t *list, const json_t *property) {
+    const json_t *name = json_object_get(property, "name");
+    for (size_t i = 0; name && i < json_array_size(list); i++)
+        if (json_equal(json_object_get(json_array_get(list, i), "name"), name)) return true;
+    return false;
+}
+
+/// Adds the properties of the template that the instance does not have.
+static bool add_properties(json_t *object, const json_t *of_template) {
+    const json_t *own = json_object_get(object, "properties");
+    if (!json_is_array(own) || own == of_template) return true;
+    json_t *all = json_copy((json_t *)(uintptr_t)own);
+    bool good = all != NULL;
+    for (size_t i = 0; good && i < json_array_size(of_template); i++) {
+        json_t *item = json_array_get(of_template, i);
+        if (!has_property(own, item)) good = json_array_append(all, item) == 0;
+    }
+    if (good) return json_object_set_new(object, "properties", all) == 0;
+    json_decref(all);
     return false;
 }
 
@@ -110,10 +119,9 @@ sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *obj
     if (!*source) return SL_OK;
     SL_TRY(find_template(templates, object, source, &from));
     file->root = json_is_object(from) ? json_copy(from) : json_object();
-    json_t *properties = json_object_get(from, "properties");
-    bool good = file->root && json_object_update(file->root, object->value) == 0;
-    good = good && (!properties || add_properties(file->root, properties));
-    if (!good) return sl_fail_memory(object->file->context);
+    if (!file->root || json_object_update(file->root, object->value) != 0 ||
+        !add_properties(file->root, json_object_get(from, "properties")))
+        return sl_fail_memory(object->file->context);
     json_object_del(file->root, "template");
     return SL_OK;
 }
