@@ -60,7 +60,7 @@ option_table input_option_table(input_options *input) {
         {"layers", 0, "LAYER,...", "the layers of a drawing or tile map to take",
          .text = &to->layers, .given = given},
         {"start-names", 0, "NAME,...",
-         "objects of a Tiled or LDtk map that are starts;\n'none': no starts (default: Player, "
+         "objects of a game map that are starts;\n'none': no starts (default: Player, "
          "Spawn, "
          "Start ...)",
          .text = &to->start_names, .given = given},

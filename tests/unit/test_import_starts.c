@@ -320,6 +320,26 @@ static void test_starts_of_worlds(void **state) {
     assert_string_equal(things, "start 9 14 0\nstart 25 6 0\n");
 }
 
+static void test_tokens_of_foundry(void **state) {
+    (void)state;
+#define SCENE(grid, tokens)                                                                        \
+    "{\"padding\": 0.25, \"grid\": " grid ", \"walls\": [{\"c\": [0, 0, 400, 0]}, {\"c\": "        \
+    "[0, 0, 0, 300]}], \"tokens\": [" tokens "]}"
+#define TOKEN(name, x, y, disposition, more)                                                       \
+    "{\"name\": \"" name "\", \"x\": " x ", \"y\": " y ", \"disposition\": " disposition more "}"
+    const char *text = SCENE("{\"size\": 50}",
+                             TOKEN("Ann", "50", "100", "1", ", \"rotation\": 90") "," TOKEN(
+                                 "Wolf", "0", "0", "-1", "") "," TOKEN("Far", "500", "0", "1", ""));
+    assert_things(sl_map_read_foundry, text, NULL, "start 75 175 180\n");
+    assert_things(sl_map_read_foundry, text, "wolf", "start 25 275 270\n");
+    assert_things(sl_map_read_foundry, text, "none", "");
+    text = SCENE("100", TOKEN("Gate", "100", "100", "1", ", \"width\": 2, \"height\": 1"));
+    assert_things(sl_map_read_foundry, text, NULL, "start 200 150 270\n");
+    text = SCENE("100", TOKEN("Ann", "\"1\"", "100", "1", ""));
+    assert_refused_of(sl_map_read_foundry, NULL, text, strlen(text), SL_BAD_INPUT,
+                      "f: tokens[0].x: expected a number");
+}
+
 // --- doors
 
 #define TWO_ROOMS                                                                                  \
@@ -590,6 +610,7 @@ int main(void) {
         cmocka_unit_test(test_starts_of_chunks),
         cmocka_unit_test(test_starts_of_ldtk),
         cmocka_unit_test(test_starts_of_worlds),
+        cmocka_unit_test(test_tokens_of_foundry),
         cmocka_unit_test(test_doors_of_tiled),
         cmocka_unit_test(test_doors_on_solid_squares),
         cmocka_unit_test(test_doors_without_passage),
