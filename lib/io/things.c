@@ -18,7 +18,9 @@
 ///    side. A square one, and one on solid ground, is left out.
 ///
 /// Doors that lie side by side end at each other: before anything is decided, squares of doors are
-/// marked '+' where they are open and 'X' where they are solid. Time O(squares of all doors).
+/// marked '+' where they are open and 'X' where they are solid. Objects come first, and their
+/// squares become 'o': a door of tiles whose squares all belong to objects is the same door once
+/// more. Time O(squares of all doors).
 #include "io/things.h"
 
 #include "sightline/support.h"
@@ -177,6 +179,7 @@ sl_status sli_things_end_block(sli_things *things, sl_point corner, sl_point ste
         const sli_thing door = {.kind = SLI_THING_DOOR,
                                 .middle = {corner.x + (double)run->left * step.x + half.x,
                                            corner.y + (double)run->top * step.y + half.y},
+                                .of_tiles = true,
                                 .u = {half.x, 0},
                                 .v = {0, half.y},
                                 .open = run->state != SLI_DOOR_SHUT};
@@ -288,7 +291,7 @@ static bool is_open(const door_way *way, size_t along, size_t across) {
 static bool ends_at(const door_way *way, size_t along, size_t across) {
     if (is_own(way, along, across)) return !is_open(way, along, across);
     const char kind = kind_at(way, along, across);
-    return kind == '#' || kind == 'X' || kind == '+';
+    return kind != '.';
 }
 
 /// The line lies on the border between two lines of squares, or within one.
@@ -383,6 +386,31 @@ static void place_door(const sli_things *things, const spot *at, sli_thing *door
         door->placed = door->cut = find_segment(things, at, true, &door->at);
     change(at, 'X', door->cut ? '+' : '#');
     if (door->cut) change(at, '#', '+');
+    if (!door->placed) change(at, '+', '.');
+    if (door->placed && !door->of_tiles) change(at, '+', 'o');
+}
+
+static bool is_all(const spot *at, char kind) {
+    for (size_t row = at->rows.from; row < at->rows.to; row++)
+        for (size_t column = at->columns.from; column < at->columns.to; column++)
+            if (*square_at(at->grid, row, column) != kind) return false;
+    return at->rows.from < at->rows.to && at->columns.from < at->columns.to;
+}
+
+static sl_status place_doors(sli_things *things, sli_grid *grid, bool of_tiles) {
+    for (size_t i = 0; i < things->items.count; i++) {
+        sli_thing *door = &things->items.items[i];
+        spot at;
+        if (i % 64 == 0) SL_TRY(sl_check_cancelled(things->context));
+        if (door->kind != SLI_THING_DOOR || door->of_tiles != of_tiles) continue;
+        if (!find_spot(things, grid, door, &at) || !has_squares(&at)) continue;
+        door->again |= of_tiles && !door->placed && is_all(&at, 'o');
+        if (door->placed && door->cut)
+            change(&at, '#', '+');
+        else if (!door->placed && !door->again)
+            place_door(things, &at, door);
+    }
+    return SL_OK;
 }
 
 /// Whether the middle is on a solid square; for a line also on the border of one.
@@ -439,17 +467,8 @@ sl_status sli_things_place(sli_things *things, sli_grid *grid) {
         change(&at, '.', '+');
         change(&at, '#', 'X');
     }
-    for (size_t i = 0; i < things->items.count; i++) {
-        sli_thing *door = &things->items.items[i];
-        if (i % 64 == 0) SL_TRY(sl_check_cancelled(things->context));
-        if (door->kind != SLI_THING_DOOR || !find_spot(things, grid, door, &at)) continue;
-        door->inside = true;
-        if (!has_squares(&at)) continue;
-        if (!door->placed)
-            place_door(things, &at, door);
-        else if (door->cut)
-            change(&at, '#', '+');
-    }
+    SL_TRY(place_doors(things, grid, false));
+    SL_TRY(place_doors(things, grid, true));
     for (size_t i = 0; i < things->items.count; i++) {
         sli_thing *thing = &things->items.items[i];
         if (!find_spot(things, grid, thing, &at)) continue;
@@ -649,6 +668,7 @@ static sl_status add_doors(const sli_things *things, sl_map *map) {
     for (size_t i = 0; i < things->items.count; i++) {
         sli_thing *door = &things->items.items[i];
         if (door->kind != SLI_THING_DOOR) continue;
+        if (door->again) continue;
         door->goes_on = door->goes_on && things->items.items[i - 1].placed;
         if (place_as_drawn(things, door) && is_usable(door->at.a) && is_usable(door->at.b) &&
             (door->at.a.x != door->at.b.x || door->at.a.y != door->at.b.y)) {

@@ -33,6 +33,7 @@ typedef struct sli_thing {
     sl_point u, v;  ///< its corners are middle ± u ± v; v is 0 for a line, both for a point
     bool is_line;   ///< a door along u, as it is drawn
     bool goes_on;   ///< a door that is one with the door before it
+    bool of_tiles;  ///< a door of squares: the picture of one that an object may stand for too
     bool open;      ///< a door, when the map begins
     double heading; ///< of a start, as sl_start has it
     uint32_t line;
@@ -41,6 +42,7 @@ typedef struct sli_thing {
     bool moved;    ///< a start that stood on the edge of a solid square
     bool placed;   ///< a door whose segment is found, in the map's coordinates
     bool cut;      ///< and which opened solid squares
+    bool again;    ///< a door of squares that is an object's door too
     sl_segment at; ///< of a door
 } sli_thing;
 
@@ -89,7 +91,7 @@ sl_status sli_things_end_block(sli_things *things, sl_point corner, sl_point ste
 
 /// Finds the passages of doors in a grid of squares, and opens the solid squares that a door
 /// stands on where a passage leads through them. Marks starts on solid ground. To be called for
-/// each grid, before its walls are made. Squares of doors become '+'.
+/// each grid, before its walls are made. Squares of doors become '+' or 'o'.
 sl_status sli_things_place(sli_things *things, sli_grid *grid);
 
 /// Adds starts and doors to the map, once it has its walls, and reports what was taken and left

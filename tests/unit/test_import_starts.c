@@ -472,6 +472,22 @@ static void test_double_doors(void **state) {
     assert_tmx("#####\n#.X.#\n#.X.#\n#.X.#\n#####", "", "door Door 20 8 20 32 open\n");
 }
 
+/// An object that stands on the picture of its door: one door, with the object's name and state.
+static void test_doors_drawn_twice(void **state) {
+    (void)state;
+    static const char shut[] = "door gate 28 16 28 24 shut\n";
+#define GATE                                                                                       \
+    OBJECTS(                                                                                       \
+        "<object name='gate' " SIZED("24", "16", "8", "8") ">" BOOL("closed", "true") "</object>")
+    assert_tmx("#######\n#..#..#\n#..X..#\n#..#..#\n#######", GATE, shut);
+    assert_tmx("#######\n#..#..#\n#..D..#\n#..#..#\n#######", GATE, shut);
+    // Where the object is no door, as behind it all is solid, the tile is none either.
+    assert_tmx("#####\n#...#\n#...#\n##X##", OBJECTS(NAMED("door", SIZED("16", "24", "8", "8"))),
+               "");
+    assert_ldtk("#######\n#..#..#\n#..D..#\n#..#..#\n#######",
+                ENTITY("gate", "24,16", "0,0", EIGHT, FIELD("shut", "true")), shut);
+}
+
 static void test_names_of_doors(void **state) {
     (void)state;
     static const char plan[] = "#########\n#.......#\n#.#.#.#.#\n#.......#\n#########";
@@ -615,6 +631,7 @@ int main(void) {
         cmocka_unit_test(test_doors_on_solid_squares),
         cmocka_unit_test(test_doors_without_passage),
         cmocka_unit_test(test_double_doors),
+        cmocka_unit_test(test_doors_drawn_twice),
         cmocka_unit_test(test_names_of_doors),
         cmocka_unit_test(test_states_of_doors),
         cmocka_unit_test(test_doors_of_ldtk),
