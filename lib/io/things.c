@@ -647,18 +647,17 @@ static sl_status add_door(const sli_things *things, const sli_thing *door, sl_ma
 
 static void tell_doors(const sli_things *things, size_t open, size_t shut) {
     if (!open && !shut) return;
-    const char *many = open + shut == 1 ? "" : "s";
-    if (things->options->doors)
-        sl_note(things->context, "%s: taken: %zu door%s, %zu of them open", things->file,
-                open + shut, many, open);
-    else
-        sl_note(things->context,
-                "%s: %zu door%s, %zu of them open, taken as what they are when the map begins: %s; "
-                "--doors takes them as doors",
-                things->file, open + shut, many, open,
-                !shut  ? "gaps"
-                : open ? "open ones are gaps, shut ones walls"
-                       : "walls");
+    char states[64] = "";
+    if (open && shut) snprintf(states, sizeof states, " (%zu open, %zu shut)", open, shut);
+    sl_note(things->context, "%s: %s%zu %sdoor%s%s%s", things->file,
+            things->options->doors ? "taken: " : "", open + shut,
+            !shut  ? "open "
+            : open ? ""
+                   : "shut ",
+            open + shut == 1 ? "" : "s", states,
+            things->options->doors
+                ? ""
+                : ": without --doors, open ones are taken as gaps, shut ones as walls");
 }
 
 static sl_status add_doors(const sli_things *things, sl_map *map) {

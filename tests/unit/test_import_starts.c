@@ -410,8 +410,8 @@ static void test_doors_on_solid_squares(void **state) {
     assert_string_equal(things, "");
     assert_int_equal(walls, 12);
     assert_note(sl_map_read_tmx, text, &options,
-                "f: 1 door, 1 of them open, taken as what they are when the map begins: gaps; "
-                "--doors takes them as doors\n");
+                "f: 1 open door: without --doors, open ones are taken as gaps, shut ones as "
+                "walls\n");
     text = tmx_of(NO_WAY, OBJECTS(NAMED("shut door", SIZED("24", "16", "8", "8"))));
     read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
     assert_string_equal(things, "");
