@@ -375,10 +375,10 @@ static sl_status read_tokens(foundry *reader, const sli_json *root) {
 
 /// A scene, or a list of walls alone.
 static sl_status read_foundry(foundry *reader, const sli_json *root) {
-    if (json_is_array(root->value)) return read_foundry_walls(reader, root);
-    SL_TRY(sli_json_object(root));
+    const bool alone = json_is_array(root->value);
+    if (!alone) SL_TRY(sli_json_object(root));
     const sli_json walls = sli_json_member(root, "walls");
-    SL_TRY(read_foundry_walls(reader, &walls));
+    SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
     return read_tokens(reader, root);
 }
 

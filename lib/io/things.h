@@ -67,6 +67,8 @@ typedef struct sli_things {
     char *seen[SLI_NAMES_SHOWN]; ///< names of objects, each once, for the message
     size_t seen_count;
     size_t grids;
+    size_t shapes; ///< the map's first walls, which are not of squares
+    size_t casts;  ///< walls that rays from doors were held against
 } sli_things;
 
 void sli_things_destroy(sli_things *things);

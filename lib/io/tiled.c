@@ -530,6 +530,7 @@ static sl_status read_map(tiled *reader) {
         if (!reader->solid_tiles && !reader->shapes && !reader->objects) SL_TRY(guess(reader));
     }
     reader->things.top = reader->top;
+    reader->things.shapes = reader->pen.map->wall_count;
     const sli_tiles_options options = {.top = reader->top,
                                        .solid_between = reader->guess && !reader->guessed,
                                        .things = &reader->things};

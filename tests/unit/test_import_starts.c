@@ -453,6 +453,24 @@ static void test_doors_without_passage(void **state) {
     assert_note(sl_map_read_tmx, text, &options, "f: 1 more door is left out\n");
 }
 
+/// Walls that are objects tell too, if they stand at two opposite sides of the door.
+static void test_doors_between_shapes(void **state) {
+    (void)state;
+#define SHAPES(door)                                                                               \
+    "<map width='9' height='5' tilewidth='8' tileheight='8'><objectgroup name='walls'>"            \
+    "<object x='0' y='16' width='20' height='8'/><object x='30' y='16' width='20' height='8'/>"    \
+    "</objectgroup><objectgroup name='doors'>" door "</objectgroup></map>"
+    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("20", "16", "10", "10"))), NULL,
+                  "door door 20 19 30 19 open\n");
+    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "16", "8", "8"))), NULL,
+                  "door door 20 20 30 20 open\n");
+    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "16", "8", "9"))), NULL,
+                  "door door 20 19.5 30 19.5 open\n");
+    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "0", "8", "8"))), NULL, "");
+    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "0", "8", "6"))), NULL,
+                  "door door 21 37 29 37 open\n");
+}
+
 static void test_double_doors(void **state) {
     (void)state;
     static const char plan[] = "######\n#....#\n##..##\n#....#\n######";
@@ -630,6 +648,7 @@ int main(void) {
         cmocka_unit_test(test_doors_of_tiled),
         cmocka_unit_test(test_doors_on_solid_squares),
         cmocka_unit_test(test_doors_without_passage),
+        cmocka_unit_test(test_doors_between_shapes),
         cmocka_unit_test(test_double_doors),
         cmocka_unit_test(test_doors_drawn_twice),
         cmocka_unit_test(test_names_of_doors),
