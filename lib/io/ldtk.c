@@ -149,8 +149,8 @@ static sl_status read_pair(const sli_json *pair, sl_point *out) {
     return sli_json_number(&y, &out->y);
 }
 
-/// The heading that a field names: clockwise degrees, or a direction on the screen.
-static bool find_heading(const char *field, const sli_json *value, double *heading) {
+/// The heading, if the field names one: clockwise degrees, or a direction on the screen.
+static void find_heading(const char *field, const sli_json *value, double *heading) {
     static const char *const fields[] = {"angle", "rotation", "heading", "facing", "direction"};
     static const struct {
         const char *name;
@@ -161,11 +161,10 @@ static bool find_heading(const char *field, const sli_json *value, double *headi
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
         known |= strcasecmp(field, fields[i]) == 0;
     const char *text = json_string_value(value->value);
-    if (!known) return false;
+    if (!known) return;
     if (json_is_number(value->value)) *heading = sli_heading_of(json_number_value(value->value));
     for (size_t i = 0; text && i < sizeof words / sizeof *words; i++)
         if (strcasecmp(text, words[i].name) == 0) *heading = words[i].heading;
-    return true;
 }
 
 static void read_fields(const sli_json *entity, sli_says *says, double *heading) {
@@ -175,7 +174,7 @@ static void read_fields(const sli_json *entity, sli_says *says, double *heading)
         const sli_json value = sli_json_member(&field, "__value");
         const char *name = text_of(&field, "__identifier");
         if (json_is_boolean(value.value)) sli_says_add(says, name, json_is_true(value.value));
-        (void)find_heading(name, &value, heading);
+        find_heading(name, &value, heading);
     }
 }
 

@@ -189,8 +189,9 @@ static bool cast(const sl_map *map, size_t count, sl_point from, sl_point half, 
         const sl_point a = map->walls[i].a, b = map->walls[i].b;
         const sl_point d = {b.x - a.x, b.y - a.y}, w = {a.x - from.x, a.y - from.y};
         const double area = half.x * d.y - half.y * d.x;
+        if (area == 0) continue;
         const double t = (w.x * d.y - w.y * d.x) / area, s = (w.x * half.y - w.y * half.x) / area;
-        if (area == 0 || !(t >= 0 && t <= least && s >= 0 && s <= 1)) continue;
+        if (!(t >= 0 && t <= least && s >= 0 && s <= 1)) continue;
         found = true;
         least = t;
         *hit =
@@ -242,15 +243,17 @@ static void tell_left_out(const sli_things *things, const sli_thing *thing, size
     if (thing->line) snprintf(where, sizeof where, ":%lu", (unsigned long)thing->line);
     sl_number_write(thing->middle.x, x);
     sl_number_write(things->top - thing->middle.y, y);
-    sl_note(things->context, "%s%s: %s '%s' at %s %s is left out: %s", things->file, where,
+    sl_note(things->context, "%s%s: %s '%s' at %s %s is %s: %s", things->file, where,
             thing->kind == SLI_THING_DOOR ? "door" : "start",
-            sli_show((sli_word){thing->name, strlen(thing->name)}).text, x, y, why);
+            sli_show((sli_word){thing->name, strlen(thing->name)}).text, x, y,
+            thing->is_wall ? "taken as a wall" : "left out", why);
 }
 
 static void tell_more(const sli_things *things, size_t count, const char *what) {
     if (count > MOST_NOTES)
-        sl_note(things->context, "%s: %zu more %s%s left out", things->file, count - MOST_NOTES,
-                what, count - MOST_NOTES == 1 ? " is" : "s are");
+        sl_note(things->context, "%s: so %s %zu more %s%s", things->file,
+                count - MOST_NOTES == 1 ? "is" : "are", count - MOST_NOTES, what,
+                count - MOST_NOTES == 1 ? "" : "s");
 }
 
 /// A text of names, each once: 'Player', 'spawn'.
@@ -371,6 +374,22 @@ static sl_status name_doors(const sli_things *things, sli_thing **doors, size_t 
     return status;
 }
 
+/// Draws a door without a place that its layer says is solid.
+static sl_status add_outline(const sli_things *things, const sli_thing *door, sl_map *map) {
+    const double signs[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    sl_point before = {0};
+    for (size_t i = 0; i < (door->is_line ? 2 : 5); i++) {
+        const double u = signs[i][0], v = signs[i][1];
+        const sl_point at = {door->middle.x + u * door->u.x + v * door->v.x,
+                             things->top - (door->middle.y + u * door->u.y + v * door->v.y)};
+        const bool draws = i && (at.x != before.x || at.y != before.y);
+        if (draws && is_usable(at) && is_usable(before))
+            SL_TRY(sl_map_add_wall(things->context, map, before, at, door->line));
+        before = at;
+    }
+    return SL_OK;
+}
+
 static sl_status add_door(const sli_things *things, const sli_thing *door, sl_map *map) {
     if (things->options->doors)
         return sl_map_add_door(things->context, map, door->name, door->at, door->open, door->line);
@@ -397,10 +416,11 @@ static sl_status add_doors(sli_things *things, sl_map *map) {
     sli_thing **doors = sl_alloc_array(things->context, things->items.count, sizeof *doors);
     if (!doors) return SL_NO_MEMORY;
     size_t count = 0, left_out = 0, open = 0, shut = 0;
-    for (size_t i = 0; i < things->items.count; i++) {
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < things->items.count && status == SL_OK; i++) {
         sli_thing *door = &things->items.items[i];
-        if (door->kind != SLI_THING_DOOR) continue;
-        if (door->again) continue;
+        if (i % 64 == 0) status = sl_check_cancelled(things->context);
+        if (door->kind != SLI_THING_DOOR || door->again) continue;
         door->goes_on = door->goes_on && things->items.items[i - 1].placed;
         if (place_in_open(things, map, door) && is_usable(door->at.a) && is_usable(door->at.b) &&
             (door->at.a.x != door->at.b.x || door->at.a.y != door->at.b.y)) {
@@ -411,9 +431,10 @@ static sl_status add_doors(sli_things *things, sl_map *map) {
         tell_left_out(things, door, &left_out,
                       things->grids && !door->inside ? "it is outside the map"
                                                      : "no passage is found there");
+        if (status == SL_OK && door->is_wall) status = add_outline(things, door, map);
     }
     tell_more(things, left_out, "door");
-    sl_status status = name_doors(things, doors, count);
+    if (status == SL_OK) status = name_doors(things, doors, count);
     sl_free(things->context, doors);
     for (size_t i = 0; i < things->items.count && status == SL_OK; i++) {
         const sli_thing *door = &things->items.items[i];

@@ -33,6 +33,7 @@ typedef struct sli_thing {
     sl_point u, v;  ///< its corners are middle ± u ± v; v is 0 for a line, both for a point
     bool is_line;   ///< a door along u, as it is drawn
     bool goes_on;   ///< a door that is one with the door before it
+    bool is_wall;   ///< a door that is a wall where it has no place
     bool of_tiles;  ///< a door of squares: the picture of one that an object may stand for too
     bool open;      ///< a door, when the map begins
     double heading; ///< of a start, as sl_start has it

@@ -388,7 +388,8 @@ static sl_status take_thing(tiled *reader, const sli_json *object, const place *
         shape.width = set->width;
         shape.height = set->height;
     }
-    return sli_tiled_take_thing(&reader->things, &says, &shape, at->offset);
+    return sli_tiled_take_thing(&reader->things, &says, &shape, at->offset,
+                                at->word == SLI_TILED_SOLID && shape.kind != SLI_TILED_OTHER);
 }
 
 /// The same for an instance of a template too.

@@ -133,8 +133,9 @@ void sli_tiled_destroy_templates(sl_context *context, sli_tiled_templates *templ
 sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
                              sli_json_file *file);
 
-/// Adds an object that is a start or a door; its layer is at `offset`.
+/// Adds an object that is a start or a door; its layer is at `offset`, and it would be a wall else
+/// if `is_wall`.
 sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
-                               const sli_tiled_shape *shape, sl_point offset);
+                               const sli_tiled_shape *shape, sl_point offset, bool is_wall);
 
 #endif

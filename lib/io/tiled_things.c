@@ -169,9 +169,10 @@ static sl_status add_drawn(sli_things *things, const sli_tiled_shape *shape, con
 }
 
 sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
-                               const sli_tiled_shape *shape, sl_point offset) {
+                               const sli_tiled_shape *shape, sl_point offset, bool is_wall) {
     sli_thing thing = {.kind = says->kind,
                        .open = says->state != SLI_DOOR_SHUT,
+                       .is_wall = is_wall,
                        .heading = sli_heading_of(shape->rotation),
                        .line = shape->line};
     if (shape->kind != SLI_TILED_POLYGON && shape->kind != SLI_TILED_POLYLINE) {

@@ -446,11 +446,19 @@ static void test_doors_without_passage(void **state) {
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", SIZED("80", "16", "8", "8"))));
     assert_note(sl_map_read_tmx, text, &options,
                 "door 'Door' at 84 20 is left out: it is outside the map\n");
+    // An object of a solid layer stays what it would be without its name.
+    text = "<map width='9' height='5' tilewidth='8' tileheight='8'><objectgroup name='walls'>"
+           "<object name='door' x='8' y='8' width='8' height='8'/>"
+           "<object x='40' y='8' width='8' height='8'/></objectgroup></map>";
+    read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
+    assert_int_equal(walls, 8);
+    assert_note(sl_map_read_tmx, text, &options,
+                "f:1: door 'door' at 12 28 is taken as a wall: no passage is found there\n");
     // More than a few are counted.
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", AT("1", "1")) NAMED("Door", AT("1", "2"))
                                     NAMED("Door", AT("1", "3")) NAMED("Door", AT("1", "4"))
                                         NAMED("Door", AT("1", "5")) NAMED("Door", AT("1", "6"))));
-    assert_note(sl_map_read_tmx, text, &options, "f: 1 more door is left out\n");
+    assert_note(sl_map_read_tmx, text, &options, "f: so is 1 more door\n");
 }
 
 /// Walls that are objects tell too, if they stand at two opposite sides of the door.
