@@ -64,6 +64,12 @@ static bool find_spot(const sli_things *things, sli_grid *grid, const sli_thing 
            find_range(out->middle.y, out->half.y, grid->count, &out->rows);
 }
 
+/// A line, or a box of less than half a square: it runs along its longer side.
+static bool is_thin(const spot *at) {
+    return at->thing->is_line ||
+           (fmin(at->half.x, at->half.y) < 0.25 && fmax(at->half.x, at->half.y) >= 0.25);
+}
+
 static bool is_axial(const sli_thing *thing) {
     return (thing->u.x == 0 || thing->u.y == 0) && (thing->v.x == 0 || thing->v.y == 0);
 }
@@ -205,11 +211,9 @@ static bool find_way(const sli_things *things, const door_way *way, sl_segment *
 /// Tries the ways that the door's shape leaves open, the longer side first.
 static bool find_segment(const sli_things *things, const spot *at, bool cut, sl_segment *out) {
     const bool taller = at->half.y > at->half.x;
-    const bool is_thin = at->thing->is_line || (fmin(at->half.x, at->half.y) < 0.25 &&
-                                                fmax(at->half.x, at->half.y) >= 0.25);
     const door_way longer = way_of(at, taller, cut), other = way_of(at, !taller, cut);
     if (find_way(things, &longer, out)) return true;
-    return !is_thin && find_way(things, &other, out);
+    return !is_thin(at) && find_way(things, &other, out);
 }
 
 static void place_door(const sli_things *things, const spot *at, sli_thing *door) {
@@ -246,12 +250,12 @@ static sl_status place_doors(sli_things *things, sli_grid *grid, bool of_tiles) 
     return SL_OK;
 }
 
-/// Whether the middle is on a solid square; for a line also on the border of one.
+/// Whether the middle is on a solid square; for a thin door also on the border of one.
 static bool is_solid_at(const spot *at) {
     const double x = at->middle.x, y = at->middle.y;
     const size_t column = (size_t)x, row = (size_t)y;
-    const size_t left = column - (at->thing->is_line && (double)column == x);
-    const size_t above = row - (at->thing->is_line && (double)row == y);
+    const size_t left = column - (is_thin(at) && (double)column == x);
+    const size_t above = row - (is_thin(at) && (double)row == y);
     bool solid = false;
     for (size_t r = above; r != row + 1; r++)
         for (size_t c = left; c != column + 1; c++) {

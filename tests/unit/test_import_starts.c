@@ -383,6 +383,11 @@ static void test_doors_of_tiled(void **state) {
                "door Door 26 16 26 24 open\n");
     assert_tmx(TWO_ROOMS, OBJECTS(LINE("Door", AT("24", "15"), "0,0 0,10")),
                "door Door 24 16 24 24 open\n");
+    // On the border between two columns of squares.
+    assert_tmx(
+        "########\n#..##..#\n#......#\n#..##..#\n########",
+        OBJECTS(LINE("Door", AT("32", "18"), "0,0 0,4") NAMED("Door", SIZED("31", "17", "2", "6"))),
+        "door Door 32 16 32 24 open\ndoor Door:2 32 16 32 24 open\n");
     // Layers and groups move doors too.
     assert_tmx(TWO_ROOMS,
                "<group offsetx='24'><objectgroup offsety='16'>" NAMED(
@@ -443,6 +448,7 @@ static void test_doors_without_passage(void **state) {
                "door Door 12 20 20 12 open\n");
     // Along a wall there is no passage. Outside there is nothing.
     assert_tmx(ROOM, OBJECTS(LINE("Door", AT("8", "10"), "0,0 0,10")), "");
+    assert_tmx(ROOM, OBJECTS(NAMED("Door", SIZED("14", "7", "8", "2"))), "");
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", SIZED("80", "16", "8", "8"))));
     assert_note(sl_map_read_tmx, text, &options,
                 "door 'Door' at 84 20 is left out: it is outside the map\n");
