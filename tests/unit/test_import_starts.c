@@ -574,6 +574,57 @@ static void test_doors_of_ldtk(void **state) {
     assert_ldtk("#####\n#...#\n##DD#\n#...#\n#####", "", "door Door 16 20 32 20 open\n");
 }
 
+/// The door that an ASCII plan has in a square, in pixels; false where the plan is refused, or
+/// where no open square is on one side of the door.
+static bool door_of_plan(sl_context *context, const char *plan, size_t at, char *door) {
+    sl_map map = {0};
+    if (sl_map_read_plan(context, "plan", plan, strlen(plan), &map) != SL_OK) return false;
+    const size_t stride = strcspn(plan, "\n") + 1;
+    const sl_segment s = map.doors[0].segment;
+    const size_t step = s.a.x == s.b.x ? 1 : stride;
+    snprintf(door, 128, "door door %g %g %g %g open\n", 8 * s.a.x, 8 * s.a.y, 8 * s.b.x, 8 * s.b.y);
+    sl_map_destroy(context, &map);
+    return plan[at - step] == '.' && plan[at + step] == '.';
+}
+
+/// Random plans, a door in each of their squares in turn: as an ASCII plan has it. The square of
+/// the door may be drawn solid.
+static void test_doors_of_plans(void **state) {
+    (void)state;
+    enum { SIDE = 7 };
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = with_doors(NULL);
+    uint32_t random = 1;
+    size_t found = 0;
+    for (int round = 0; round < 20; round++) {
+        char plan[SIDE * (SIDE + 1)] = "";
+        for (size_t i = 0; i + 1 < sizeof plan; i++) {
+            const size_t column = i % (SIDE + 1), row = i / (SIDE + 1);
+            const bool edge = column == 0 || row == 0 || column == SIDE - 1 || row == SIDE - 1;
+            random = random * 1664525 + 1013904223;
+            plan[i] = column == SIDE ? '\n' : edge || random >> 31 ? '#' : '.';
+        }
+        for (size_t i = SIDE + 2; i < sizeof plan - SIDE - 2; i++) {
+            const size_t column = i % (SIDE + 1), row = i / (SIDE + 1);
+            if (column == 0 || column >= SIDE - 1) continue;
+            char expected[128] = "", object[128], things[MOST_TEXT];
+            const char was = plan[i];
+            plan[i] = '+';
+            if (!door_of_plan(context, plan, i, expected)) *expected = '\0';
+            plan[i] = was;
+            found += *expected != '\0';
+            snprintf(object, sizeof object,
+                     OBJECTS("<object name='door' x='%zu' y='%zu' width='8' height='8'/>"),
+                     8 * column, 8 * row);
+            read_things(sl_map_read_tmx, tmx_of(plan, object), &options, things, NULL, NULL);
+            if (strcmp(things, expected) != 0)
+                fail_msg("%s\n(%zu,%zu): '%s' is not '%s'", plan, column, row, things, expected);
+        }
+    }
+    assert_true(found > 30);
+    sl_context_destroy(context);
+}
+
 // --- templates
 
 static void write_file(const char *path, const char *text) {
@@ -668,6 +719,7 @@ int main(void) {
         cmocka_unit_test(test_names_of_doors),
         cmocka_unit_test(test_states_of_doors),
         cmocka_unit_test(test_doors_of_ldtk),
+        cmocka_unit_test(test_doors_of_plans),
         cmocka_unit_test(test_templates),
         cmocka_unit_test(test_memory),
     };
