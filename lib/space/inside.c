@@ -34,9 +34,18 @@ static const char *source_of(const inside *m) {
 
 // --- the ground that walls say
 
+/// The ground of a wall that several polygons share. Two open ones, one on each side, say of each
+/// other that it is solid: both are open. A solid one in an open one, along its side, is solid.
+static uint32_t settled(uint32_t ground) {
+    if ((ground & SL_OPEN_LEFT) && (ground & SL_OPEN_RIGHT)) return SL_OPEN_LEFT | SL_OPEN_RIGHT;
+    if (ground & SL_SOLID_LEFT) ground &= ~(uint32_t)SL_OPEN_LEFT;
+    if (ground & SL_SOLID_RIGHT) ground &= ~(uint32_t)SL_OPEN_RIGHT;
+    return ground;
+}
+
 /// Notes what a wall says of a cell at its left or right.
 static void say(inside *m, uint32_t cell, uint32_t wall, bool left) {
-    const uint32_t ground = m->space->walls[wall].ground;
+    const uint32_t ground = settled(m->space->walls[wall].ground);
     if (ground & (left ? SL_SOLID_LEFT : SL_SOLID_RIGHT)) m->solid_by[cell] = wall + 1;
     if (ground & (left ? SL_OPEN_LEFT : SL_OPEN_RIGHT)) m->open_by[cell] = wall + 1;
 }

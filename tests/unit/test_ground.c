@@ -1,0 +1,580 @@
+// Solid ground against an oracle of its own: squares of grids, and polygons in integers. Nothing
+// here asks the library what is solid but the cells that it makes.
+#include "testing.h"
+
+#include "geometry/orient.h"
+#include "io/shapes.h"
+#include "map/grid.h"
+#include "sightline/bake.h"
+#include "sightline/support.h"
+#include "unit/map_same.h"
+
+#include <math.h>
+
+// --- spaces of a map
+
+enum { KD = 1, MESH = 2 };
+
+/// Where a map's places go: scaled, turned, then moved.
+typedef struct transform {
+    double scale, sine, cosine, x, y;
+} transform;
+
+static const transform stay = {1, 0, 1, 0, 0};
+
+static sl_point put(const transform *t, double x, double y) {
+    x *= t->scale;
+    y *= t->scale;
+    return (sl_point){x * t->cosine - y * t->sine + t->x, x * t->sine + y * t->cosine + t->y};
+}
+
+static transform random_transform(sl_random *random) {
+    transform t = stay;
+    const uint64_t kind = sl_random_below(random, 5);
+    const double angle = 17.3 * 3.14159265358979323846 / 180;
+    if (kind == 1) t.scale = 1e-6;
+    if (kind == 2) t.scale = 1e6;
+    if (kind == 3 || kind == 4) t.sine = sin(angle), t.cosine = cos(angle);
+    if (kind == 4) t.x = 123456.7, t.y = -7654321.9;
+    return t;
+}
+
+static void subdivide(sl_context *context, const sl_map *map, int kind, sl_space *space) {
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    if (kind == KD)
+        assert_ok(context, sl_subdivide_kd(context, map, &rules, space));
+    else
+        assert_ok(context, sl_subdivide_mesh(context, map, space));
+    assert_ok(context, sl_space_check(context, space));
+}
+
+/// Prints the map with the message of a failure.
+static void fail_map(const sl_map *map, const char *what, uint64_t seed) {
+    char *text = map_text(map);
+    print_message("%s", text);
+    free(text);
+    fail_msg("seed %llu: %s", (unsigned long long)seed, what);
+}
+
+/// What an oracle says of a place: 1 solid, 0 open, -1 nothing, as it is on a border.
+typedef int oracle_of(const void *user, int x, int y);
+
+/// Places of the oracle are in 1/PARTS of the map's unit before its transform.
+enum { PARTS = 64 };
+
+typedef struct trial {
+    const sl_map *read; ///< not clean
+    transform at;
+    oracle_of *oracle;
+    const void *user;
+    int low, high; ///< the places to ask for, in units
+    uint64_t seed;
+} trial;
+
+static void check_place(const trial *t, const sl_space *space, int x, int y) {
+    const int is = t->oracle(t->user, x, y);
+    const sl_point at = put(&t->at, (double)x / PARTS, (double)y / PARTS);
+    const uint32_t cell = is < 0 ? SL_NO_CELL : sl_space_locate(space, at);
+    if (cell == SL_NO_CELL) return;
+    if (space->cells[cell].solid == (uint32_t)is) return;
+    char what[160];
+    snprintf(what, sizeof what, "%s at %d/64 %d/64 (%.17g %.17g) in cell %u of a %s",
+             is ? "not solid" : "solid", x, y, at.x, at.y, cell, space->neighbour ? "mesh" : "kd");
+    fail_map(t->read, what, t->seed);
+}
+
+/// The middle of each square, and random places.
+static void check_places(const trial *t, const sl_space *space, sl_random *random) {
+    for (int x = t->low; x < t->high; x++)
+        for (int y = t->low; y < t->high; y++)
+            check_place(t, space, x * PARTS + PARTS / 2, y * PARTS + PARTS / 2);
+    const uint64_t side = (uint64_t)(t->high - t->low) * PARTS;
+    for (int i = 0; i < 100; i++)
+        check_place(t, space, t->low * PARTS + (int)sl_random_below(random, side),
+                    t->low * PARTS + (int)sl_random_below(random, side));
+}
+
+/// Solid ground is the same; open ground is not said of each wall in text.
+static bool same_solid(const sl_space *a, const sl_space *b) {
+    const uint32_t solid = SL_SOLID_LEFT | SL_SOLID_RIGHT;
+    for (uint32_t i = 0; i < a->wall_count; i++)
+        if ((a->walls[i].ground & solid) != (b->walls[i].ground & solid)) return false;
+    return true;
+}
+
+/// A map that was written and read again gives the same space, and the same text.
+static void check_text(sl_context *context, const sl_map *map, const sl_space *const spaces[3],
+                       uint64_t seed) {
+    char *text = map_text(map);
+    sl_map back = {0};
+    if (sl_map_read_text(context, "text", text, strlen(text), &back) != SL_OK)
+        fail_map(map, sl_context_message(context), seed);
+    char *again = map_text(&back);
+    if (strcmp(text, again) != 0) {
+        print_message("%s", again);
+        fail_map(map, "written again it is another text", seed);
+    }
+    assert_ok(context, sl_map_clean(context, &back, NULL, NULL));
+    for (int kind = KD; kind <= MESH; kind++) {
+        if (!spaces[kind]) continue;
+        sl_space space = {0};
+        subdivide(context, &back, kind, &space);
+        if (!sl_baked_same_space(spaces[kind], &space) || !same_solid(spaces[kind], &space))
+            fail_map(map, "read back it is another space", seed);
+        sl_space_destroy(context, &space);
+    }
+    sl_map_destroy(context, &back);
+    free(text);
+    free(again);
+}
+
+/// Cleans a map, subdivides it in each way, asks the oracle, and writes and reads it.
+static void check_map(sl_context *context, const trial *t, sl_random *random) {
+    sl_map map = {0};
+    if (!t->read->wall_count) return;
+    assert_ok(context, sl_map_copy(context, t->read, &map));
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+    sl_space kd = {0}, mesh = {0};
+    const bool axial = sl_map_is_axial(&map);
+    if (axial) subdivide(context, &map, KD, &kd);
+    subdivide(context, &map, MESH, &mesh);
+    if (axial) check_places(t, &kd, random);
+    check_places(t, &mesh, random);
+    const sl_space *spaces[3] = {[KD] = axial ? &kd : NULL, [MESH] = &mesh};
+    check_text(context, t->read, spaces, t->seed);
+    check_text(context, &map, spaces, t->seed);
+    sl_space_destroy(context, &kd);
+    sl_space_destroy(context, &mesh);
+    sl_map_destroy(context, &map);
+}
+
+// --- grids
+
+enum { SIDE = 12, GRIDS = 3 };
+
+typedef struct squares {
+    int x, y, width, height, step; ///< the lower left corner and the side of a square, in units
+    bool closed;
+    char at[SIDE * SIDE + 1]; ///< from the top down
+} squares;
+
+typedef struct several {
+    squares grids[GRIDS];
+    int count;
+} several;
+
+static squares random_squares(sl_random *random) {
+    squares s = {.step = 1};
+    s.width = 1 + (int)sl_random_below(random, SIDE);
+    s.height = 1 + (int)sl_random_below(random, SIDE);
+    s.closed = sl_random_below(random, 2);
+    const uint64_t share = 1 + sl_random_below(random, 9);
+    for (int i = 0; i < s.width * s.height; i++)
+        s.at[i] = sl_random_below(random, 10) < share ? '#' : '.';
+    return s;
+}
+
+static int floor_divide(int a, int b) {
+    return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
+static int grid_says(const squares *s, int x, int y) {
+    const int side = s->step * PARTS, u = x - s->x * PARTS, v = y - s->y * PARTS;
+    if (u % side == 0 || v % side == 0) return -1;
+    const int column = floor_divide(u, side), row = floor_divide(v, side);
+    if (column < 0 || row < 0 || column >= s->width || row >= s->height) return s->closed;
+    return s->at[(s->height - 1 - row) * s->width + column] == '#';
+}
+
+static int grids_say(const void *user, int x, int y) {
+    const several *all = user;
+    int is = 0;
+    for (int i = 0; i < all->count; i++) {
+        const int own = grid_says(&all->grids[i], x, y);
+        if (own < 0) return -1;
+        is |= own;
+    }
+    return is;
+}
+
+/// Adds the walls of a grid that may be scaled, and then turned and moved wall by wall.
+static void add_grid(sl_context *context, const squares *s, const transform *t, bool sure,
+                     sl_map *map) {
+    sli_grid grid;
+    sl_map own = {0};
+    const transform scale = {t->scale, 0, 1, 0, 0};
+    assert_ok(context, sli_grid_create(context, (size_t)s->width, (size_t)s->height, &grid));
+    memcpy(grid.squares, s->at, (size_t)(s->width * s->height));
+    grid.origin = put(&scale, s->x, s->y);
+    grid.step = put(&scale, s->step, s->step);
+    grid.open_outside = !s->closed;
+    grid.sure = sure;
+    assert_ok(context, sli_grid_add_walls(context, &grid, &own));
+    const transform turn = {1, t->sine, t->cosine, t->x, t->y};
+    for (size_t i = 0; i < own.wall_count; i++) {
+        const sl_wall *w = &own.walls[i];
+        assert_ok(context, sl_map_add_wall(context, map, put(&turn, w->a.x, w->a.y),
+                                           put(&turn, w->b.x, w->b.y), 0));
+        map->walls[map->wall_count - 1].ground = w->ground;
+    }
+    sli_grid_destroy(context, &grid);
+    sl_map_destroy(context, &own);
+}
+
+static void test_grids(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(600);
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        several all = {.count = 1};
+        all.grids[0] = random_squares(&random);
+        const transform t = random_transform(&random);
+        sl_map map = {0};
+        add_grid(context, &all.grids[0], &t, sl_random_below(&random, 2), &map);
+        const trial one = {&map, t, grids_say, &all, -1, SIDE + 1, seed};
+        check_map(context, &one, &random);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Grids on one another, each with squares of its own size: solid is what any of them says.
+static void test_grids_on_one_another(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(300);
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        several all = {.count = 2 + (int)sl_random_below(&random, 2)};
+        const transform t = random_transform(&random);
+        sl_map map = {0};
+        for (int i = 0; i < all.count; i++) {
+            squares *s = &all.grids[i];
+            *s = random_squares(&random);
+            s->step = 1 + (int)sl_random_below(&random, 3);
+            s->x = (int)sl_random_below(&random, 6) - 3;
+            s->y = (int)sl_random_below(&random, 6) - 3;
+            s->closed &= i == 0;
+            add_grid(context, s, &t, false, &map);
+        }
+        const trial several_grids = {&map, t, grids_say, &all, -4, 40, seed};
+        check_map(context, &several_grids, &random);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Blocks of tiles, of which some lie on one grid.
+static void test_tiles(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(300);
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        several all = {.count = 1 + (int)sl_random_below(&random, GRIDS)};
+        sli_tiles tiles = {0};
+        const int top = 7;
+        for (int i = 0; i < all.count; i++) {
+            squares *s = &all.grids[i];
+            *s = random_squares(&random);
+            s->step = 1 + (int)sl_random_below(&random, 2);
+            s->x = 2 * (int)sl_random_below(&random, 4);
+            s->y = 2 * (int)sl_random_below(&random, 4);
+            s->closed = false;
+            const double upper = top - (s->y + s->height * s->step);
+            char *own;
+            assert_ok(context, sli_tiles_add(context, &tiles, "tiles", (sl_point){s->x, upper},
+                                             (sl_point){s->step, s->step}, (size_t)s->width,
+                                             (size_t)s->height, &own));
+            memcpy(own, s->at, (size_t)(s->width * s->height));
+        }
+        // Beyond the first grid all is solid: that is, beyond the box of its blocks.
+        const squares *first = &all.grids[0];
+        int box[4] = {first->x, first->y, first->x + first->width * first->step,
+                      first->y + first->height * first->step};
+        for (int i = 1; i < all.count; i++) {
+            const squares *s = &all.grids[i];
+            if (s->step != first->step) continue;
+            box[0] = s->x < box[0] ? s->x : box[0];
+            box[1] = s->y < box[1] ? s->y : box[1];
+            const int right = s->x + s->width * s->step, upper = s->y + s->height * s->step;
+            box[2] = right > box[2] ? right : box[2];
+            box[3] = upper > box[3] ? upper : box[3];
+        }
+        several with_box = all;
+        (void)with_box;
+        const sli_tiles_options options = {.top = top};
+        sl_map map = {0};
+        size_t grids;
+        assert_ok(context, sli_tiles_add_walls(context, &tiles, "tiles", &options, &map, &grids));
+        sl_map copy = {0};
+        assert_ok(context, sl_map_copy(context, &map, &copy));
+        assert_ok(context, sl_map_clean(context, &copy, NULL, NULL));
+        sl_space spaces[3] = {0};
+        for (int kind = KD; kind <= MESH && copy.wall_count; kind++) {
+            sl_space *space = &spaces[kind];
+            subdivide(context, &copy, kind, space);
+            for (int x = -4; x < 40; x++)
+                for (int y = -4; y < 40; y++) {
+                    const bool outside = x < box[0] || y < box[1] || x >= box[2] || y >= box[3];
+                    const int half = PARTS / 2;
+                    const int is =
+                        outside || grids_say(&all, x * PARTS + half, y * PARTS + half) > 0;
+                    const uint32_t cell = sl_space_locate(space, (sl_point){x + 0.5, y + 0.5});
+                    if (cell != SL_NO_CELL && space->cells[cell].solid != (uint32_t)is)
+                        fail_map(&map, "tiles are not as solid as they are", seed);
+                }
+        }
+        if (copy.wall_count) {
+            const sl_space *both[3] = {[KD] = &spaces[KD], [MESH] = &spaces[MESH]};
+            check_text(context, &map, both, seed);
+        }
+        sl_space_destroy(context, &spaces[KD]);
+        sl_space_destroy(context, &spaces[MESH]);
+        sl_map_destroy(context, &copy);
+        sl_map_destroy(context, &map);
+        sli_tiles_destroy(context, &tiles);
+        sl_context_destroy(context);
+    }
+}
+
+// --- polygons
+
+enum { CORNERS = 12, POLYGONS = 10, ROOM = 20 };
+
+typedef struct corner {
+    int x, y;
+} corner;
+
+typedef struct polygon {
+    corner at[CORNERS];
+    int count;
+    bool open; ///< open ground in solid ground
+} polygon;
+
+typedef struct polygons {
+    polygon items[POLYGONS];
+    int count;
+} polygons;
+
+static long turn_of(corner a, corner b, corner c) {
+    return (long)(b.x - a.x) * (c.y - a.y) - (long)(b.y - a.y) * (c.x - a.x);
+}
+
+/// How often a polygon runs round a place, in PARTS; 1000 where the place is on a side.
+static int winding(const polygon *p, corner at) {
+    int turns = 0;
+    for (int i = 0; i < p->count; i++) {
+        corner a = p->at[i], b = p->at[(i + 1) % p->count];
+        a = (corner){a.x * PARTS, a.y * PARTS};
+        b = (corner){b.x * PARTS, b.y * PARTS};
+        const long turn = turn_of(a, b, at);
+        if (turn == 0 && (long)(at.x - a.x) * (at.x - b.x) <= 0 &&
+            (long)(at.y - a.y) * (at.y - b.y) <= 0)
+            return 1000;
+        if (a.y <= at.y && b.y > at.y && turn > 0) turns++;
+        if (b.y <= at.y && a.y > at.y && turn < 0) turns--;
+    }
+    return turns;
+}
+
+/// With an open polygon in the map all is solid beyond them, up to the next wall; so they come
+/// without a room.
+static int polygons_say(const void *user, int x, int y) {
+    const polygons *all = user;
+    int solid = 0, open = 0;
+    bool closed = false;
+    for (int i = 0; i < all->count; i++) {
+        const int turns = winding(&all->items[i], (corner){x, y});
+        if (turns == 1000) return -1;
+        closed |= all->items[i].open;
+        *(all->items[i].open ? &open : &solid) |= turns != 0;
+    }
+    return solid || (closed && !open);
+}
+
+static polygon rectangle(int x0, int y0, int x1, int y1) {
+    return (polygon){.at = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, .count = 4};
+}
+
+static int below(sl_random *random, int bound) {
+    return (int)sl_random_below(random, (uint64_t)bound);
+}
+
+/// A rectangle within [low, high]².
+static polygon random_rectangle(sl_random *random, int low, int high) {
+    const int x = low + below(random, high - low), y = low + below(random, high - low);
+    const int most_x = high - x < 7 ? high - x : 7, most_y = high - y < 7 ? high - y : 7;
+    return rectangle(x, y, x + 1 + below(random, most_x), y + 1 + below(random, most_y));
+}
+
+static polygon random_triangle(sl_random *random) {
+    polygon p = {.count = 3};
+    do
+        for (int i = 0; i < 3; i++) p.at[i] = (corner){below(random, ROOM), below(random, ROOM)};
+    while (turn_of(p.at[0], p.at[1], p.at[2]) == 0);
+    return p;
+}
+
+/// A rectangle with a hole, which a bridge joins to its outside.
+static polygon keyhole(sl_random *random) {
+    const int x = below(random, 12), y = below(random, 12), s = 1 + below(random, 2);
+    return (polygon){.at = {{x, y},
+                            {x + s, y + s},
+                            {x + s, y + 2 * s},
+                            {x + 2 * s, y + 2 * s},
+                            {x + 2 * s, y + s},
+                            {x + s, y + s},
+                            {x, y},
+                            {x + 3 * s, y},
+                            {x + 3 * s, y + 3 * s},
+                            {x, y + 3 * s}},
+                     .count = 10};
+}
+
+static polygon turned_round(const polygon *p) {
+    polygon out = *p;
+    for (int i = 0; i < p->count; i++) out.at[i] = p->at[p->count - 1 - i];
+    return out;
+}
+
+static void add_polygon(sl_context *context, const polygon *p, const transform *t, sl_map *map) {
+    sl_point corners[CORNERS];
+    for (int i = 0; i < p->count; i++) corners[i] = put(t, p->at[i].x, p->at[i].y);
+    if (p->open)
+        assert_ok(context, sl_map_add_open(context, map, corners, (size_t)p->count, 0));
+    else
+        assert_ok(context, sl_map_add_solid(context, map, corners, (size_t)p->count, 0));
+}
+
+static void add_side(sl_context *context, const transform *t, corner a, corner b, sl_map *map) {
+    assert_ok(context, sl_map_add_wall(context, map, put(t, a.x, a.y), put(t, b.x, b.y), 0));
+}
+
+/// Plain walls: a room round all, and parts of the sides of polygons.
+static void add_walls(sl_context *context, const polygons *all, const transform *t,
+                      sl_random *random, sl_map *map) {
+    if (below(random, 3)) {
+        const polygon room = rectangle(-2, -2, ROOM + 2, ROOM + 2);
+        for (int i = 0; i < 4; i++) add_side(context, t, room.at[i], room.at[(i + 1) % 4], map);
+    }
+    for (int i = 0; i < all->count; i++) {
+        const polygon *p = &all->items[i];
+        const int k = below(random, p->count);
+        corner a = p->at[k], b = p->at[(k + 1) % p->count];
+        if (below(random, 3) || (a.x != b.x && a.y != b.y)) continue;
+        if (a.x == b.x && a.y != b.y) b.y += 1 - below(random, 3);
+        if (a.y == b.y && a.x != b.x) b.x += 1 - below(random, 3);
+        if (a.x != b.x || a.y != b.y) add_side(context, t, a, b, map);
+    }
+}
+
+static polygons random_polygons(sl_random *random, bool axial) {
+    polygons all = {.count = 1 + below(random, POLYGONS)};
+    for (int i = 0; i < all.count; i++) {
+        polygon *p = &all.items[i];
+        const int kind = below(random, 8);
+        if (i && kind == 0)
+            *p = all.items[below(random, i)];
+        else if (!axial && kind == 1)
+            *p = keyhole(random);
+        else
+            *p = axial || kind < 4 ? random_rectangle(random, 0, ROOM) : random_triangle(random);
+        if (below(random, 2)) *p = turned_round(p);
+    }
+    return all;
+}
+
+static void test_polygons(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(800);
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        const bool axial = seed % 2;
+        const polygons all = random_polygons(&random, axial);
+        const transform t = random_transform(&random);
+        sl_map map = {0};
+        for (int i = 0; i < all.count; i++) add_polygon(context, &all.items[i], &t, &map);
+        add_walls(context, &all, &t, &random, &map);
+        const trial one = {&map, t, polygons_say, &all, -2, ROOM + 2, seed};
+        check_map(context, &one, &random);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Open rooms in rock, with solid blocks in them and in the rock.
+static void test_open_polygons(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(400);
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        const transform t = random_transform(&random);
+        polygons all = {0};
+        sl_map map = {0};
+        for (int i = 0; i < 4; i++) {
+            const int x = i % 2 * 10, y = i / 2 * 10;
+            const int width = 4 + below(&random, 7), height = 4 + below(&random, 7);
+            if (all.count && !below(&random, 4)) continue;
+            polygon *room = &all.items[all.count++];
+            *room = rectangle(x, y, x + width, y + height);
+            room->open = true;
+            if (below(&random, 2)) *room = turned_round(room);
+            polygon *block = &all.items[all.count++];
+            const int u = x + 1 + below(&random, width - 2), v = y + 1 + below(&random, height - 2);
+            *block = rectangle(u, v, u + 1, v + 1);
+            if (below(&random, 2)) *block = turned_round(block);
+        }
+        for (int i = 0; i < all.count; i++) add_polygon(context, &all.items[i], &t, &map);
+        const trial one = {&map, t, polygons_say, &all, -2, ROOM + 2, seed};
+        check_map(context, &one, &random);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Polygons of any corners are refused, or are solid where they run once round a place.
+static void test_any_corners(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(6000);
+    uint64_t taken = 0;
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        polygons all = {.count = 1};
+        polygon *p = &all.items[0];
+        p->count = 3 + below(&random, CORNERS - 3);
+        for (int i = 0; i < p->count; i++)
+            p->at[i] = (corner){below(&random, 4), below(&random, 4)};
+        sl_point corners[CORNERS];
+        for (int i = 0; i < p->count; i++) corners[i] = put(&stay, p->at[i].x, p->at[i].y);
+        sl_map map = {0};
+        const sl_status status = sl_map_add_solid(context, &map, corners, (size_t)p->count, 0);
+        if (status == SL_OK) {
+            taken++;
+            const polygon room = rectangle(-1, -1, 5, 5);
+            for (int i = 0; i < 4; i++)
+                add_side(context, &stay, room.at[i], room.at[(i + 1) % 4], &map);
+            const trial one = {&map, stay, polygons_say, &all, -1, 5, seed};
+            check_map(context, &one, &random);
+        } else {
+            assert_int_equal(status, SL_BAD_INPUT);
+            assert_int_equal(map.wall_count, 0);
+        }
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+    assert_true(taken > count / 100);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_grids),         cmocka_unit_test(test_grids_on_one_another),
+        cmocka_unit_test(test_tiles),         cmocka_unit_test(test_polygons),
+        cmocka_unit_test(test_open_polygons), cmocka_unit_test(test_any_corners),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
