@@ -19,6 +19,7 @@
 /// After step 2 there is at most one level of each height at x. So the set is one bit for each
 /// height, with a tree of bits above it to find the next one. Time O((n + k) log n) for k cuts.
 #include "geometry/orient.h"
+#include "map/ground.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -120,15 +121,17 @@ static sl_status sort_out(cleaning *work, const sl_map *map) {
 static sl_status join_run(sl_context *context, const piece *run, size_t count, pieces *out,
                           sl_clean_account *account) {
     piece whole = run[0];
-    bool plain_ground = true;
+    bool plain_ground = true, overlap = false;
     for (size_t i = 1; i < count; i++) {
         const bool same = run[i].low == run[i - 1].low && run[i].high == run[i - 1].high;
         *(same ? &account->duplicate : &account->merged) += 1;
+        overlap |= run[i].low < whole.high;
         if (run[i].high > whole.high) whole.high = run[i].high;
         whole.line = lower_line(whole.line, run[i].line);
         plain_ground &= run[i].ground == whole.ground;
     }
-    if (plain_ground) return add_piece(context, out, whole);
+    if (plain_ground && !(overlap && sli_ground_begins(whole.ground)))
+        return add_piece(context, out, whole);
     // The next piece to end, or to begin, ends the part that begins at `low`.
     const size_t first = out->count;
     SL_ARRAY(piece) active = {0};
@@ -146,7 +149,7 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
             const piece *p = &active.items[i];
             if (p->high <= low) continue;
             part.high = fmin(part.high, p->high);
-            part.ground |= p->ground;
+            part.ground = sli_ground_joined(part.ground, p->ground);
             part.line = kept ? lower_line(part.line, p->line) : p->line;
             active.items[kept++] = *p;
         }
@@ -193,7 +196,7 @@ static void drop_duplicates(oblique_walls *list, sl_clean_account *account) {
         if (sli_compare_points(last->a, next->a) == 0 &&
             sli_compare_points(last->b, next->b) == 0) {
             account->duplicate++;
-            list->items[kept].ground |= next->ground;
+            list->items[kept].ground = sli_ground_joined(last->ground, next->ground);
         } else
             list->items[++kept] = *next;
     }

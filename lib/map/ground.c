@@ -9,6 +9,7 @@
 ///
 /// The way back follows marked walls from end to end. Where several go on, the loop takes the first
 /// one clockwise from where it came from, so that solid areas that touch in a corner stay apart.
+/// Open rooms that share a wall become one, with this wall in it.
 /// Loops that are not closed or cross themselves are given wall by wall. Time O(n log n).
 #include "map/ground.h"
 
@@ -172,7 +173,8 @@ sl_status sli_map_add_ground(sl_context *context, sl_map *map, const char *sourc
     if (kind == LOOP_FLAT)
         return sl_fail_at(context, source, line,
                           "%s: expected a polygon with an area, without spikes", what);
-    const uint32_t forward = open ? SL_SOLID_RIGHT | SL_OPEN_LEFT : SL_SOLID_LEFT;
+    const uint32_t solid = SL_SOLID_LEFT | SL_SOLID_BEGINS;
+    const uint32_t forward = open ? sl_ground_turned(solid | SL_OPEN_RIGHT) : solid;
     const uint32_t ground = kind == LOOP_LEFT ? forward : sl_ground_turned(forward);
     for (size_t i = 0; i < count; i++) {
         SL_TRY(sl_map_add_wall(context, map, corners[i], corners[i + 1 < count ? i + 1 : 0], line));
@@ -245,18 +247,21 @@ static int quarter(sl_point at, sl_point back, sl_point to) {
     return same ? 3 : 1;
 }
 
-/// The side on which a loop goes on; NONE where it ends.
+/// The side on which a loop goes on; NONE where it ends. The way back comes last.
 static size_t next_side(const tracer *t, const side *last) {
     size_t end, best = NONE;
-    int best_quarter = 4;
+    int best_quarter = 0;
     for (size_t i = sides_from(t, last->to, &end); i < end; i++) {
         if (t->sides[i].used) continue;
         const int own = quarter(last->to, last->from, t->sides[i].to);
-        if (best == NONE || own < best_quarter ||
-            (own == best_quarter && sli_orient(last->to, t->sides[best].to, t->sides[i].to) > 0)) {
-            best = i;
-            best_quarter = own;
+        bool better = best == NONE || best_quarter == 3;
+        if (!better && own < 3) {
+            const int turn = sli_orient(last->to, t->sides[best].to, t->sides[i].to);
+            better = own != best_quarter ? own < best_quarter : turn > 0;
         }
+        if (!better) continue;
+        best = i;
+        best_quarter = own;
     }
     return best;
 }
@@ -271,6 +276,10 @@ static sl_status give(tracer *t, bool closed) {
         t->corners.items[t->corners.count++] = t->sides[t->way.items[i]].from;
         open &= t->sides[t->way.items[i]].open;
     }
+    const bool plain = closed && count == 2 && open;
+    if (plain && t->user->plain)
+        return t->user->plain(t->user->user, t->corners.items[0], t->corners.items[1]);
+    if (plain || !t->user->polygon) return SL_OK;
     loop_kind kind = LOOP_FLAT;
     if (closed && count >= 3) SL_TRY(find_kind(t->context, t->corners.items, count, &kind));
     if (kind == LOOP_LEFT || (kind == LOOP_CLOCKWISE && open))
@@ -294,19 +303,41 @@ static sl_status trace(tracer *t, size_t first) {
     return give(t, false);
 }
 
+/// How many loops go along a wall, with solid ground at their left, from a to b and back.
+static void count_loops(const sl_wall *w, size_t *there, size_t *back) {
+    const bool left = w->ground & SL_SOLID_LEFT, right = w->ground & SL_SOLID_RIGHT;
+    const int32_t begins = sli_ground_begins(w->ground);
+    const int32_t least_back = (int32_t)left - begins;
+    *there = *back = 0;
+    if (sli_same_point(w->a, w->b) || sli_ground_parts_rooms(w->ground)) return;
+    if (right) *back = least_back > 1 ? (size_t)least_back : 1;
+    const int32_t least_there = (int32_t)*back + begins;
+    if (left) *there = least_there > 1 ? (size_t)least_there : 1;
+}
+
+static sl_status make_sides(tracer *t, const sl_wall *walls, size_t count) {
+    size_t sides = 0, there, back;
+    for (size_t i = 0; i < count; i++) {
+        count_loops(&walls[i], &there, &back);
+        sides += there + back;
+    }
+    t->sides = sl_alloc_array(t->context, sides, sizeof *t->sides);
+    if (!t->sides) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const sl_wall *w = &walls[i];
+        count_loops(w, &there, &back);
+        for (size_t k = 0; k < there; k++)
+            t->sides[t->count++] = (side){w->a, w->b, i, w->ground & SL_OPEN_RIGHT, false};
+        for (size_t k = 0; k < back; k++)
+            t->sides[t->count++] = (side){w->b, w->a, i, w->ground & SL_OPEN_LEFT, false};
+    }
+    return SL_OK;
+}
+
 sl_status sli_ground_trace(sl_context *context, const sl_wall *walls, size_t count,
                            const sli_loop_user *user) {
     tracer t = {.context = context, .user = user};
-    t.sides = sl_alloc_array(context, 2 * count, sizeof *t.sides);
-    if (!t.sides) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) {
-        const sl_wall *w = &walls[i];
-        if (sli_same_point(w->a, w->b)) continue;
-        if (w->ground & SL_SOLID_LEFT)
-            t.sides[t.count++] = (side){w->a, w->b, i, w->ground & SL_OPEN_RIGHT, false};
-        if (w->ground & SL_SOLID_RIGHT)
-            t.sides[t.count++] = (side){w->b, w->a, i, w->ground & SL_OPEN_LEFT, false};
-    }
+    SL_TRY(make_sides(&t, walls, count));
     if (t.count) qsort(t.sides, t.count, sizeof *t.sides, compare_sides);
     sl_status status = SL_OK;
     for (size_t i = 0; i < t.count && status == SL_OK; i++) {

@@ -10,18 +10,23 @@ extern "C" {
 #endif
 
 /// What the ground beside a wall is, as bits of sl_wall.ground; left and right going from a to b.
-/// Unmarked ground is open unless solid ground reaches it without a wall between.
+/// Unmarked ground is open unless solid ground reaches it without a wall between, or polygons of
+/// solid ground cover it.
 enum {
     SL_SOLID_LEFT = 1,  ///< solid ground, such as rock: nobody stands there
     SL_SOLID_RIGHT = 2, ///< as SL_SOLID_LEFT, at the right
     SL_OPEN_LEFT = 4,   ///< open ground: the map contradicts itself where solid ground reaches it
     SL_OPEN_RIGHT = 8,  ///< as SL_OPEN_LEFT, at the right
+    /// Solid ground begins at the wall, going from its right to its left: how often, as a number
+    /// times 16 that may be below 0, in the bits from here on. It tells a hole in a polygon from a
+    /// hole that another polygon covers. Readers of single walls leave it 0.
+    SL_SOLID_BEGINS = 16,
 };
 
 /// The ground of a wall whose ends are exchanged.
 static inline uint32_t sl_ground_turned(uint32_t ground) {
     return (ground & (SL_SOLID_LEFT | SL_OPEN_LEFT)) << 1 |
-           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1;
+           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~15u));
 }
 
 /// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file; 0
