@@ -276,10 +276,6 @@ static sl_status give(tracer *t, bool closed) {
         t->corners.items[t->corners.count++] = t->sides[t->way.items[i]].from;
         open &= t->sides[t->way.items[i]].open;
     }
-    const bool plain = closed && count == 2 && open;
-    if (plain && t->user->plain)
-        return t->user->plain(t->user->user, t->corners.items[0], t->corners.items[1]);
-    if (plain || !t->user->polygon) return SL_OK;
     loop_kind kind = LOOP_FLAT;
     if (closed && count >= 3) SL_TRY(find_kind(t->context, t->corners.items, count, &kind));
     if (kind == LOOP_LEFT || (kind == LOOP_CLOCKWISE && open))
@@ -334,13 +330,30 @@ static sl_status make_sides(tracer *t, const sl_wall *walls, size_t count) {
     return SL_OK;
 }
 
+/// Takes out the walls between two open polygons: such a wall is there twice, there and back.
+static sl_status part_rooms(tracer *t) {
+    size_t end;
+    for (size_t i = 0; i < t->count; i++) {
+        side *there = &t->sides[i];
+        if (!there->open || there->used) continue;
+        for (size_t k = sides_from(t, there->to, &end); k < end && !there->used; k++) {
+            side *back = &t->sides[k];
+            there->used = back->open && !back->used && sli_same_point(back->to, there->from);
+            back->used |= there->used;
+        }
+        if (there->used && t->user->plain)
+            SL_TRY(t->user->plain(t->user->user, there->from, there->to));
+    }
+    return SL_OK;
+}
+
 sl_status sli_ground_trace(sl_context *context, const sl_wall *walls, size_t count,
                            const sli_loop_user *user) {
     tracer t = {.context = context, .user = user};
     SL_TRY(make_sides(&t, walls, count));
     if (t.count) qsort(t.sides, t.count, sizeof *t.sides, compare_sides);
-    sl_status status = SL_OK;
-    for (size_t i = 0; i < t.count && status == SL_OK; i++) {
+    sl_status status = part_rooms(&t);
+    for (size_t i = 0; i < t.count && status == SL_OK && user->polygon; i++) {
         if (i % 1024 == 0) status = sl_check_cancelled(context);
         if (status == SL_OK && !t.sides[i].used) status = trace(&t, i);
     }

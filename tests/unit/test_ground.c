@@ -42,7 +42,7 @@ static transform random_transform(sl_random *random) {
 /// Prints the map with the message of a failure.
 static void fail_map(const sl_map *map, const char *what, uint64_t seed) {
     char *text = map_text(map);
-    print_message("%s", text);
+    fputs(text, stderr); // print_message cuts long texts
     free(text);
     fail_msg("seed %llu: %s", (unsigned long long)seed, what);
 }
@@ -51,7 +51,7 @@ static void subdivide(sl_context *context, const sl_map *map, int kind, sl_space
     const sl_subdivide_options rules = sl_subdivide_options_default();
     const sl_status status = kind == KD ? sl_subdivide_kd(context, map, &rules, space)
                                         : sl_subdivide_mesh(context, map, space);
-    if (status != SL_OK) fail_map(map, sl_context_message(context), 0);
+    if (status != SL_OK) fail_map(map, sl_context_message(context), 0); // the map is clean
     assert_ok(context, sl_space_check(context, space));
 }
 
@@ -123,7 +123,7 @@ static void check_text(sl_context *context, const sl_map *map, const sl_space *c
         fail_map(map, sl_context_message(context), seed);
     char *again = map_text(&back);
     if (strcmp(text, again) != 0) {
-        print_message("%s", again);
+        fputs(again, stderr);
         fail_map(map, "written again it is another text", seed);
     }
     assert_ok(context, sl_map_clean(context, &back, NULL, NULL));
