@@ -16,8 +16,9 @@
 ///     ----+-----------|------      no coordinate is computed: a cut takes the x of one
 ///                     |            wall and the y of the other
 ///
-/// After step 2 there is at most one level of each height at x. So the set is one bit for each
-/// height, with a tree of bits above it to find the next one. Time O((n + k) log n) for k cuts.
+/// After step 2 there is at most one level of each height at x, or two that meet there, of which
+/// the second counts. So the set is one bit for each height, with a tree of bits above it to find
+/// the next one. Time O((n + k) log n) for k cuts.
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/planar.h"
@@ -323,7 +324,10 @@ static void advance(sweeper *sweep, size_t count, double x) {
             sweep->here[sweep->rank[level]] = level;
             add_rank(&sweep->active, sweep->rank[level]);
         } else {
-            remove_rank(&sweep->active, sweep->rank[sweep->outs[sweep->out++].level]);
+            const size_t level = sweep->outs[sweep->out++].level;
+            // Another one, with other ground beside it, may have begun where this one ends.
+            if (sweep->here[sweep->rank[level]] == level)
+                remove_rank(&sweep->active, sweep->rank[level]);
         }
     }
 }

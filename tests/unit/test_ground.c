@@ -173,6 +173,8 @@ typedef struct squares {
 typedef struct several {
     squares grids[GRIDS];
     int count;
+    int box[4]; ///< beyond this box all is solid: left, lower, right and upper border, in units
+    bool boxed;
 } several;
 
 static squares random_squares(sl_random *random) {
@@ -200,6 +202,10 @@ static int grid_says(const squares *s, int x, int y) {
 
 static int grids_say(const void *user, int x, int y) {
     const several *all = user;
+    const int *box = all->box;
+    if (all->boxed &&
+        (x < box[0] * PARTS || y < box[1] * PARTS || x > box[2] * PARTS || y > box[3] * PARTS))
+        return 1;
     int is = 0;
     for (int i = 0; i < all->count; i++) {
         const int own = grid_says(&all->grids[i], x, y);
@@ -277,6 +283,20 @@ static void test_grids_on_one_another(void **state) {
     }
 }
 
+/// Beyond the first grid all is solid: that is, beyond the box of its blocks.
+static void find_box(several *all) {
+    const squares *first = &all->grids[0];
+    int *box = all->box;
+    for (int i = 0; i < all->count; i++) {
+        const squares *s = &all->grids[i];
+        if (s->step != first->step) continue;
+        const int own[4] = {s->x, s->y, s->x + s->width * s->step, s->y + s->height * s->step};
+        for (int k = 0; k < 4; k++)
+            if (i == 0 || (k < 2 ? own[k] < box[k] : own[k] > box[k])) box[k] = own[k];
+    }
+    all->boxed = true;
+}
+
 /// Blocks of tiles, of which some lie on one grid.
 static void test_tiles(void **state) {
     (void)state;
@@ -286,7 +306,7 @@ static void test_tiles(void **state) {
         sl_random random = {seed};
         several all = {.count = 1 + (int)sl_random_below(&random, GRIDS)};
         sli_tiles tiles = {0};
-        const int top = 7;
+        const sli_tiles_options options = {.top = 7};
         for (int i = 0; i < all.count; i++) {
             squares *s = &all.grids[i];
             *s = random_squares(&random);
@@ -294,57 +314,19 @@ static void test_tiles(void **state) {
             s->x = 2 * (int)sl_random_below(&random, 4);
             s->y = 2 * (int)sl_random_below(&random, 4);
             s->closed = false;
-            const double upper = top - (s->y + s->height * s->step);
+            const sl_point corner = {s->x, options.top - (s->y + s->height * s->step)};
             char *own;
-            assert_ok(context, sli_tiles_add(context, &tiles, "tiles", (sl_point){s->x, upper},
-                                             (sl_point){s->step, s->step}, (size_t)s->width,
-                                             (size_t)s->height, &own));
+            assert_ok(context,
+                      sli_tiles_add(context, &tiles, "tiles", corner, (sl_point){s->step, s->step},
+                                    (size_t)s->width, (size_t)s->height, &own));
             memcpy(own, s->at, (size_t)(s->width * s->height));
         }
-        // Beyond the first grid all is solid: that is, beyond the box of its blocks.
-        const squares *first = &all.grids[0];
-        int box[4] = {first->x, first->y, first->x + first->width * first->step,
-                      first->y + first->height * first->step};
-        for (int i = 1; i < all.count; i++) {
-            const squares *s = &all.grids[i];
-            if (s->step != first->step) continue;
-            box[0] = s->x < box[0] ? s->x : box[0];
-            box[1] = s->y < box[1] ? s->y : box[1];
-            const int right = s->x + s->width * s->step, upper = s->y + s->height * s->step;
-            box[2] = right > box[2] ? right : box[2];
-            box[3] = upper > box[3] ? upper : box[3];
-        }
-        several with_box = all;
-        (void)with_box;
-        const sli_tiles_options options = {.top = top};
+        find_box(&all);
         sl_map map = {0};
         size_t grids;
         assert_ok(context, sli_tiles_add_walls(context, &tiles, "tiles", &options, &map, &grids));
-        sl_map copy = {0};
-        assert_ok(context, sl_map_copy(context, &map, &copy));
-        assert_ok(context, sl_map_clean(context, &copy, NULL, NULL));
-        sl_space spaces[3] = {0};
-        for (int kind = KD; kind <= MESH && copy.wall_count; kind++) {
-            sl_space *space = &spaces[kind];
-            subdivide(context, &copy, kind, space);
-            for (int x = -4; x < 40; x++)
-                for (int y = -4; y < 40; y++) {
-                    const bool outside = x < box[0] || y < box[1] || x >= box[2] || y >= box[3];
-                    const int half = PARTS / 2;
-                    const int is =
-                        outside || grids_say(&all, x * PARTS + half, y * PARTS + half) > 0;
-                    const uint32_t cell = sl_space_locate(space, (sl_point){x + 0.5, y + 0.5});
-                    if (cell != SL_NO_CELL && space->cells[cell].solid != (uint32_t)is)
-                        fail_map(&map, "tiles are not as solid as they are", seed);
-                }
-        }
-        if (copy.wall_count) {
-            const sl_space *both[3] = {[KD] = &spaces[KD], [MESH] = &spaces[MESH]};
-            check_text(context, &map, both, seed);
-        }
-        sl_space_destroy(context, &spaces[KD]);
-        sl_space_destroy(context, &spaces[MESH]);
-        sl_map_destroy(context, &copy);
+        const trial blocks = {&map, stay, grids_say, &all, -2, 34, seed};
+        check_map(context, &blocks, &random);
         sl_map_destroy(context, &map);
         sli_tiles_destroy(context, &tiles);
         sl_context_destroy(context);
