@@ -6,10 +6,12 @@
 #include "io/shapes.h"
 #include "map/grid.h"
 #include "sightline/bake.h"
+#include "sightline/query.h"
 #include "sightline/support.h"
 #include "unit/map_same.h"
 
 #include <math.h>
+#include <unistd.h>
 
 // --- spaces of a map
 
@@ -564,11 +566,314 @@ static void test_any_corners(void **state) {
     assert_true(taken > count / 100);
 }
 
+// --- what is seen
+
+/// Random polygons in a room; every other seed gives axial ones.
+static void random_map(sl_context *context, uint64_t seed, sl_map *map) {
+    sl_random random = {seed};
+    const polygons all = random_polygons(&random, seed % 2);
+    for (int i = 0; i < all.count; i++) add_polygon(context, &all.items[i], &stay, map);
+    const polygon room = rectangle(-2, -2, ROOM + 2, ROOM + 2);
+    for (int i = 0; i < 4; i++) add_side(context, &stay, room.at[i], room.at[(i + 1) % 4], map);
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
+}
+
+/// The same walls without marks.
+static void bare_map(sl_context *context, const sl_map *map, sl_map *out) {
+    assert_ok(context, sl_map_copy(context, map, out));
+    for (size_t i = 0; i < out->wall_count; i++) out->walls[i].ground = 0;
+}
+
+/// Rows of solid cells are empty, no row holds one, and the rest is as without solid ground.
+static void check_rows(const sl_space *space, const sl_pvs *rows, const sl_pvs *bare,
+                       bool inside_only, const char *name) {
+    for (uint32_t a = 0; a < space->cell_count; a++)
+        for (uint32_t b = 0; b < space->cell_count; b++) {
+            const sl_cell *from = &space->cells[a], *to = &space->cells[b];
+            const bool looks = !from->solid && (from->inside || !inside_only);
+            const bool is = looks && sl_pvs_sees(bare, a, b);
+            if (is && to->solid) fail_msg("%s: open cell %u sees solid cell %u", name, a, b);
+            if (sl_pvs_sees(rows, a, b) != is)
+                fail_msg("%s: cell %u %s cell %u", name, a, is ? "does not see" : "sees", b);
+        }
+}
+
+static void see(sl_context *context, const sl_see_method *by, const sl_space *space,
+                bool inside_only, sl_visibility *out) {
+    sl_see_options options = sl_see_options_default();
+    options.inside_only = inside_only;
+    options.samples = 50;
+    if (by->stabs) options.solver = sl_funnel();
+    assert_ok(context, by->see(context, space, &options, out));
+}
+
+static void test_methods(void **state) {
+    (void)state;
+    const uint64_t seeds = testing_seeds(30);
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_map map = {0}, bare = {0};
+        sl_space space = {0}, bare_space = {0};
+        random_map(context, seed, &map);
+        bare_map(context, &map, &bare);
+        const int kind = sl_map_is_axial(&map) && seed % 4 == 1 ? KD : MESH;
+        subdivide(context, &map, kind, &space);
+        subdivide(context, &bare, kind, &bare_space);
+        assert_int_equal(space.cell_count, bare_space.cell_count);
+        for (size_t i = 0; i < count; i++) {
+            sl_visibility bare_seen = {0};
+            see(context, &methods[i], &bare_space, false, &bare_seen);
+            for (int inside_only = 0; inside_only < 2; inside_only++) {
+                sl_visibility seen = {0};
+                see(context, &methods[i], &space, inside_only, &seen);
+                check_rows(&space, &seen.pvs, &bare_seen.pvs, inside_only, methods[i].name);
+                sl_visibility_destroy(context, &seen);
+            }
+            sl_visibility_destroy(context, &bare_seen);
+        }
+        sl_space_destroy(context, &space);
+        sl_space_destroy(context, &bare_space);
+        sl_map_destroy(context, &map);
+        sl_map_destroy(context, &bare);
+        sl_context_destroy(context);
+    }
+}
+
+/// What an eye sees past boxes, with and without solid ground.
+static void check_eye(sl_context *context, sl_query *query, sl_query *bare, sl_point eye) {
+    const sl_space *space = &sl_query_baked(query)->space;
+    const sl_view view = sl_view_all_round(eye);
+    const size_t words = sl_eye_words(space);
+    uint64_t *cells = calloc(words, sizeof *cells), *of_bare = calloc(words, sizeof *of_bare);
+    bool seen[3], bare_seen[3];
+    assert_true(cells && of_bare);
+    const uint32_t cell = sl_query_locate(query, eye);
+    assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
+    if (space->cells[cell].solid) {
+        for (uint32_t i = 0; i < space->cell_count; i++)
+            if (sl_eye_sees(cells, i)) assert_true(space->cells[i].solid);
+    } else {
+        assert_ok(context, sl_query_look(context, bare, &view, NULL, of_bare, NULL));
+        assert_memory_equal(cells, of_bare, words * sizeof *cells);
+        assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+        assert_ok(context, sl_query_boxes_seen(context, bare, &view, bare_seen, NULL));
+        assert_memory_equal(seen, bare_seen, sizeof seen);
+    }
+    free(cells);
+    free(of_bare);
+}
+
+static void test_eyes_and_boxes(void **state) {
+    (void)state;
+    uint64_t compared = 0;
+    const uint64_t seeds = testing_seeds(60);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        sl_map map = {0}, bare = {0};
+        sl_baked baked = {0}, bare_baked = {0};
+        sl_query *query, *bare_query;
+        random_map(context, seed, &map);
+        bare_map(context, &map, &bare);
+        assert_ok(context, sl_bake(context, &map, NULL, &baked, NULL));
+        // Without marks cleaning could join more walls.
+        sl_bake_options options = sl_bake_options_default();
+        assert_ok(context, sl_bake(context, &bare, &options, &bare_baked, NULL));
+        const bool same = baked.space.cell_count == bare_baked.space.cell_count;
+        compared += same;
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        assert_ok(context, sl_query_create(context, &bare_baked, &bare_query));
+        for (int i = 0; same && i < 3; i++) {
+            sl_moving_box boxes[3];
+            for (int k = 0; k < 3; k++) {
+                const double x = below(&random, ROOM), y = below(&random, ROOM) + 0.25 * k;
+                boxes[k] = (sl_moving_box){
+                    {{x, y}, {x + 0.5 * below(&random, 6), y + 0.5 * below(&random, 6)}}, k != 2};
+            }
+            assert_ok(context, sl_query_set_boxes(context, query, boxes, 3));
+            assert_ok(context, sl_query_set_boxes(context, bare_query, boxes, 3));
+            for (int k = 0; k < 5; k++)
+                check_eye(context, query, bare_query,
+                          (sl_point){below(&random, ROOM) + 0.37, below(&random, ROOM) + 0.61});
+        }
+        sl_query_destroy(context, query);
+        sl_query_destroy(context, bare_query);
+        sl_baked_destroy(context, &baked);
+        sl_baked_destroy(context, &bare_baked);
+        sl_context_destroy(context);
+    }
+    assert_true(compared > seeds / 4);
+}
+
+// --- by hand
+
+#define ROOM_WITH_ROCK "walls 0 0 10 0 10 10 0 10 0 0\nsolid 4 4 6 4 6 6 4 6\n"
+
+/// Subdivides a map text in each way: the status and message that are expected, and whether the
+/// cell at a place is solid (1), open (0) or not asked for (-1).
+static void check_text_map(const char *statements, const char *message, double weld, sl_point at,
+                           int solid) {
+    sl_context *context = testing_context(NULL);
+    char text[2048];
+    snprintf(text, sizeof text, "sightline 1\n%s", statements);
+    for (int kind = KD; kind <= MESH; kind++) {
+        sl_map map = {0};
+        sl_space space = {0};
+        const sl_clean_options clean = {.weld = weld};
+        const sl_subdivide_options rules = sl_subdivide_options_default();
+        assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &map));
+        assert_ok(context, sl_map_clean(context, &map, &clean, NULL));
+        const sl_status status = kind == KD ? sl_subdivide_kd(context, &map, &rules, &space)
+                                            : sl_subdivide_mesh(context, &map, &space);
+        if (message) {
+            assert_int_equal(status, SL_BAD_INPUT);
+            if (!strstr(sl_context_message(context), message))
+                fail_msg("%s: %s", statements, sl_context_message(context));
+        } else {
+            assert_ok(context, status);
+            assert_ok(context, sl_space_check(context, &space));
+            const uint32_t cell = sl_space_locate(&space, at);
+            if (solid >= 0 && space.cells[cell].solid != (uint32_t)solid)
+                fail_msg("%s: solid is not %d", statements, solid);
+            if (solid == 0 && !space.cells[cell].inside) fail_msg("%s: not inside", statements);
+        }
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    sl_context_destroy(context);
+}
+
+static void test_by_hand(void **state) {
+    (void)state;
+    const struct {
+        const char *statements, *message;
+        double x, y;
+        int solid;
+    } cases[] = {
+        {ROOM_WITH_ROCK, NULL, 5, 5, 1},
+        {ROOM_WITH_ROCK "start 4 5 0\n", NULL, 1, 1, 0},     // on the border of rock
+        {ROOM_WITH_ROCK "start 6 6 0\n", NULL, 1, 1, 0},     // in its corner
+        {ROOM_WITH_ROCK "start 0 10 0\n", NULL, 1, 1, 0},    // in the map's corner
+        {ROOM_WITH_ROCK "start 20 20 0\n", NULL, 20, 20, 0}, // beyond the walls
+        {ROOM_WITH_ROCK "start 5 5 0\nstart 1 1 0\n", NULL, 1, 1, 0},
+        {ROOM_WITH_ROCK "start 5 5 0\n", "test:4: the start at 5 5 is in solid ground (line 3)", 0,
+         0, -1},
+        {ROOM_WITH_ROCK "start 5 5 0\nstart 20 20 0\n", "is in solid ground", 0, 0, -1},
+        {ROOM_WITH_ROCK "door d 4 5 6 5\n", "test:4: door d stands in solid ground (line 3)", 0, 0,
+         -1},
+        {ROOM_WITH_ROCK "door d 6 5 10 5\n", NULL, 8, 8, 0},
+        {ROOM_WITH_ROCK "door d 4 4 6 4\n", NULL, 8, 8, 0}, // on a wall: none
+        {ROOM_WITH_ROCK "open 1 1 5 1 5 5 1 5\n", "may not overlap", 0, 0, -1},
+        {ROOM_WITH_ROCK "wall 5 5 5.5 5\n", NULL, 5.2, 5.2, 1},
+        {ROOM_WITH_ROCK "walls 4.5 4.5 5.5 4.5 5.5 5.5 4.5 5.5 4.5 4.5\n", NULL, 5, 5, 1},
+        {ROOM_WITH_ROCK "walls 4.5 4.5 5.5 4.5 5.5 5.5 4.5 5.5 4.5 4.5\nstart 5 5 0\n",
+         "in solid ground", 0, 0, -1},
+        {"solid 0 0 4 0 4 4 0 4\n", NULL, 1, 1, 1}, // all is rock
+        {"solid 0 0 4 0 4 4 0 4\nstart 4 4 0\n", "in solid ground", 0, 0, -1},
+        {"solid 0 0 4 0 4 4 0 4\nopen 1 1 2 1 2 2 1 2\n", NULL, 1.5, 1.5, 0},
+        {"open 0 0 4 0 4 4 0 4\nopen 4 1 8 1 8 3 4 3\n", NULL, 5, 2, 0},
+        {"open 0 0 4 0 4 4 0 4\nsolid 3 1 4 1 4 2 3 2\n", NULL, 3.5, 1.5, 1}, // along a side
+        {"open 0 0 4 0 4 4 0 4\nsolid 3 1 4 1 4 2 3 2\n", NULL, 1, 1, 0},
+        {"open 0 0 4 0 4 4 0 4\nopen 2 1 8 1 8 3 2 3\n", "may not overlap", 0, 0, -1},
+        {"walls 0 0 8 0 8 8 0 8 0 0\nwall 4 0 4 8 solid\n", NULL, 1, 1, 1}, // one wall, no loop
+        {"walls 0 0 8 0 8 8 0 8 0 0\nwall 4 0 4 8 solid\n", NULL, 5, 5, 0},
+        {"walls 0 0 8 0 8 8 0 8 0 0\nwall 4 0 4 7 solid\n", NULL, 5, 5, 1}, // round its end
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        check_text_map(cases[i].statements, cases[i].message, -1,
+                       (sl_point){cases[i].x, cases[i].y}, cases[i].solid);
+}
+
+/// A polygon thinner than the tolerance becomes a wall; the room beside it stays open.
+static void test_welding_closes_thin_polygons(void **state) {
+    (void)state;
+    const char *thin = "walls 0 0 10 0 10 10 0 10 0 0\n"
+                       "solid 5 0 5.05 0 5.05 8 5 8\nsolid 7 7 8 7 8 8 7 8\n";
+    check_text_map(thin, NULL, 0.1, (sl_point){2, 2}, 0);
+    check_text_map(thin, NULL, 0.1, (sl_point){8.5, 8.5}, 0);
+    check_text_map(thin, NULL, 0.1, (sl_point){7.5, 7.5}, 1);
+    // Two polygons that welding brings together are solid on both sides.
+    const char *near = "walls 0 0 10 0 10 10 0 10 0 0\n"
+                       "solid 2 2 5 2 5 8 2 8\nsolid 5.05 2 8 2 8 8 5.05 8\n";
+    check_text_map(near, NULL, 0.1, (sl_point){4, 4}, 1);
+    check_text_map(near, NULL, 0.1, (sl_point){6, 4}, 1);
+    check_text_map(near, NULL, 0.1, (sl_point){1, 1}, 0);
+}
+
+/// A map that is all rock can be written, read, and looked at.
+static void test_all_rock(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_point corners[] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+    sl_map map = {0};
+    sl_baked baked = {0}, back = {0};
+    char path[] = "/tmp/sightline_ground_XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    assert_ok(context, sl_map_add_solid(context, &map, corners, 4, 0));
+    assert_ok(context, sl_bake(context, &map, NULL, &baked, NULL));
+    assert_int_equal(baked.space.inside_count, 0);
+    assert_ok(context, sl_baked_write(context, &baked, path));
+    assert_ok(context, sl_baked_read(context, path, &back));
+    assert_true(sl_baked_same_space(&baked.space, &back.space));
+    assert_int_equal(sl_pvs_pairs(&back.visibility.pvs), 0);
+    sl_baked_destroy(context, &baked);
+    sl_baked_destroy(context, &back);
+    remove(path);
+    sl_context_destroy(context);
+}
+
+/// Corners that are no numbers or too far away are refused, and add nothing.
+static void test_unusable_corners(void **state) {
+    (void)state;
+    const double values[] = {NAN, INFINITY, 1e300, -1e300, 1e-300};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        sl_context *context = testing_context(NULL);
+        const sl_point corners[] = {{0, 0}, {4, 0}, {4, values[i]}};
+        sl_map map = {0};
+        assert_int_equal(sl_map_add_solid(context, &map, corners, 3, 0), SL_BAD_ARGUMENT);
+        assert_int_equal(sl_map_add_open(context, &map, corners, 2, 0), SL_BAD_ARGUMENT);
+        assert_int_equal(map.wall_count, 0);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Without memory everything fails cleanly, wherever it ends.
+static void test_memory(void **state) {
+    (void)state;
+    const char *text = "sightline 1\nwalls 0 0 10 0 10 10 0 10 0 0\nsolid 1 1 6 1 3 4\n"
+                       "solid 2 2 5 2 5 3 2 3\nstart 9 9 0\n";
+    for (long fail_at = 1;; fail_at++) {
+        testing_memory memory = {.fail_at = fail_at};
+        sl_context *context =
+            sl_context_create(&(sl_hooks){.user = &memory, .resize = testing_resize});
+        if (!context) continue;
+        sl_map map = {0};
+        sl_space space = {0};
+        sl_status status = sl_map_read_text(context, "test", text, strlen(text), &map);
+        if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
+        if (status == SL_OK) status = sl_subdivide_mesh(context, &map, &space);
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        if (status == SL_OK) return;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_grids),         cmocka_unit_test(test_grids_on_one_another),
         cmocka_unit_test(test_tiles),         cmocka_unit_test(test_polygons),
         cmocka_unit_test(test_open_polygons), cmocka_unit_test(test_any_corners),
+        cmocka_unit_test(test_methods),       cmocka_unit_test(test_eyes_and_boxes),
+        cmocka_unit_test(test_by_hand),       cmocka_unit_test(test_welding_closes_thin_polygons),
+        cmocka_unit_test(test_all_rock),      cmocka_unit_test(test_unusable_corners),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
