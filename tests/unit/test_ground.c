@@ -728,8 +728,7 @@ static void check_text_map(const char *statements, const char *message, double w
         const sl_status status = kind == KD ? sl_subdivide_kd(context, &map, &rules, &space)
                                             : sl_subdivide_mesh(context, &map, &space);
         if (message) {
-            assert_int_equal(status, SL_BAD_INPUT);
-            if (!strstr(sl_context_message(context), message))
+            if (status != SL_BAD_INPUT || !strstr(sl_context_message(context), message))
                 fail_msg("%s: %s", statements, sl_context_message(context));
         } else {
             assert_ok(context, status);
@@ -758,11 +757,11 @@ static void test_by_hand(void **state) {
         {ROOM_WITH_ROCK "start 0 10 0\n", NULL, 1, 1, 0},    // in the map's corner
         {ROOM_WITH_ROCK "start 20 20 0\n", NULL, 20, 20, 0}, // beyond the walls
         {ROOM_WITH_ROCK "start 5 5 0\nstart 1 1 0\n", NULL, 1, 1, 0},
-        {ROOM_WITH_ROCK "start 5 5 0\n", "test:4: the start at 5 5 is in solid ground (line 3)", 0,
+        {ROOM_WITH_ROCK "start 5 5 0\n", "the map:4: the start at 5 5 is in solid ground (line 3)",
+         0, 0, -1},
+        {ROOM_WITH_ROCK "start 5 5 0\nstart 20 20 0\n", NULL, 20, 20, 0},
+        {ROOM_WITH_ROCK "door d 4 5 6 5\n", "the map:4: door d stands in solid ground (line 3)", 0,
          0, -1},
-        {ROOM_WITH_ROCK "start 5 5 0\nstart 20 20 0\n", "is in solid ground", 0, 0, -1},
-        {ROOM_WITH_ROCK "door d 4 5 6 5\n", "test:4: door d stands in solid ground (line 3)", 0, 0,
-         -1},
         {ROOM_WITH_ROCK "door d 6 5 10 5\n", NULL, 8, 8, 0},
         {ROOM_WITH_ROCK "door d 4 4 6 4\n", NULL, 8, 8, 0}, // on a wall: none
         {ROOM_WITH_ROCK "open 1 1 5 1 5 5 1 5\n", "may not overlap", 0, 0, -1},
