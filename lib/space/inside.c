@@ -9,6 +9,10 @@
 ///     ########:#######:    |        : portal between cells; the ground is the same across
 ///     =================    |
 ///
+/// No wall may say anything of a hole in one polygon that another polygon covers. There, cells are
+/// counted into polygons: how many more cover the left of a wall than its right is known of each
+/// wall (SL_SOLID_BEGINS).
+///
 /// Where solid ground reaches open ground, a door or the only start, the map contradicts itself. If
 /// a reader had guessed the ground, the region is open then. Else the map is refused. Then starts,
 /// or the border, decide what of the rest is inside. No coordinate is computed, so all is exact.
@@ -386,9 +390,10 @@ static void fill(const inside *m, const cover *c) {
 /// with a hole, or plain ones.
 static sl_status add_covered(const inside *m) {
     const sl_space *s = m->space;
-    bool any = false;
+    bool any = false, all_known = true;
+    for (uint32_t i = 0; i < s->cell_count; i++) all_known &= m->solid_by[i] || m->open_by[i];
     for (uint32_t i = 0; i < s->wall_count; i++) any |= sli_ground_begins(s->walls[i].ground) != 0;
-    if (!any || m->map->ground_guessed) return SL_OK;
+    if (all_known || !any || m->map->ground_guessed) return SL_OK;
     const size_t count = (size_t)s->cell_count + 1;
     cover c = {.parent = sl_alloc_array(m->context, count, sizeof *c.parent),
                .more = sl_alloc_array(m->context, count, sizeof *c.more),
