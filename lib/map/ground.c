@@ -218,7 +218,8 @@ typedef struct tracer {
 
 static int compare_sides(const void *left, const void *right) {
     const side *a = left, *b = right;
-    const int order = sli_compare_points(a->from, b->from);
+    int order = sli_compare_points(a->from, b->from);
+    if (!order) order = sli_compare_points(a->to, b->to);
     return order ? order : (a->wall > b->wall) - (a->wall < b->wall);
 }
 

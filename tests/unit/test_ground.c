@@ -566,6 +566,55 @@ static void test_any_corners(void **state) {
     assert_true(taken > count / 100);
 }
 
+/// Walls marked one by one, most of which make no loop: only text and the two ways to subdivide
+/// are held against each other.
+static void test_marked_walls(void **state) {
+    (void)state;
+    const uint64_t count = testing_seeds(1000);
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_context *context = testing_context(NULL);
+        sl_random random = {seed};
+        const transform t = random_transform(&random);
+        sl_map map = {0};
+        const int side = 2 + below(&random, 5), walls = 1 + below(&random, 20);
+        for (int i = 0; i < walls; i++) {
+            corner a = {below(&random, side), below(&random, side)}, b = a;
+            *(below(&random, 2) ? &b.x : &b.y) = below(&random, side);
+            if (seed % 2) b = (corner){below(&random, side), below(&random, side)};
+            add_side(context, &t, a, b, &map);
+            if (below(&random, 3))
+                map.walls[map.wall_count - 1].ground = SL_SOLID_LEFT | SL_SOLID_BEGINS;
+        }
+        sl_map clean = {0};
+        sl_space spaces[3] = {0};
+        assert_ok(context, sl_map_copy(context, &map, &clean));
+        assert_ok(context, sl_map_clean(context, &clean, NULL, NULL));
+        const sl_space *made[3] = {0};
+        for (int kind = KD; kind <= MESH && clean.wall_count; kind++) {
+            if (kind == KD && !sl_map_is_axial(&clean)) continue;
+            subdivide(context, &clean, kind, &spaces[kind]);
+            made[kind] = &spaces[kind];
+        }
+        if (made[KD])
+            for (uint32_t i = 0; i < spaces[KD].cell_count; i++) {
+                const sl_point *v = spaces[KD].vertices + spaces[KD].cells[i].first_vertex;
+                const sl_point middle = {(v[0].x + v[2].x) / 2, (v[0].y + v[2].y) / 2.03125};
+                const uint32_t cell = sl_space_locate(&spaces[MESH], middle);
+                const uint32_t of_kd = sl_space_locate(&spaces[KD], middle);
+                if (cell == SL_NO_CELL || of_kd == SL_NO_CELL) continue;
+                if (spaces[MESH].cells[cell].solid != spaces[KD].cells[of_kd].solid)
+                    fail_map(&map, "kd-tree and mesh differ", seed);
+            }
+        if (clean.wall_count) check_text(context, &map, made, seed);
+        if (clean.wall_count) check_text(context, &clean, made, seed);
+        sl_space_destroy(context, &spaces[KD]);
+        sl_space_destroy(context, &spaces[MESH]);
+        sl_map_destroy(context, &clean);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
 // --- what is seen
 
 /// Random polygons in a room; every other seed gives axial ones.
@@ -866,12 +915,19 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grids),         cmocka_unit_test(test_grids_on_one_another),
-        cmocka_unit_test(test_tiles),         cmocka_unit_test(test_polygons),
-        cmocka_unit_test(test_open_polygons), cmocka_unit_test(test_any_corners),
-        cmocka_unit_test(test_methods),       cmocka_unit_test(test_eyes_and_boxes),
-        cmocka_unit_test(test_by_hand),       cmocka_unit_test(test_welding_closes_thin_polygons),
-        cmocka_unit_test(test_all_rock),      cmocka_unit_test(test_unusable_corners),
+        cmocka_unit_test(test_grids),
+        cmocka_unit_test(test_grids_on_one_another),
+        cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_polygons),
+        cmocka_unit_test(test_open_polygons),
+        cmocka_unit_test(test_any_corners),
+        cmocka_unit_test(test_marked_walls),
+        cmocka_unit_test(test_methods),
+        cmocka_unit_test(test_eyes_and_boxes),
+        cmocka_unit_test(test_by_hand),
+        cmocka_unit_test(test_welding_closes_thin_polygons),
+        cmocka_unit_test(test_all_rock),
+        cmocka_unit_test(test_unusable_corners),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
