@@ -133,7 +133,8 @@ SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, s
 SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_point *corners,
                                   size_t count, uint32_t line);
 /// Adds a polygon of open ground that is cut out of solid ground: its sides as walls with solid
-/// ground outside. As sl_map_add_solid; open polygons may not overlap each other.
+/// ground outside. As sl_map_add_solid; open polygons may not overlap each other. They may share
+/// parts of their sides.
 SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
 /// Adds a door. As sl_map_add_wall.
