@@ -84,12 +84,11 @@ static uint32_t lower_line(uint32_t a, uint32_t b) {
 /// The ground of an edge to which walls were moved. Solid ground on both sides may be two polygons
 /// side by side, or a thin one that is gone. The walls round it will tell (sl_wall.ground).
 static uint32_t sure_ground(uint32_t ground) {
-    const uint32_t both = SL_SOLID_LEFT | SL_SOLID_RIGHT, open = SL_OPEN_LEFT | SL_OPEN_RIGHT;
-    const bool doubtful = (ground & both) == both && (ground & open) != open;
-    return doubtful && sli_ground_begins(ground) == 0 ? 0 : ground;
+    return sli_ground_hides_wall(ground & ~(uint32_t)SLI_GROUND_KEPT) ? ground & SLI_GROUND_KEPT
+                                                                      : ground;
 }
 
-/// Makes a wall of each edge that is part of one.
+/// Makes a wall of each edge that is part of one, but for edges inside of solid ground.
 static sl_status make_walls(maker *m, replacement *out) {
     const sli_planar *graph = &m->graph;
     uint32_t *lines = sl_alloc_array(m->context, graph->edge_count, sizeof *lines);
@@ -114,14 +113,16 @@ static sl_status make_walls(maker *m, replacement *out) {
             moved[edge] |= sli_orient(m->walls[i].a, m->walls[i].b, at.a) ||
                            sli_orient(m->walls[i].a, m->walls[i].b, at.b);
             ground[edge] =
-                sli_ground_joined(ground[edge], graph->links[k] % 2 ? sl_ground_turned(own) : own);
+                sli_ground_joined(ground[edge], graph->links[k] % 2 ? sli_ground_turned(own) : own);
         }
     }
     for (size_t i = 0; i < graph->edge_count && done; i++)
-        if (walled[i])
+        if (moved[i]) ground[i] = sure_ground(ground[i]);
+    for (size_t i = 0; i < graph->edge_count && done; i++)
+        if (walled[i] && !sli_ground_hides_wall(ground[i]))
             out->walls[out->wall_count++] =
                 (sl_wall){graph->points[graph->edges[i].a], graph->points[graph->edges[i].b],
-                          lines[i], moved[i] ? sure_ground(ground[i]) : ground[i]};
+                          lines[i], ground[i] & ~(uint32_t)SLI_GROUND_KEPT};
     sl_free(m->context, lines);
     sl_free(m->context, ground);
     sl_free(m->context, walled);

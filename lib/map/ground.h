@@ -4,11 +4,6 @@
 
 #include "sightline/map.h"
 
-/// The ground of two walls that are one. Both go the same way.
-static inline uint32_t sli_ground_joined(uint32_t a, uint32_t b) {
-    return ((a | b) & 15u) | ((a & ~15u) + (b & ~15u));
-}
-
 /// Whether a wall parts two open polygons, each of which says that the other one is solid.
 static inline bool sli_ground_parts_rooms(uint32_t ground) {
     return ground & SL_OPEN_LEFT && ground & SL_OPEN_RIGHT;
@@ -17,7 +12,29 @@ static inline bool sli_ground_parts_rooms(uint32_t ground) {
 /// How often solid ground begins at a wall, going from its right to its left; below 0 where it
 /// ends.
 static inline int32_t sli_ground_begins(uint32_t ground) {
-    return (int32_t)(ground & ~15u) / SL_SOLID_BEGINS;
+    return (int32_t)(ground & ~(uint32_t)(SL_SOLID_BEGINS - 1)) / SL_SOLID_BEGINS;
+}
+
+/// While a map is cleaned, SLI_GROUND_KEPT is or-ed to the ground of a wall that a mirror is on.
+enum { SLI_GROUND_SIDES = 15, SLI_GROUND_KEPT = 16 };
+
+/// The ground of two walls that are one. Both go the same way.
+static inline uint32_t sli_ground_joined(uint32_t a, uint32_t b) {
+    const uint32_t flags = SL_SOLID_BEGINS - 1;
+    return ((a | b) & flags) | ((a & ~flags) + (b & ~flags));
+}
+
+/// As sl_ground_turned, while a map is cleaned.
+static inline uint32_t sli_ground_turned(uint32_t ground) {
+    return sl_ground_turned(ground) | (ground & SLI_GROUND_KEPT);
+}
+
+/// Whether a wall has solid ground at both sides, and no mirror on it: nobody ever sees it. One at
+/// which solid ground begins is kept, to count how often it does.
+static inline bool sli_ground_hides_wall(uint32_t ground) {
+    const uint32_t both = SL_SOLID_LEFT | SL_SOLID_RIGHT;
+    return (ground & (both | SLI_GROUND_KEPT)) == both && !sli_ground_parts_rooms(ground) &&
+           sli_ground_begins(ground) == 0;
 }
 
 /// Adds a polygon of solid ground, or of open ground, as sl_map_add_solid and sl_map_add_open do;

@@ -142,6 +142,24 @@ static void check_text(sl_context *context, const sl_map *map, const sl_space *c
     free(again);
 }
 
+/// The same of a clean map. Cleaning it again may join walls, where walls in solid ground are gone.
+static void check_clean_text(sl_context *context, const sl_map *map, uint64_t seed) {
+    sl_map again = {0};
+    sl_space spaces[3] = {0};
+    const sl_space *made[3] = {0};
+    assert_ok(context, sl_map_copy(context, map, &again));
+    assert_ok(context, sl_map_clean(context, &again, NULL, NULL));
+    for (int kind = KD; kind <= MESH && again.wall_count; kind++) {
+        if (kind == KD && !sl_map_is_axial(&again)) continue;
+        subdivide(context, &again, kind, &spaces[kind]);
+        made[kind] = &spaces[kind];
+    }
+    check_text(context, map, made, seed);
+    sl_space_destroy(context, &spaces[KD]);
+    sl_space_destroy(context, &spaces[MESH]);
+    sl_map_destroy(context, &again);
+}
+
 /// Cleans a map, subdivides it in each way, asks the oracle, and writes and reads it.
 static void check_map(sl_context *context, const trial *t, sl_random *random) {
     sl_map map = {0};
@@ -156,7 +174,7 @@ static void check_map(sl_context *context, const trial *t, sl_random *random) {
     check_places(t, &mesh, random);
     const sl_space *spaces[3] = {[KD] = axial ? &kd : NULL, [MESH] = &mesh};
     check_text(context, t->read, spaces, t->seed);
-    check_text(context, &map, spaces, t->seed);
+    check_clean_text(context, &map, t->seed);
     sl_space_destroy(context, &kd);
     sl_space_destroy(context, &mesh);
     sl_map_destroy(context, &map);
@@ -606,7 +624,7 @@ static void test_marked_walls(void **state) {
                     fail_map(&map, "kd-tree and mesh differ", seed);
             }
         if (clean.wall_count) check_text(context, &map, made, seed);
-        if (clean.wall_count) check_text(context, &clean, made, seed);
+        if (clean.wall_count) check_clean_text(context, &clean, seed);
         sl_space_destroy(context, &spaces[KD]);
         sl_space_destroy(context, &spaces[MESH]);
         sl_map_destroy(context, &clean);

@@ -18,15 +18,15 @@ enum {
     SL_OPEN_LEFT = 4,   ///< open ground: the map contradicts itself where solid ground reaches it
     SL_OPEN_RIGHT = 8,  ///< as SL_OPEN_LEFT, at the right
     /// Solid ground begins at the wall, going from its right to its left: how often, as a number
-    /// times 16 that may be below 0, in the bits from here on. It tells a hole in a polygon from a
+    /// times 32 that may be below 0, in the bits from here on. It tells a hole in a polygon from a
     /// hole that another polygon covers. Readers of single walls leave it 0.
-    SL_SOLID_BEGINS = 16,
+    SL_SOLID_BEGINS = 32,
 };
 
 /// The ground of a wall whose ends are exchanged.
 static inline uint32_t sl_ground_turned(uint32_t ground) {
     return (ground & (SL_SOLID_LEFT | SL_OPEN_LEFT)) << 1 |
-           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~15u));
+           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~31u));
 }
 
 /// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file; 0
@@ -126,6 +126,9 @@ SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to
 /// (sl_coordinate_usable).
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
+/// Adds copies of walls, with their lines and their ground. As sl_map_add_wall.
+SL_API sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wall *walls,
+                                  size_t count);
 /// Adds a polygon of solid ground: its sides as walls with solid ground at one hand. Corners, at
 /// least 3, go either way round. Solid polygons may overlap, touch and lie in one another: solid is
 /// what any of them covers. SL_BAD_INPUT, with the line, if the polygon has no area or its sides
@@ -204,8 +207,9 @@ typedef struct sl_clean_options {
 SL_API sl_clean_options sl_clean_options_default(void);
 
 /// Makes the walls a planar set: no two of them cross, overlap or touch, except in common ends, by
-/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
-/// sorted by place. All later stages are exact for the clean map.
+/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls with
+/// solid ground at both sides are dropped. Walls are sorted by place. All later stages are exact
+/// for the clean map.
 ///
 /// If all is axial and welding by default would move nothing, no coordinate is computed: walls in
 /// one line that overlap or touch are joined, and walls are split where they cross or touch. Else
