@@ -146,9 +146,12 @@ static loop_kind kind_of(const loop *l) {
 static sl_status find_kind(sl_context *context, const sl_point *corners, size_t count,
                            loop_kind *kind) {
     loop l = {0};
-    const sl_status status = make_loop(context, corners, count, &l);
+    sl_status status = make_loop(context, corners, count, &l);
     *kind = LOOP_FLAT;
-    if (status == SL_OK && l.graph.crossings) {
+    if (status == SL_UNSUPPORTED) { // sides cross again and again, a few steps of doubles apart
+        status = SL_OK;
+        *kind = LOOP_CROSSED;
+    } else if (status == SL_OK && l.graph.crossings) {
         *kind = LOOP_CROSSED;
     } else if (status == SL_OK && l.graph.edge_count) {
         count_turns(&l);
