@@ -29,12 +29,10 @@ static inline uint32_t sli_ground_turned(uint32_t ground) {
     return sl_ground_turned(ground) | (ground & SLI_GROUND_KEPT);
 }
 
-/// Whether a wall has solid ground at both sides, and no mirror on it: nobody ever sees it. One at
-/// which solid ground begins is kept, to count how often it does.
+/// Whether a wall has solid ground at both sides, nothing that contradicts this, and no mirror on
+/// it: nobody ever sees it. One at which solid ground begins is kept, to count how often it does.
 static inline bool sli_ground_hides_wall(uint32_t ground) {
-    const uint32_t both = SL_SOLID_LEFT | SL_SOLID_RIGHT;
-    return (ground & (both | SLI_GROUND_KEPT)) == both && !sli_ground_parts_rooms(ground) &&
-           sli_ground_begins(ground) == 0;
+    return ground == (SL_SOLID_LEFT | SL_SOLID_RIGHT);
 }
 
 /// Adds a polygon of solid ground, or of open ground, as sl_map_add_solid and sl_map_add_open do;
