@@ -16,8 +16,9 @@
 ///     ----+-----------|------      no coordinate is computed: a cut takes the x of one
 ///                     |            wall and the y of the other
 ///
-/// After step 2 there is at most one level of each height at x. So the set is one bit for each
-/// height, with a tree of bits above it to find the next one. Time O((n + k) log n) for k cuts.
+/// After step 2 there is at most one level of each height at x, or two that meet there, of which
+/// the second counts. So the set is one bit for each height, with a tree of bits above it to find
+/// the next one. Time O((n + k) log n) for k cuts.
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/planar.h"
@@ -118,23 +119,24 @@ static sl_status sort_out(cleaning *work, const sl_map *map) {
 }
 
 static bool same_sides(uint32_t a, uint32_t b) {
-    return ((a ^ b) & SLI_GROUND_SIDES) == 0;
+    return ((a ^ b) & ~(uint32_t)SLI_GROUND_KEPT) == 0;
 }
 
 /// Joins sorted pieces of one run: in one line, each overlaps or touches one before it.
 static sl_status join_run(sl_context *context, const piece *run, size_t count, pieces *out,
                           sl_clean_account *account) {
     piece whole = run[0];
-    bool plain_ground = true;
+    bool plain_ground = true, overlap = false;
     for (size_t i = 1; i < count; i++) {
         const bool same = run[i].low == run[i - 1].low && run[i].high == run[i - 1].high;
         *(same ? &account->duplicate : &account->merged) += 1;
+        overlap |= run[i].low < whole.high;
         if (run[i].high > whole.high) whole.high = run[i].high;
         whole.line = lower_line(whole.line, run[i].line);
         plain_ground &= same_sides(run[i].ground, whole.ground);
         whole.ground |= run[i].ground & SLI_GROUND_KEPT;
     }
-    if (plain_ground)
+    if (plain_ground && !(overlap && sli_ground_begins(whole.ground)))
         return sli_ground_hides_wall(whole.ground) ? SL_OK : add_piece(context, out, whole);
     // The next piece to end, or to begin, ends the part that begins at `low`.
     const size_t first = out->count;
@@ -153,7 +155,7 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
             const piece *p = &active.items[i];
             if (p->high <= low) continue;
             part.high = fmin(part.high, p->high);
-            part.ground |= p->ground;
+            part.ground = sli_ground_joined(part.ground, p->ground);
             part.line = kept ? lower_line(part.line, p->line) : p->line;
             active.items[kept++] = *p;
         }
@@ -163,6 +165,7 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
         if (sli_ground_hides_wall(part.ground)) continue;
         if (last && same_sides(last->ground, part.ground) && last->high == part.low) {
             last->high = part.high;
+            last->ground |= part.ground & SLI_GROUND_KEPT;
             last->line = lower_line(last->line, part.line);
         } else if (status == SL_OK)
             status = add_piece(context, out, part);
@@ -201,7 +204,7 @@ static void drop_duplicates(oblique_walls *list, sl_clean_account *account) {
         if (sli_compare_points(last->a, next->a) == 0 &&
             sli_compare_points(last->b, next->b) == 0) {
             account->duplicate++;
-            list->items[kept].ground |= next->ground;
+            list->items[kept].ground = sli_ground_joined(last->ground, next->ground);
         } else
             list->items[++kept] = *next;
     }
@@ -328,7 +331,10 @@ static void advance(sweeper *sweep, size_t count, double x) {
             sweep->here[sweep->rank[level]] = level;
             add_rank(&sweep->active, sweep->rank[level]);
         } else {
-            remove_rank(&sweep->active, sweep->rank[sweep->outs[sweep->out++].level]);
+            const size_t level = sweep->outs[sweep->out++].level;
+            // Another one, with other ground beside it, may have begun where this one ends.
+            if (sweep->here[sweep->rank[level]] == level)
+                remove_rank(&sweep->active, sweep->rank[level]);
         }
     }
 }
@@ -411,7 +417,7 @@ static sl_status clean_axial(cleaning *work, sl_map *map) {
     // The sweep leaves the uprights in order.
     if (levels->count) qsort(levels->items, levels->count, sizeof(piece), compare_pieces);
     SL_TRY(list_walls(work, uprights, levels, &walls, &count));
-    for (size_t i = 0; i < count; i++) walls[i].ground &= SLI_GROUND_SIDES;
+    for (size_t i = 0; i < count; i++) walls[i].ground &= ~(uint32_t)SLI_GROUND_KEPT;
     sl_free(work->context, map->walls);
     map->walls = walls;
     map->wall_count = map->wall_room = work->account.after = count;

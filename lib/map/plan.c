@@ -59,7 +59,8 @@ static uint32_t line_of(const sli_grid *grid, size_t row) {
 static uint32_t ground_between(const sli_grid *grid, bool left, bool right) {
     if (left == right) return 0;
     const uint32_t open = grid->sure ? SL_OPEN_RIGHT : 0;
-    return left ? SL_SOLID_LEFT | open : sl_ground_turned(SL_SOLID_LEFT | open);
+    const uint32_t ground = SL_SOLID_LEFT | SL_SOLID_BEGINS | open;
+    return left ? ground : sl_ground_turned(ground);
 }
 
 static sl_status add_marked(sl_context *context, const sli_grid *grid, sl_point a, sl_point b,

@@ -42,7 +42,8 @@ static sl_status read_wall(text_reader *reader) {
                           sli_show(reader->words.items[4]).text);
     const sl_segment at = segment_of(reader);
     SL_TRY(sl_map_add_wall(reader->context, reader->map, at.a, at.b, reader->line));
-    if (solid) reader->map->walls[reader->map->wall_count - 1].ground = SL_SOLID_LEFT;
+    if (solid)
+        reader->map->walls[reader->map->wall_count - 1].ground = SL_SOLID_LEFT | SL_SOLID_BEGINS;
     return SL_OK;
 }
 
@@ -456,15 +457,25 @@ static sl_status print_solid_wall(void *user, sl_point from, sl_point to) {
     return SL_OK;
 }
 
+static sl_status print_plain_wall(void *user, sl_point from, sl_point to) {
+    FILE *stream = user;
+    fprintf(stream, "wall");
+    print_ends(stream, from, to);
+    fprintf(stream, "\n");
+    return SL_OK;
+}
+
 /// Walls without solid ground beside them; then solid ground, whose outline is wall.
 static sl_status print_walls(sl_context *context, const sl_map *map, FILE *stream) {
     for (size_t i = 0; i < map->wall_count; i++) {
-        if (map->walls[i].ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)) continue;
-        fprintf(stream, "wall");
-        print_ends(stream, map->walls[i].a, map->walls[i].b);
-        fprintf(stream, "\n");
+        const sl_wall *wall = &map->walls[i];
+        const bool solid = wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT);
+        if (solid && !sli_ground_parts_rooms(wall->ground)) continue;
+        SL_TRY(print_plain_wall(stream, wall->a, wall->b));
     }
-    const sli_loop_user user = {stream, print_polygon, print_solid_wall};
+    const sli_loop_user plain = {.user = stream, .plain = print_plain_wall};
+    const sli_loop_user user = {stream, print_polygon, print_solid_wall, NULL};
+    SL_TRY(sli_ground_trace(context, map->walls, map->wall_count, &plain));
     return sli_ground_trace(context, map->walls, map->wall_count, &user);
 }
 

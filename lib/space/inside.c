@@ -9,6 +9,10 @@
 ///     ########:#######:    |        : portal between cells; the ground is the same across
 ///     =================    |
 ///
+/// No wall may say anything of a hole in one polygon that another polygon covers. There, cells are
+/// counted into polygons: how many more cover the left of a wall than its right is known of each
+/// wall (SL_SOLID_BEGINS).
+///
 /// Where solid ground reaches open ground, a door or the only start, the map contradicts itself. If
 /// a reader had guessed the ground, the region is open then. Else the map is refused. Then starts,
 /// or the border, decide what of the rest is inside. No coordinate is computed, so all is exact.
@@ -16,9 +20,14 @@
 #include "space/kd_tree.h"
 
 #include "geometry/orient.h"
+#include "map/ground.h"
 #include "sightline/support.h"
 
 #include <math.h>
+#include <string.h>
+
+/// What makes a cell solid: not a wall beside it, but polygons that cover it.
+#define COVERED UINT32_MAX
 
 typedef struct inside {
     sl_context *context;
@@ -28,6 +37,7 @@ typedef struct inside {
     uint32_t *solid_by; ///< by cell: 1 + a wall that says solid, 0 for none
     uint32_t *open_by;  ///< by cell: 1 + a wall that says open, 0 for none
     uint32_t *stack;    ///< cells
+    uint32_t *beside;   ///< by wall: a cell at its left, and one at its right; SL_NO_CELL for none
 } inside;
 
 static const char *source_of(const inside *m) {
@@ -36,11 +46,22 @@ static const char *source_of(const inside *m) {
 
 // --- the ground that walls say
 
+/// The ground of a wall that several polygons share. Two open ones, one on each side, say of each
+/// other that it is solid: both are open. A solid one in an open one, along its side, is solid.
+static uint32_t settled(uint32_t ground, bool guessed) {
+    if (sli_ground_parts_rooms(ground)) return SL_OPEN_LEFT | SL_OPEN_RIGHT;
+    if (guessed) return ground;
+    if (ground & SL_SOLID_LEFT) ground &= ~(uint32_t)SL_OPEN_LEFT;
+    if (ground & SL_SOLID_RIGHT) ground &= ~(uint32_t)SL_OPEN_RIGHT;
+    return ground;
+}
+
 /// Notes what a wall says of a cell at its left or right.
 static void say(inside *m, uint32_t cell, uint32_t wall, bool left) {
-    const uint32_t ground = m->space->walls[wall].ground;
+    const uint32_t ground = settled(m->space->walls[wall].ground, m->map->ground_guessed);
     const bool open = ground & (left ? SL_OPEN_LEFT : SL_OPEN_RIGHT);
     const bool solid = ground & (left ? SL_SOLID_LEFT : SL_SOLID_RIGHT);
+    m->beside[2 * (size_t)wall + !left] = cell;
     if (open) m->open_by[cell] = wall + 1;
     // Two lines of a Doom map may lie back to back: each is in front of the other's void.
     if (solid && !(open && m->map->ground_guessed)) m->solid_by[cell] = wall + 1;
@@ -136,13 +157,12 @@ void sli_ground_of_cells(sl_space *s) {
 static bool say_all(inside *m) {
     bool any = false;
     for (uint32_t i = 0; i < m->space->wall_count; i++) any |= m->space->walls[i].ground != 0;
+    memset(m->beside, 0xff, 2 * (size_t)m->space->wall_count * sizeof *m->beside);
     if (!any || m->space->neighbour) {
         if (any) say_mesh(m);
         return any;
     }
     for (uint32_t i = 0; i < m->space->wall_count; i++) {
-        const uint32_t ground = m->space->walls[i].ground;
-        if (!ground) continue;
         say_down(m, i, true);
         say_down(m, i, false);
     }
@@ -166,6 +186,14 @@ static void flood(const inside *m, uint32_t *values, size_t count) {
     }
 }
 
+/// Puts all cells that have a value on the stack.
+static size_t take(const inside *m, const uint32_t *values) {
+    size_t count = 0;
+    for (uint32_t i = 0; i < m->space->cell_count; i++)
+        if (values[i]) m->stack[count++] = i;
+    return count;
+}
+
 /// Makes the region of a cell open, where a reader had guessed that it is solid.
 static void reopen(const inside *m, uint32_t cell) {
     size_t count = 0;
@@ -183,8 +211,9 @@ static void reopen(const inside *m, uint32_t cell) {
 
 /// " (line 3)", the line of the wall that makes a cell solid.
 static const char *by_line(const inside *m, uint32_t cell, char text[32]) {
-    const uint32_t line = m->space->walls[m->solid_by[cell] - 1].line;
     text[0] = '\0';
+    if (m->solid_by[cell] == COVERED) return text;
+    const uint32_t line = m->space->walls[m->solid_by[cell] - 1].line;
     if (line) snprintf(text, 32, " (line %u)", (unsigned)line);
     return text;
 }
@@ -325,15 +354,116 @@ static bool open_to_border(const inside *m, const sl_cell *cell) {
            (max.y == b->max.y && !sli_wall_lines_cover(walls, count, 1, max.y, min.x, max.x));
 }
 
+// --- what polygons cover
+
+/// How often solid polygons cover each cell. A portal changes nothing, and a wall what its ground
+/// says. So all is known but for a constant: a union-find of cells, each with the difference to its
+/// parent. The last member is what lies beyond the bounds.
+typedef struct cover {
+    uint32_t *parent;
+    int32_t *more; ///< than the parent
+    uint32_t *size;
+} cover;
+
+static uint32_t find_root(const cover *c, uint32_t at, int32_t *more) {
+    for (*more = 0; c->parent[at] != at; at = c->parent[at]) *more += c->more[at];
+    return at;
+}
+
+/// `a` is covered `more` times more than `b`; false where it is known to be otherwise.
+static bool join(cover *c, uint32_t a, uint32_t b, int32_t more) {
+    int32_t of_a, of_b;
+    const uint32_t root_a = find_root(c, a, &of_a), root_b = find_root(c, b, &of_b);
+    if (root_a == root_b) return of_a == of_b + more;
+    const bool under_b = c->size[root_a] < c->size[root_b];
+    const uint32_t root = under_b ? root_b : root_a, child = under_b ? root_a : root_b;
+    c->more[child] = under_b ? of_b + more - of_a : of_a - more - of_b;
+    c->parent[child] = root;
+    c->size[root] += c->size[child];
+    return true;
+}
+
+/// False where walls contradict each other, as single marked walls do that make no loop.
+static bool join_all(const inside *m, cover *c) {
+    const sl_space *s = m->space;
+    const uint32_t beyond = s->cell_count;
+    bool sound = true;
+    for (uint32_t i = 0; i <= beyond; i++) {
+        c->parent[i] = i;
+        c->size[i] = 1;
+    }
+    for (uint32_t i = 0; i < s->portal_count && sound; i++)
+        sound = join(c, s->portals[i].cell[0], s->portals[i].cell[1], 0);
+    for (uint32_t i = 0; i < s->wall_count && sound; i++) {
+        const uint32_t *beside = &m->beside[2 * (size_t)i];
+        sound = join(c, beside[0] == SL_NO_CELL ? beyond : beside[0],
+                     beside[1] == SL_NO_CELL ? beyond : beside[1],
+                     sli_ground_begins(s->walls[i].ground));
+    }
+    for (uint32_t i = 0; i < beyond && sound; i++)
+        if (open_to_border(m, &s->cells[i])) sound = join(c, i, beyond, 0);
+    return sound;
+}
+
+/// Whether a wall on the border says that it is solid beyond.
+static bool solid_beyond(const inside *m) {
+    for (uint32_t i = 0; i < m->space->wall_count; i++) {
+        const uint32_t ground = m->space->walls[i].ground, *beside = &m->beside[2 * (size_t)i];
+        if ((beside[0] == SL_NO_CELL && ground & SL_SOLID_LEFT) ||
+            (beside[1] == SL_NO_CELL && ground & SL_SOLID_RIGHT))
+            return true;
+    }
+    return false;
+}
+
+/// Makes solid what no wall says anything of, and what is covered more often than the least covered
+/// place is.
+static void fill(const inside *m, const cover *c) {
+    const uint32_t beyond = m->space->cell_count;
+    int32_t least, most, more;
+    const uint32_t root = find_root(c, beyond, &least);
+    if (solid_beyond(m)) least--;
+    most = least;
+    for (uint32_t i = 0; i < beyond; i++) {
+        if (find_root(c, i, &more) != root) return;
+        if (more < least) least = more;
+        if (more > most) most = more;
+    }
+    for (uint32_t i = 0; i < beyond && most > least; i++) {
+        find_root(c, i, &more);
+        if (more > least && !m->solid_by[i] && !m->open_by[i]) m->solid_by[i] = COVERED;
+    }
+}
+
+/// Ground in a polygon may have walls around it that say nothing of it: those of another polygon
+/// with a hole, or plain ones.
+static sl_status add_covered(const inside *m) {
+    const sl_space *s = m->space;
+    bool any = false, all_known = true;
+    for (uint32_t i = 0; i < s->cell_count; i++) all_known &= m->solid_by[i] || m->open_by[i];
+    for (uint32_t i = 0; i < s->wall_count; i++) any |= sli_ground_begins(s->walls[i].ground) != 0;
+    if (all_known || !any || m->map->ground_guessed) return SL_OK;
+    const size_t count = (size_t)s->cell_count + 1;
+    cover c = {.parent = sl_alloc_array(m->context, count, sizeof *c.parent),
+               .more = sl_alloc_array(m->context, count, sizeof *c.more),
+               .size = sl_alloc_array(m->context, count, sizeof *c.size)};
+    const bool done = c.parent && c.more && c.size;
+    if (done && join_all(m, &c)) fill(m, &c);
+    sl_free(m->context, c.parent);
+    sl_free(m->context, c.more);
+    sl_free(m->context, c.size);
+    return done ? SL_OK : SL_NO_MEMORY;
+}
+
 // --- all of it
 
 static sl_status mark(inside *m, uint32_t *reached) {
     sl_space *s = m->space;
     size_t count = 0, reopened = 0;
     if (say_all(m)) {
-        for (uint32_t i = 0; i < s->cell_count; i++)
-            if (m->solid_by[i]) m->stack[count++] = i;
-        flood(m, m->solid_by, count);
+        flood(m, m->solid_by, take(m, m->solid_by));
+        flood(m, m->open_by, take(m, m->open_by));
+        SL_TRY(add_covered(m));
         SL_TRY(settle_open(m, &reopened));
         SL_TRY(settle_doors(m, &reopened));
     }
@@ -372,12 +502,14 @@ sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piec
     m.solid_by = sl_alloc_array(context, cells, sizeof *m.solid_by);
     m.open_by = sl_alloc_array(context, cells, sizeof *m.open_by);
     m.stack = sl_alloc_array(context, room, sizeof *m.stack);
-    const bool done = reached && m.solid_by && m.open_by && m.stack;
+    m.beside = sl_alloc_array(context, space->wall_count, 2 * sizeof *m.beside);
+    const bool done = reached && m.solid_by && m.open_by && m.stack && m.beside;
     const sl_status status = done ? mark(&m, reached) : SL_NO_MEMORY;
     sl_free(context, reached);
     sl_free(context, m.solid_by);
     sl_free(context, m.open_by);
     sl_free(context, m.stack);
+    sl_free(context, m.beside);
     return status;
 }
 

@@ -21,6 +21,7 @@
 #include "space/mesh.h"
 
 #include "geometry/orient.h"
+#include "map/ground.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
@@ -309,8 +310,9 @@ static sl_status take_walls(merger *m, const sl_map *map, const sli_mesh_lines *
                 continue;
             }
             sl_wall *first = &s->walls[e->wall - 1];
-            first->ground |=
-                sli_same_point(first->a, at.a) ? wall->ground : sl_ground_turned(wall->ground);
+            const bool same = sli_same_point(first->a, at.a);
+            first->ground = sli_ground_joined(first->ground,
+                                              same ? wall->ground : sl_ground_turned(wall->ground));
         }
     return SL_OK;
 }

@@ -10,18 +10,23 @@ extern "C" {
 #endif
 
 /// What the ground beside a wall is, as bits of sl_wall.ground; left and right going from a to b.
-/// Unmarked ground is open unless solid ground reaches it without a wall between.
+/// Unmarked ground is open unless solid ground reaches it without a wall between, or polygons of
+/// solid ground cover it.
 enum {
     SL_SOLID_LEFT = 1,  ///< solid ground, such as rock: nobody stands there
     SL_SOLID_RIGHT = 2, ///< as SL_SOLID_LEFT, at the right
     SL_OPEN_LEFT = 4,   ///< open ground: the map contradicts itself where solid ground reaches it
     SL_OPEN_RIGHT = 8,  ///< as SL_OPEN_LEFT, at the right
+    /// Solid ground begins at the wall, going from its right to its left: how often, as a number
+    /// times 32 that may be below 0, in the bits from here on. It tells a hole in a polygon from a
+    /// hole that another polygon covers. Readers of single walls leave it 0.
+    SL_SOLID_BEGINS = 32,
 };
 
 /// The ground of a wall whose ends are exchanged.
 static inline uint32_t sl_ground_turned(uint32_t ground) {
     return (ground & (SL_SOLID_LEFT | SL_OPEN_LEFT)) << 1 |
-           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1;
+           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~31u));
 }
 
 /// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file; 0
@@ -131,7 +136,8 @@ SL_API sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wal
 SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_point *corners,
                                   size_t count, uint32_t line);
 /// Adds a polygon of open ground that is cut out of solid ground: its sides as walls with solid
-/// ground outside. As sl_map_add_solid; open polygons may not overlap each other.
+/// ground outside. As sl_map_add_solid; open polygons may not overlap each other. They may share
+/// parts of their sides.
 SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
 /// Adds a door. As sl_map_add_wall.

@@ -89,8 +89,8 @@ typedef struct sl_seam_portal {
 /// sides.
 ///
 /// What is inside is decided in this order, cell by cell:
-/// 1. Solid ground is not inside. It is what the ground beside walls says (sl_wall.ground), and all
-///    that portals connect with it.
+/// 1. Solid ground is not inside. It is what the ground beside walls says (sl_wall.ground), what
+///    solid polygons cover, and all that portals connect with it.
 /// 2. With starts, cells that portals connect with a start are inside.
 /// 3. Without starts, cells that portals do not connect with the border of the bounds are inside.
 /// 4. If that leaves none, all cells that are not solid are inside.
