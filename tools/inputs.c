@@ -125,6 +125,7 @@ static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map
     for (uint32_t i = 0; i < space->wall_count && status == SL_OK; i++) {
         const sl_wall *wall = &space->walls[i];
         status = sl_map_add_wall(context, &baked.map, wall->a, wall->b, wall->line);
+        if (status == SL_OK) baked.map.walls[baked.map.wall_count - 1].ground = wall->ground;
     }
     if (status == SL_OK) {
         *map = baked.map;
@@ -160,6 +161,24 @@ sl_status input_fail_outside(sl_context *context, const char *name, const char *
     for (int i = 0; i < 4; i++) sl_number_write(values[i], numbers[i]);
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s",
                    name, text, numbers[0], numbers[1], numbers[2], numbers[3]);
+}
+
+sl_status input_locate(sl_context *context, const char *name, const char *text,
+                       const sl_space *space, sl_point at, uint32_t *cell) {
+    const uint32_t found = sl_space_locate(space, at);
+    if (cell) *cell = found;
+    if (found == SL_NO_CELL) return input_fail_outside(context, name, text, space->bounds);
+    if (!space->cells[found].solid) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s %s: the point is in solid ground; choose a point in a room", name, text);
+}
+
+size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
+    for (; from < map->start_count; from++) {
+        const uint32_t cell = sl_space_locate(space, map->starts[from].at);
+        if (cell == SL_NO_CELL || !space->cells[cell].solid) break;
+    }
+    return from;
 }
 
 // --- doors

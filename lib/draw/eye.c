@@ -272,6 +272,7 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     y += sli_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
                            page->inner, page->text, paint);
     y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
+    y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
 }
 

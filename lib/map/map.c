@@ -263,9 +263,11 @@ size_t sl_map_count_oblique(const sl_map *map) {
 // --- copies
 
 static sl_status copy_walls(sl_context *context, const sl_map *from, sl_map *to) {
-    for (size_t i = 0; i < from->wall_count; i++)
-        SL_TRY(
-            sl_map_add_wall(context, to, from->walls[i].a, from->walls[i].b, from->walls[i].line));
+    for (size_t i = 0; i < from->wall_count; i++) {
+        const sl_wall *wall = &from->walls[i];
+        SL_TRY(sl_map_add_wall(context, to, wall->a, wall->b, wall->line));
+        to->walls[i].ground = wall->ground;
+    }
     return SL_OK;
 }
 
@@ -314,8 +316,10 @@ static sl_status copy_things(sl_context *context, const sl_map *from, sl_map *to
 }
 
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
-    sl_map map = {
-        .precision = from->precision, .range = from->range, .range_line = from->range_line};
+    sl_map map = {.precision = from->precision,
+                  .range = from->range,
+                  .range_line = from->range_line,
+                  .ground_guessed = from->ground_guessed};
     sl_status status = copy_walls(context, from, &map);
     if (status == SL_OK) status = copy_effects(context, from, &map);
     if (status == SL_OK) status = copy_cells(context, from, &map);

@@ -66,6 +66,7 @@ typedef struct sl_colour {
 /// The colours of a picture.
 typedef struct sl_palette {
     sl_colour page, ground, hatch;   ///< paper, what is outside, the lines over it
+    sl_colour solid;                 ///< solid ground
     sl_colour floor[SL_TONES];       ///< cells
     sl_colour seen[SL_TONES];        ///< cells that the chosen cell sees
     sl_colour source, source_edge;   ///< the chosen cell
