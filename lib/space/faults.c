@@ -293,14 +293,17 @@ static bool inside_is_open(const sl_space *space, const border *edge) {
     return false;
 }
 
-static double inside_share(const sl_space *space) {
-    double all = 0, inside = 0;
+sl_ground_shares sl_space_ground(const sl_space *space) {
+    sl_ground_shares areas = {0};
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const double area = sl_space_area(space, i);
-        all += area;
-        if (space->cells[i].inside) inside += area;
+        const sl_cell *cell = &space->cells[i];
+        *(cell->solid    ? &areas.solid
+          : cell->inside ? &areas.inside
+                         : &areas.outside) += sl_space_area(space, i);
     }
-    return inside / all;
+    const double all = areas.inside + areas.outside + areas.solid;
+    if (!(all > 0)) return areas;
+    return (sl_ground_shares){areas.inside / all, areas.outside / all, areas.solid / all};
 }
 
 /// Without a start, all cells count as inside where the border leads to all of them.
@@ -312,7 +315,9 @@ sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space
     destroy_border(context, &edge);
     *out = SL_INSIDE_SURE;
     if (map->start_count && open) *out = SL_INSIDE_LEAKS;
-    if (!map->start_count && (open || inside_share(space) < 0.5)) *out = SL_INSIDE_SMALL;
+    const sl_ground_shares shares = sl_space_ground(space);
+    if (!map->start_count && (open || shares.inside < shares.outside)) *out = SL_INSIDE_SMALL;
+    if (!space->inside_count) *out = SL_INSIDE_NONE;
     return SL_OK;
 }
 

@@ -73,15 +73,24 @@ typedef struct sl_faults_options {
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
 
+/// Shares of the area of a space: 0 to 1, together 1.
+typedef struct sl_ground_shares {
+    double inside, outside, solid;
+} sl_ground_shares;
+
+/// The shares of a space's inside, outside and solid ground.
+SL_API sl_ground_shares sl_space_ground(const sl_space *space);
+
 /// Whether it is in doubt what is inside.
 typedef enum sl_inside {
     SL_INSIDE_SURE,
     SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
-    SL_INSIDE_SMALL, ///< there is no start, and less than half of the bounds is inside
+    SL_INSIDE_SMALL, ///< there is no start, and less than half of what is not solid is inside
+    SL_INSIDE_NONE,  ///< all is solid ground
 } sl_inside;
 
-/// Looks at the cells alone, in a time of about O(n): sl_find_faults tells where. `space` was made
-/// from `map`.
+/// Looks at the cells alone, in a time of about O(n): sl_find_faults finds the places. `space` was
+/// made from `map`.
 SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                  sl_inside *out);
 
