@@ -488,14 +488,7 @@ static sl_status check_options(sl_context *context, const sl_baked *baked,
     if (options->layers & ~(unsigned)ALL_LAYERS)
         return sl_fail(context, SL_BAD_ARGUMENT, "layers 0x%x: only 0x%x are known",
                        options->layers, ALL_LAYERS);
-    if (options->cell != SL_NO_CELL && options->cell >= baked->space.cell_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", options->cell,
-                       baked->space.cell_count);
-    if (options->cell != SL_NO_CELL && baked->space.cells[options->cell].solid)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "cell %u is solid ground, from where nobody looks: choose a cell in a room",
-                       options->cell);
-    return SL_OK;
+    return sli_scene_check_cell(context, baked, options->cell);
 }
 
 static strip strip_at(const sli_page *page, double top, bool paint) {

@@ -319,6 +319,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = sl_space_locate(&baked->space, view->eye);
+    if (plain.cell != SL_NO_CELL && baked->space.cells[plain.cell].solid) plain.cell = SL_NO_CELL;
     eye_picture p = {.view = view,
                      .layers = layers,
                      .layer_count = layer_count,

@@ -299,12 +299,22 @@ void sli_scene_clear(sl_context *context, sl_scene *scene) {
     memset(scene, 0, sizeof *scene);
 }
 
+sl_status sli_scene_check_cell(sl_context *context, const sl_baked *baked, uint32_t cell) {
+    if (cell == SL_NO_CELL) return SL_OK;
+    if (cell >= baked->space.cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", cell,
+                       baked->space.cell_count);
+    if (baked->space.cells[cell].solid)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "cell %u is solid ground, from where nobody looks: choose a cell in a room",
+                       cell);
+    return SL_OK;
+}
+
 sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
                           const sl_draw_options *options, const sl_stab_trees *trees,
                           sl_scene **out) {
-    if (options->cell != SL_NO_CELL && options->cell >= baked->space.cell_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", options->cell,
-                       baked->space.cell_count);
+    SL_TRY(sli_scene_check_cell(context, baked, options->cell));
     sl_scene *scene = sl_alloc_array(context, 1, sizeof *scene);
     if (!scene) return SL_NO_MEMORY;
     const sl_status status = sli_scene_make(context, baked, options, trees, scene);

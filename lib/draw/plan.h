@@ -84,6 +84,9 @@ sl_status sli_scene_make(sl_context *context, const sl_baked *baked, const sl_dr
                          const sl_stab_trees *trees, sl_scene *out);
 void sli_scene_clear(sl_context *context, sl_scene *scene);
 
+/// SL_BAD_ARGUMENT for a chosen cell that the map does not have, and for solid ground.
+sl_status sli_scene_check_cell(sl_context *context, const sl_baked *baked, uint32_t cell);
+
 /// Whether a cell is of the group that is shown. Never true of solid ground.
 bool sli_scene_shows(const sl_scene *scene, uint32_t cell);
 
