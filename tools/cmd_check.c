@@ -318,7 +318,7 @@ static void add_counts(json_fields *fields, const char *key,
 }
 
 static sl_status faults_print_json(sl_context *context, const faults_report *report) {
-    static const char *const inside[] = {"sure", "leaks", "doubtful", "none"};
+    static const char *const inside[] = {"sure", "leaks", "doubtful", "few", "none"};
     const checked *found = report->found;
     const uint32_t count = found->faults.count;
     json_fields fields = json_begin();

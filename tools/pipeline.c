@@ -159,6 +159,11 @@ sl_status pipeline_note_inside(sl_context *context, const char *path, const sl_m
                 "the map has no start, and walls enclose nothing, so all of it counts as inside; "
                 "add a start: sightline check %s --start X,Y",
                 path);
+    if (doubt == SL_INSIDE_FEW)
+        sl_note(context,
+                "a start reaches %.2g %% of the area, and rooms that no start reaches have more; "
+                "they count as outside; sightline check %s lists them, --start X,Y adds a start",
+                100 * shares.inside, path);
     if (doubt == SL_INSIDE_NONE)
         sl_note(context,
                 "all of the map is solid ground, so nothing is inside; to see it, run: "

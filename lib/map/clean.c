@@ -2,7 +2,7 @@
 ///
 /// 1. Walls are sorted into uprights, levels and oblique ones; walls of no length are dropped.
 /// 2. Uprights and levels in one line that overlap or touch are joined where the ground beside them
-///    is the same; copies are dropped.
+///    is the same; copies are dropped, and walls inside of solid ground.
 /// 3. With nothing oblique, a sweep cuts walls where they cross or touch. Else the walls, together
 ///    with all else that the map holds, become one planar graph (clean_oblique.c). So they do where
 ///    ends of axial walls miss each other by no more than the tolerance.
@@ -19,6 +19,7 @@
 /// After step 2 there is at most one level of each height at x. So the set is one bit for each
 /// height, with a tree of bits above it to find the next one. Time O((n + k) log n) for k cuts.
 #include "geometry/orient.h"
+#include "map/ground.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -29,7 +30,7 @@
 typedef struct piece {
     double at, low, high;
     uint32_t line;
-    uint32_t ground; ///< as of a wall from low to high
+    uint32_t ground; ///< as of a wall from low to high; SLI_GROUND_KEPT for a mirror's
     bool cut;
 } piece;
 
@@ -93,7 +94,7 @@ static sl_status sort_in(cleaning *work, sl_wall wall) {
         work->account.zero_length++;
         return SL_OK;
     }
-    if (order > 0) wall = (sl_wall){wall.b, wall.a, wall.line, sl_ground_turned(wall.ground)};
+    if (order > 0) wall = (sl_wall){wall.b, wall.a, wall.line, sli_ground_turned(wall.ground)};
     if (wall.a.x == wall.b.x)
         return add_piece(work->context, &work->uprights,
                          (piece){wall.a.x, wall.a.y, wall.b.y, wall.line, wall.ground, false});
@@ -110,8 +111,8 @@ static sl_status sort_out(cleaning *work, const sl_map *map) {
     for (size_t i = 0; i < map->wall_count; i++) SL_TRY(sort_in(work, map->walls[i]));
     for (size_t i = 0; i < map->mirror_count; i++) {
         const sl_glass *mirror = &map->mirrors[i];
-        SL_TRY(
-            sort_in(work, (sl_wall){mirror->segment.a, mirror->segment.b, .line = mirror->line}));
+        SL_TRY(sort_in(
+            work, (sl_wall){mirror->segment.a, mirror->segment.b, mirror->line, SLI_GROUND_KEPT}));
     }
     return SL_OK;
 }
@@ -128,7 +129,8 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
         whole.line = lower_line(whole.line, run[i].line);
         plain_ground &= run[i].ground == whole.ground;
     }
-    if (plain_ground) return add_piece(context, out, whole);
+    if (plain_ground)
+        return sli_ground_hides_wall(whole.ground) ? SL_OK : add_piece(context, out, whole);
     // The next piece to end, or to begin, ends the part that begins at `low`.
     const size_t first = out->count;
     SL_ARRAY(piece) active = {0};
@@ -153,14 +155,15 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
         active.count = kept;
         low = part.high;
         piece *last = out->count > first ? &out->items[out->count - 1] : NULL;
-        if (last && last->ground == part.ground) {
+        if (sli_ground_hides_wall(part.ground)) continue;
+        if (last && last->ground == part.ground && last->high == part.low) {
             last->high = part.high;
             last->line = lower_line(last->line, part.line);
         } else if (status == SL_OK)
             status = add_piece(context, out, part);
     }
     sl_free(context, active.items);
-    const size_t more = out->count - first - 1;
+    const size_t more = out->count > first ? out->count - first - 1 : 0;
     account->merged -= more < account->merged ? more : account->merged;
     return status;
 }
@@ -403,6 +406,7 @@ static sl_status clean_axial(cleaning *work, sl_map *map) {
     // The sweep leaves the uprights in order.
     if (levels->count) qsort(levels->items, levels->count, sizeof(piece), compare_pieces);
     SL_TRY(list_walls(work, uprights, levels, &walls, &count));
+    for (size_t i = 0; i < count; i++) walls[i].ground &= SLI_GROUND_SIDES;
     sl_free(work->context, map->walls);
     map->walls = walls;
     map->wall_count = map->wall_room = work->account.after = count;

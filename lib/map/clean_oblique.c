@@ -10,6 +10,7 @@
 /// a door that is shut is as tight as a wall. What the map holds is then replaced by its chains: an
 /// edge of a wall is a wall, a piece of glass becomes several, a door gets parts, a cell gets
 /// corners.
+#include "map/ground.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -79,7 +80,7 @@ static uint32_t lower_line(uint32_t a, uint32_t b) {
     return a - 1 <= b - 1 ? a : b;
 }
 
-/// Makes a wall of each edge that is part of one.
+/// Makes a wall of each edge that is part of one, but for edges inside of solid ground.
 static sl_status make_walls(maker *m, replacement *out) {
     const sli_planar *graph = &m->graph;
     uint32_t *lines = sl_alloc_array(m->context, graph->edge_count, sizeof *lines);
@@ -98,14 +99,14 @@ static sl_status make_walls(maker *m, replacement *out) {
             m->account->merged += walled[edge];
             walled[edge] = true;
             const uint32_t own = m->walls[i].ground;
-            ground[edge] |= graph->links[k] % 2 ? sl_ground_turned(own) : own;
+            ground[edge] |= graph->links[k] % 2 ? sli_ground_turned(own) : own;
         }
     }
     for (size_t i = 0; i < graph->edge_count && done; i++)
-        if (walled[i])
+        if (walled[i] && !sli_ground_hides_wall(ground[i]))
             out->walls[out->wall_count++] =
                 (sl_wall){graph->points[graph->edges[i].a], graph->points[graph->edges[i].b],
-                          lines[i], ground[i]};
+                          lines[i], ground[i] & SLI_GROUND_SIDES};
     sl_free(m->context, lines);
     sl_free(m->context, ground);
     sl_free(m->context, walled);

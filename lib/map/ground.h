@@ -4,6 +4,20 @@
 
 #include "sightline/map.h"
 
+/// While a map is cleaned, SLI_GROUND_KEPT is or-ed to the ground of a wall that a mirror is on.
+enum { SLI_GROUND_SIDES = 15, SLI_GROUND_KEPT = 16 };
+
+/// As sl_ground_turned, while a map is cleaned.
+static inline uint32_t sli_ground_turned(uint32_t ground) {
+    return sl_ground_turned(ground) | (ground & SLI_GROUND_KEPT);
+}
+
+/// Whether a wall has solid ground at both sides, and no mirror on it: nobody ever sees it.
+static inline bool sli_ground_hides_wall(uint32_t ground) {
+    const uint32_t both = SL_SOLID_LEFT | SL_SOLID_RIGHT;
+    return (ground & (both | SLI_GROUND_KEPT)) == both;
+}
+
 /// Adds a polygon of solid ground, or of open ground, as sl_map_add_solid and sl_map_add_open do;
 /// `source` is for messages.
 sl_status sli_map_add_ground(sl_context *context, sl_map *map, const char *source, bool open,

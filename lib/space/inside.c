@@ -18,6 +18,8 @@
 #include "geometry/orient.h"
 #include "sightline/support.h"
 
+#include <math.h>
+
 typedef struct inside {
     sl_context *context;
     const sl_map *map;
@@ -52,6 +54,11 @@ static void say_mesh(inside *m) {
         }
 }
 
+/// Whether the side of greater coordinates across an axial wall is at its left.
+static bool is_left(const sl_wall *w, bool above) {
+    return (above == (sli_compare_points(w->a, w->b) < 0)) != (w->a.x == w->b.x);
+}
+
 /// Finds the cells along one side of a wall, from the root of the kd-tree down. `above` is the side
 /// of greater coordinates across the wall.
 static void say_down(inside *m, uint32_t wall, bool above) {
@@ -69,7 +76,7 @@ static void say_down(inside *m, uint32_t wall, bool above) {
     while (count) {
         const int32_t next = stack[--count];
         if (next < 0) {
-            say(m, (uint32_t)~next, wall, (above == rising) != upright);
+            say(m, (uint32_t)~next, wall, is_left(w, above));
             continue;
         }
         const sl_node *node = &s->nodes[next];
@@ -80,6 +87,46 @@ static void say_down(inside *m, uint32_t wall, bool above) {
         }
         if ((upright ? high.y : high.x) > node->position) stack[count++] = node->above;
         if ((upright ? low.y : low.x) < node->position) stack[count++] = node->below;
+    }
+}
+
+/// A cell along one side of an axial wall; SL_NO_CELL beyond the bounds.
+static uint32_t cell_beside(const sl_space *s, const sl_wall *w, bool above) {
+    const bool upright = w->a.x == w->b.x;
+    const double at = upright ? w->a.x : w->a.y;
+    const double high = upright ? fmax(w->a.y, w->b.y) : fmax(w->a.x, w->b.x);
+    const sl_point corner = above ? s->bounds.max : s->bounds.min;
+    if (at == (upright ? corner.x : corner.y)) return SL_NO_CELL;
+    int32_t next = s->root;
+    while (next >= 0) {
+        const sl_node *node = &s->nodes[next];
+        const bool across = (node->axis == 0) == upright;
+        const bool up =
+            across ? (node->position != at ? node->position < at : above) : high > node->position;
+        next = up ? node->above : node->below;
+    }
+    return (uint32_t)~next;
+}
+
+void sli_ground_of_cells(sl_space *s) {
+    for (uint32_t i = 0; i < s->cell_count && s->neighbour; i++)
+        for (uint32_t k = 0; k < s->cells[i].vertex_count && s->cells[i].solid; k++) {
+            const uint32_t next = s->neighbour[s->cells[i].first_vertex + k];
+            if (next == SL_NEIGHBOUR_PORTAL || next == SL_NEIGHBOUR_BORDER) continue;
+            s->walls[next & ~SL_NEIGHBOUR_RIGHT].ground |=
+                next & SL_NEIGHBOUR_RIGHT ? SL_SOLID_RIGHT : SL_SOLID_LEFT;
+        }
+    for (uint32_t i = 0; i < s->wall_count && !s->neighbour && !s->loose; i++)
+        for (int above = 0; above < 2; above++) {
+            sl_wall *w = &s->walls[i];
+            const uint32_t cell = cell_beside(s, w, above);
+            if (cell == SL_NO_CELL || !s->cells[cell].solid) continue;
+            w->ground |= is_left(w, above) ? SL_SOLID_LEFT : SL_SOLID_RIGHT;
+        }
+    for (uint32_t i = 0; i < s->wall_count; i++) {
+        const uint32_t ground = s->walls[i].ground;
+        if (ground == SL_SOLID_LEFT) s->walls[i].ground |= SL_OPEN_RIGHT;
+        if (ground == SL_SOLID_RIGHT) s->walls[i].ground |= SL_OPEN_LEFT;
     }
 }
 

@@ -70,6 +70,10 @@ sl_box sli_padded(sl_box box);
 sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piece *walls,
                           sl_space *space);
 
+/// Gives walls the marks of solid ground, and of open ground across, that the space's cells have
+/// (inside.c): those of a file have none yet. The space must pass sl_space_check.
+void sli_ground_of_cells(sl_space *space);
+
 // --- rooms (rooms.c)
 
 /// Replaces the boundaries of cells in an outline by those of rooms. Lists for each cell the rooms

@@ -91,6 +91,7 @@ typedef enum sl_inside {
     SL_INSIDE_SURE,
     SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
     SL_INSIDE_SMALL, ///< there is no start, and less than half of what is not solid is inside
+    SL_INSIDE_FEW,   ///< rooms that no start reaches have more area than those that one reaches
     SL_INSIDE_NONE,  ///< all is solid ground
 } sl_inside;
 

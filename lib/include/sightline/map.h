@@ -121,6 +121,9 @@ SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to
 /// (sl_coordinate_usable).
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
+/// Adds copies of walls, with their lines and their ground. As sl_map_add_wall.
+SL_API sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wall *walls,
+                                  size_t count);
 /// Adds a polygon of solid ground: its sides as walls with solid ground at one hand. Corners, at
 /// least 3, go either way round. Solid polygons may overlap, touch and lie in one another: solid is
 /// what any of them covers. SL_BAD_INPUT, with the line, if the polygon has no area or its sides
@@ -198,8 +201,9 @@ typedef struct sl_clean_options {
 SL_API sl_clean_options sl_clean_options_default(void);
 
 /// Makes the walls a planar set: no two of them cross, overlap or touch, except in common ends, by
-/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
-/// sorted by place. All later stages are exact for the clean map.
+/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls with
+/// solid ground at both sides are dropped. Walls are sorted by place. All later stages are exact
+/// for the clean map.
 ///
 /// If all is axial and welding by default would move nothing, no coordinate is computed: walls in
 /// one line that overlap or touch are joined, and walls are split where they cross or touch. Else
