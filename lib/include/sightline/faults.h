@@ -73,9 +73,9 @@ typedef struct sl_faults_options {
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
 
-/// Finds a tolerance for sl_map_clean that closes the gaps of rounding in a map and no others. `map`
-/// is as read. *weld is 0 if there is none: no gaps, or no clear step between their widths and what
-/// is meant. Time about that of sl_find_faults.
+/// Finds a tolerance for sl_map_clean that closes the gaps of rounding in a map and no others.
+/// `map` is as read. *weld is 0 if there is none: no gaps, or no clear step between their widths
+/// and what is meant. Time about that of sl_find_faults.
 SL_API sl_status sl_suggest_weld(sl_context *context, const sl_map *map, double *weld);
 
 /// Shares of the area of a space: 0 to 1, together 1.
