@@ -390,26 +390,13 @@ static sl_status add_outline(const sli_things *things, const sli_thing *door, sl
     return SL_OK;
 }
 
-static sl_status add_door(const sli_things *things, const sli_thing *door, sl_map *map) {
-    if (things->options->doors)
-        return sl_map_add_door(things->context, map, door->name, door->at, door->open, door->line);
-    if (door->open) return SL_OK;
-    return sl_map_add_wall(things->context, map, door->at.a, door->at.b, door->line);
-}
-
 static void tell_doors(const sli_things *things, size_t open, size_t shut) {
     if (!open && !shut) return;
     char states[64] = "";
     if (open && shut) snprintf(states, sizeof states, " (%zu open, %zu shut)", open, shut);
-    sl_note(things->context, "%s: %s%zu %sdoor%s%s%s", things->file,
-            things->options->doors ? "taken: " : "", open + shut,
-            !shut  ? "open "
-            : open ? ""
-                   : "shut ",
-            open + shut == 1 ? "" : "s", states,
-            things->options->doors
-                ? ""
-                : ": without --doors, open ones are taken as gaps, shut ones as walls");
+    const char *state = !shut ? "open " : !open ? "shut " : "";
+    sl_note(things->context, "%s: taken: %zu %sdoor%s%s", things->file, open + shut, state,
+            open + shut == 1 ? "" : "s", states);
 }
 
 static sl_status add_doors(sli_things *things, sl_map *map) {
@@ -440,7 +427,8 @@ static sl_status add_doors(sli_things *things, sl_map *map) {
         const sli_thing *door = &things->items.items[i];
         if (door->kind != SLI_THING_DOOR || !door->placed) continue;
         *(door->open ? &open : &shut) += !door->goes_on;
-        status = add_door(things, door, map);
+        status =
+            sl_map_add_door(things->context, map, door->name, door->at, door->open, door->line);
     }
     if (status == SL_OK) tell_doors(things, open, shut);
     return status;

@@ -12,10 +12,10 @@ static inline uint32_t sli_ground_turned(uint32_t ground) {
     return sl_ground_turned(ground) | (ground & SLI_GROUND_KEPT);
 }
 
-/// Whether a wall has solid ground at both sides, and no mirror on it: nobody ever sees it.
+/// Whether a wall has solid ground at both sides, nothing that contradicts this, and no mirror on
+/// it: nobody ever sees it.
 static inline bool sli_ground_hides_wall(uint32_t ground) {
-    const uint32_t both = SL_SOLID_LEFT | SL_SOLID_RIGHT;
-    return (ground & (both | SLI_GROUND_KEPT)) == both;
+    return ground == (SL_SOLID_LEFT | SL_SOLID_RIGHT);
 }
 
 /// Adds a polygon of solid ground, or of open ground, as sl_map_add_solid and sl_map_add_open do;

@@ -39,8 +39,11 @@ static const char *source_of(const inside *m) {
 /// Notes what a wall says of a cell at its left or right.
 static void say(inside *m, uint32_t cell, uint32_t wall, bool left) {
     const uint32_t ground = m->space->walls[wall].ground;
-    if (ground & (left ? SL_SOLID_LEFT : SL_SOLID_RIGHT)) m->solid_by[cell] = wall + 1;
-    if (ground & (left ? SL_OPEN_LEFT : SL_OPEN_RIGHT)) m->open_by[cell] = wall + 1;
+    const bool open = ground & (left ? SL_OPEN_LEFT : SL_OPEN_RIGHT);
+    const bool solid = ground & (left ? SL_SOLID_LEFT : SL_SOLID_RIGHT);
+    if (open) m->open_by[cell] = wall + 1;
+    // Two lines of a Doom map may lie back to back: each is in front of the other's void.
+    if (solid && !(open && m->map->ground_guessed)) m->solid_by[cell] = wall + 1;
 }
 
 /// The cells of a mesh know the walls at their sides.
@@ -375,5 +378,50 @@ sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piec
     sl_free(context, m.solid_by);
     sl_free(context, m.open_by);
     sl_free(context, m.stack);
+    return status;
+}
+
+// --- guesses made certain
+
+/// Gives walls the ground that cells have. Says whether it differs from what the walls had said of
+/// ground within the bounds.
+static bool take_ground(sl_context *context, sl_space *space, bool *differs) {
+    uint32_t *said = sl_alloc_array(context, space->wall_count, sizeof *said);
+    if (!said) return false;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        said[i] = space->walls[i].ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT);
+        space->walls[i].ground = 0;
+    }
+    sli_ground_of_cells(space);
+    for (uint32_t i = 0; i < space->cell_count; i++)
+        for (uint32_t k = 0; k < space->cells[i].vertex_count; k++) {
+            const uint32_t next = space->neighbour[space->cells[i].first_vertex + k];
+            if (next == SL_NEIGHBOUR_PORTAL || next == SL_NEIGHBOUR_BORDER) continue;
+            const uint32_t side = next & SL_NEIGHBOUR_RIGHT ? SL_SOLID_RIGHT : SL_SOLID_LEFT;
+            *differs |= (said[next & ~SL_NEIGHBOUR_RIGHT] & side) && !space->cells[i].solid;
+        }
+    sl_free(context, said);
+    return true;
+}
+
+static sl_status settle(sl_context *context, sl_map *map, sl_map *copy, sl_space *space) {
+    bool differs = false;
+    SL_TRY(sl_map_copy(context, map, copy));
+    SL_TRY(sl_map_clean(context, copy, NULL, NULL));
+    SL_TRY(sl_subdivide_mesh(context, copy, space));
+    if (!take_ground(context, space, &differs)) return SL_NO_MEMORY;
+    if (!differs) return SL_OK;
+    map->wall_count = 0;
+    return sl_map_add_walls(context, map, space->walls, space->wall_count);
+}
+
+sl_status sl_map_settle_ground(sl_context *context, sl_map *map) {
+    sl_map copy = {0};
+    sl_space space = {0};
+    if (!map->ground_guessed || !map->wall_count) return SL_OK;
+    const sl_status status = settle(context, map, &copy, &space);
+    sl_map_destroy(context, &copy);
+    sl_space_destroy(context, &space);
+    if (status == SL_OK) map->ground_guessed = false;
     return status;
 }

@@ -409,18 +409,15 @@ static void test_doors_on_solid_squares(void **state) {
     read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
     assert_string_equal(things, door);
     assert_int_equal(walls, 12);
-    // Without doors it is a gap; a shut one is a wall.
+    // Also where nobody asks for doors.
     options.doors = false;
     read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
-    assert_string_equal(things, "");
-    assert_int_equal(walls, 12);
-    assert_note(sl_map_read_tmx, text, &options,
-                "f: 1 open door: without --doors, open ones are taken as gaps, shut ones as "
-                "walls\n");
+    assert_string_equal(things, door);
+    assert_note(sl_map_read_tmx, text, &options, "f: taken: 1 open door\n");
     text = tmx_of(NO_WAY, OBJECTS(NAMED("shut door", SIZED("24", "16", "8", "8"))));
     read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
-    assert_string_equal(things, "");
-    assert_int_equal(walls, 13);
+    assert_string_equal(things, "door shut_door 28 16 28 24 shut\n");
+    assert_int_equal(walls, 12);
     // A thick wall: through its middle.
     assert_tmx("######\n#.##.#\n#.##.#\n#.##.#\n######",
                OBJECTS(NAMED("Door", SIZED("16", "16", "16", "8"))),

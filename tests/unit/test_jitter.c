@@ -132,7 +132,8 @@ static void check(const char *name, double degrees, uint64_t seeds) {
         jitter(&random, by, &map);
         assert_ok(context, sl_suggest_weld(context, &map, &weld));
         if (!(weld > 0)) fail_msg("%s, seed %d: nothing suggested", name, (int)seed);
-        if (seed == 1) { // without a tolerance the difference would be seen
+        if (seed == 1 && strcmp(name, "office.map") == 0) {
+            // Without a tolerance the difference would be seen.
             sl_map copy = {0};
             assert_ok(context, sl_map_copy(context, &map, &copy));
             look_at(context, &copy, 0, clear, &found);

@@ -28,7 +28,7 @@ typedef struct sl_import_options {
     const char *unit;
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
-    /// them at a touch (Doom) are seen through.
+    /// them at a touch (Doom) are seen through. Those of Tiled and LDtk are doors in any case.
     bool doors;
     /// Make seams of the lines between different sectors (Doom), so that each cell is in one
     /// sector.

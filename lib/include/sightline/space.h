@@ -184,6 +184,12 @@ SL_API const sl_subdivision *sl_subdivision_for(const sl_map *map);
 
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
 
+/// Makes the guessed ground of a map certain (sl_map.ground_guessed), so that its text says what a
+/// space of it has. If the guesses contradict each other, the walls become those of the cleaned
+/// map. A map without guesses stays as it is. Fails as sl_map_clean and sl_subdivide_mesh do; the
+/// map may then have lost its walls if memory was lacking.
+SL_API sl_status sl_map_settle_ground(sl_context *context, sl_map *map);
+
 /// The cell that holds a point; SL_NO_CELL outside the bounds and for NaN. Exact.
 ///
 /// In a kd-tree's space, a point on a split line is in the cell above it (right of it or over it).
