@@ -294,7 +294,8 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
     if (!map->start_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start for a tour: give a --path or a --start");
-    const sl_point start = map->starts[0].at;
+    const size_t first = input_next_start(map, space, 0);
+    const sl_point start = map->starts[first < map->start_count ? first : 0].at;
     w->step = plan->step > 0 ? plan->step : size / TOUR_STEPS_ACROSS;
     return way_tour(context, space, start, plan->options.seed, w->step * (double)plan->steps,
                     &w->way);

@@ -163,6 +163,24 @@ sl_status input_fail_outside(sl_context *context, const char *name, const char *
                    name, text, numbers[0], numbers[1], numbers[2], numbers[3]);
 }
 
+sl_status input_locate(sl_context *context, const char *name, const char *text,
+                       const sl_space *space, sl_point at, uint32_t *cell) {
+    const uint32_t found = sl_space_locate(space, at);
+    if (cell) *cell = found;
+    if (found == SL_NO_CELL) return input_fail_outside(context, name, text, space->bounds);
+    if (!space->cells[found].solid) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s %s: the point is in solid ground; choose a point in a room", name, text);
+}
+
+size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
+    for (; from < map->start_count; from++) {
+        const uint32_t cell = sl_space_locate(space, map->starts[from].at);
+        if (cell == SL_NO_CELL || !space->cells[cell].solid) break;
+    }
+    return from;
+}
+
 // --- doors
 
 /// Marks the doors of one name.

@@ -385,9 +385,10 @@ static sl_status measure_cells(sl_context *context, document_state *document) {
     document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
     if (!document->areas) return SL_NO_MEMORY;
     document->area = 0;
-    document->counted = 0;
+    document->counted = document->solid = 0;
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         document->areas[cell] = sl_space_area(space, cell);
+        document->solid += space->cells[cell].solid;
         if (!sl_baked_counts(document->baked, cell)) continue;
         document->area += document->areas[cell];
         document->counted++;

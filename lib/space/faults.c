@@ -169,6 +169,7 @@ static sl_status find_leaks(sli_fault_search *search, rooms *r, sl_bits *reached
     for (size_t i = 0; i < map->start_count && status == SL_OK; i++) {
         const uint32_t start = sl_space_locate(search->space, map->starts[i].at);
         if (start == SL_NO_CELL || sl_bits_has(reached, start)) continue;
+        if (search->space->cells[start].solid) continue;
         if (!reach(search->space, r, reached, start)) continue;
         if (!leaks) status = sli_leak_search_begin(search, &leaks);
         if (status == SL_OK) status = sli_find_leaks_of(leaks, map->starts[i].at);
