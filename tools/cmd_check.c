@@ -385,29 +385,20 @@ static double usual_gap(const sl_map *map) {
     return hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;
 }
 
-/// Closes gaps of a copy until there is none that snapping closes. One round is mostly enough.
-static sl_status snap(sl_context *context, const check_plan *plan, const sl_map *map, double gap,
-                      sl_snap_account *account, checked *after) {
-    enum { ROUNDS = 8 };
+/// Mends a copy of the map as read, and looks at what is left.
+static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl_map *map,
+                           double gap, sl_snap_account *account, checked *after) {
     SL_TRY(sl_map_copy(context, map, &after->map));
-    for (int i = 0; i < ROUNDS; i++) {
-        sl_snap_account round;
-        SL_TRY(sl_map_snap(context, &after->map, gap, &round));
-        account->moved += round.moved;
-        account->vanished += round.vanished;
-        account->farthest = fmax(account->farthest, round.farthest);
-        if (!after->map.wall_count) return SL_OK;
-        const double own = plan->faults.gap > 0 ? gap : fmax(gap, usual_gap(&after->map));
-        SL_TRY(examine(context, plan, own, after));
-        if (!closable(&after->faults)) break;
-    }
-    return SL_OK;
+    SL_TRY(sl_map_mend(context, &after->map, gap, &plan->pipeline.input.clean, account));
+    if (!after->map.wall_count) return SL_OK;
+    const double own = plan->faults.gap > 0 ? gap : fmax(gap, usual_gap(&after->map));
+    return examine(context, plan, own, after);
 }
 
 /// Closes gaps and writes the map.
 static sl_status mend(sl_context *context, const check_plan *plan, const sl_map *map,
                       faults_report *report, checked *after) {
-    SL_TRY(snap(context, plan, map, report->gap, &report->snap, after));
+    SL_TRY(mend_copy(context, plan, map, report->gap, &report->snap, after));
     if (!after->map.wall_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
@@ -441,7 +432,7 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     if (gap > 20 * usual_gap(&c->map)) return SL_OK;
     checked after = {0};
     sl_snap_account account = {0};
-    const sl_status status = snap(context, plan, &c->map, gap, &account, &after);
+    const sl_status status = mend_copy(context, plan, &c->map, gap, &account, &after);
     if (status == SL_OK && after.map.wall_count &&
         after.faults.counts[SL_FAULT_LEAK] < faults->counts[SL_FAULT_LEAK])
         report->helps = gap;

@@ -37,7 +37,7 @@ typedef struct sl_fault {
     uint32_t walls[2];
     uint32_t cell;  ///< the thin cell, the room's largest, one at the leak; else SL_NO_CELL
     uint32_t cells; ///< the number of cells of the room; else 0
-    bool stays;     ///< a gap that sl_map_snap does not close
+    bool stays;     ///< a gap or leak that sl_map_mend leaves: it needs a decision
     /// The way of a leak: points[first_point .. first_point + point_count), from the start through
     /// the middle of the leak to the border. It goes through no wall.
     uint32_t first_point, point_count;
@@ -51,6 +51,9 @@ typedef struct sl_faults {
     uint32_t count, point_count;
     uint32_t counts[SL_FAULT_KINDS];
     bool has_starts; ///< without a start, leaks and unreachable rooms are not looked for
+    /// Gaps of the map as read that are no faults, as cleaning joins ends up to `weld` apart.
+    uint32_t welded;
+    double weld;
 } sl_faults;
 
 SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and zeroes it
@@ -59,12 +62,13 @@ SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and 
 typedef struct sl_faults_options {
     double gap;  ///< the largest width of a gap; 0 for 1/1000 of the map's diagonal
     double thin; ///< cells below this width are thin; 0 for the same
-    const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap and no
+    const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap, overlap or
                                    ///< crossing; NULL for the default
 } sl_faults_options;
 
 /// Finds all faults. `map` is as read, not cleaned, so that walls keep their lines; `space` was
-/// made from it. Whether walls touch, cross or overlap is exact; widths are rounded. Reports stage
+/// made from it. Gaps and leaks are those of the clean map, overlaps and crossings those of the map
+/// as read. Whether walls touch, cross or overlap is exact; widths are rounded. Reports stage
 /// "check". Time about O(n log n) for maps whose walls are short against the map.
 ///
 /// The leaks of a room with a start are openings that would part it from the outside if all of them
@@ -98,9 +102,17 @@ typedef struct sl_snap_account {
 /// 2. A free end near a wall is put onto it. Two axial walls meet along their own lines; else the
 ///    end goes to the nearest point, rounded. An end that touches a wall already stays.
 ///
-/// Only walls move. Cells of the map's own no longer fit them, and are dropped.
+/// Doors and glass with an end at a place that moves go with it, unless they would lose their
+/// length. Cells of the map's own no longer fit, and are dropped.
 SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
                              sl_snap_account *account);
+
+/// Cleans the map and snaps it by turns, until nothing moves. What was closed stays closed. Of the
+/// gaps and leaks that sl_find_faults lists by the same gap and options, those are left that have
+/// `stays`. The walls of the result are clean, but walls for mirrors are not among them. `account`
+/// may be NULL. On failure the map is still usable, and may be mended in part.
+SL_API sl_status sl_map_mend(sl_context *context, sl_map *map, double gap,
+                             const sl_clean_options *clean, sl_snap_account *account);
 
 #ifdef __cplusplus
 }

@@ -151,6 +151,7 @@ typedef struct sl_clean_account {
     size_t welded;       ///< ends of walls, doors, glass and seams that moved to another end
     size_t crossings;    ///< points where walls cross that had to be computed
     double largest_move; ///< the largest distance of a clean wall from the walls it comes from
+    double tolerance;    ///< ends at most this far apart became one
 } sl_clean_account;
 
 /// Start from sl_clean_options_default().
