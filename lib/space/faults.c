@@ -356,7 +356,8 @@ static void finish(sli_fault_search *search, sl_faults *out) {
                         .point_count = (uint32_t)search->points.count,
                         .has_starts = search->map->start_count > 0,
                         .welded = search->welded,
-                        .weld = search->weld};
+                        .weld = search->weld,
+                        .leaks_left = search->leaks_left};
     if (search->faults.count) qsort(faults.items, search->faults.count, sizeof(sl_fault), compare);
     for (size_t i = 0; i < search->faults.count; i++) {
         const sl_fault fault = faults.items[i];

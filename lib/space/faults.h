@@ -17,11 +17,12 @@ typedef struct sli_fault_search {
     sl_map clean;      ///< as it is used: gaps are looked for here
     const sl_space *space;
     sl_faults_options options;
-    sli_wall_grid grid; ///< over the walls as read
-    double weld;        ///< ends at most this far apart are one, as are an end and a wall at half
-    double moved;       ///< how far a clean wall may be from the walls as read
-    uint32_t welded;    ///< gaps that cleaning closes
-    bool trial;         ///< looks for gaps and leaks alone
+    sli_wall_grid grid;  ///< over the walls as read
+    double weld;         ///< ends at most this far apart are one, as are an end and a wall at half
+    double moved;        ///< how far a clean wall may be from the walls as read
+    uint32_t welded;     ///< gaps that cleaning closes
+    uint32_t leaks_left; ///< that mending leaves
+    bool trial;          ///< looks for gaps and leaks alone
     sli_fault_list faults;
     SL_ARRAY(sl_point) points;
 } sli_fault_search;

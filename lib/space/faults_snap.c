@@ -42,6 +42,13 @@ typedef struct snap_move {
     sl_point from, to;
 } snap_move;
 
+/// A wall that is to go through a point, which is on it but for rounding.
+typedef struct snap_split {
+    uint32_t wall;
+    double along; ///< from the wall's first end
+    sl_point at;
+} snap_split;
+
 typedef struct snapper {
     sl_context *context;
     sl_map *map;
@@ -49,6 +56,7 @@ typedef struct snapper {
     wall_end *ends; ///< sorted by place
     size_t count;
     SL_ARRAY(snap_move) moves; ///< of one step
+    SL_ARRAY(snap_split) splits;
     sl_snap_account account;
 } snapper;
 
@@ -143,6 +151,36 @@ static sl_point meeting(const sl_wall *own, sl_point end, const sl_wall *other) 
     return to;
 }
 
+/// Has a wall go through a point, unless it does or the point lies beyond its ends.
+static sl_status add_split(snapper *s, uint32_t number, sl_point at) {
+    const sl_wall *wall = &s->map->walls[number];
+    const sl_point way = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
+    const double along = (at.x - wall->a.x) * way.x + (at.y - wall->a.y) * way.y;
+    if (sli_touches_wall(wall, at) || !(along > 0 && along < way.x * way.x + way.y * way.y))
+        return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(s->context, &s->splits, 1));
+    s->splits.items[s->splits.count++] = (snap_split){number, along, at};
+    return SL_OK;
+}
+
+static int compare_splits(const void *left, const void *right) {
+    const snap_split *a = left, *b = right;
+    if (a->wall != b->wall) return a->wall < b->wall ? -1 : 1;
+    return (a->along > b->along) - (a->along < b->along);
+}
+
+/// The first piece of a split wall keeps its number.
+static sl_status split_walls(snapper *s) {
+    const snap_split *splits = s->splits.items;
+    if (s->splits.count) qsort(s->splits.items, s->splits.count, sizeof *splits, compare_splits);
+    for (size_t i = s->splits.count; i-- > 0;) {
+        const sl_wall wall = s->map->walls[splits[i].wall];
+        SL_TRY(sl_map_add_wall(s->context, s->map, splits[i].at, wall.b, wall.line));
+        s->map->walls[splits[i].wall].b = splits[i].at;
+    }
+    return SL_OK;
+}
+
 static sl_status put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_end *end) {
     sl_point *at = end_of(s, end);
     const sl_wall *own = &s->map->walls[end->wall];
@@ -150,6 +188,7 @@ static sl_status put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_e
     const uint32_t *near = sli_wall_grid_at(grid, *at, &count);
     sl_point best = *at;
     double least = INFINITY;
+    uint32_t onto = end->wall;
     for (uint32_t k = 0; k < count; k++) {
         const sl_wall *other = &s->map->walls[near[k]];
         if (near[k] == end->wall || sli_same_point(other->a, other->b)) continue;
@@ -160,7 +199,10 @@ static sl_status put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_e
         if (way > s->gap || way >= least || !there) continue;
         least = way;
         best = to;
+        onto = near[k];
     }
+    if (onto == end->wall) return SL_OK;
+    SL_TRY(add_split(s, onto, best));
     return move_end(s, at, best);
 }
 
@@ -249,6 +291,7 @@ static sl_status snap_to_walls(snapper *s) {
     for (size_t i = 0; i < s->count && status == SL_OK; i++)
         if (s->ends[i].users == 1) status = put_on_wall(s, &grid, &s->ends[i]);
     sli_wall_grid_destroy(s->context, &grid);
+    if (status == SL_OK) status = split_walls(s);
     carry_others(s);
     return status;
 }
@@ -263,6 +306,7 @@ sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_acco
     if (status == SL_OK) status = snap_to_walls(&s);
     sl_free(context, s.ends);
     sl_free(context, s.moves.items);
+    sl_free(context, s.splits.items);
     if (status != SL_OK) return status;
     s.account.vanished = drop_points(map);
     sl_map_drop_cells(context, map);
@@ -345,26 +389,56 @@ static sl_fault *nearest_unmarked(sl_fault **sorted, size_t count, sl_point at, 
     return best;
 }
 
-/// Marks as many faults of a kind as mending leaves: those where one is left, then the nearest.
-static sl_status mark_left(sli_fault_search *search, sl_fault_kind kind, const sl_faults *left) {
+/// Lists the faults of a kind by place.
+static size_t sort_kind(const sli_fault_search *search, sl_fault_kind kind, sl_fault **sorted) {
     size_t count = 0;
-    sl_fault **sorted = sl_alloc_array(search->context, search->faults.count, sizeof *sorted);
-    bool *done = sl_alloc_array(search->context, left->count, sizeof *done);
-    for (size_t i = 0; sorted && done && i < search->faults.count; i++)
+    for (size_t i = 0; i < search->faults.count; i++)
         if (search->faults.items[i].kind == kind) sorted[count++] = &search->faults.items[i];
-    if (sorted && done && count) {
-        qsort(sorted, count, sizeof *sorted, compare_by_place);
-        for (int pass = 0; pass < 2; pass++) {
-            for (uint32_t i = 0; i < left->count; i++) {
-                if (left->items[i].kind != kind || done[i]) continue;
-                sl_fault *fault =
-                    nearest_unmarked(sorted, count, place_of(&left->items[i]), pass == 0);
-                if (!fault) continue;
-                fault->stays = done[i] = true;
-            }
+    if (count) qsort(sorted, count, sizeof *sorted, compare_by_place);
+    return count;
+}
+
+/// Marks as many gaps as mending leaves: those where one is left, then the nearest.
+static void mark_gaps(sl_fault **sorted, size_t count, const sl_faults *left, bool *done) {
+    for (int pass = 0; pass < 2 && count; pass++) {
+        for (uint32_t i = 0; i < left->count; i++) {
+            if (left->items[i].kind != SL_FAULT_GAP || done[i]) continue;
+            sl_fault *gap = nearest_unmarked(sorted, count, place_of(&left->items[i]), pass == 0);
+            if (!gap) continue;
+            gap->stays = done[i] = true;
         }
     }
+}
+
+/// Marks the leaks near which one is left. Their number is not kept: where gaps are closed, other
+/// openings may part a start from the outside.
+static void mark_leaks(sl_fault **sorted, size_t count, const sl_faults *left, double reach) {
+    for (uint32_t i = 0; i < left->count; i++) {
+        const sl_point at = place_of(&left->items[i]);
+        if (left->items[i].kind != SL_FAULT_LEAK) continue;
+        size_t low = 0, high = count;
+        while (low < high) {
+            const size_t middle = low + (high - low) / 2;
+            if (place_of(sorted[middle]).x < at.x - reach)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        for (; low < count && place_of(sorted[low]).x <= at.x + reach; low++)
+            sorted[low]->stays |= sli_apart(place_of(sorted[low]), at) <= reach;
+    }
+}
+
+static sl_status mark_left(sli_fault_search *search, const sl_faults *left) {
+    sl_fault **sorted = sl_alloc_array(search->context, search->faults.count, sizeof *sorted);
+    bool *done = sl_alloc_array(search->context, left->count, sizeof *done);
     const bool room = sorted && done;
+    if (room) {
+        const size_t gaps = sort_kind(search, SL_FAULT_GAP, sorted);
+        mark_gaps(sorted, gaps, left, done);
+        const size_t leaks = sort_kind(search, SL_FAULT_LEAK, sorted);
+        mark_leaks(sorted, leaks, left, 4 * search->options.gap);
+    }
     sl_free(search->context, sorted);
     sl_free(search->context, done);
     return room ? SL_OK : SL_NO_MEMORY;
@@ -374,6 +448,7 @@ static void mark_all(sli_fault_search *search) {
     for (size_t i = 0; i < search->faults.count; i++) {
         sl_fault *fault = &search->faults.items[i];
         fault->stays = fault->kind == SL_FAULT_GAP || fault->kind == SL_FAULT_LEAK;
+        search->leaks_left += fault->kind == SL_FAULT_LEAK;
     }
 }
 
@@ -397,10 +472,11 @@ sl_status sli_try_mending(sli_fault_search *search) {
     sl_space space = {0};
     sl_faults left = {0};
     sl_status status = mend_copy(search, &copy, &clean, &space, &left);
-    if (status == SL_OK) status = mark_left(search, SL_FAULT_GAP, &left);
-    if (status == SL_OK) status = mark_left(search, SL_FAULT_LEAK, &left);
+    if (status == SL_OK) status = mark_left(search, &left);
+    search->leaks_left = left.counts[SL_FAULT_LEAK];
     if (status == SL_BAD_INPUT || status == SL_BAD_ARGUMENT || status == SL_UNSUPPORTED) {
         // A trial that cannot be done mends nothing.
+        search->leaks_left = 0;
         mark_all(search);
         status = SL_OK;
     }

@@ -54,6 +54,7 @@ typedef struct sl_faults {
     /// Gaps of the map as read that are no faults, as cleaning joins ends up to `weld` apart.
     uint32_t welded;
     double weld;
+    uint32_t leaks_left; ///< leaks that sl_map_mend leaves, some of them perhaps at other places
 } sl_faults;
 
 SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and zeroes it
@@ -100,7 +101,8 @@ typedef struct sl_snap_account {
 ///
 /// 1. Ends that are near each other become one point: the one that most walls have, else the first.
 /// 2. A free end near a wall is put onto it. Two axial walls meet along their own lines; else the
-///    end goes to the nearest point, rounded. An end that touches a wall already stays.
+///    end goes to the nearest point, rounded, and the wall is split there. An end that touches a
+///    wall already stays.
 ///
 /// Doors and glass with an end at a place that moves go with it, unless they would lose their
 /// length. Cells of the map's own no longer fit, and are dropped.
@@ -108,8 +110,8 @@ SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
                              sl_snap_account *account);
 
 /// Cleans the map and snaps it by turns, until nothing moves. What was closed stays closed. Of the
-/// gaps and leaks that sl_find_faults lists by the same gap and options, those are left that have
-/// `stays`. The walls of the result are clean, but walls for mirrors are not among them. `account`
+/// gaps that sl_find_faults lists by the same gap and options, those are left that have `stays`. No
+/// leak is left near one without `stays`. The walls of the result are clean, but walls for mirrors are not among them. `account`
 /// may be NULL. On failure the map is still usable, and may be mended in part.
 SL_API sl_status sl_map_mend(sl_context *context, sl_map *map, double gap,
                              const sl_clean_options *clean, sl_snap_account *account);
