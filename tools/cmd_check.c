@@ -16,6 +16,7 @@ typedef struct checked {
     sl_baked baked; ///< its space, and the rest of the map for the picture
     sl_faults faults;
     sl_inside inside;
+    double gap; ///< up to which gaps were looked for
 } checked;
 
 typedef struct faults_report {
@@ -24,27 +25,14 @@ typedef struct faults_report {
     double gap, thin;
     const char *mended; ///< the file written; NULL for none
     sl_snap_account snap;
-    const checked *left;          ///< the mended map
-    double helps;                 ///< a larger gap that closes a leak; 0 for none
-    uint64_t most;                ///< of a kind, in the text
-    const char *picture;          ///< NULL for none
-    const char *start, *gap_text; ///< as given, to be said again; NULL for none
+    const checked *left; ///< the mended map
+    double helps;        ///< a larger gap that closes a leak; 0 for none
+    uint64_t most;       ///< of a kind, in the text
+    const char *picture; ///< NULL for none
+    const options_given *given;
 } faults_report;
 
 // --- the report
-
-/// "(1,2.5)"
-static void print_point(const char *before, sl_point point, int digits) {
-    printf("%s(%.*g,%.*g)", before, digits, point.x, digits, point.y);
-}
-
-/// The digits that tell two points apart, to about a hundredth of their distance.
-static int digits_for(sl_segment at) {
-    const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
-    const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
-    if (!(apart > 0 && most > 0)) return 6;
-    return (int)fmin(fmax(ceil(log10(most / apart)) + 3, 6), 17);
-}
 
 /// The digits for a place in a map, which may lie far from the origin.
 static int digits_in(const sl_map *map) {
@@ -53,25 +41,47 @@ static int digits_in(const sl_map *map) {
         fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
     const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
     if (!(across > 0 && most > 0)) return 6;
-    return (int)fmin(fmax(ceil(log10(most / across)), 0) + 6, 17);
+    return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
+}
+
+/// The digits that tell two points of a map apart, to about a hundredth of their distance.
+static int digits_for(const sl_map *map, sl_segment at) {
+    const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
+    const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
+    const int least = digits_in(map);
+    if (!(most > 0)) return least;
+    if (!(apart > 0)) return at.a.x == at.b.x && at.a.y == at.b.y ? least : 17;
+    return (int)fmin(fmax(ceil(log10(most / apart)) + 3, least), 17);
+}
+
+/// "(1,2.5)"
+static void print_point(const char *before, sl_point point, int digits) {
+    printf("%s(%.*g,%.*g)", before, digits, point.x, digits, point.y);
 }
 
 /// "from (1,2) to (3,4)"
-static void print_ends(sl_segment at) {
-    const int digits = digits_for(at);
+static void print_ends(const sl_map *map, sl_segment at) {
+    const int digits = digits_for(map, at);
     print_point("from ", at.a, digits);
     print_point(" to ", at.b, digits);
 }
 
-/// "lines 3 and 7", where the walls' lines are known.
+/// "lines 3 and 7", or "line 12 (layer WALLS) and line 30 (layer WALLS)", where walls have lines.
 static void print_lines(const sl_map *map, const sl_fault *fault) {
-    unsigned lines[2] = {0, 0};
-    for (int i = 0; i < 2; i++)
-        if (fault->walls[i] != UINT32_MAX) lines[i] = map->walls[fault->walls[i]].line;
-    if (lines[0] && lines[1] && lines[0] != lines[1])
-        printf(", lines %u and %u", lines[0], lines[1]);
-    else if (lines[0] || lines[1])
-        printf(", line %u", lines[0] ? lines[0] : lines[1]);
+    uint32_t lines[2] = {0, 0};
+    char text[2][SL_LINE_TEXT];
+    size_t count = 0;
+    for (int i = 0; i < 2; i++) {
+        if (fault->walls[i] == UINT32_MAX) continue;
+        const uint32_t line = map->walls[fault->walls[i]].line;
+        if (line && !(count && line == lines[0])) lines[count++] = line;
+    }
+    for (size_t i = 0; i < count; i++) sl_map_say_line(map, lines[i], text[i]);
+    const bool plain = !map->label_count && !map->lines_are_items;
+    if (count == 2 && plain)
+        printf(", lines %u and %u", (unsigned)lines[0], (unsigned)lines[1]);
+    else if (count)
+        printf(", %s%s%s", text[0], count == 2 ? " and " : "", count == 2 ? text[1] : "");
 }
 
 static void print_width(double width) {
@@ -84,9 +94,11 @@ static void print_width(double width) {
 static void print_leak(const checked *found, const sl_fault *fault) {
     const sl_point *way = found->faults.points + fault->first_point;
     print_width(fault->size);
-    print_ends(fault->at);
+    print_ends(&found->map, fault->at);
     print_lines(&found->map, fault);
     print_point("; the way to it begins at ", way[0], digits_in(&found->map));
+    // A wider one is no matter of snapping.
+    if (fault->stays && fault->size <= found->gap) printf("; needs a decision");
     putchar('\n');
 }
 
@@ -97,13 +109,13 @@ static void print_fault(const checked *found, const sl_fault *fault) {
         return;
     case SL_FAULT_GAP:
         print_width(fault->size);
-        print_ends(fault->at);
+        print_ends(&found->map, fault->at);
         print_lines(&found->map, fault);
         if (fault->stays) printf("; needs a decision");
         break;
     case SL_FAULT_OVERLAP:
         printf("    %.6g long, ", fault->size);
-        print_ends(fault->at);
+        print_ends(&found->map, fault->at);
         print_lines(&found->map, fault);
         break;
     case SL_FAULT_CROSSING:
@@ -112,7 +124,7 @@ static void print_fault(const checked *found, const sl_fault *fault) {
         break;
     case SL_FAULT_THIN:
         printf("    cell %u, %.6g wide", (unsigned)fault->cell, fault->size);
-        print_point(" at ", fault->at.a, digits_for(fault->at));
+        print_point(" at ", fault->at.a, digits_for(&found->map, fault->at));
         break;
     default:
         printf("    %u cell%s, area %.6g", (unsigned)fault->cells, fault->cells == 1 ? "" : "s",
@@ -144,40 +156,66 @@ static void print_kind(const checked *found, sl_fault_kind kind, uint64_t most) 
                (unsigned)(faults->counts[kind] - printed));
 }
 
-/// The gaps that snapping closes.
-static uint32_t closable(const sl_faults *faults) {
+/// The faults of a kind that snapping closes.
+static uint32_t closable(const sl_faults *faults, sl_fault_kind kind) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < faults->count; i++)
-        count += faults->items[i].kind == SL_FAULT_GAP && !faults->items[i].stays;
+        count += faults->items[i].kind == kind && !faults->items[i].stays;
     return count;
 }
 
 static void print_mended(const faults_report *report) {
     const sl_faults *left = &report->left->faults;
-    printf("%s: %zu wall ends moved, by %.6g at most; %zu walls vanished; left over: ",
-           report->mended, report->snap.moved, report->snap.farthest, report->snap.vanished);
-    for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
-        printf("%s%u %s", kind ? ", " : "", (unsigned)left->counts[kind],
-               sl_fault_name((sl_fault_kind)kind));
+    const size_t moved = report->snap.moved, vanished = report->snap.vanished;
+    printf("%s: %zu wall end%s moved", report->mended, moved, moved == 1 ? "" : "s");
+    if (moved) printf(", by %.6g at most", report->snap.farthest);
+    if (vanished) printf("; %zu wall%s vanished", vanished, vanished == 1 ? "" : "s");
+    const char *before = "; left: ";
+    for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
+        if (!left->counts[kind]) continue;
+        printf("%s%u %s", before, (unsigned)left->counts[kind], sl_fault_name((sl_fault_kind)kind));
+        before = ", ";
+    }
     putchar('\n');
     if (left->counts[SL_FAULT_LEAK] || left->counts[SL_FAULT_GAP])
-        printf("  what is left needs a decision (by lines of %s):\n", report->input);
+        printf("  what is left needs a decision (by %s of %s):\n",
+               report->left->map.lines_are_items ? "the names" : "lines", report->input);
     print_kind(report->left, SL_FAULT_LEAK, report->most);
     print_kind(report->left, SL_FAULT_GAP, report->most);
 }
 
+/// "the gap", "all 3 gaps", "2 of 3 gaps"
+static void print_share(const char *before, uint32_t count, uint32_t all, const char *what) {
+    const char *several = all == 1 ? "" : "s";
+    if (count == all && all == 1)
+        printf("%sthe %s", before, what);
+    else if (count == all)
+        printf("%sall %u %s%s", before, (unsigned)all, what, several);
+    else
+        printf("%s%u of %u %s%s", before, (unsigned)count, (unsigned)all, what, several);
+}
+
 static void print_snap_advice(const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
-    const uint32_t gaps = faults->counts[SL_FAULT_GAP], closes = closable(faults);
+    const uint32_t gaps = faults->counts[SL_FAULT_GAP], leaks = faults->counts[SL_FAULT_LEAK];
+    const uint32_t gaps_closed = closable(faults, SL_FAULT_GAP);
+    const uint32_t leaks_closed = closable(faults, SL_FAULT_LEAK);
+    if (gaps_closed || leaks_closed) {
+        printf("  --snap FIXED.map closes ");
+        if (gaps_closed) print_share("", gaps_closed, gaps, "gap");
+        if (leaks_closed) print_share(gaps_closed ? " and " : "", leaks_closed, leaks, "leak");
+        if (gaps_closed < gaps)
+            printf("; %u gap%s a decision", (unsigned)(gaps - gaps_closed),
+                   gaps - gaps_closed == 1 ? " needs" : "s need");
+        if (faults->leaks_left)
+            printf("; then %u leak%s left", (unsigned)faults->leaks_left,
+                   faults->leaks_left == 1 ? " is" : "s are");
+        putchar('\n');
+    } else if (gaps) {
+        puts("  --snap does not close these gaps: each needs a decision");
+    }
     if (report->helps > 0)
         printf("  --gap %.2g is wide enough for --snap to close a leak\n", report->helps);
-    if (closes && closes == gaps)
-        puts("  --snap FIXED.map closes the gaps and writes the map so mended");
-    else if (closes)
-        printf("  --snap FIXED.map closes %u of the gaps; %u need a decision\n", (unsigned)closes,
-               (unsigned)(gaps - closes));
-    else if (gaps)
-        puts("  --snap does not close these gaps: each needs a decision");
 }
 
 // --- the next command
@@ -199,11 +237,54 @@ static void print_word(const char *before, const char *word) {
     putchar('\'');
 }
 
-/// "sightline check MAP", with the options for reading it.
-static void print_command(const faults_report *report, const char *command) {
-    printf("next: sightline %s", command);
-    print_word(" ", report->input);
-    if (report->start) printf(" --start %s", report->start);
+/// A file's name; one that looks like an option is led by its folder.
+static void print_file(const char *before, const char *name) {
+    fputs(before, stdout);
+    print_word(name[0] == '-' && name[1] ? "./" : "", name);
+}
+
+static bool is_among(const char *name, const char *const *names) {
+    for (; *names; names++)
+        if (strcmp(*names, name) == 0) return true;
+    return false;
+}
+
+/// What a next command is for.
+typedef enum next_use { NEXT_CHECK, NEXT_BAKE, NEXT_CHECK_MENDED, NEXT_BAKE_MENDED } next_use;
+
+/// Repeats an option unless it is for this run alone, or for reading a file that the next command
+/// does not read.
+static bool is_repeated(const struct option_given *option, next_use use) {
+    static const char *const own[] = {"gap",    "snap", "output", "width", "dark",
+                                      "strict", "json", "quiet",  "help",  NULL};
+    static const char *const for_check[] = {"thin", "most", NULL};
+    static const char *const reading[] = {"map",   "slice",     "layers",  "tolerance",
+                                          "unit",  "threshold", "sectors", "doors",
+                                          "start", "without",   NULL};
+    const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
+    if (is_among(option->name, own)) return false;
+    if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;
+    if (!mended) return true;
+    const bool given = strcmp(option->name, "subdivide") == 0 && *option->argument == 'g';
+    return !given && !is_among(option->name, reading);
+}
+
+/// "next: sightline check MAP", with the options that count, and the width of gaps.
+static void print_command(const faults_report *report, next_use use, double gap) {
+    const bool bakes = use == NEXT_BAKE || use == NEXT_BAKE_MENDED;
+    const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
+    print_file(bakes ? "next: sightline bake " : "next: sightline check ",
+               mended ? report->mended : report->input);
+    for (size_t i = 0; i < report->given->count; i++) {
+        const struct option_given *option = &report->given->items[i];
+        if (strcmp(option->name, "gap") == 0 && !bakes && !(gap > 0)) {
+            print_word(" --gap ", option->argument);
+        } else if (is_repeated(option, use)) {
+            printf(" --%s", option->name);
+            if (option->argument) print_word(" ", option->argument);
+        }
+    }
+    if (gap > 0) printf(" --gap %.2g", gap);
 }
 
 /// " --snap office-fixed.map"
@@ -213,21 +294,34 @@ static void print_name(const faults_report *report, const char *option, const ch
     const char *base = input_base_name(report->input, &length);
     const bool fits = length < sizeof name / 2 && strcmp(report->input, "-") != 0;
     snprintf(name, sizeof name, "%.*s%s", fits ? (int)length : 3, fits ? base : "map", end);
-    print_word(option, name);
+    print_file(option, name);
 }
 
-static void print_gap_again(const faults_report *report) {
-    if (report->gap_text) printf(" --gap %s", report->gap_text);
+/// The middle of the largest cell that may be inside.
+static sl_point likely_start(const sl_space *space) {
+    double largest = -1;
+    bool inside = false;
+    sl_point at = {0, 0};
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        const double area = sl_space_area(space, i);
+        if ((inside && !cell->inside) || (inside == cell->inside && area <= largest)) continue;
+        inside = cell->inside;
+        largest = area;
+        at = (sl_point){0, 0};
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            at.x += space->vertices[cell->first_vertex + k].x / cell->vertex_count;
+            at.y += space->vertices[cell->first_vertex + k].y / cell->vertex_count;
+        }
+    }
+    return at;
 }
 
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
-    print_word(left ? "next: sightline check " : "next: sightline bake ", report->mended);
-    if (left) {
-        print_gap_again(report);
-        print_name(report, " -o ", "-fixed.png");
-    }
+    print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
+    if (left) print_name(report, " -o ", "-fixed.png");
 }
 
 static void print_next(const faults_report *report) {
@@ -236,29 +330,36 @@ static void print_next(const faults_report *report) {
     if (report->mended) {
         print_next_of_mended(report);
     } else if (report->helps > 0) {
-        print_command(report, "check");
-        printf(" --gap %.2g", report->helps);
+        print_command(report, NEXT_CHECK, report->helps);
         print_name(report, " --snap ", "-fixed.map");
-    } else if (closable(faults)) {
-        print_command(report, "check");
-        print_gap_again(report);
+    } else if (closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK)) {
+        print_command(report, NEXT_CHECK, 0);
         print_name(report, " --snap ", "-fixed.map");
     } else if (!faults->has_starts) {
-        print_command(report, "check");
-        print_gap_again(report);
-        fputs(" --start X,Y", stdout);
+        const sl_point start = likely_start(&report->found->baked.space);
+        const int digits = digits_in(&report->found->map);
+        puts("  the next command starts in the largest room: put another place there if it is not "
+             "inside");
+        print_command(report, NEXT_CHECK, 0);
+        printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
     } else if (grave && !report->picture) {
-        print_command(report, "check");
-        print_gap_again(report);
+        print_command(report, NEXT_CHECK, 0);
         print_name(report, " -o ", "-check.png");
     } else if (grave) {
-        print_command(report, "check");
-        print_gap_again(report);
-        fputs(", once the walls named above are mended", stdout);
+        puts("  mend the walls named above before the next command");
+        print_command(report, NEXT_CHECK, 0);
     } else {
-        print_command(report, "bake");
+        print_command(report, NEXT_BAKE, 0);
     }
     putchar('\n');
+}
+
+/// What sets the tolerance.
+static const char *how_welded(const faults_report *report) {
+    for (size_t i = 0; i < report->given->count; i++)
+        if (strcmp(report->given->items[i].name, "weld") == 0) return "--weld";
+    return report->found->map.precision > 0 ? "the digits of the file; --weld 0 closes none"
+                                            : "the map's own tolerance";
 }
 
 static sl_status faults_print(const faults_report *report) {
@@ -269,12 +370,16 @@ static sl_status faults_print(const faults_report *report) {
            report->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
         print_kind(found, (sl_fault_kind)kind, report->most);
+    if (faults->welded)
+        printf("  %u gap%s up to %.3g wide %s closed on import (by %s); no fault\n",
+               (unsigned)faults->welded, faults->welded == 1 ? "" : "s", faults->weld,
+               faults->welded == 1 ? "is" : "are", how_welded(report));
     if (found->inside == SL_INSIDE_SMALL)
         puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
     else if (!faults->count)
         puts("  nothing found");
     if (!faults->has_starts)
-        puts("  leaks and unreachable rooms need a start to be told: give --start X,Y");
+        puts("  leaks and unreachable rooms are found only from a start: give --start X,Y");
     if (report->mended)
         print_mended(report);
     else
@@ -292,16 +397,21 @@ static json_fields fault_fields(const checked *found, const sl_fault *fault) {
     json_add_text(&fields, "kind", sl_fault_name(fault->kind));
     json_add_real(&fields, "size", fault->size);
     json_add_points(&fields, "at", at, 2);
-    if (fault->walls[0] != UINT32_MAX) {
-        json_add_count(&fields, "wall", fault->walls[0]);
-        json_add_count(&fields, "line", map->walls[fault->walls[0]].line);
-    }
-    if (fault->walls[1] != UINT32_MAX) {
-        json_add_count(&fields, "other_wall", fault->walls[1]);
-        json_add_count(&fields, "other_line", map->walls[fault->walls[1]].line);
+    static const char *const walls[] = {"wall", "other_wall"};
+    static const char *const lines[] = {"line", "other_line"}, *const items[] = {"item",
+                                                                                 "other_item"};
+    static const char *const labels[] = {"label", "other_label"};
+    for (int i = 0; i < 2; i++) {
+        if (fault->walls[i] == UINT32_MAX) continue;
+        const uint32_t line = map->walls[fault->walls[i]].line;
+        const char *label = sl_map_label(map, line);
+        json_add_count(&fields, walls[i], fault->walls[i]);
+        json_add_count(&fields, (map->lines_are_items ? items : lines)[i], line);
+        if (label) json_add_text(&fields, labels[i], label);
     }
     if (fault->cell != SL_NO_CELL) json_add_count(&fields, "cell", fault->cell);
-    if (fault->kind == SL_FAULT_GAP) json_add_flag(&fields, "needs_decision", fault->stays);
+    if (fault->kind == SL_FAULT_GAP || fault->kind == SL_FAULT_LEAK)
+        json_add_flag(&fields, "needs_decision", fault->stays);
     if (fault->cells) json_add_count(&fields, "cells", fault->cells);
     if (fault->point_count)
         json_add_points(&fields, "way", found->faults.points + fault->first_point,
@@ -332,6 +442,8 @@ static sl_status faults_print_json(sl_context *context, const faults_report *rep
     json_add_flag(&fields, "has_starts", found->faults.has_starts);
     json_add_text(&fields, "inside", inside[found->inside]);
     if (report->helps > 0) json_add_real(&fields, "gap_that_helps", report->helps);
+    json_add_count(&fields, "closed_on_import", found->faults.welded);
+    json_add_real(&fields, "weld", found->faults.weld);
     add_counts(&fields, "counts", found->faults.counts);
     for (uint32_t i = 0; i < count; i++) items[i] = fault_fields(found, &found->faults.items[i]);
     json_add_list(&fields, "faults", items, count);
@@ -354,10 +466,10 @@ typedef struct check_plan {
     map_pipeline pipeline;
     sl_faults_options faults;
     sl_draw_options drawing;
-    const char *output, *snap, *gap_given;
+    const char *output, *snap;
     uint64_t most;
     bool json, strict;
-    char gap_text[SL_NUMBER_TEXT];
+    options_given given;
 } check_plan;
 
 static void destroy(sl_context *context, checked *c) {
@@ -366,11 +478,17 @@ static void destroy(sl_context *context, checked *c) {
     sl_faults_destroy(context, &c->faults);
 }
 
+static double usual_gap(const sl_map *map) {
+    const sl_box box = sl_map_bounds(map);
+    return hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;
+}
+
 /// Subdivides and finds faults. c->map is as it was read; c->baked.map becomes a clean copy.
 static sl_status examine(sl_context *context, const check_plan *plan, double gap, checked *c) {
     sl_faults_options options = plan->faults;
     options.gap = gap;
     options.clean = &plan->pipeline.input.clean;
+    c->gap = gap > 0 ? gap : usual_gap(&c->map);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
     SL_TRY(sl_map_copy(context, &c->map, &c->baked.map));
@@ -378,11 +496,6 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &c->baked.map, &c->baked.space));
     SL_TRY(sl_doubt_inside(context, &c->baked.map, &c->baked.space, &c->inside));
     return sl_find_faults(context, &c->map, &c->baked.space, &options, &c->faults);
-}
-
-static double usual_gap(const sl_map *map) {
-    const sl_box box = sl_map_bounds(map);
-    return hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;
 }
 
 /// Mends a copy of the map as read, and looks at what is left.
@@ -453,8 +566,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
                             .thin = plan->faults.thin > 0 ? plan->faults.thin : usual,
                             .most = plan->most,
                             .picture = plan->output,
-                            .start = plan->pipeline.start_text,
-                            .gap_text = plan->gap_given ? plan->gap_text : NULL};
+                            .given = &plan->given};
     if (plan->snap)
         SL_TRY(mend(context, plan, &c->map, &report, after));
     else
@@ -481,7 +593,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     const option_spec options[] = {
         {"gap", 0, "SIZE",
          "tell of gaps up to this width (the default is a\nthousandth of the map's diagonal)",
-         .number = &plan.faults.gap, .over_0 = true, .given = &plan.gap_given},
+         .number = &plan.faults.gap, .over_0 = true},
         {"thin", 0, "SIZE", "tell of cells thinner than this (the same default)",
          .number = &plan.faults.thin, .over_0 = true},
         {"snap", 0, "FIXED.map", "close such gaps and write the map so mended", .text = &plan.snap,
@@ -508,6 +620,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
                     "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap mended.map",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.given,
     };
     checked c = {0}, after = {0};
     bool helped;
@@ -515,7 +628,6 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;
     SL_TRY(pipeline_plan(console->context, input, &plan.pipeline));
-    if (plan.gap_given) sl_number_write(plan.faults.gap, plan.gap_text);
     const sl_status status = check(console, &plan, &c, &after);
     destroy(console->context, &c);
     destroy(console->context, &after);

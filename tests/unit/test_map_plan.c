@@ -324,8 +324,9 @@ static void test_large(void **state) {
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){4097, 0}, (sl_point){4097, 1}, 9));
     assert_null(map_plan_text(context, &map, &status));
     assert_int_equal(status, SL_UNSUPPORTED);
-    assert_string_equal(sl_context_message(context),
-                        "the map:9: wall 4097 0 4097 1: more than 4096 x 4096 squares up to this wall");
+    assert_string_equal(
+        sl_context_message(context),
+        "the map:9: wall 4097 0 4097 1: more than 4096 x 4096 squares up to this wall");
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }

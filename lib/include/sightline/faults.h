@@ -111,8 +111,9 @@ SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
 
 /// Cleans the map and snaps it by turns, until nothing moves. What was closed stays closed. Of the
 /// gaps that sl_find_faults lists by the same gap and options, those are left that have `stays`. No
-/// leak is left near one without `stays`. The walls of the result are clean, but walls for mirrors are not among them. `account`
-/// may be NULL. On failure the map is still usable, and may be mended in part.
+/// leak is left near one without `stays`. The walls of the result are clean, but walls for mirrors
+/// are not among them. `account` may be NULL. On failure the map is still usable, and may be mended
+/// in part.
 SL_API sl_status sl_map_mend(sl_context *context, sl_map *map, double gap,
                              const sl_clean_options *clean, sl_snap_account *account);
 
