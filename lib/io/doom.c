@@ -247,9 +247,7 @@ static sl_status add_start(doom_import *import) {
     const sli_doom_level *level = import->level;
     if (level->start_count == 0) return SL_OK;
     const sl_start *start = &level->starts[level->start_count - 1];
-    const uint32_t item = (uint32_t)level->line_count + 1;
-    SL_TRY(sl_map_add_label(import->context, import->map, item, "player 1's start"));
-    return sl_map_add_start(import->context, import->map, start->at, start->heading, item);
+    return sl_map_add_start(import->context, import->map, start->at, start->heading, start->line);
 }
 
 static void tell(const doom_import *import, const char *name) {
@@ -332,6 +330,8 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
     SL_TRY(sli_doom_read(context, &wad, &chosen, &level));
     const sl_status status = make_map(context, &wad, &chosen, &level, options, &read);
     sli_doom_level_destroy(context, &level);
+    // The map's lines are numbers of linedefs: a start is none of them.
+    for (size_t i = 0; i < read.start_count; i++) read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

@@ -76,6 +76,14 @@ def tmx():
             + ",".join("".join(rows)) + "</data></layer></map>")
 
 
+def tmx_objects(lines):
+    return ("<map orientation='orthogonal' width='8' height='6' tilewidth='16' tileheight='16'>\n"
+            "<objectgroup name='Walls'>\n" + "\n".join(
+                "<object id='%d' name='w%d' x='%f' y='%f'><polyline points='0,0 %f,%f'/></object>"
+                % (i + 7, i, a, b, c - a, d - b) for i, (a, b, c, d) in enumerate(lines))
+            + "</objectgroup></map>")
+
+
 class Next(unittest.TestCase):
     def setUp(self):
         box = sandbox.Sandbox(PROGRAM)
@@ -200,6 +208,11 @@ class Next(unittest.TestCase):
     def test_pictures_and_tiles(self):
         self.go_on(self.write("a.pgm", pgm()), "--threshold", "0.6")
         self.go_on(self.write("a.tmx", tmx()), "--layers", "Walls")
+
+    def test_objects(self):
+        _, text = self.go_on(self.write("a.tmx", tmx_objects(PLAN)), "--gap", "0.05")
+        self.assertIn("layer Walls, object 11 'w4', line 7 and layer Walls, object 7 'w0', line 3",
+                      text)
 
     def test_snap_from_any_source(self):
         for name, content in (("a.pgm", pgm()), ("a.tmx", tmx()), ("a.dxf", dxf(PLAN, 3)),
