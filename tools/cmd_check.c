@@ -320,7 +320,11 @@ static sl_point likely_start(const sl_space *space) {
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
+    bool gap_given = false;
+    for (size_t i = 0; i < report->given->count; i++)
+        gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
+    if (left && !gap_given) printf(" --gap %.6g", report->gap);
     if (left) print_name(report, " -o ", "-fixed.png");
 }
 
@@ -478,17 +482,12 @@ static void destroy(sl_context *context, checked *c) {
     sl_faults_destroy(context, &c->faults);
 }
 
-static double usual_gap(const sl_map *map) {
-    const sl_box box = sl_map_bounds(map);
-    return hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;
-}
-
 /// Subdivides and finds faults. c->map is as it was read; c->baked.map becomes a clean copy.
 static sl_status examine(sl_context *context, const check_plan *plan, double gap, checked *c) {
     sl_faults_options options = plan->faults;
     options.gap = gap;
     options.clean = &plan->pipeline.input.clean;
-    c->gap = gap > 0 ? gap : usual_gap(&c->map);
+    c->gap = gap > 0 ? gap : sl_usual_gap(&c->map);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
     SL_TRY(sl_map_copy(context, &c->map, &c->baked.map));
@@ -504,8 +503,7 @@ static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl
     SL_TRY(sl_map_copy(context, map, &after->map));
     SL_TRY(sl_map_mend(context, &after->map, gap, &plan->pipeline.input.clean, account));
     if (!after->map.wall_count) return SL_OK;
-    const double own = plan->faults.gap > 0 ? gap : fmax(gap, usual_gap(&after->map));
-    return examine(context, plan, own, after);
+    return examine(context, plan, gap, after);
 }
 
 /// Closes gaps and writes the map.
@@ -542,7 +540,7 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     const sl_faults *faults = &c->faults;
     if (!faults->counts[SL_FAULT_LEAK] || !(faults->items[0].size > report->gap)) return SL_OK;
     const double gap = round_up(faults->items[0].size);
-    if (gap > 20 * usual_gap(&c->map)) return SL_OK;
+    if (gap > 20 * sl_usual_gap(&c->map)) return SL_OK;
     checked after = {0};
     sl_snap_account account = {0};
     const sl_status status = mend_copy(context, plan, &c->map, gap, &account, &after);
@@ -559,7 +557,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     sl_context *context = console->context;
     SL_TRY(pipeline_read(context, &plan->pipeline, &c->map));
     SL_TRY(examine(context, plan, plan->faults.gap, c));
-    const double usual = usual_gap(&c->map);
+    const double usual = sl_usual_gap(&c->map);
     faults_report report = {.input = plan->pipeline.path,
                             .found = c,
                             .gap = plan->faults.gap > 0 ? plan->faults.gap : usual,

@@ -268,13 +268,24 @@ static sl_status add_label_text(sl_context *context, sl_map *map, const char *te
     return SL_OK;
 }
 
+/// Several things on one line: the last label names the first, and says that there are others.
+static sl_status share_label(sl_context *context, sl_map *map, const char *text) {
+    static const char others[] = " or another on this line";
+    sl_label *last = &map->labels[map->label_count - 1];
+    const char *first = map->label_text + last->text;
+    char both[SL_LINE_TEXT];
+    if (strcmp(first, text) == 0 || strstr(first, others)) return SL_OK;
+    snprintf(both, sizeof both, "%.96s%s", first, others);
+    return add_label_text(context, map, both, &last->text);
+}
+
 sl_status sl_map_add_label(sl_context *context, sl_map *map, uint32_t line, const char *text) {
     const uint32_t last = map->label_count ? map->labels[map->label_count - 1].line : 0;
     uint32_t begin = 0;
     if (line < last || line == 0)
         return sl_fail(context, SL_BAD_ARGUMENT, "label: line %u comes after line %u",
                        (unsigned)line, (unsigned)last);
-    if (line == last) return SL_OK;
+    if (line == last) return share_label(context, map, text);
     SL_TRY(MAP_ROOM(context, map, labels, label));
     SL_TRY(add_label_text(context, map, text, &begin));
     map->labels[map->label_count++] = (sl_label){.line = line, .text = begin};

@@ -368,6 +368,29 @@ static void finish(sli_fault_search *search, sl_faults *out) {
     *out = faults;
 }
 
+/// The power of two below the median length of walls.
+static double usual_length(const sl_map *map) {
+    enum { LOWEST = -1100, STEPS = 2200 };
+    uint32_t counts[STEPS] = {0};
+    size_t all = 0, below = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const double length = sli_apart(map->walls[i].a, map->walls[i].b);
+        int exponent;
+        if (!(length > 0)) continue;
+        (void)frexp(length, &exponent);
+        counts[exponent - LOWEST]++;
+        all++;
+    }
+    int step = 0;
+    while (all && below + counts[step] <= all / 2) below += counts[step++];
+    return all ? ldexp(0.5, step + LOWEST) : INFINITY;
+}
+
+double sl_usual_gap(const sl_map *map) {
+    const sl_box box = sl_map_bounds(map);
+    return fmin(sli_apart(box.min, box.max) / 1000, usual_length(map) / 8);
+}
+
 /// Whether there is a gap or a leak.
 static bool has_openings(const sli_fault_search *search) {
     for (size_t i = 0; i < search->faults.count; i++)
@@ -392,8 +415,7 @@ static sl_status find_all(sli_fault_search *search) {
 
 sl_status sli_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                           const sl_faults_options *options, bool trial, sl_faults *out) {
-    const sl_box box = sl_map_bounds(map);
-    const double usual = sli_apart(box.min, box.max) / 1000;
+    const double usual = sl_usual_gap(map);
     sli_fault_search search = {
         .context = context, .map = map, .space = space, .options = *options, .trial = trial};
     if (!(options->gap >= 0 && options->thin >= 0))

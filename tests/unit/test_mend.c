@@ -45,11 +45,6 @@ static void turn(sl_map *map, double degrees) {
                                              turned(map->doors[i].segment.b, degrees)};
 }
 
-static double usual_gap(const sl_map *map) {
-    const sl_box box = sl_map_bounds(map);
-    return hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;
-}
-
 static void find(sl_context *context, const sl_map *map, double gap, const sl_clean_options *clean,
                  sl_faults *faults) {
     const sl_faults_options options = {.gap = gap, .clean = clean};
@@ -131,16 +126,17 @@ static void offices_and_cities(void **state) {
                 sl_map map = {0};
                 char what[80];
                 generate(context, kinds[k], 150 << (seed % 4), seed, &map);
-                const double most = usual_gap(&map) * (way % 4 == 0   ? 1e-3
-                                                       : way % 4 == 1 ? 0.3
-                                                       : way % 4 == 2 ? 1
-                                                                      : 3);
+                const double most = sl_usual_gap(&map) * (way % 4 == 0   ? 1e-3
+                                                          : way % 4 == 1 ? 0.3
+                                                          : way % 4 == 2 ? 1
+                                                                         : 3);
                 jitter(&map, most, seed * 8 + (uint64_t)way);
                 if (way >= 4) turn(&map, 17.3);
                 const sl_clean_options none = {.weld = 0}, usual = sl_clean_options_default();
                 if (seed % 3 == 1) map.precision = most / 2;
                 snprintf(what, sizeof what, "%s, seed %d, way %d", kinds[k], (int)seed, way);
-                hold_promise(context, &map, usual_gap(&map), seed % 3 == 2 ? &none : &usual, what);
+                hold_promise(context, &map, sl_usual_gap(&map), seed % 3 == 2 ? &none : &usual,
+                             what);
                 sl_map_destroy(context, &map);
             }
         }
@@ -156,7 +152,7 @@ static void map_file(const char *path) {
         sl_context *context = testing_context(NULL);
         sl_map map = {0};
         map_files_read(context, path, &map);
-        const double gap = usual_gap(&map);
+        const double gap = sl_usual_gap(&map);
         if (way % 3) jitter(&map, way % 3 == 1 ? 0.2 * gap : gap, 5);
         if (way >= 3) turn(&map, 17.3);
         hold_promise(context, &map, gap, NULL, path);

@@ -61,11 +61,15 @@ SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and 
 
 /// Zeroed: the usual.
 typedef struct sl_faults_options {
-    double gap;  ///< the largest width of a gap; 0 for 1/1000 of the map's diagonal
+    double gap;  ///< the largest width of a gap; 0 for sl_usual_gap
     double thin; ///< cells below this width are thin; 0 for the same
     const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap, overlap or
                                    ///< crossing; NULL for the default
 } sl_faults_options;
+
+/// The width below which an opening is hardly meant: 1/1000 of the map's diagonal; at most 1/8 of
+/// the median length of walls, rounded down to a power of two. So large maps keep their doorways.
+SL_API double sl_usual_gap(const sl_map *map);
 
 /// Finds all faults. `map` is as read, not cleaned, so that walls keep their lines; `space` was
 /// made from it. Gaps and leaks are those of the clean map, overlaps and crossings those of the map

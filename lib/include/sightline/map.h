@@ -141,8 +141,9 @@ SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
 /// Adds a line to the notes.
 SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text);
 
-/// Adds the file's own name for a line. Lines come in ascending order; a second name for a line is
-/// left out. Control characters become '?', and long names are cut.
+/// Adds the file's own name for a line. Lines come in ascending order. A line with several names
+/// keeps the first, and says that there are others. Control characters become '?', and long names
+/// are cut.
 SL_API sl_status sl_map_add_label(sl_context *context, sl_map *map, uint32_t line,
                                   const char *text);
 
