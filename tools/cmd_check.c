@@ -135,25 +135,28 @@ static void print_fault(const checked *found, const sl_fault *fault) {
 }
 
 static void print_kind(const checked *found, sl_fault_kind kind, uint64_t most) {
-    static const char *const what[SL_FAULT_KINDS] = {
-        "leak: an opening through which a start leads to the map's border",
-        "gap: a wall's end near another wall",
-        "overlap: a piece that two walls share (bake joins them)",
-        "crossing: where two walls cross (no mistake if they are meant to)",
-        "thin: a cell thinner than the width asked about",
-        "unreachable: a room that no start leads to"};
+    static const struct {
+        const char *one, *several, *what;
+    } kinds[SL_FAULT_KINDS] = {
+        {"leak", "leaks", "openings through which a start leads out of the map"},
+        {"gap", "gaps", "places where a wall ends near another one"},
+        {"overlap", "overlaps", "pieces that two walls share; bake joins them"},
+        {"crossing", "crossings", "places where two walls cross; no mistake if they are meant to"},
+        {"thin cell", "thin cells", "cells thinner than --thin"},
+        {"unreachable room", "unreachable rooms", "rooms that no start leads to"}};
     const sl_faults *faults = &found->faults;
-    if (!faults->counts[kind]) return;
-    printf("  %u %s\n", (unsigned)faults->counts[kind], what[kind]);
+    const uint32_t count = faults->counts[kind];
+    if (!count) return;
+    printf("  %u %s (%s):\n", (unsigned)count, count == 1 ? kinds[kind].one : kinds[kind].several,
+           kinds[kind].what);
     uint64_t printed = 0;
     for (uint32_t i = 0; i < faults->count && printed < most; i++) {
         if (faults->items[i].kind != kind) continue;
         print_fault(found, &faults->items[i]);
         printed++;
     }
-    if (printed < faults->counts[kind])
-        printf("    ... and %u more (--most N, --json)\n",
-               (unsigned)(faults->counts[kind] - printed));
+    if (printed < count)
+        printf("    ... and %u more (--most N, --json)\n", (unsigned)(count - printed));
 }
 
 /// The faults of a kind that snapping closes.
@@ -352,6 +355,8 @@ static void print_next(const faults_report *report) {
     } else if (grave) {
         puts("  mend the walls named above before the next command");
         print_command(report, NEXT_CHECK, 0);
+    } else if (input_ends_with(report->input, ".slv")) {
+        print_file("next: sightline info ", report->input);
     } else {
         print_command(report, NEXT_BAKE, 0);
     }
@@ -369,7 +374,7 @@ static const char *how_welded(const faults_report *report) {
 static sl_status faults_print(const faults_report *report) {
     const checked *found = report->found;
     const sl_faults *faults = &found->faults;
-    printf("%s: %zu walls, %u cells; gaps up to %.4g and cells thinner than %.4g looked for\n",
+    printf("%s: %zu walls, %u cells; looked for gaps up to %.4g and cells thinner than %.4g\n",
            report->input, found->map.wall_count, (unsigned)found->baked.space.cell_count,
            report->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
@@ -552,10 +557,18 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     return status == SL_NO_MEMORY || status == SL_CANCELLED ? status : SL_OK;
 }
 
+/// Reads the map; of a baked file, the map that it was made from.
+static sl_status read_map(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
+    if (!input_ends_with(pipeline->path, ".slv")) return pipeline_read(context, pipeline, map);
+    SL_TRY(input_read_either(context, pipeline->path, &pipeline->input, map));
+    sl_effects_leave_out(context, map, pipeline->without);
+    return pipeline->start_text ? sl_map_add_start(context, map, pipeline->start, 0, 0) : SL_OK;
+}
+
 static sl_status check(command_console *console, const check_plan *plan, checked *c,
                        checked *after) {
     sl_context *context = console->context;
-    SL_TRY(pipeline_read(context, &plan->pipeline, &c->map));
+    SL_TRY(read_map(context, &plan->pipeline, &c->map));
     SL_TRY(examine(context, plan, plan->faults.gap, c));
     const double usual = sl_usual_gap(&c->map);
     faults_report report = {.input = plan->pipeline.path,
@@ -590,32 +603,39 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_spec options[] = {
         {"gap", 0, "SIZE",
-         "tell of gaps up to this width (the default is a\nthousandth of the map's diagonal)",
+         "list gaps up to this width (default: 1/1000 of the\nmap's diagonal, at most 1/8 of a "
+         "usual wall)",
          .number = &plan.faults.gap, .over_0 = true},
-        {"thin", 0, "SIZE", "tell of cells thinner than this (the same default)",
+        {"thin", 0, "SIZE", "list cells thinner than this (same default)",
          .number = &plan.faults.thin, .over_0 = true},
-        {"snap", 0, "FIXED.map", "close such gaps and write the map so mended", .text = &plan.snap,
-         .check = CHECK_FILE},
-        {"output", 'o', "PICTURE", "mark all faults on the plan: .png, .svg or .pdf",
+        {"snap", 0, "FIXED.map", "close such gaps, and write the result as map text",
+         .text = &plan.snap, .check = CHECK_FILE},
+        {"output", 'o', "PICTURE", "draw the plan with all faults: .png, .svg or .pdf",
          .text = &plan.output, .check = CHECK_PICTURE},
-        {"width", 0, "PX", "of the picture, 64 to 20000 pixels or points",
+        {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
          .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
         {"dark", 0, NULL, "light on dark", .flag = &plan.drawing.dark},
-        {"most", 0, "N", "print up to N faults of a kind (default 10)", .count = &plan.most,
+        {"most", 0, "N", "print up to N faults of each kind (default 10)", .count = &plan.most,
          .most = UINT32_MAX},
         {.group = &pipeline},
-        {"strict", 0, NULL, "exit with status 3 if a fault is found", .flag = &plan.strict},
+        {"strict", 0, NULL, "exit with status 3 if there is a fault", .flag = &plan.strict},
         {"json", 0, NULL, "print all faults as one JSON object", .flag = &plan.json},
     };
     const command_usage usage = {
         .name = "check",
-        .synopsis = "MAP [options]",
+        .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP"},
-        .what = "Looks a map over: leaks from a start to the outside with their way, gaps between\n"
-                "walls, overlaps and crossings, thin cells, rooms that no start leads to.",
+        .what = "Lists what may be wrong with a map: leaks (openings through which a start leads\n"
+                "out of the map), gaps between walls, overlaps, crossings, thin cells, and rooms\n"
+                "that no start leads to. A fault has its place and the names of its walls in the\n"
+                "file: line, layer, handle, id. The last line is the next command to run.\n"
+                "\n"
+                "--snap moves ends of walls by up to --gap. What it cannot close is marked as\n"
+                "'needs a decision': a corner near the side of a wall, for example.",
         .tables = print_tables,
         .examples = "  sightline check office.map -o office-check.png\n"
-                    "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap mended.map",
+                    "  sightline check plan.dxf --start 3,5\n"
+                    "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap plan-fixed.map",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.given,

@@ -222,6 +222,16 @@ class Next(unittest.TestCase):
             self.run_well(["check", name, "--snap", name + ".map"])
             self.run_well(["check", name + ".map"])
 
+    def test_baked(self):
+        self.write("a.map", map_text(PLAN))
+        self.run_well(["bake", "a.map", "-o", "a.slv"])
+        commands, _ = self.go_on("a.slv", "--gap", "0.05")
+        self.assertEqual(commands, [["check", "a.slv", "--gap", "0.05"],
+                                    ["check", "a.slv", "--gap", "0.05", "--snap", "a-fixed.map"],
+                                    ["bake", "a-fixed.map"]])
+        self.assertIn("next: sightline info a.slv",
+                      self.run_well(["check", "a.slv", "--gap", "1e-5", "--start", "1,1"]))
+
     def test_widths(self):
         """Far from the origin, and tiny."""
         far = [tuple(100 * v + m for v, m in zip(line, 2 * (531577, 184242))) for line in PLAN]
