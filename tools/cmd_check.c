@@ -16,7 +16,8 @@ typedef struct checked {
     sl_baked baked; ///< its space, and the rest of the map for the picture
     sl_faults faults;
     sl_inside inside;
-    double gap; ///< up to which gaps were looked for
+    double gap;  ///< up to which gaps were looked for
+    bool mended; ///< snapped: the map's own cells are gone
 } checked;
 
 typedef struct faults_report {
@@ -134,21 +135,28 @@ static void print_fault(const checked *found, const sl_fault *fault) {
     putchar('\n');
 }
 
+/// What kinds of faults are called.
+static const struct {
+    const char *one, *several, *what;
+} kinds[SL_FAULT_KINDS] = {
+    {"leak", "leaks", "openings through which a start leads out of the map"},
+    {"gap", "gaps", "places where a wall ends near another one"},
+    {"overlap", "overlaps", "pieces that two walls share; bake joins them"},
+    {"crossing", "crossings", "places where two walls cross; no mistake if they are meant to"},
+    {"thin cell", "thin cells", "cells thinner than --thin"},
+    {"unreachable room", "unreachable rooms", "rooms that no start leads to"}};
+
+/// "3 gaps"
+static void print_count(const char *before, sl_fault_kind kind, uint32_t count) {
+    printf("%s%u %s", before, (unsigned)count, count == 1 ? kinds[kind].one : kinds[kind].several);
+}
+
 static void print_kind(const checked *found, sl_fault_kind kind, uint64_t most) {
-    static const struct {
-        const char *one, *several, *what;
-    } kinds[SL_FAULT_KINDS] = {
-        {"leak", "leaks", "openings through which a start leads out of the map"},
-        {"gap", "gaps", "places where a wall ends near another one"},
-        {"overlap", "overlaps", "pieces that two walls share; bake joins them"},
-        {"crossing", "crossings", "places where two walls cross; no mistake if they are meant to"},
-        {"thin cell", "thin cells", "cells thinner than --thin"},
-        {"unreachable room", "unreachable rooms", "rooms that no start leads to"}};
     const sl_faults *faults = &found->faults;
     const uint32_t count = faults->counts[kind];
     if (!count) return;
-    printf("  %u %s (%s):\n", (unsigned)count, count == 1 ? kinds[kind].one : kinds[kind].several,
-           kinds[kind].what);
+    print_count("  ", kind, count);
+    printf(" (%s):\n", kinds[kind].what);
     uint64_t printed = 0;
     for (uint32_t i = 0; i < faults->count && printed < most; i++) {
         if (faults->items[i].kind != kind) continue;
@@ -176,7 +184,7 @@ static void print_mended(const faults_report *report) {
     const char *before = "; left: ";
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
         if (!left->counts[kind]) continue;
-        printf("%s%u %s", before, (unsigned)left->counts[kind], sl_fault_name((sl_fault_kind)kind));
+        print_count(before, (sl_fault_kind)kind, left->counts[kind]);
         before = ", ";
     }
     putchar('\n');
@@ -258,9 +266,9 @@ typedef enum next_use { NEXT_CHECK, NEXT_BAKE, NEXT_CHECK_MENDED, NEXT_BAKE_MEND
 /// Repeats an option unless it is for this run alone, or for reading a file that the next command
 /// does not read.
 static bool is_repeated(const struct option_given *option, next_use use) {
-    static const char *const own[] = {"gap",    "snap", "output", "width", "dark",
+    static const char *const own[] = {"gap",    "snap", "output", "width", "dark", "most",
                                       "strict", "json", "quiet",  "help",  NULL};
-    static const char *const for_check[] = {"thin", "most", NULL};
+    static const char *const for_check[] = {"thin", NULL};
     static const char *const reading[] = {"map",   "slice",     "layers",  "tolerance",
                                           "unit",  "threshold", "sectors", "doors",
                                           "start", "without",   NULL};
@@ -497,7 +505,10 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
     sl_faults_destroy(context, &c->faults);
     SL_TRY(sl_map_copy(context, &c->map, &c->baked.map));
     SL_TRY(input_clean(context, &plan->pipeline.input, &c->baked.map, NULL));
-    SL_TRY(pipeline_subdivide(context, &plan->pipeline, &c->baked.map, &c->baked.space));
+    map_pipeline pipeline = plan->pipeline;
+    const sl_subdivision *way = pipeline.bake.subdivision;
+    if (c->mended && way && way->takes_cells) pipeline.bake.subdivision = NULL;
+    SL_TRY(pipeline_subdivide(context, &pipeline, &c->baked.map, &c->baked.space));
     SL_TRY(sl_doubt_inside(context, &c->baked.map, &c->baked.space, &c->inside));
     return sl_find_faults(context, &c->map, &c->baked.space, &options, &c->faults);
 }
@@ -508,6 +519,7 @@ static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl
     SL_TRY(sl_map_copy(context, map, &after->map));
     SL_TRY(sl_map_mend(context, &after->map, gap, &plan->pipeline.input.clean, account));
     if (!after->map.wall_count) return SL_OK;
+    after->mended = true;
     return examine(context, plan, gap, after);
 }
 
