@@ -180,7 +180,7 @@ static void print_mended(const faults_report *report) {
     const size_t moved = report->snap.moved, vanished = report->snap.vanished;
     printf("%s: %zu wall end%s moved", report->mended, moved, moved == 1 ? "" : "s");
     if (moved) printf(", by %.6g at most", report->snap.farthest);
-    if (vanished) printf("; %zu wall%s vanished", vanished, vanished == 1 ? "" : "s");
+    if (vanished) printf("; %zu piece%s of walls vanished", vanished, vanished == 1 ? "" : "s");
     const char *before = "; left: ";
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
         if (!left->counts[kind]) continue;

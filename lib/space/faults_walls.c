@@ -149,6 +149,8 @@ static sl_status count_welded(sli_fault_search *search) {
         const sl_wall *other = &search->map->walls[gap->walls[1]];
         const bool to_end =
             sli_same_point(gap->at.b, other->a) || sli_same_point(gap->at.b, other->b);
+        // An end that goes too far is no gap: its wall crosses the other one.
+        if (crosses(&search->map->walls[gap->walls[0]], other->a, other->b)) continue;
         search->welded += to_end || gap->size < search->weld / 2;
     }
     sl_free(search->context, gaps.items);

@@ -61,8 +61,8 @@ SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and 
 
 /// Zeroed: the usual.
 typedef struct sl_faults_options {
-    double gap;  ///< the largest width of a gap; 0 for sl_usual_gap
-    double thin; ///< cells below this width are thin; 0 for the same
+    double gap;                    ///< the largest width of a gap; 0 for sl_usual_gap
+    double thin;                   ///< cells below this width are thin; 0 for the same
     const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap, overlap or
                                    ///< crossing; NULL for the default
 } sl_faults_options;
