@@ -353,8 +353,8 @@ static void print_next(const faults_report *report) {
     } else if (!faults->has_starts) {
         const sl_point start = likely_start(&report->found->baked.space);
         const int digits = digits_in(&report->found->map);
-        puts("  the next command starts in the largest room: put another place there if it is not "
-             "inside");
+        puts("  the next command has a start in the largest cell: put another place there if that "
+             "is outside");
         print_command(report, NEXT_CHECK, 0);
         printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
     } else if (grave && !report->picture) {

@@ -176,7 +176,10 @@ static sl_status split_walls(snapper *s) {
     for (size_t i = s->splits.count; i-- > 0;) {
         const sl_wall wall = s->map->walls[splits[i].wall];
         SL_TRY(sl_map_add_wall(s->context, s->map, splits[i].at, wall.b, wall.line));
-        s->map->walls[splits[i].wall].b = splits[i].at;
+        // All else that a wall says of itself holds for both pieces.
+        sl_wall *last = &s->map->walls[s->map->wall_count - 1];
+        *last = wall;
+        last->a = s->map->walls[splits[i].wall].b = splits[i].at;
     }
     return SL_OK;
 }

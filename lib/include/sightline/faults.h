@@ -33,7 +33,8 @@ typedef struct sl_fault {
     /// Leak, gap: its width. Overlap: the length of the piece.
     /// Crossing: 0. Thin cell: its width. Unreachable room: its area.
     double size;
-    /// Gap, overlap, crossing: the map's walls. Leak: those at its two ends. UINT32_MAX for none.
+    /// Gap, overlap, crossing: the map's walls. Leak: those at its two ends. UINT32_MAX for none,
+    /// as at a mirror.
     uint32_t walls[2];
     uint32_t cell;  ///< the thin cell, the room's largest, one at the leak; else SL_NO_CELL
     uint32_t cells; ///< the number of cells of the room; else 0
