@@ -328,10 +328,24 @@ static sl_point likely_start(const sl_space *space) {
     return at;
 }
 
+/// Checks again, with a start.
+static void print_next_start(const faults_report *report, next_use use, const checked *found) {
+    const sl_point start = likely_start(&found->baked.space);
+    const int digits = digits_in(&found->map);
+    puts("  the next command has a start in the largest cell: put another place there if that is "
+         "outside");
+    print_command(report, use, 0);
+    printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
+}
+
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
     bool gap_given = false;
+    if (!left && !report->left->faults.has_starts) {
+        print_next_start(report, NEXT_CHECK_MENDED, report->left);
+        return;
+    }
     for (size_t i = 0; i < report->given->count; i++)
         gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
@@ -351,12 +365,7 @@ static void print_next(const faults_report *report) {
         print_command(report, NEXT_CHECK, 0);
         print_name(report, " --snap ", "-fixed.map");
     } else if (!faults->has_starts) {
-        const sl_point start = likely_start(&report->found->baked.space);
-        const int digits = digits_in(&report->found->map);
-        puts("  the next command has a start in the largest cell: put another place there if that "
-             "is outside");
-        print_command(report, NEXT_CHECK, 0);
-        printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
+        print_next_start(report, NEXT_CHECK, report->found);
     } else if (grave && !report->picture) {
         print_command(report, NEXT_CHECK, 0);
         print_name(report, " -o ", "-check.png");

@@ -132,7 +132,7 @@ class Next(unittest.TestCase):
                                        "--kd-rules", "cleaving,median", "--snap",
                                        "it's a plan-fixed.map"])
         self.assertEqual(commands[-1], ["bake", "it's a plan-fixed.map", "--kd-rules",
-                                        "cleaving,median"])
+                                        "cleaving,median", "--start", "2.5,3"])
 
     def test_option_like_name(self):
         self.write("-x.map", map_text(PLAN))
@@ -228,7 +228,8 @@ class Next(unittest.TestCase):
         commands, _ = self.go_on("a.slv", "--gap", "0.05")
         self.assertEqual(commands, [["check", "a.slv", "--gap", "0.05"],
                                     ["check", "a.slv", "--gap", "0.05", "--snap", "a-fixed.map"],
-                                    ["bake", "a-fixed.map"]])
+                                    ["check", "a-fixed.map", "--gap", "0.05", "--start", "2.5,3"],
+                                    ["bake", "a-fixed.map", "--start", "2.5,3"]])
         self.assertIn("next: sightline info a.slv",
                       self.run_well(["check", "a.slv", "--gap", "1e-5", "--start", "1,1"]))
 
