@@ -188,6 +188,9 @@ static void print_mended(const faults_report *report) {
         before = ", ";
     }
     putchar('\n');
+    if (report->snap.ground_dropped)
+        puts("  the marks of solid ground are left out, as walls have moved: starts say what is "
+             "inside");
     if (left->counts[SL_FAULT_LEAK] || left->counts[SL_FAULT_GAP])
         printf("  what is left needs a decision (by %s of %s):\n",
                report->left->map.lines_are_items ? "the names" : "lines", report->input);
@@ -308,7 +311,7 @@ static void print_name(const faults_report *report, const char *option, const ch
     print_file(option, name);
 }
 
-/// The middle of the largest cell that may be inside.
+/// The middle of the largest cell that may be inside. Solid ground is not.
 static sl_point likely_start(const sl_space *space) {
     double largest = -1;
     bool inside = false;
@@ -316,7 +319,8 @@ static sl_point likely_start(const sl_space *space) {
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const sl_cell *cell = &space->cells[i];
         const double area = sl_space_area(space, i);
-        if ((inside && !cell->inside) || (inside == cell->inside && area <= largest)) continue;
+        if (cell->solid || (inside && !cell->inside) || (inside == cell->inside && area <= largest))
+            continue;
         inside = cell->inside;
         largest = area;
         at = (sl_point){0, 0};
@@ -402,6 +406,10 @@ static sl_status faults_print(const faults_report *report) {
                faults->welded == 1 ? "is" : "are", how_welded(report));
     if (found->inside == SL_INSIDE_SMALL)
         puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
+    else if (found->inside == SL_INSIDE_FEW)
+        puts("  inside is doubtful: most of the area is in rooms that no start leads to");
+    else if (found->inside == SL_INSIDE_NONE)
+        puts("  nothing is inside: all is solid ground");
     else if (!faults->count)
         puts("  nothing found");
     if (!faults->has_starts)
@@ -454,7 +462,7 @@ static void add_counts(json_fields *fields, const char *key,
 }
 
 static sl_status faults_print_json(sl_context *context, const faults_report *report) {
-    static const char *const inside[] = {"sure", "leaks", "doubtful"};
+    static const char *const inside[] = {"sure", "leaks", "doubtful", "few", "none"};
     const checked *found = report->found;
     const uint32_t count = found->faults.count;
     json_fields fields = json_begin();
@@ -479,6 +487,7 @@ static sl_status faults_print_json(sl_context *context, const faults_report *rep
         json_add_count(&mended, "moved", report->snap.moved);
         json_add_real(&mended, "farthest", report->snap.farthest);
         json_add_count(&mended, "vanished", report->snap.vanished);
+        json_add_flag(&mended, "ground_dropped", report->snap.ground_dropped);
         add_counts(&mended, "counts", report->left->faults.counts);
         json_add_fields(&fields, "mended", &mended);
     }

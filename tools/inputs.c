@@ -120,12 +120,8 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
 static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map *map) {
     sl_baked baked = {0};
     SL_TRY(sl_baked_read(context, path, &baked));
-    sl_status status = SL_OK;
     const sl_space *space = &baked.space;
-    for (uint32_t i = 0; i < space->wall_count && status == SL_OK; i++) {
-        const sl_wall *wall = &space->walls[i];
-        status = sl_map_add_wall(context, &baked.map, wall->a, wall->b, wall->line);
-    }
+    const sl_status status = sl_map_add_walls(context, &baked.map, space->walls, space->wall_count);
     if (status == SL_OK) {
         *map = baked.map;
         baked.map = (sl_map){0};

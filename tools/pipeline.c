@@ -139,20 +139,36 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
-sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline,
-                               const sl_baked *baked) {
+sl_status pipeline_note_inside(sl_context *context, const char *path, const sl_map *map,
+                               const sl_space *space) {
     sl_inside doubt;
-    SL_TRY(sl_doubt_inside(context, &baked->map, &baked->space, &doubt));
+    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    const sl_ground_shares shares = sl_space_ground(space);
     if (doubt == SL_INSIDE_LEAKS)
         sl_note(context,
-                "a start leads out of the map, so the outside counts as inside; "
-                "sightline check %s shows where",
-                pipeline->path);
-    if (doubt == SL_INSIDE_SMALL)
+                "a start leads out of the map, so the outside counts as inside, too (%.0f %% of "
+                "the area); to see where, run: sightline check %s",
+                100 * shares.inside, path);
+    if (doubt == SL_INSIDE_SMALL && shares.outside > 0)
         sl_note(context,
-                "the map has no start, and walls enclose less than half of it, so inside is "
-                "doubtful; sightline check %s --start X,Y tells more",
-                pipeline->path);
+                "the map has no start, and walls enclose only %.0f %% of the area, so inside is "
+                "doubtful; add a start: sightline check %s --start X,Y",
+                100 * shares.inside, path);
+    if (doubt == SL_INSIDE_SMALL && !(shares.outside > 0))
+        sl_note(context,
+                "the map has no start, and walls enclose nothing, so all of it counts as inside; "
+                "add a start: sightline check %s --start X,Y",
+                path);
+    if (doubt == SL_INSIDE_FEW)
+        sl_note(context,
+                "a start reaches %.2g %% of the area, and rooms that no start reaches have more; "
+                "they count as outside; sightline check %s lists them, --start X,Y adds a start",
+                100 * shares.inside, path);
+    if (doubt == SL_INSIDE_NONE)
+        sl_note(context,
+                "all of the map is solid ground, so nothing is inside; to see it, run: "
+                "sightline check %s -o check.png",
+                path);
     return SL_OK;
 }
 

@@ -131,9 +131,7 @@ static void take_progress(void *user, const sl_progress *progress) {
 /// Replaces the walls of a map.
 static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
     map->wall_count = 0;
-    for (size_t i = 0; i < count; i++)
-        SL_TRY(sl_map_add_wall(context, map, walls[i].a, walls[i].b, walls[i].line));
-    return SL_OK;
+    return sl_map_add_walls(context, map, walls, count);
 }
 
 /// A baked file has all but the map as drawn: the walls of its space take its place.

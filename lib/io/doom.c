@@ -239,7 +239,12 @@ static sl_status add_line(doom_import *import, const sli_doom_line *line) {
         return import->is_door ? add_door(import, line) : SL_OK;
     }
     lines->walls++;
-    return sl_map_add_wall(import->context, import->map, line->from, line->to, import->item);
+    SL_TRY(sl_map_add_wall(import->context, import->map, line->from, line->to, import->item));
+    const uint32_t ground = SL_OPEN_RIGHT | SL_SOLID_LEFT; // the front is open, behind it is void
+    import->map->walls[import->map->wall_count - 1].ground =
+        line->right != SLI_NO_SECTOR ? ground : sl_ground_turned(ground);
+    import->map->ground_guessed = true;
+    return SL_OK;
 }
 
 /// The game puts player 1 where the last of the starts is.

@@ -265,6 +265,16 @@ static void put(const sli_tile_block *block, size_t column, size_t row, char kin
     }
 }
 
+/// Whether all blocks lie on the grid of the first one.
+static bool is_only_grid(const sli_tiles *tiles, const sli_tile_block *first) {
+    bool only = true;
+    for (size_t i = 0; i < tiles->blocks.count && only; i++) {
+        double column, row;
+        only = place_on(first, &tiles->blocks.items[i], &column, &row);
+    }
+    return only;
+}
+
 static void put_all(sli_tiles *tiles, const span *all, char kind, sli_grid *grid) {
     // The first block is what the others are held against: it is done last.
     const size_t first = (size_t)(all->first - tiles->blocks.items);
@@ -300,6 +310,7 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
     grid.origin =
         (sl_point){corner.x + all->left * step.x, options->top - (corner.y + all->bottom * step.y)};
     grid.open_outside = !closed;
+    grid.sure = is_only_grid(tiles, all->first);
     const sl_status status = sli_grid_add_walls(context, &grid, map);
     sli_grid_destroy(context, &grid);
     return status;

@@ -4,6 +4,7 @@
 #include "io/document.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 
@@ -390,6 +391,39 @@ static sl_status read_export_wall(sl_context *context, const sli_json *wall, uin
                            item);
 }
 
+/// A polygon of solid ground. Walls between two of them fall away when the map is cleaned.
+static sl_status read_export_solid(sl_context *context, const sli_json *polygon, sl_map *map) {
+    size_t count;
+    SL_TRY(sli_json_array(polygon, &count));
+    sl_point *corners = sl_alloc_array(context, count, sizeof *corners);
+    if (!corners) return SL_NO_MEMORY;
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const sli_json corner = sli_json_item(polygon, i);
+        const sli_json x = sli_json_item(&corner, 0), y = sli_json_item(&corner, 1);
+        status = sli_json_number(&x, &corners[i].x);
+        if (status == SL_OK) status = sli_json_number(&y, &corners[i].y);
+    }
+    if (status == SL_OK && count < 3)
+        status = sli_json_fail(polygon, "expected at least 3 corners, found %zu", count);
+    if (status == SL_OK)
+        status = sli_map_add_ground(context, map, polygon->file->name, false, corners, count, 0);
+    sl_free(context, corners);
+    return status;
+}
+
+static sl_status read_export_solids(sl_context *context, const sli_json *root, sl_map *map) {
+    const sli_json solids = sli_json_member(root, "solids");
+    size_t count = 0;
+    if (solids.value) SL_TRY(sli_json_array(&solids, &count));
+    for (size_t i = 0; i < count; i++) {
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
+        const sli_json polygon = sli_json_item(&solids, i);
+        SL_TRY(read_export_solid(context, &polygon, map));
+    }
+    return SL_OK;
+}
+
 static sl_status read_export_walls(sl_context *context, const sli_json *root, sl_map *map) {
     const sli_json walls = sli_json_member(root, "walls");
     size_t count;
@@ -403,10 +437,10 @@ static sl_status read_export_walls(sl_context *context, const sli_json *root, sl
         SL_TRY(read_export_wall(context, &wall, item, map));
     }
     sl_note(context,
-            "%s: an export: its %zu walls are taken; left out: cells, portals and what they "
-            "see",
+            "%s: an export: its %zu walls and its solid ground are taken; left out: cells, portals "
+            "and what they see",
             root->file->name, count);
-    return SL_OK;
+    return read_export_solids(context, root, map);
 }
 
 sl_status sl_map_read_export(sl_context *context, const char *name, const char *text, size_t size,

@@ -10,6 +10,7 @@
 /// a door that is shut is as tight as a wall. What the map holds is then replaced by its chains: an
 /// edge of a wall is a wall, a piece of glass becomes several, a door gets parts, a cell gets
 /// corners.
+#include "map/ground.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -79,13 +80,14 @@ static uint32_t lower_line(uint32_t a, uint32_t b) {
     return a - 1 <= b - 1 ? a : b;
 }
 
-/// Makes a wall of each edge that is part of one.
+/// Makes a wall of each edge that is part of one, but for edges inside of solid ground.
 static sl_status make_walls(maker *m, replacement *out) {
     const sli_planar *graph = &m->graph;
     uint32_t *lines = sl_alloc_array(m->context, graph->edge_count, sizeof *lines);
+    uint32_t *ground = sl_alloc_array(m->context, graph->edge_count, sizeof *ground);
     bool *walled = sl_alloc_array(m->context, graph->edge_count, sizeof *walled);
     out->walls = sl_alloc_array(m->context, graph->edge_count, sizeof *out->walls);
-    const bool done = lines && walled && out->walls;
+    const bool done = lines && ground && walled && out->walls;
     for (size_t i = 0; i < m->list.mirrors && done; i++) {
         const size_t parts = graph->first[i + 1] - graph->first[i];
         m->account->split += parts > 1;
@@ -96,13 +98,17 @@ static sl_status make_walls(maker *m, replacement *out) {
             lines[edge] = walled[edge] ? lower_line(lines[edge], line) : line;
             m->account->merged += walled[edge];
             walled[edge] = true;
+            const uint32_t own = m->walls[i].ground;
+            ground[edge] |= graph->links[k] % 2 ? sli_ground_turned(own) : own;
         }
     }
     for (size_t i = 0; i < graph->edge_count && done; i++)
-        if (walled[i])
-            out->walls[out->wall_count++] = (sl_wall){graph->points[graph->edges[i].a],
-                                                      graph->points[graph->edges[i].b], lines[i]};
+        if (walled[i] && !sli_ground_hides_wall(ground[i]))
+            out->walls[out->wall_count++] =
+                (sl_wall){graph->points[graph->edges[i].a], graph->points[graph->edges[i].b],
+                          lines[i], ground[i] & SLI_GROUND_SIDES};
     sl_free(m->context, lines);
+    sl_free(m->context, ground);
     sl_free(m->context, walled);
     return done ? SL_OK : SL_NO_MEMORY;
 }

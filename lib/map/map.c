@@ -113,6 +113,14 @@ sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point
     return SL_OK;
 }
 
+sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        SL_TRY(sl_map_add_wall(context, map, walls[i].a, walls[i].b, walls[i].line));
+        map->walls[map->wall_count - 1].ground = walls[i].ground;
+    }
+    return SL_OK;
+}
+
 sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                           bool open, uint32_t line) {
     SL_TRY(check_ends(context, "door", at.a, at.b));
@@ -367,13 +375,6 @@ size_t sl_map_count_oblique(const sl_map *map) {
 
 // --- copies
 
-static sl_status copy_walls(sl_context *context, const sl_map *from, sl_map *to) {
-    for (size_t i = 0; i < from->wall_count; i++)
-        SL_TRY(
-            sl_map_add_wall(context, to, from->walls[i].a, from->walls[i].b, from->walls[i].line));
-    return SL_OK;
-}
-
 static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *to) {
     for (size_t i = 0; i < from->door_count; i++) {
         const sl_door *d = &from->doors[i];
@@ -434,8 +435,9 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
                   .range = from->range,
                   .range_line = from->range_line,
+                  .ground_guessed = from->ground_guessed,
                   .lines_are_items = from->lines_are_items};
-    sl_status status = copy_walls(context, from, &map);
+    sl_status status = sl_map_add_walls(context, &map, from->walls, from->wall_count);
     if (status == SL_OK) status = copy_effects(context, from, &map);
     if (status == SL_OK) status = copy_cells(context, from, &map);
     if (status == SL_OK) status = copy_things(context, from, &map);

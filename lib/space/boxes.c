@@ -497,9 +497,12 @@ static sl_status write_cells(maker *m) {
         const sl_box *box = &m->boxes.items[i];
         const sl_point corners[4] = {
             box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
-        const uint32_t inside = f->cells[m->parents.items[i]].inside;
-        s->cells[i] = (sl_cell){.first_vertex = 4 * i, .vertex_count = 4, .inside = inside};
-        s->inside_count += inside;
+        const sl_cell *parent = &f->cells[m->parents.items[i]];
+        s->cells[i] = (sl_cell){.first_vertex = 4 * i,
+                                .vertex_count = 4,
+                                .inside = parent->inside,
+                                .solid = parent->solid};
+        s->inside_count += parent->inside;
         memcpy(&s->vertices[(size_t)4 * i], corners, sizeof corners);
     }
     return SL_OK;

@@ -220,7 +220,7 @@ static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, 
 
 static sl_status find_unreachable(sli_fault_search *search, rooms *r, sl_bits *reached) {
     for (uint32_t i = 0; i < search->space->cell_count; i++) {
-        if (sl_bits_has(reached, i)) continue;
+        if (search->space->cells[i].solid || sl_bits_has(reached, i)) continue;
         bool open;
         const sl_fault room = measure_room(search->space, r, reached, i, &open);
         if (!open) SL_TRY(sli_add_fault(search, room));
@@ -293,26 +293,69 @@ static bool inside_is_open(const sl_space *space, const border *edge) {
     return false;
 }
 
-static double inside_share(const sl_space *space) {
-    double all = 0, inside = 0;
+sl_ground_shares sl_space_ground(const sl_space *space) {
+    sl_ground_shares areas = {0};
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const double area = sl_space_area(space, i);
-        all += area;
-        if (space->cells[i].inside) inside += area;
+        const sl_cell *cell = &space->cells[i];
+        *(cell->solid    ? &areas.solid
+          : cell->inside ? &areas.inside
+                         : &areas.outside) += sl_space_area(space, i);
     }
-    return inside / all;
+    const double all = areas.inside + areas.outside + areas.solid;
+    if (!(all > 0)) return areas;
+    return (sl_ground_shares){areas.inside / all, areas.outside / all, areas.solid / all};
+}
+
+/// The area of the rooms that neither a start nor the border leads to, as a share of all.
+static sl_status find_shut_in(sl_context *context, const sl_space *space, const border *edge,
+                              double *share) {
+    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
+    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack), count = 0;
+    for (uint32_t i = 0; reached && stack && i < space->cell_count; i++) {
+        if (!is_open(space, edge, i)) continue;
+        sl_bits_add(reached, i);
+        stack[count++] = i;
+    }
+    while (count) {
+        const sl_cell *cell = &space->cells[stack[--count]];
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
+            if (sl_bits_has(reached, next)) continue;
+            sl_bits_add(reached, next);
+            stack[count++] = next;
+        }
+    }
+    double area = 0, all = 0;
+    for (uint32_t i = 0; reached && stack && i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        const double own = sl_space_area(space, i);
+        all += own;
+        if (!cell->solid && !cell->inside && !sl_bits_has(reached, i)) area += own;
+    }
+    const bool done = reached && stack;
+    *share = all > 0 ? area / all : 0;
+    sl_free(context, reached);
+    sl_free(context, stack);
+    return done ? SL_OK : SL_NO_MEMORY;
 }
 
 /// Without a start, all cells count as inside where the border leads to all of them.
 sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                           sl_inside *out) {
     border edge;
+    double shut_in = 0;
     SL_TRY(read_border(context, space, &edge));
     const bool open = inside_is_open(space, &edge);
+    const sl_ground_shares shares = sl_space_ground(space);
+    sl_status status = SL_OK;
+    if (map->start_count) status = find_shut_in(context, space, &edge, &shut_in);
     destroy_border(context, &edge);
+    SL_TRY(status);
     *out = SL_INSIDE_SURE;
+    if (shut_in > shares.inside) *out = SL_INSIDE_FEW;
     if (map->start_count && open) *out = SL_INSIDE_LEAKS;
-    if (!map->start_count && (open || inside_share(space) < 0.5)) *out = SL_INSIDE_SMALL;
+    if (!map->start_count && (open || shares.inside < shares.outside)) *out = SL_INSIDE_SMALL;
+    if (!space->inside_count) *out = SL_INSIDE_NONE;
     return SL_OK;
 }
 

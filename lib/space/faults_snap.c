@@ -335,6 +335,18 @@ static void drop_mirror_walls(sl_map *map) {
     map->wall_count = kept;
 }
 
+/// Where walls have moved, rock may have no width any more. Both of its sides are then one wall,
+/// which the marks would have inside of rock: it would fall away. So no marks are kept.
+static bool drop_ground(sl_map *map) {
+    bool any = false;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        any |= map->walls[i].ground != 0;
+        map->walls[i].ground = 0;
+    }
+    map->ground_guessed = false;
+    return any;
+}
+
 sl_status sl_map_mend(sl_context *context, sl_map *map, double gap, const sl_clean_options *clean,
                       sl_snap_account *account) {
     enum { ROUNDS = 32 };
@@ -345,6 +357,7 @@ sl_status sl_map_mend(sl_context *context, sl_map *map, double gap, const sl_cle
         all.moved += round.moved;
         all.vanished += round.vanished;
         all.farthest = fmax(all.farthest, round.farthest);
+        if (round.moved) all.ground_dropped |= drop_ground(map);
     }
     drop_mirror_walls(map);
     if (account) *account = all;

@@ -106,9 +106,8 @@ static sl_status find_gap(sl_context *context, const sl_map *map, const sli_wall
     return sli_add_to_list(context, out, gap);
 }
 
-/// The gaps between a map's walls, up to a width. Their walls are those of this map.
-static sl_status list_gaps(sl_context *context, const sl_map *map, double most, bool reports,
-                           sli_fault_list *out) {
+sl_status sli_list_gaps(sl_context *context, const sl_map *map, double most, bool reports,
+                        sli_fault_list *out) {
     sli_wall_grid grid;
     sl_status status = sli_wall_grid_create(context, map, most, &grid);
     SL_TRY(status);
@@ -125,8 +124,8 @@ static sl_status list_gaps(sl_context *context, const sl_map *map, double most, 
 
 static sl_status find_gaps(sli_fault_search *search) {
     const size_t first = search->faults.count;
-    SL_TRY(list_gaps(search->context, &search->clean, search->options.gap, !search->trial,
-                     &search->faults));
+    SL_TRY(sli_list_gaps(search->context, &search->clean, search->options.gap, !search->trial,
+                         &search->faults));
     for (size_t i = first; i < search->faults.count; i++) {
         sl_fault *gap = &search->faults.items[i];
         const sl_wall *walls = search->clean.walls;
@@ -143,7 +142,8 @@ static sl_status count_welded(sli_fault_search *search) {
     const sl_box box = sl_map_bounds(search->map);
     if (!(search->weld > 2 * sli_planar_tolerance(&box))) return SL_OK;
     sli_fault_list gaps = {0};
-    const sl_status status = list_gaps(search->context, search->map, search->weld, false, &gaps);
+    const sl_status status =
+        sli_list_gaps(search->context, search->map, search->weld, false, &gaps);
     for (size_t i = 0; i < gaps.count; i++) {
         const sl_fault *gap = &gaps.items[i];
         const sl_wall *other = &search->map->walls[gap->walls[1]];

@@ -65,11 +65,14 @@ sl_status sli_check_has_walls(sl_context *context, const sl_map *map);
 /// A map whose walls all lie on one line has no area. This adds the missing width on both sides.
 sl_box sli_padded(sl_box box);
 
-/// Marks the cells that are inside: those reached from the map's starts, or, without starts, those
-/// not reached from the border. If there are none, all cells are inside. A mesh does not need
-/// `walls`.
+/// Marks the cells that are solid, and those that are inside (inside.c). A mesh does not need
+/// `walls`. SL_BAD_INPUT, with the line, where the map contradicts itself: see sl_space.
 sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piece *walls,
                           sl_space *space);
+
+/// Gives walls the marks of solid ground, and of open ground across, that the space's cells have
+/// (inside.c): those of a file have none yet. The space must pass sl_space_check.
+void sli_ground_of_cells(sl_space *space);
 
 // --- rooms (rooms.c)
 

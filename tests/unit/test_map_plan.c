@@ -12,7 +12,7 @@ static sl_status read(sl_context *context, const char *text, sl_map *map) {
 static void assert_map(sl_context *context, const char *plan, const char *expected) {
     sl_map map = {0};
     assert_ok(context, read(context, plan, &map));
-    char *text = map_text(&map);
+    char *text = map_walls_text(&map);
     assert_string_equal(text, expected);
     free(text);
     sl_map_destroy(context, &map);
@@ -28,10 +28,10 @@ static void test_walls(void **state) {
     assert_map(context, "\xef\xbb\xbf#\n#.\n#\n", square);
     // The last line is empty, and solid as all is beyond the plan.
     assert_map(context, "#.\n\n", square);
-    // Walls go on as long as they can, on whichever side the floor is.
+    // Walls go on as long as the floor is on the same side.
     assert_map(context, ".#\n#.\n",
-               "sightline 1\nwall 0 2 1 2\nwall 0 1 2 1\nwall 0 1 0 2\n"
-               "wall 1 0 2 0\nwall 1 0 1 2\nwall 2 0 2 1\n");
+               "sightline 1\nwall 0 2 1 2\nwall 0 1 1 1\nwall 1 1 2 1\nwall 0 1 0 2\n"
+               "wall 1 1 1 2\nwall 1 0 2 0\nwall 1 0 1 1\nwall 2 0 2 1\n");
     assert_map(context, "..\n.\n",
                "sightline 1\nwall 0 2 2 2\nwall 1 1 2 1\nwall 2 1 2 2\nwall 0 0 1 0\n"
                "wall 0 0 0 2\nwall 1 0 1 1\n");

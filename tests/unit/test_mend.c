@@ -23,10 +23,12 @@ static double share(sl_random *random) {
     return (double)(sl_random_next(random) >> 11) * 0x1p-53;
 }
 
-/// Every end of a wall somewhere else, up to `most` away in x and in y.
+/// Every end of a wall somewhere else, up to `most` away in x and in y. Marks of solid ground do
+/// not fit such walls.
 static void jitter(sl_map *map, double most, uint64_t seed) {
     sl_random random = {seed};
     for (size_t i = 0; i < map->wall_count; i++) {
+        map->walls[i].ground = 0;
         sl_point *const ends[2] = {&map->walls[i].a, &map->walls[i].b};
         for (int k = 0; k < 2; k++) {
             ends[k]->x += most * (2 * share(&random) - 1);

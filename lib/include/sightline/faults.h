@@ -83,23 +83,39 @@ SL_API double sl_usual_gap(const sl_map *map);
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
 
+/// Finds a tolerance for sl_map_clean that closes the gaps of rounding in a map and no others.
+/// `map` is as read. *weld is 0 if there is none: no gaps, or no clear step between their widths
+/// and what is meant. Time about that of sl_find_faults.
+SL_API sl_status sl_suggest_weld(sl_context *context, const sl_map *map, double *weld);
+
+/// Shares of the area of a space: 0 to 1, together 1.
+typedef struct sl_ground_shares {
+    double inside, outside, solid;
+} sl_ground_shares;
+
+/// The shares of a space's inside, outside and solid ground.
+SL_API sl_ground_shares sl_space_ground(const sl_space *space);
+
 /// Whether it is in doubt what is inside.
 typedef enum sl_inside {
     SL_INSIDE_SURE,
     SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
-    SL_INSIDE_SMALL, ///< there is no start, and less than half of the bounds is inside
+    SL_INSIDE_SMALL, ///< there is no start, and less than half of what is not solid is inside
+    SL_INSIDE_FEW,   ///< rooms that no start reaches have more area than those that one reaches
+    SL_INSIDE_NONE,  ///< all is solid ground
 } sl_inside;
 
-/// Looks at the cells alone, in a time of about O(n): sl_find_faults tells where. `space` was made
-/// from `map`.
+/// Looks at the cells alone, in a time of about O(n): sl_find_faults finds the places. `space` was
+/// made from `map`.
 SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                  sl_inside *out);
 
 /// What sl_map_snap did.
 typedef struct sl_snap_account {
-    size_t moved;    ///< wall ends that moved
-    double farthest; ///< the largest move
-    size_t vanished; ///< walls of no length, which were dropped
+    size_t moved;        ///< wall ends that moved
+    double farthest;     ///< the largest move
+    size_t vanished;     ///< walls of no length, which were dropped
+    bool ground_dropped; ///< sl_map_mend: walls had marks of solid ground, which no longer fit
 } sl_snap_account;
 
 /// Closes gaps up to the width `gap`, in two steps. No end moves farther than `gap` in a step.
@@ -117,8 +133,8 @@ SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
 /// Cleans the map and snaps it by turns, until nothing moves. What was closed stays closed. Of the
 /// gaps that sl_find_faults lists by the same gap and options, those are left that have `stays`. No
 /// leak is left near one without `stays`. The walls of the result are clean, but walls for mirrors
-/// are not among them. `account` may be NULL. On failure the map is still usable, and may be mended
-/// in part.
+/// are not among them. If an end moves, no wall keeps its ground: rock may have lost its width.
+/// `account` may be NULL. On failure the map is still usable, and may be mended in part.
 SL_API sl_status sl_map_mend(sl_context *context, sl_map *map, double gap,
                              const sl_clean_options *clean, sl_snap_account *account);
 

@@ -9,11 +9,27 @@
 extern "C" {
 #endif
 
+/// What the ground beside a wall is, as bits of sl_wall.ground; left and right going from a to b.
+/// Unmarked ground is open unless solid ground reaches it without a wall between.
+enum {
+    SL_SOLID_LEFT = 1,  ///< solid ground, such as rock: nobody stands there
+    SL_SOLID_RIGHT = 2, ///< as SL_SOLID_LEFT, at the right
+    SL_OPEN_LEFT = 4,   ///< open ground: the map contradicts itself where solid ground reaches it
+    SL_OPEN_RIGHT = 8,  ///< as SL_OPEN_LEFT, at the right
+};
+
+/// The ground of a wall whose ends are exchanged.
+static inline uint32_t sl_ground_turned(uint32_t ground) {
+    return (ground & (SL_SOLID_LEFT | SL_OPEN_LEFT)) << 1 |
+           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1;
+}
+
 /// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file, or
 /// the number of an item where the map says so (`lines_are_items`); 0 for none.
 typedef struct sl_wall {
     sl_point a, b;
     uint32_t line;
+    uint32_t ground; ///< bits of SL_SOLID_LEFT ...; 0 for most maps
 } sl_wall;
 
 /// A door: a portal that can be shut.
@@ -104,6 +120,8 @@ typedef struct sl_map {
     char *label_text;
     size_t label_count, label_length, label_room, label_text_room;
     bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
+    bool ground_guessed;  ///< the reader found the walls' ground by rules of thumb: where they
+                          ///< contradict each other, ground is open
 } sl_map;
 
 SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
@@ -115,6 +133,19 @@ SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to
 /// (sl_coordinate_usable).
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
+/// Adds copies of walls, with their lines and their ground. As sl_map_add_wall.
+SL_API sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wall *walls,
+                                  size_t count);
+/// Adds a polygon of solid ground: its sides as walls with solid ground at one hand. Corners, at
+/// least 3, go either way round. Solid polygons may overlap, touch and lie in one another: solid is
+/// what any of them covers. SL_BAD_INPUT, with the line, if the polygon has no area or its sides
+/// cross each other. As sl_map_add_wall.
+SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_point *corners,
+                                  size_t count, uint32_t line);
+/// Adds a polygon of open ground that is cut out of solid ground: its sides as walls with solid
+/// ground outside. As sl_map_add_solid; open polygons may not overlap each other.
+SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
+                                 size_t count, uint32_t line);
 /// Adds a door. As sl_map_add_wall.
 SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                                  bool open, uint32_t line);
@@ -208,8 +239,9 @@ typedef struct sl_clean_options {
 SL_API sl_clean_options sl_clean_options_default(void);
 
 /// Makes the walls a planar set: no two of them cross, overlap or touch, except in common ends, by
-/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
-/// sorted by place. All later stages are exact for the clean map.
+/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls with
+/// solid ground at both sides are dropped. Walls are sorted by place. All later stages are exact
+/// for the clean map.
 ///
 /// If all is axial and welding by default would move nothing, no coordinate is computed: walls in
 /// one line that overlap or touch are joined, and walls are split where they cross or touch. Else
