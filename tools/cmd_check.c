@@ -368,7 +368,7 @@ static void print_next(const faults_report *report) {
     } else if (closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK)) {
         print_command(report, NEXT_CHECK, 0);
         print_name(report, " --snap ", "-fixed.map");
-    } else if (!faults->has_starts) {
+    } else if (!faults->has_starts && report->found->inside != SL_INSIDE_NONE) {
         print_next_start(report, NEXT_CHECK, report->found);
     } else if (grave && !report->picture) {
         print_command(report, NEXT_CHECK, 0);
