@@ -272,9 +272,9 @@ static bool is_repeated(const struct option_given *option, next_use use) {
     static const char *const own[] = {"gap",    "snap", "output", "width", "dark", "most",
                                       "strict", "json", "quiet",  "help",  NULL};
     static const char *const for_check[] = {"thin", NULL};
-    static const char *const reading[] = {"map",   "slice",     "layers",  "tolerance",
-                                          "unit",  "threshold", "sectors", "doors",
-                                          "start", "without",   NULL};
+    static const char *const reading[] = {"map",   "slice",       "layers",  "tolerance",
+                                          "unit",  "threshold",   "sectors", "doors",
+                                          "start", "start-names", "without", NULL};
     const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
     if (is_among(option->name, own)) return false;
     if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;

@@ -4,6 +4,7 @@
 #include "names.h"
 #include "outputs.h"
 #include "pipeline.h"
+#include "report.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 #include "walk_run.h"
@@ -363,6 +364,7 @@ static sl_status walk_once(command_console *console, const walk_plan *plan, walk
         printf("%zu steps of %g, %zu nodes, %zu walls, view cone of %g degrees; means a frame\n",
                eyes.list.count, w->step * plan->speed, (size_t)w->hierarchy.node_count,
                (size_t)w->baked.space.wall_count, plan->fov);
+        ground_print(&w->baked.space);
         walk_print(&w->rows);
     }
     for (size_t i = 0; i < count; i++) sl_free(context, frames[i]);

@@ -59,6 +59,11 @@ option_table input_option_table(input_options *input) {
          .flag = &to->has_slice, .given = given},
         {"layers", 0, "LAYER,...", "the layers of a drawing or tile map to take",
          .text = &to->layers, .given = given},
+        {"start-names", 0, "NAME,...",
+         "objects of a game map that are starts;\n'none': no starts (default: Player, "
+         "Spawn, "
+         "Start ...)",
+         .text = &to->start_names, .given = given},
         {"tolerance", 0, "T", "how far curves may be from their walls", .number = &to->tolerance,
          .over_0 = true, .given = given},
         {"unit", 0, "UNIT", "of a drawing, turned into this: mm cm m km in ft yd",

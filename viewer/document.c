@@ -254,19 +254,22 @@ void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, source->path);
     sl_free(context, (char *)(uintptr_t)source->options.map);
     sl_free(context, (char *)(uintptr_t)source->options.layers);
+    sl_free(context, (char *)(uintptr_t)source->options.start_names);
     *source = (document_source){0};
 }
 
 sl_status document_source_copy(sl_context *context, const document_source *from,
                                document_source *to) {
-    char *path = NULL, *map = NULL, *layers = NULL;
+    char *path = NULL, *map = NULL, *layers = NULL, *start_names = NULL;
     sl_status status = copy_text(context, from->path, &path);
     if (status == SL_OK) status = copy_text(context, from->options.map, &map);
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
+    if (status == SL_OK) status = copy_text(context, from->options.start_names, &start_names);
     document_source copy = *from;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
+    copy.options.start_names = start_names;
     if (status == SL_OK)
         *to = copy;
     else

@@ -247,12 +247,36 @@ static sl_status add_line(doom_import *import, const sli_doom_line *line) {
     return SL_OK;
 }
 
-/// The game puts player 1 where the last of the starts is.
-static sl_status add_start(doom_import *import) {
+/// The starts of one kind: all of them, or the last, where the game puts the player.
+static sl_status add_starts_of(doom_import *import, int kind, bool all) {
     const sli_doom_level *level = import->level;
-    if (level->start_count == 0) return SL_OK;
-    const sl_start *start = &level->starts[level->start_count - 1];
-    return sl_map_add_start(import->context, import->map, start->at, start->heading, start->line);
+    const sl_start *last = NULL;
+    for (size_t i = 0; i < level->start_count; i++) {
+        if (level->starts[i].kind != kind) continue;
+        if (all && last)
+            SL_TRY(sl_map_add_start(import->context, import->map, last->at, last->heading,
+                                    last->line));
+        last = &level->starts[i].start;
+    }
+    if (!last) return SL_OK;
+    return sl_map_add_start(import->context, import->map, last->at, last->heading, last->line);
+}
+
+/// The starts of the players; those of a deathmatch where there are none.
+static sl_status add_starts(doom_import *import, const char *name) {
+    const sli_doom_level *level = import->level;
+    for (int player = 1; player <= SLI_DOOM_PLAYERS; player++)
+        SL_TRY(add_starts_of(import, player, false));
+    const size_t count = import->map->start_count;
+    if (!count) SL_TRY(add_starts_of(import, SLI_DOOM_DEATHMATCH, true));
+    const size_t all = import->map->start_count;
+    if (all)
+        sl_note(import->context, "%s: map %s: taken: %zu start%s of %s", name, level->name, all,
+                all == 1 ? "" : "s",
+                count ? "players, the last of each" : "a deathmatch: players have none");
+    else
+        sl_note(import->context, "%s: map %s: no player has a start", name, level->name);
+    return SL_OK;
 }
 
 static void tell(const doom_import *import, const char *name) {
@@ -266,9 +290,6 @@ static void tell(const doom_import *import, const char *name) {
             "through%s; left out %zu of zero length, %zu without sides",
             name, level->name, level->format, level->line_count, lines->walls, lines->seen_through,
             doors, lines->zero_length, lines->without_sides);
-    if (level->start_count != 1)
-        sl_note(import->context, "%s: map %s: player 1 has %zu starts; %s", name, level->name,
-                level->start_count, level->start_count ? "the last is taken" : "there is none");
 }
 
 /// How many doors are seen through, as nobody asked for doors.
@@ -317,8 +338,8 @@ static sl_status make_map(sl_context *context, const sli_wad *wad, const sli_wad
                           .map = map};
     sl_status status = add_lines(&import);
     if (status == SL_OK && options->cells) status = doom_add_cells(context, wad, chosen, map);
-    if (status == SL_OK) status = add_start(&import);
     if (status == SL_OK) tell(&import, name);
+    if (status == SL_OK) status = add_starts(&import, name);
     if (status == SL_OK && !options->doors) tell_doors_left_out(context, name, level, is_door);
     sl_free(context, is_door);
     return status;

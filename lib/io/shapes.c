@@ -6,6 +6,7 @@
 /// solid and an open square is drawn once and runs as far as it can.
 #include "io/shapes.h"
 
+#include "io/things.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -311,7 +312,9 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
         (sl_point){corner.x + all->left * step.x, options->top - (corner.y + all->bottom * step.y)};
     grid.open_outside = !closed;
     grid.sure = is_only_grid(tiles, all->first);
-    const sl_status status = sli_grid_add_walls(context, &grid, map);
+    sl_status status = SL_OK;
+    if (options->things) status = sli_things_place(options->things, &grid);
+    if (status == SL_OK) status = sli_grid_add_walls(context, &grid, map);
     sli_grid_destroy(context, &grid);
     return status;
 }

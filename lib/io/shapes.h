@@ -84,9 +84,10 @@ sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name,
                         sl_point step, size_t columns, size_t rows, char **squares);
 
 typedef struct sli_tiles_options {
-    double top;         ///< the files' y that is 0 in the map
-    bool solid_between; ///< what no block covers is solid; else it is open
-    bool all_closed;    ///< beyond each grid all is solid; else only beyond the first one
+    double top;                ///< the files' y that is 0 in the map
+    bool solid_between;        ///< what no block covers is solid; else it is open
+    bool all_closed;           ///< beyond each grid all is solid; else only beyond the first one
+    struct sli_things *things; ///< starts and doors, to be placed among the squares; NULL: none
 } sli_tiles_options;
 
 /// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then

@@ -4,6 +4,7 @@
 #include "io/document.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "io/things.h"
 #include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/io.h"
@@ -350,12 +351,63 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     return SL_OK;
 }
 
+/// A token stands on squares of the scene's grid, `square` pixels wide. Friendly ones are starts.
+/// Turned by 0 degrees it faces down.
+static sl_status read_token(sli_things *things, const sli_json *token, double square) {
+    enum { FRIENDLY = 1 };
+    const sli_json disposition = sli_json_member(token, "disposition");
+    const sli_json name = sli_json_member(token, "name");
+    const char *text = json_string_value(name.value);
+    sli_says says = {0};
+    if (json_is_integer(disposition.value) && json_integer_value(disposition.value) == FRIENDLY)
+        says = (sli_says){.kind = SLI_THING_START, .name = text ? text : "token"};
+    SL_TRY(sli_things_ask(things, text, NULL, &says));
+    if (!says.kind) return SL_OK;
+    const sli_json x = sli_json_member(token, "x"), y = sli_json_member(token, "y");
+    const sli_json width = sli_json_member(token, "width");
+    const sli_json height = sli_json_member(token, "height");
+    const sli_json turn = sli_json_member(token, "rotation");
+    sl_point at, size = {1, 1};
+    double degrees = 0;
+    SL_TRY(sli_json_number(&x, &at.x));
+    SL_TRY(sli_json_number(&y, &at.y));
+    SL_TRY(sli_json_number_if(&width, &size.x));
+    SL_TRY(sli_json_number_if(&height, &size.y));
+    SL_TRY(sli_json_number_if(&turn, &degrees));
+    const sli_thing start = {.kind = SLI_THING_START,
+                             .middle = {at.x + size.x * square / 2, at.y + size.y * square / 2},
+                             .heading = sli_heading_of(degrees + 90)};
+    return sli_things_add(things, says.name, start);
+}
+
+/// The scene's grid is a number, or an object with its size.
+static sl_status read_tokens(foundry *reader, const sli_json *root) {
+    sli_things things = {.context = reader->context,
+                         .file = root->file->name,
+                         .options = reader->options,
+                         .top = reader->top};
+    const sli_json tokens = sli_json_member(root, "tokens"), grid = sli_json_member(root, "grid");
+    const sli_json size = sli_json_member(&grid, "size");
+    double square = 100;
+    sl_status status = SL_OK;
+    if (json_is_number(grid.value) || size.value)
+        status = sli_json_number(size.value ? &size : &grid, &square);
+    for (size_t i = 0; status == SL_OK && i < json_array_size(tokens.value); i++) {
+        const sli_json token = sli_json_item(&tokens, i);
+        status = read_token(&things, &token, square);
+    }
+    if (status == SL_OK) status = sli_things_finish(&things, reader->map);
+    sli_things_destroy(&things);
+    return status;
+}
+
 /// A scene, or a list of walls alone.
 static sl_status read_foundry(foundry *reader, const sli_json *root) {
-    if (json_is_array(root->value)) return read_foundry_walls(reader, root);
-    SL_TRY(sli_json_object(root));
+    const bool alone = json_is_array(root->value);
+    if (!alone) SL_TRY(sli_json_object(root));
     const sli_json walls = sli_json_member(root, "walls");
-    return read_foundry_walls(reader, &walls);
+    SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
+    return read_tokens(reader, root);
 }
 
 sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,

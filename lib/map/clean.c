@@ -117,6 +117,10 @@ static sl_status sort_out(cleaning *work, const sl_map *map) {
     return SL_OK;
 }
 
+static bool same_sides(uint32_t a, uint32_t b) {
+    return ((a ^ b) & SLI_GROUND_SIDES) == 0;
+}
+
 /// Joins sorted pieces of one run: in one line, each overlaps or touches one before it.
 static sl_status join_run(sl_context *context, const piece *run, size_t count, pieces *out,
                           sl_clean_account *account) {
@@ -127,7 +131,8 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
         *(same ? &account->duplicate : &account->merged) += 1;
         if (run[i].high > whole.high) whole.high = run[i].high;
         whole.line = lower_line(whole.line, run[i].line);
-        plain_ground &= run[i].ground == whole.ground;
+        plain_ground &= same_sides(run[i].ground, whole.ground);
+        whole.ground |= run[i].ground & SLI_GROUND_KEPT;
     }
     if (plain_ground)
         return sli_ground_hides_wall(whole.ground) ? SL_OK : add_piece(context, out, whole);
@@ -156,7 +161,7 @@ static sl_status join_run(sl_context *context, const piece *run, size_t count, p
         low = part.high;
         piece *last = out->count > first ? &out->items[out->count - 1] : NULL;
         if (sli_ground_hides_wall(part.ground)) continue;
-        if (last && last->ground == part.ground && last->high == part.low) {
+        if (last && same_sides(last->ground, part.ground) && last->high == part.low) {
             last->high = part.high;
             last->line = lower_line(last->line, part.line);
         } else if (status == SL_OK)
