@@ -47,10 +47,6 @@ sl_status sli_find_faults(sl_context *context, const sl_map *map, const sl_space
 
 /// Gaps, overlaps and crossings (faults_walls.c).
 sl_status sli_find_wall_faults(sli_fault_search *search);
-/// The gaps between a map's walls, up to a width: ends near another wall. Touching is exact, and
-/// the faults' walls are those of this map. It may report stage "check".
-sl_status sli_list_gaps(sl_context *context, const sl_map *map, double most, bool reports,
-                        sli_fault_list *out);
 /// The point of a wall that is nearest to another point: an end, or rounded.
 sl_point sli_nearest_on_wall(const sl_wall *wall, sl_point point);
 /// Exact.
