@@ -199,6 +199,7 @@ typedef struct doom_import {
     const bool *is_door; ///< NULL where doors are seen through
     bool seams;          ///< lines between sectors are to cut cells
     sl_map *map;
+    uint32_t item; ///< the number of the line at hand, from 1
     line_account lines;
 } doom_import;
 
@@ -217,7 +218,7 @@ static sl_status add_door(doom_import *import, const sli_doom_line *line) {
     import->lines.doors++;
     import->lines.shut += !open;
     return sl_map_add_door(import->context, import->map, name, (sl_segment){line->from, line->to},
-                           open, line->line);
+                           open, import->item);
 }
 
 static sl_status add_line(doom_import *import, const sli_doom_line *line) {
@@ -234,11 +235,11 @@ static sl_status add_line(doom_import *import, const sli_doom_line *line) {
         lines->seen_through++;
         if (import->seams && line->right != line->left)
             SL_TRY(sl_map_add_seam(import->context, import->map, (sl_segment){line->from, line->to},
-                                   line->line));
+                                   import->item));
         return import->is_door ? add_door(import, line) : SL_OK;
     }
     lines->walls++;
-    SL_TRY(sl_map_add_wall(import->context, import->map, line->from, line->to, line->line));
+    SL_TRY(sl_map_add_wall(import->context, import->map, line->from, line->to, import->item));
     const uint32_t ground = SL_OPEN_RIGHT | SL_SOLID_LEFT; // the front is open, behind it is void
     import->map->walls[import->map->wall_count - 1].ground =
         line->right != SLI_NO_SECTOR ? ground : sl_ground_turned(ground);
@@ -303,9 +304,23 @@ static void tell_doors_left_out(sl_context *context, const char *name, const sli
                 name, level->name, doors);
 }
 
+/// "linedef 117", and its line in a TEXTMAP.
+static sl_status name_line(doom_import *import, const sli_doom_line *line) {
+    char label[SL_LINE_TEXT];
+    snprintf(label, sizeof label, "linedef %u", (unsigned)import->item - 1);
+    const size_t used = strlen(label);
+    if (line->line)
+        snprintf(label + used, sizeof label - used, ", TEXTMAP line %u", (unsigned)line->line);
+    return sl_map_add_label(import->context, import->map, import->item, label);
+}
+
 static sl_status add_lines(doom_import *import) {
-    for (size_t i = 0; i < import->level->line_count; i++)
+    import->map->lines_are_items = true;
+    for (size_t i = 0; i < import->level->line_count; i++) {
+        import->item = (uint32_t)i + 1;
+        SL_TRY(name_line(import, &import->level->lines[i]));
         SL_TRY(add_line(import, &import->level->lines[i]));
+    }
     return SL_OK;
 }
 
@@ -341,6 +356,8 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
     SL_TRY(sli_doom_read(context, &wad, &chosen, &level));
     const sl_status status = make_map(context, &wad, &chosen, &level, options, &read);
     sli_doom_level_destroy(context, &level);
+    // The map's lines are numbers of linedefs: a start is none of them.
+    for (size_t i = 0; i < read.start_count; i++) read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

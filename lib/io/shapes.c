@@ -112,7 +112,7 @@ sl_status sli_pen_line(sli_pen *pen, sl_point to) {
         return sl_fail_at(pen->context, pen->name, pen->line,
                           "the drawing gives more than %zu walls", MOST_WALLS);
     if (pen->walls++ % 1024 == 0) SL_TRY(sl_check_cancelled(pen->context));
-    return sl_map_add_wall(pen->context, pen->map, a, b, pen->line);
+    return sl_map_add_wall(pen->context, pen->map, a, b, pen->item ? pen->item : pen->line);
 }
 
 void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit) {

@@ -39,6 +39,7 @@ typedef struct sli_pen {
     sli_affine affine; ///< from the drawing's coordinates to the map's
     double tolerance;  ///< in the map's unit; 0: the usual
     uint32_t line;     ///< of the file, where walls are said to be from
+    uint32_t item;     ///< 0, or what walls have in place of the line (sl_map.lines_are_items)
     sl_point at;       ///< the pen, in the drawing's coordinates
     size_t walls;      ///< drawn
     size_t points;     ///< lines of no length, left out

@@ -201,6 +201,38 @@ static bool covers(const tiled *reader, const sli_tiled_set *set, const sli_tile
            set->height == reader->tile.y && set->x == 0 && set->y == 0;
 }
 
+/// Gives the next shape a number and a name. Shapes of tilesets stand in other files than the map,
+/// so that a line of its own would say nothing.
+static sl_status name_shape(tiled *reader, const char *label) {
+    reader->pen.map->lines_are_items = true;
+    return sl_map_add_label(reader->context, reader->pen.map, ++reader->pen.item, label);
+}
+
+static sl_status name_tile_shape(tiled *reader, uint32_t gid, size_t number) {
+    char label[SL_LINE_TEXT];
+    snprintf(label, sizeof label, "tile %u, shape %zu", (unsigned)(gid & SLI_TILED_TILE),
+             number + 1);
+    return name_shape(reader, label);
+}
+
+/// "layer Walls, object 12 'crate', line 40"
+static sl_status name_object(tiled *reader, const sli_json *layer, const sli_json *object,
+                             const sli_tiled_shape *shape) {
+    const char *const names[] = {text_of(layer, "name"), text_of(object, "name")};
+    const sli_json number = sli_json_member(object, "id");
+    int64_t id = 0;
+    char label[SL_LINE_TEXT];
+    SL_TRY(sli_json_whole_if(&number, INT32_MIN, INT32_MAX, &id));
+    int used = snprintf(label, sizeof label, "layer %s, object %d",
+                        sli_show((sli_word){names[0], strlen(names[0])}).text, (int)id);
+    if (*names[1])
+        used += snprintf(label + used, sizeof label - (size_t)used, " '%s'",
+                         sli_show((sli_word){names[1], strlen(names[1])}).text);
+    if (shape->line)
+        snprintf(label + used, sizeof label - (size_t)used, ", line %u", (unsigned)shape->line);
+    return name_shape(reader, label);
+}
+
 static sl_status draw_tile_shapes(tiled *reader, const block *all, size_t at,
                                   const sli_tiled_set *set, json_t *shapes) {
     const sli_json list = {
@@ -218,6 +250,7 @@ static sl_status draw_tile_shapes(tiled *reader, const block *all, size_t at,
         }
         *(shape.kind < SLI_TILED_PICTURE ? &reader->shapes : &reader->other_shapes) += 1;
         if (shape.kind >= SLI_TILED_PICTURE) continue;
+        SL_TRY(name_tile_shape(reader, all->gids[at], i));
         reader->pen.affine = affine_of_tile(reader, all, at, set);
         status = sli_tiled_draw_shape(&reader->pen, &shape);
         reader->pen.affine = outer;
@@ -428,6 +461,7 @@ static sl_status read_objects(tiled *reader, const sli_json *layer, const place 
                                                           : &reader->objects;
         ++*counted;
         if (!taken || shape.kind == SLI_TILED_OTHER) continue;
+        SL_TRY(name_object(reader, layer, &object, &shape));
         reader->pen.affine = sli_affine_after(outer, move);
         status = sli_tiled_draw_shape(&reader->pen, &shape);
         reader->pen.affine = outer;
@@ -562,6 +596,9 @@ static sl_status read_tree(sl_context *context, sli_json_file *file,
     sli_tiled_destroy_templates(context, &reader.templates);
     sli_things_destroy(&reader.things);
     sli_json_close(file);
+    // The map's lines are numbers of shapes, if it has any: doors and starts are none of them.
+    for (size_t i = 0; i < read.door_count && read.lines_are_items; i++) read.doors[i].line = 0;
+    for (size_t i = 0; i < read.start_count && read.lines_are_items; i++) read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

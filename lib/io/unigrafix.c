@@ -276,6 +276,14 @@ static sl_status add_walls(ug_model *model, uint32_t line) {
     return SL_OK;
 }
 
+/// "face W12"
+static sl_status name_face(ug_model *model, uint32_t line, sli_word name) {
+    char label[SL_LINE_TEXT];
+    if (!name.length) return SL_OK;
+    snprintf(label, sizeof label, "face %s", sli_show(name).text);
+    return sl_map_add_label(model->context, model->map, line, label);
+}
+
 /// Reads a face: a name (or none), contours, then at most a colour and an illumination.
 static sl_status read_face(ug_model *model, uint32_t line) {
     model->crossings.count = 0;
@@ -283,7 +291,8 @@ static sl_status read_face(ug_model *model, uint32_t line) {
     bool flat = true;
     sli_word word;
     SL_TRY(next_word(model, &word));
-    if (!is_mark(word)) SL_TRY(next_word(model, &word));
+    const sli_word name = {word.at, is_mark(word) ? 0 : word.length};
+    if (name.length) SL_TRY(next_word(model, &word));
     if (!sli_word_is(word, "(")) return fail_expected(model, "'('", line, word);
     while (sli_word_is(word, "(")) {
         SL_TRY(read_contour(model, line, &flat));
@@ -293,7 +302,9 @@ static sl_status read_face(ug_model *model, uint32_t line) {
     if (!sli_word_is(word, ";")) return fail_expected(model, "';'", line, word);
     model->faces++;
     model->flat += flat;
-    return add_walls(model, line);
+    const size_t before = model->map->wall_count;
+    SL_TRY(add_walls(model, line));
+    return model->map->wall_count > before ? name_face(model, line, name) : SL_OK;
 }
 
 /// Goes through all statements, for the vertices or for the faces.

@@ -488,6 +488,7 @@ static sl_status clean(cleaning *work, sl_map *map, double weld) {
     const bool axial = sl_map_is_axial(map) && !(weld > 0) && !map->cell_count;
     const double precision = weld < 0 ? safe_precision(map, &bounds) : 0;
     if (weld < 0) weld = axial ? precision : fmax(sli_planar_tolerance(&bounds), precision);
+    work->account.tolerance = fmax(weld, 2 * map->snap);
     SL_TRY(sort_out(work, map));
     SL_TRY(merge(work->context, &work->uprights, &work->account));
     SL_TRY(merge(work->context, &work->levels, &work->account));

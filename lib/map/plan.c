@@ -267,9 +267,7 @@ static sl_status refuse(const plan_maker *maker, uint32_t line, const char *form
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    const char *source = maker->map->source ? maker->map->source : "map";
-    if (line) return sl_fail(maker->context, SL_UNSUPPORTED, "%s:%u: %s", source, line, what);
-    return sl_fail(maker->context, SL_UNSUPPORTED, "%s: %s", source, what);
+    return sl_map_fail(maker->context, maker->map, SL_UNSUPPORTED, line, "%s", what);
 }
 
 static sl_status refuse_segment(const plan_maker *maker, uint32_t line, const char *what,

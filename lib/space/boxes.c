@@ -170,7 +170,7 @@ sl_status sli_box_ground_create(sl_context *context, const sl_space *space, sli_
                        "have: bake the map anew");
     if (space->neighbour) return gather_axial(context, space, out);
     sli_piece *walls = NULL;
-    SL_TRY(sli_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
+    SL_TRY(sli_wall_lines(context, NULL, space->walls, space->wall_count, &walls));
     *out = (sli_box_ground){space, walls, space->wall_count};
     return SL_OK;
 }

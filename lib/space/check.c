@@ -304,7 +304,7 @@ static sl_status check_all(checker *c) {
     const sl_space *s = c->space;
     SL_TRY(check_tree(c));
     SL_TRY(check_cells(c));
-    SL_TRY(sli_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
+    SL_TRY(sli_wall_lines(c->context, NULL, s->walls, s->wall_count, &c->walls));
     SL_TRY(check_walls(c, c->walls, s->wall_count));
     for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
     return check_seams(c);

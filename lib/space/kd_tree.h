@@ -17,10 +17,10 @@ typedef struct sli_piece {
     uint32_t seam; ///< 0 for a wall; for a part of a seam, 1 + its number
 } sli_piece;
 
-/// Sorts walls by axis, at, lo. SL_BAD_INPUT names a wall of `source` that is not axial, or a place
-/// where two walls overlap.
-sl_status sli_wall_lines(sl_context *context, const char *source, const sl_wall *walls,
-                         size_t count, sli_piece **out);
+/// Sorts walls by axis, at, lo. SL_BAD_INPUT names a wall that is not axial, as `map` calls
+/// it (NULL: none), or a place where two walls overlap.
+sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *walls, size_t count,
+                         sli_piece **out);
 
 /// The first of `count` sorted pieces that is on the line and ends after `lo`, or is on a later
 /// line.

@@ -250,7 +250,9 @@ static void test_textmap(void **state) {
     assert_ok(context, read_wad(context, &wad, "MAP01", true, &map));
     assert_int_equal(map.wall_count, 1);
     assert_true(map.walls[0].b.x == 0.5 && map.walls[0].b.y == 8);
-    assert_int_equal(map.walls[0].line, 7);
+    char named[SL_LINE_TEXT];
+    sl_map_say_line(&map, map.walls[0].line, named);
+    assert_string_equal(named, "linedef 0, TEXTMAP line 7");
     assert_int_equal(map.door_count, 1);
     assert_string_equal(map.doors[0].name, "sector_1");
     assert_true(map.doors[0].segment.b.x == 8 && map.doors[0].segment.b.y == 8);

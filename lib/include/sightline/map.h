@@ -29,8 +29,8 @@ static inline uint32_t sl_ground_turned(uint32_t ground) {
            (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~31u));
 }
 
-/// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file; 0
-/// for none.
+/// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file, or
+/// the number of an item where the map says so (`lines_are_items`); 0 for none.
 typedef struct sl_wall {
     sl_point a, b;
     uint32_t line;
@@ -84,6 +84,12 @@ typedef struct sl_map_cell {
     uint32_t line;
 } sl_map_cell;
 
+/// The name that the file itself has for one of its lines or items.
+typedef struct sl_label {
+    uint32_t line;
+    uint32_t text; ///< where it begins in the map's label_text
+} sl_label;
+
 /// All arrays belong to the map. A zeroed map is empty.
 typedef struct sl_map {
     char *source; ///< the name of its file, for messages; NULL for none
@@ -113,8 +119,14 @@ typedef struct sl_map {
     double precision;
     double range; ///< the view range; 0 for no limit
     uint32_t range_line;
-    bool ground_guessed; ///< the reader found the walls' ground by rules of thumb: where they
-                         ///< contradict each other, ground is open
+    /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
+    /// files do not keep them. Equal texts that follow each other stand in label_text once.
+    sl_label *labels;
+    char *label_text;
+    size_t label_count, label_length, label_room, label_text_room;
+    bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
+    bool ground_guessed;  ///< the reader found the walls' ground by rules of thumb: where they
+                          ///< contradict each other, ground is open
 } sl_map;
 
 SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
@@ -166,6 +178,31 @@ SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
 /// Adds a line to the notes.
 SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text);
 
+/// Adds the file's own name for a line. Lines come in ascending order. A line with several names
+/// keeps the first, and says that there are others. Control characters become '?', and long names
+/// are cut.
+SL_API sl_status sl_map_add_label(sl_context *context, sl_map *map, uint32_t line,
+                                  const char *text);
+
+/// Room for what sl_map_say_line writes.
+#define SL_LINE_TEXT 160
+
+/// Writes where a line is, for people: "line 12", "line 12 (layer WALLS, handle 1F)", "linedef
+/// 117"; nothing for line 0.
+SL_API void sl_map_say_line(const sl_map *map, uint32_t line, char text[SL_LINE_TEXT]);
+
+/// The file's own name for a line; NULL for none.
+SL_API const char *sl_map_label(const sl_map *map, uint32_t line);
+
+/// Fails, and says which line of the map is at fault: "FILE:12: layer WALLS, handle 1F: what is
+/// wrong", or "FILE: linedef 117: what is wrong".
+SL_API sl_status sl_map_fail(sl_context *context, const sl_map *map, sl_status status,
+                             uint32_t line, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 5, 6)))
+#endif
+    ;
+
 /// Finite, and 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
 SL_API bool sl_coordinate_usable(double value);
 
@@ -188,6 +225,7 @@ typedef struct sl_clean_account {
     size_t welded;       ///< ends of walls, doors, glass and seams that moved to another end
     size_t crossings;    ///< points where walls cross that had to be computed
     double largest_move; ///< the largest distance of a clean wall from the walls it comes from
+    double tolerance;    ///< ends at most this far apart became one
 } sl_clean_account;
 
 /// Start from sl_clean_options_default().
