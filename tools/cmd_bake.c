@@ -313,7 +313,7 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     report->seconds.read = lap(&time);
     SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
     if (crew_rank() == 0)
-        SL_TRY(pipeline_note_inside(context, plan->pipeline.path, &baked->map, &baked->space));
+        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
     report->seconds.read += report->account.seconds.clean;
     lap(&time);
     SL_TRY(bake_parts_see(context, &plan->parts, options, baked, &report->parts));

@@ -28,6 +28,7 @@ typedef struct faults_report {
     sl_snap_account snap;
     const checked *left; ///< the mended map
     double helps;        ///< a larger gap that closes a leak; 0 for none
+    double weld;         ///< a tolerance that closes gaps of rounding; 0 for none
     uint64_t most;       ///< of a kind, in the text
     const char *picture; ///< NULL for none
     const options_given *given;
@@ -230,6 +231,9 @@ static void print_snap_advice(const faults_report *report) {
     }
     if (report->helps > 0)
         printf("  --gap %.2g is wide enough for --snap to close a leak\n", report->helps);
+    if (report->weld > 0)
+        printf("  --weld %.2g joins the ends that miss each other by rounding, in all commands\n",
+               report->weld);
 }
 
 // --- the next command
@@ -476,6 +480,7 @@ static sl_status faults_print_json(sl_context *context, const faults_report *rep
     json_add_flag(&fields, "has_starts", found->faults.has_starts);
     json_add_text(&fields, "inside", inside[found->inside]);
     if (report->helps > 0) json_add_real(&fields, "gap_that_helps", report->helps);
+    if (report->weld > 0) json_add_real(&fields, "suggested_weld", report->weld);
     json_add_count(&fields, "closed_on_import", found->faults.welded);
     json_add_real(&fields, "weld", found->faults.weld);
     add_counts(&fields, "counts", found->faults.counts);
@@ -612,12 +617,16 @@ static sl_status check(command_console *console, const check_plan *plan, checked
         SL_TRY(mend(context, plan, &c->map, &report, after));
     else
         SL_TRY(suggest_gap(context, plan, c, &report));
+    const uint32_t *counts = c->faults.counts;
+    if (!plan->snap && (counts[SL_FAULT_GAP] || counts[SL_FAULT_LEAK]))
+        SL_TRY(sl_suggest_weld(context, &c->map, &report.weld));
     if (plan->output) {
         sl_draw_options drawing = plan->drawing;
         drawing.faults = &c->faults;
         SL_TRY(sl_draw_file(context, &c->baked, &drawing, plan->output));
     }
-    console->fault = plan->strict && (c->faults.count || c->inside == SL_INSIDE_SMALL);
+    console->fault = plan->strict && (c->faults.count || c->inside == SL_INSIDE_SMALL ||
+                                      c->inside == SL_INSIDE_NONE);
     progress_line_clear(&console->line);
     return plan->json ? faults_print_json(context, &report) : faults_print(&report);
 }

@@ -191,7 +191,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
                                SL_EFFECT_RANGE | SL_EFFECT_MIRROR, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
-        SL_TRY(pipeline_note_inside(context, plan->pipeline.path, &w->baked.map, &w->baked.space));
+        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));

@@ -153,7 +153,7 @@ static sl_status make_plan(sl_context *context, const char *input, regions_plan 
 static sl_status note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map) {
     sl_space space;
     SL_TRY(pipeline_subdivide(context, pipeline, map, &space));
-    const sl_status status = pipeline_note_inside(context, pipeline->path, map, &space);
+    const sl_status status = pipeline_note_inside(context, pipeline, map, &space);
     sl_space_destroy(context, &space);
     return status;
 }

@@ -342,7 +342,7 @@ static sl_status read_space(sl_context *context, viewcells_plan *plan, view_run 
     SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
     const double read = sl_seconds();
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
-    SL_TRY(pipeline_note_inside(context, plan->pipeline.path, &baked->map, &baked->space));
+    SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
     run->seconds.read = read - start;
     run->seconds.subdivide = sl_seconds() - read;
     if (!plan->step_given) {

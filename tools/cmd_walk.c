@@ -464,7 +464,7 @@ static sl_status work(command_console *console, const walk_plan *plan, walk_work
     SL_TRY(
         pipeline_read_space(console->context, &plan->pipeline, "walk", SL_EFFECT_DOOR, &w->baked));
     if (!input_ends_with(plan->pipeline.path, ".slv"))
-        SL_TRY(pipeline_note_inside(console->context, plan->pipeline.path, &w->baked.map,
+        SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
     SL_TRY(doors_shut(console->context, plan->shut, &w->baked));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));

@@ -5,9 +5,14 @@
 #include "sightline/support.h"
 #include "solvers.h"
 
+#include <string.h>
+
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
 enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };
 static const name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4, NULL};
+
+/// The longest that say_map() says, its 0 included; longer ones are cut.
+enum { SAID = 1024 };
 
 // --- options
 
@@ -139,8 +144,25 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
-sl_status pipeline_note_inside(sl_context *context, const char *path, const sl_map *map,
+/// The map's file and what picks the map in it, as they are given to a command.
+static const char *say_map(const map_pipeline *pipeline, char text[SAID]) {
+    const sl_import_options *import = &pipeline->input.import;
+    char slice[SL_NUMBER_TEXT];
+    const char *quote = strpbrk(pipeline->path, " '\"$&();<>|*?") ? "'" : "";
+    size_t length = (size_t)snprintf(text, SAID, "%s%s%s", quote, pipeline->path, quote);
+    if (import->map && length < SAID)
+        length += (size_t)snprintf(text + length, SAID - length, " --map %s", import->map);
+    if (import->has_slice && length < SAID) {
+        sl_number_write(import->slice, slice);
+        snprintf(text + length, SAID - length, " --slice %s", slice);
+    }
+    return text;
+}
+
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
+    char text[SAID];
+    const char *path = say_map(pipeline, text);
     sl_inside doubt;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
     const sl_ground_shares shares = sl_space_ground(space);

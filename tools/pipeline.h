@@ -47,8 +47,8 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, sl_baked *baked);
 
-/// Notes how much is inside if that is in doubt, and what to run next. `path` is the map's file.
-sl_status pipeline_note_inside(sl_context *context, const char *path, const sl_map *map,
+/// Notes how much is inside if that is in doubt, and what to run next.
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space);
 
 /// For --help: the names that the options take.

@@ -154,19 +154,16 @@ void sli_ground_of_cells(sl_space *s) {
     }
 }
 
-static bool say_all(inside *m) {
-    bool any = false;
-    for (uint32_t i = 0; i < m->space->wall_count; i++) any |= m->space->walls[i].ground != 0;
+static void say_all(inside *m) {
     memset(m->beside, 0xff, 2 * (size_t)m->space->wall_count * sizeof *m->beside);
-    if (!any || m->space->neighbour) {
-        if (any) say_mesh(m);
-        return any;
+    if (m->space->neighbour) {
+        say_mesh(m);
+        return;
     }
     for (uint32_t i = 0; i < m->space->wall_count; i++) {
         say_down(m, i, true);
         say_down(m, i, false);
     }
-    return any;
 }
 
 // --- solid ground
@@ -209,24 +206,27 @@ static void reopen(const inside *m, uint32_t cell) {
     }
 }
 
+enum { BY_TEXT = SL_LINE_TEXT + 4 };
+
 /// " (line 3)", the line of the wall that makes a cell solid.
-static const char *by_line(const inside *m, uint32_t cell, char text[32]) {
+static const char *by_line(const inside *m, uint32_t cell, char text[BY_TEXT]) {
+    char line[SL_LINE_TEXT];
     text[0] = '\0';
     if (m->solid_by[cell] == COVERED) return text;
-    const uint32_t line = m->space->walls[m->solid_by[cell] - 1].line;
-    if (line) snprintf(text, 32, " (line %u)", (unsigned)line);
+    sl_map_say_line(m->map, m->space->walls[m->solid_by[cell] - 1].line, line);
+    if (line[0]) snprintf(text, BY_TEXT, " (%s)", line);
     return text;
 }
 
 /// Open ground that solid ground reaches.
 static sl_status settle_open(inside *m, size_t *reopened) {
-    char by[32];
+    char by[BY_TEXT];
     for (uint32_t i = 0; i < m->space->cell_count; i++) {
         if (!m->solid_by[i] || !m->open_by[i]) continue;
         if (!m->map->ground_guessed) {
             const sl_wall *wall = &m->space->walls[m->open_by[i] - 1];
-            return sl_fail_at(
-                m->context, source_of(m), wall->line,
+            return sl_map_fail(
+                m->context, m->map, SL_BAD_INPUT, wall->line,
                 "open ground at the wall from %.9g %.9g to %.9g %.9g is also solid "
                 "ground%s: an open polygon may not overlap another polygon; make one of both",
                 wall->a.x, wall->a.y, wall->b.x, wall->b.y, by_line(m, i, by));
@@ -239,7 +239,7 @@ static sl_status settle_open(inside *m, size_t *reopened) {
 
 /// A door whose both sides are solid ground.
 static sl_status settle_doors(inside *m, size_t *reopened) {
-    char by[32];
+    char by[BY_TEXT];
     for (uint32_t i = 0; i < m->space->seam_portal_count; i++) {
         const sl_seam_portal *at = &m->space->seam_portals[i];
         const sl_seam *seam = &m->space->seams[at->seam];
@@ -247,10 +247,10 @@ static sl_status settle_doors(inside *m, size_t *reopened) {
         if (seam->kind != SL_SEAM_DOOR || !m->solid_by[cell]) continue;
         const sl_door *door = &m->map->doors[seam->number];
         if (!m->map->ground_guessed)
-            return sl_fail_at(m->context, source_of(m), door->line,
-                              "door %s stands in solid ground%s: move the door, or cut an opening "
-                              "into the solid ground",
-                              door->name, by_line(m, cell, by));
+            return sl_map_fail(m->context, m->map, SL_BAD_INPUT, door->line,
+                               "door %s stands in solid ground%s: move the door, or cut an opening "
+                               "into the solid ground",
+                               door->name, by_line(m, cell, by));
         reopen(m, cell);
         ++*reopened;
     }
@@ -280,10 +280,10 @@ static uint32_t cell_of_start(const inside *m, sl_point at) {
 
 /// Says that a start is left out, and why.
 static void note_start(const inside *m, const sl_start *start, const char *where) {
-    char line[16] = "";
-    if (start->line) snprintf(line, sizeof line, ":%u", (unsigned)start->line);
-    sl_note(m->context, "%s%s: the start at %.9g %.9g is %s; it is left out", source_of(m), line,
-            start->at.x, start->at.y, where);
+    char line[SL_LINE_TEXT];
+    sl_map_say_line(m->map, start->line, line);
+    sl_note(m->context, "%s%s%s: the start at %.9g %.9g is %s; it is left out", source_of(m),
+            line[0] ? ": " : "", line, start->at.x, start->at.y, where);
 }
 
 /// Finds the cells of starts; SL_NO_CELL for those in solid ground or out of bounds. Fails if none
@@ -291,7 +291,7 @@ static void note_start(const inside *m, const sl_start *start, const char *where
 static sl_status find_starts(inside *m, uint32_t *cells, size_t *reopened) {
     const sl_map *map = m->map;
     size_t solid = SIZE_MAX, good = 0;
-    char by[32] = "";
+    char by[BY_TEXT] = "";
     for (size_t i = 0; i < map->start_count; i++) {
         cells[i] = cell_of_start(m, map->starts[i].at);
         if (cells[i] == SL_NO_CELL) continue;
@@ -305,10 +305,10 @@ static sl_status find_starts(inside *m, uint32_t *cells, size_t *reopened) {
         if (solid == SIZE_MAX) solid = i;
     }
     if (solid != SIZE_MAX && !good)
-        return sl_fail_at(m->context, source_of(m), map->starts[solid].line,
-                          "the start at %.9g %.9g is in solid ground%s: move it, or give another "
-                          "one with --start X,Y",
-                          map->starts[solid].at.x, map->starts[solid].at.y, by);
+        return sl_map_fail(m->context, map, SL_BAD_INPUT, map->starts[solid].line,
+                           "the start at %.9g %.9g is in solid ground%s: move it, or give another "
+                           "one with --start X,Y",
+                           map->starts[solid].at.x, map->starts[solid].at.y, by);
     for (size_t i = 0; i < map->start_count; i++) {
         const bool in_solid = cells[i] != SL_NO_CELL && m->solid_by[cells[i]];
         if (in_solid) cells[i] = SL_NO_CELL;
@@ -457,10 +457,11 @@ static sl_status add_covered(const inside *m) {
 
 // --- all of it
 
-static sl_status mark(inside *m, uint32_t *reached) {
+static sl_status mark(inside *m, bool marked, uint32_t *reached) {
     sl_space *s = m->space;
     size_t count = 0, reopened = 0;
-    if (say_all(m)) {
+    if (marked) {
+        say_all(m);
         flood(m, m->solid_by, take(m, m->solid_by));
         flood(m, m->open_by, take(m, m->open_by));
         SL_TRY(add_covered(m));
@@ -498,13 +499,15 @@ sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piec
                           sl_space *space) {
     const size_t cells = space->cell_count, room = cells + space->tree_depth + 2;
     inside m = {.context = context, .map = map, .pieces = walls, .space = space};
+    bool marked = false;
+    for (uint32_t i = 0; i < space->wall_count; i++) marked |= space->walls[i].ground != 0;
     uint32_t *reached = sl_alloc_array(context, cells, sizeof *reached);
     m.solid_by = sl_alloc_array(context, cells, sizeof *m.solid_by);
-    m.open_by = sl_alloc_array(context, cells, sizeof *m.open_by);
+    m.open_by = sl_alloc_array(context, marked ? cells : 0, sizeof *m.open_by);
     m.stack = sl_alloc_array(context, room, sizeof *m.stack);
-    m.beside = sl_alloc_array(context, space->wall_count, 2 * sizeof *m.beside);
+    m.beside = sl_alloc_array(context, marked ? space->wall_count : 0, 2 * sizeof *m.beside);
     const bool done = reached && m.solid_by && m.open_by && m.stack && m.beside;
-    const sl_status status = done ? mark(&m, reached) : SL_NO_MEMORY;
+    const sl_status status = done ? mark(&m, marked, reached) : SL_NO_MEMORY;
     sl_free(context, reached);
     sl_free(context, m.solid_by);
     sl_free(context, m.open_by);
