@@ -189,9 +189,10 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
-                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR, &w->baked));
+                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
+    SL_TRY(doors_shut(context, NULL, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
