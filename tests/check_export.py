@@ -64,6 +64,7 @@ class Export:
         self.ids = [cell["id"] for cell in data["cells"]]
         self.cells = [[tuple(self.integers(p)) for p in cell["polygon"]] for cell in data["cells"]]
         self.portals = [(tuple(p["cells"]), self.segment(p["segment"])) for p in data["portals"]]
+        self.solid = [cell.get("solid", False) for cell in data["cells"]]
         self.pvs = data["pvs"]
 
     def integers(self, values):
@@ -251,8 +252,13 @@ def check_pvs(export, inside_only, faults):
                 bits |= 1 << k
             else:
                 faults.add("pvs", f"row {c} names cell {k}")
-        if not bits >> c & 1 and not (inside_only and not row):
+        if not bits >> c & 1 and not ((inside_only or export.solid[c]) and not row):
             faults.add("pvs", f"cell {c} does not see itself")
+        if export.solid[c] and row:
+            faults.add("pvs", f"cell {c} is solid and sees")
+        for k in row:
+            if 0 <= k < count and export.solid[k]:
+                faults.add("pvs", f"cell {k} is solid and is seen")
         rows.append(bits)
     rows += [0] * (count - len(rows))
     for c in range(count):
@@ -260,6 +266,8 @@ def check_pvs(export, inside_only, faults):
             if rows[c] >> k & 1 and not rows[k] >> c & 1:
                 faults.add("pvs", f"cell {c} sees cell {k}, which does not see it")
     for (a, b), _ in export.portals:
+        if 0 <= a < count and 0 <= b < count and export.solid[a] != export.solid[b]:
+            faults.add("pvs", f"a portal joins cells {a} and {b}, of which one is solid")
         if 0 <= a < count and 0 <= b < count and rows[a] and rows[b] and not rows[a] >> b & 1:
             faults.add("pvs", f"cells {a} and {b} share a portal and do not see each other")
     return rows

@@ -115,6 +115,7 @@ sl_status bake_report_print_json(sl_context *context, const bake_report *report)
     json_add_count(&fields, "welded", report->account.cleaning.welded);
     json_add_count(&fields, "cells", space->cell_count);
     json_add_count(&fields, "inside_cells", space->inside_count);
+    ground_add_json(&fields, space);
     json_add_count(&fields, "portals", space->portal_count);
     json_add_count(&fields, "tree_depth", space->tree_depth);
     if (has_sets) add_visibility(&fields, &baked->visibility);
@@ -206,6 +207,7 @@ sl_status bake_report_print(sl_context *context, const bake_report *report) {
            space->inside_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');
+    ground_print(space);
     printf("  portals   %" PRIu32 "\n", space->portal_count);
     plan_print(&report->baked->map);
     print_parts(report);
@@ -310,7 +312,8 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     SL_TRY(pipeline_read(context, &plan->pipeline, map));
     report->seconds.read = lap(&time);
     SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
-    if (crew_rank() == 0) SL_TRY(pipeline_note_inside(context, &plan->pipeline, baked));
+    if (crew_rank() == 0)
+        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
     report->seconds.read += report->account.seconds.clean;
     lap(&time);
     SL_TRY(bake_parts_see(context, &plan->parts, options, baked, &report->parts));

@@ -16,6 +16,8 @@ typedef struct checked {
     sl_baked baked; ///< its space, and the rest of the map for the picture
     sl_faults faults;
     sl_inside inside;
+    double gap;  ///< up to which gaps were looked for
+    bool mended; ///< snapped: the map's own cells are gone
 } checked;
 
 typedef struct faults_report {
@@ -24,27 +26,15 @@ typedef struct faults_report {
     double gap, thin;
     const char *mended; ///< the file written; NULL for none
     sl_snap_account snap;
-    const checked *left;          ///< the mended map
-    double helps;                 ///< a larger gap that closes a leak; 0 for none
-    uint64_t most;                ///< of a kind, in the text
-    const char *picture;          ///< NULL for none
-    const char *start, *gap_text; ///< as given, to be said again; NULL for none
+    const checked *left; ///< the mended map
+    double helps;        ///< a larger gap that closes a leak; 0 for none
+    double weld;         ///< a tolerance that closes gaps of rounding; 0 for none
+    uint64_t most;       ///< of a kind, in the text
+    const char *picture; ///< NULL for none
+    const options_given *given;
 } faults_report;
 
 // --- the report
-
-/// "(1,2.5)"
-static void print_point(const char *before, sl_point point, int digits) {
-    printf("%s(%.*g,%.*g)", before, digits, point.x, digits, point.y);
-}
-
-/// The digits that tell two points apart, to about a hundredth of their distance.
-static int digits_for(sl_segment at) {
-    const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
-    const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
-    if (!(apart > 0 && most > 0)) return 6;
-    return (int)fmin(fmax(ceil(log10(most / apart)) + 3, 6), 17);
-}
 
 /// The digits for a place in a map, which may lie far from the origin.
 static int digits_in(const sl_map *map) {
@@ -53,25 +43,47 @@ static int digits_in(const sl_map *map) {
         fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
     const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
     if (!(across > 0 && most > 0)) return 6;
-    return (int)fmin(fmax(ceil(log10(most / across)), 0) + 6, 17);
+    return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
+}
+
+/// The digits that tell two points of a map apart, to about a hundredth of their distance.
+static int digits_for(const sl_map *map, sl_segment at) {
+    const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
+    const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
+    const int least = digits_in(map);
+    if (!(most > 0)) return least;
+    if (!(apart > 0)) return at.a.x == at.b.x && at.a.y == at.b.y ? least : 17;
+    return (int)fmin(fmax(ceil(log10(most / apart)) + 3, least), 17);
+}
+
+/// "(1,2.5)"
+static void print_point(const char *before, sl_point point, int digits) {
+    printf("%s(%.*g,%.*g)", before, digits, point.x, digits, point.y);
 }
 
 /// "from (1,2) to (3,4)"
-static void print_ends(sl_segment at) {
-    const int digits = digits_for(at);
+static void print_ends(const sl_map *map, sl_segment at) {
+    const int digits = digits_for(map, at);
     print_point("from ", at.a, digits);
     print_point(" to ", at.b, digits);
 }
 
-/// "lines 3 and 7", where the walls' lines are known.
+/// "lines 3 and 7", or "line 12 (layer WALLS) and line 30 (layer WALLS)", where walls have lines.
 static void print_lines(const sl_map *map, const sl_fault *fault) {
-    unsigned lines[2] = {0, 0};
-    for (int i = 0; i < 2; i++)
-        if (fault->walls[i] != UINT32_MAX) lines[i] = map->walls[fault->walls[i]].line;
-    if (lines[0] && lines[1] && lines[0] != lines[1])
-        printf(", lines %u and %u", lines[0], lines[1]);
-    else if (lines[0] || lines[1])
-        printf(", line %u", lines[0] ? lines[0] : lines[1]);
+    uint32_t lines[2] = {0, 0};
+    char text[2][SL_LINE_TEXT];
+    size_t count = 0;
+    for (int i = 0; i < 2; i++) {
+        if (fault->walls[i] == UINT32_MAX) continue;
+        const uint32_t line = map->walls[fault->walls[i]].line;
+        if (line && !(count && line == lines[0])) lines[count++] = line;
+    }
+    for (size_t i = 0; i < count; i++) sl_map_say_line(map, lines[i], text[i]);
+    const bool plain = !map->label_count && !map->lines_are_items;
+    if (count == 2 && plain)
+        printf(", lines %u and %u", (unsigned)lines[0], (unsigned)lines[1]);
+    else if (count)
+        printf(", %s%s%s", text[0], count == 2 ? " and " : "", count == 2 ? text[1] : "");
 }
 
 static void print_width(double width) {
@@ -84,9 +96,11 @@ static void print_width(double width) {
 static void print_leak(const checked *found, const sl_fault *fault) {
     const sl_point *way = found->faults.points + fault->first_point;
     print_width(fault->size);
-    print_ends(fault->at);
+    print_ends(&found->map, fault->at);
     print_lines(&found->map, fault);
     print_point("; the way to it begins at ", way[0], digits_in(&found->map));
+    // A wider one is no matter of snapping.
+    if (fault->stays && fault->size <= found->gap) printf("; needs a decision");
     putchar('\n');
 }
 
@@ -97,13 +111,13 @@ static void print_fault(const checked *found, const sl_fault *fault) {
         return;
     case SL_FAULT_GAP:
         print_width(fault->size);
-        print_ends(fault->at);
+        print_ends(&found->map, fault->at);
         print_lines(&found->map, fault);
         if (fault->stays) printf("; needs a decision");
         break;
     case SL_FAULT_OVERLAP:
         printf("    %.6g long, ", fault->size);
-        print_ends(fault->at);
+        print_ends(&found->map, fault->at);
         print_lines(&found->map, fault);
         break;
     case SL_FAULT_CROSSING:
@@ -112,7 +126,7 @@ static void print_fault(const checked *found, const sl_fault *fault) {
         break;
     case SL_FAULT_THIN:
         printf("    cell %u, %.6g wide", (unsigned)fault->cell, fault->size);
-        print_point(" at ", fault->at.a, digits_for(fault->at));
+        print_point(" at ", fault->at.a, digits_for(&found->map, fault->at));
         break;
     default:
         printf("    %u cell%s, area %.6g", (unsigned)fault->cells, fault->cells == 1 ? "" : "s",
@@ -122,62 +136,104 @@ static void print_fault(const checked *found, const sl_fault *fault) {
     putchar('\n');
 }
 
+/// What kinds of faults are called.
+static const struct {
+    const char *one, *several, *what;
+} kinds[SL_FAULT_KINDS] = {
+    {"leak", "leaks", "openings through which a start leads out of the map"},
+    {"gap", "gaps", "places where a wall ends near another one"},
+    {"overlap", "overlaps", "pieces that two walls share; bake joins them"},
+    {"crossing", "crossings", "places where two walls cross; no mistake if they are meant to"},
+    {"thin cell", "thin cells", "cells thinner than --thin"},
+    {"unreachable room", "unreachable rooms", "rooms that no start leads to"}};
+
+/// "3 gaps"
+static void print_count(const char *before, sl_fault_kind kind, uint32_t count) {
+    printf("%s%u %s", before, (unsigned)count, count == 1 ? kinds[kind].one : kinds[kind].several);
+}
+
 static void print_kind(const checked *found, sl_fault_kind kind, uint64_t most) {
-    static const char *const what[SL_FAULT_KINDS] = {
-        "leak: an opening through which a start leads to the map's border",
-        "gap: a wall's end near another wall",
-        "overlap: a piece that two walls share (bake joins them)",
-        "crossing: where two walls cross (no mistake if they are meant to)",
-        "thin: a cell thinner than the width asked about",
-        "unreachable: a room that no start leads to"};
     const sl_faults *faults = &found->faults;
-    if (!faults->counts[kind]) return;
-    printf("  %u %s\n", (unsigned)faults->counts[kind], what[kind]);
+    const uint32_t count = faults->counts[kind];
+    if (!count) return;
+    print_count("  ", kind, count);
+    printf(" (%s):\n", kinds[kind].what);
     uint64_t printed = 0;
     for (uint32_t i = 0; i < faults->count && printed < most; i++) {
         if (faults->items[i].kind != kind) continue;
         print_fault(found, &faults->items[i]);
         printed++;
     }
-    if (printed < faults->counts[kind])
-        printf("    ... and %u more (--most N, --json)\n",
-               (unsigned)(faults->counts[kind] - printed));
+    if (printed < count)
+        printf("    ... and %u more (--most N, --json)\n", (unsigned)(count - printed));
 }
 
-/// The gaps that snapping closes.
-static uint32_t closable(const sl_faults *faults) {
+/// The faults of a kind that snapping closes.
+static uint32_t closable(const sl_faults *faults, sl_fault_kind kind) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < faults->count; i++)
-        count += faults->items[i].kind == SL_FAULT_GAP && !faults->items[i].stays;
+        count += faults->items[i].kind == kind && !faults->items[i].stays;
     return count;
 }
 
 static void print_mended(const faults_report *report) {
     const sl_faults *left = &report->left->faults;
-    printf("%s: %zu wall ends moved, by %.6g at most; %zu walls vanished; left over: ",
-           report->mended, report->snap.moved, report->snap.farthest, report->snap.vanished);
-    for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
-        printf("%s%u %s", kind ? ", " : "", (unsigned)left->counts[kind],
-               sl_fault_name((sl_fault_kind)kind));
+    const size_t moved = report->snap.moved, vanished = report->snap.vanished;
+    printf("%s: %zu wall end%s moved", report->mended, moved, moved == 1 ? "" : "s");
+    if (moved) printf(", by %.6g at most", report->snap.farthest);
+    if (vanished) printf("; %zu piece%s of walls vanished", vanished, vanished == 1 ? "" : "s");
+    const char *before = "; left: ";
+    for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
+        if (!left->counts[kind]) continue;
+        print_count(before, (sl_fault_kind)kind, left->counts[kind]);
+        before = ", ";
+    }
     putchar('\n');
+    if (report->snap.ground_dropped)
+        puts("  the marks of solid ground are left out, as walls have moved: starts say what is "
+             "inside");
     if (left->counts[SL_FAULT_LEAK] || left->counts[SL_FAULT_GAP])
-        printf("  what is left needs a decision (by lines of %s):\n", report->input);
+        printf("  what is left needs a decision (by %s of %s):\n",
+               report->left->map.lines_are_items ? "the names" : "lines", report->input);
     print_kind(report->left, SL_FAULT_LEAK, report->most);
     print_kind(report->left, SL_FAULT_GAP, report->most);
 }
 
+/// "the gap", "all 3 gaps", "2 of 3 gaps"
+static void print_share(const char *before, uint32_t count, uint32_t all, const char *what) {
+    const char *several = all == 1 ? "" : "s";
+    if (count == all && all == 1)
+        printf("%sthe %s", before, what);
+    else if (count == all)
+        printf("%sall %u %s%s", before, (unsigned)all, what, several);
+    else
+        printf("%s%u of %u %s%s", before, (unsigned)count, (unsigned)all, what, several);
+}
+
 static void print_snap_advice(const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
-    const uint32_t gaps = faults->counts[SL_FAULT_GAP], closes = closable(faults);
+    const uint32_t gaps = faults->counts[SL_FAULT_GAP], leaks = faults->counts[SL_FAULT_LEAK];
+    const uint32_t gaps_closed = closable(faults, SL_FAULT_GAP);
+    const uint32_t leaks_closed = closable(faults, SL_FAULT_LEAK);
+    if (gaps_closed || leaks_closed) {
+        printf("  --snap FIXED.map closes ");
+        if (gaps_closed) print_share("", gaps_closed, gaps, "gap");
+        if (leaks_closed) print_share(gaps_closed ? " and " : "", leaks_closed, leaks, "leak");
+        if (gaps_closed < gaps)
+            printf("; %u gap%s a decision", (unsigned)(gaps - gaps_closed),
+                   gaps - gaps_closed == 1 ? " needs" : "s need");
+        if (faults->leaks_left)
+            printf("; then %u leak%s left", (unsigned)faults->leaks_left,
+                   faults->leaks_left == 1 ? " is" : "s are");
+        putchar('\n');
+    } else if (gaps) {
+        puts("  --snap does not close these gaps: each needs a decision");
+    }
     if (report->helps > 0)
         printf("  --gap %.2g is wide enough for --snap to close a leak\n", report->helps);
-    if (closes && closes == gaps)
-        puts("  --snap FIXED.map closes the gaps and writes the map so mended");
-    else if (closes)
-        printf("  --snap FIXED.map closes %u of the gaps; %u need a decision\n", (unsigned)closes,
-               (unsigned)(gaps - closes));
-    else if (gaps)
-        puts("  --snap does not close these gaps: each needs a decision");
+    if (report->weld > 0)
+        printf("  --weld %.2g joins the ends that miss each other by rounding, in all commands\n",
+               report->weld);
 }
 
 // --- the next command
@@ -199,11 +255,54 @@ static void print_word(const char *before, const char *word) {
     putchar('\'');
 }
 
-/// "sightline check MAP", with the options for reading it.
-static void print_command(const faults_report *report, const char *command) {
-    printf("next: sightline %s", command);
-    print_word(" ", report->input);
-    if (report->start) printf(" --start %s", report->start);
+/// A file's name; one that looks like an option is led by its folder.
+static void print_file(const char *before, const char *name) {
+    fputs(before, stdout);
+    print_word(name[0] == '-' && name[1] ? "./" : "", name);
+}
+
+static bool is_among(const char *name, const char *const *names) {
+    for (; *names; names++)
+        if (strcmp(*names, name) == 0) return true;
+    return false;
+}
+
+/// What a next command is for.
+typedef enum next_use { NEXT_CHECK, NEXT_BAKE, NEXT_CHECK_MENDED, NEXT_BAKE_MENDED } next_use;
+
+/// Repeats an option unless it is for this run alone, or for reading a file that the next command
+/// does not read.
+static bool is_repeated(const struct option_given *option, next_use use) {
+    static const char *const own[] = {"gap",    "snap", "output", "width", "dark", "most",
+                                      "strict", "json", "quiet",  "help",  NULL};
+    static const char *const for_check[] = {"thin", NULL};
+    static const char *const reading[] = {"map",   "slice",       "layers",  "tolerance",
+                                          "unit",  "threshold",   "sectors", "doors",
+                                          "start", "start-names", "without", NULL};
+    const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
+    if (is_among(option->name, own)) return false;
+    if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;
+    if (!mended) return true;
+    const bool given = strcmp(option->name, "subdivide") == 0 && *option->argument == 'g';
+    return !given && !is_among(option->name, reading);
+}
+
+/// "next: sightline check MAP", with the options that count, and the width of gaps.
+static void print_command(const faults_report *report, next_use use, double gap) {
+    const bool bakes = use == NEXT_BAKE || use == NEXT_BAKE_MENDED;
+    const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
+    print_file(bakes ? "next: sightline bake " : "next: sightline check ",
+               mended ? report->mended : report->input);
+    for (size_t i = 0; i < report->given->count; i++) {
+        const struct option_given *option = &report->given->items[i];
+        if (strcmp(option->name, "gap") == 0 && !bakes && !(gap > 0)) {
+            print_word(" --gap ", option->argument);
+        } else if (is_repeated(option, use)) {
+            printf(" --%s", option->name);
+            if (option->argument) print_word(" ", option->argument);
+        }
+    }
+    if (gap > 0) printf(" --gap %.2g", gap);
 }
 
 /// " --snap office-fixed.map"
@@ -213,21 +312,53 @@ static void print_name(const faults_report *report, const char *option, const ch
     const char *base = input_base_name(report->input, &length);
     const bool fits = length < sizeof name / 2 && strcmp(report->input, "-") != 0;
     snprintf(name, sizeof name, "%.*s%s", fits ? (int)length : 3, fits ? base : "map", end);
-    print_word(option, name);
+    print_file(option, name);
 }
 
-static void print_gap_again(const faults_report *report) {
-    if (report->gap_text) printf(" --gap %s", report->gap_text);
+/// The middle of the largest cell that may be inside. Solid ground is not.
+static sl_point likely_start(const sl_space *space) {
+    double largest = -1;
+    bool inside = false;
+    sl_point at = {0, 0};
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        const double area = sl_space_area(space, i);
+        if (cell->solid || (inside && !cell->inside) || (inside == cell->inside && area <= largest))
+            continue;
+        inside = cell->inside;
+        largest = area;
+        at = (sl_point){0, 0};
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            at.x += space->vertices[cell->first_vertex + k].x / cell->vertex_count;
+            at.y += space->vertices[cell->first_vertex + k].y / cell->vertex_count;
+        }
+    }
+    return at;
+}
+
+/// Checks again, with a start.
+static void print_next_start(const faults_report *report, next_use use, const checked *found) {
+    const sl_point start = likely_start(&found->baked.space);
+    const int digits = digits_in(&found->map);
+    puts("  the next command has a start in the largest cell: put another place there if that is "
+         "outside");
+    print_command(report, use, 0);
+    printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
 }
 
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
-    print_word(left ? "next: sightline check " : "next: sightline bake ", report->mended);
-    if (left) {
-        print_gap_again(report);
-        print_name(report, " -o ", "-fixed.png");
+    bool gap_given = false;
+    if (!left && !report->left->faults.has_starts) {
+        print_next_start(report, NEXT_CHECK_MENDED, report->left);
+        return;
     }
+    for (size_t i = 0; i < report->given->count; i++)
+        gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
+    print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
+    if (left && !gap_given) printf(" --gap %.6g", report->gap);
+    if (left) print_name(report, " -o ", "-fixed.png");
 }
 
 static void print_next(const faults_report *report) {
@@ -236,45 +367,57 @@ static void print_next(const faults_report *report) {
     if (report->mended) {
         print_next_of_mended(report);
     } else if (report->helps > 0) {
-        print_command(report, "check");
-        printf(" --gap %.2g", report->helps);
+        print_command(report, NEXT_CHECK, report->helps);
         print_name(report, " --snap ", "-fixed.map");
-    } else if (closable(faults)) {
-        print_command(report, "check");
-        print_gap_again(report);
+    } else if (closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK)) {
+        print_command(report, NEXT_CHECK, 0);
         print_name(report, " --snap ", "-fixed.map");
-    } else if (!faults->has_starts) {
-        print_command(report, "check");
-        print_gap_again(report);
-        fputs(" --start X,Y", stdout);
+    } else if (!faults->has_starts && report->found->inside != SL_INSIDE_NONE) {
+        print_next_start(report, NEXT_CHECK, report->found);
     } else if (grave && !report->picture) {
-        print_command(report, "check");
-        print_gap_again(report);
+        print_command(report, NEXT_CHECK, 0);
         print_name(report, " -o ", "-check.png");
     } else if (grave) {
-        print_command(report, "check");
-        print_gap_again(report);
-        fputs(", once the walls named above are mended", stdout);
+        puts("  mend the walls named above before the next command");
+        print_command(report, NEXT_CHECK, 0);
+    } else if (input_ends_with(report->input, ".slv")) {
+        print_file("next: sightline info ", report->input);
     } else {
-        print_command(report, "bake");
+        print_command(report, NEXT_BAKE, 0);
     }
     putchar('\n');
+}
+
+/// What sets the tolerance.
+static const char *how_welded(const faults_report *report) {
+    for (size_t i = 0; i < report->given->count; i++)
+        if (strcmp(report->given->items[i].name, "weld") == 0) return "--weld";
+    return report->found->map.precision > 0 ? "the digits of the file; --weld 0 closes none"
+                                            : "the map's own tolerance";
 }
 
 static sl_status faults_print(const faults_report *report) {
     const checked *found = report->found;
     const sl_faults *faults = &found->faults;
-    printf("%s: %zu walls, %u cells; gaps up to %.4g and cells thinner than %.4g looked for\n",
+    printf("%s: %zu walls, %u cells; looked for gaps up to %.4g and cells thinner than %.4g\n",
            report->input, found->map.wall_count, (unsigned)found->baked.space.cell_count,
            report->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
         print_kind(found, (sl_fault_kind)kind, report->most);
+    if (faults->welded)
+        printf("  %u gap%s up to %.3g wide %s closed on import (by %s); no fault\n",
+               (unsigned)faults->welded, faults->welded == 1 ? "" : "s", faults->weld,
+               faults->welded == 1 ? "is" : "are", how_welded(report));
     if (found->inside == SL_INSIDE_SMALL)
         puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
+    else if (found->inside == SL_INSIDE_FEW)
+        puts("  inside is doubtful: most of the area is in rooms that no start leads to");
+    else if (found->inside == SL_INSIDE_NONE)
+        puts("  nothing is inside: all is solid ground");
     else if (!faults->count)
         puts("  nothing found");
     if (!faults->has_starts)
-        puts("  leaks and unreachable rooms need a start to be told: give --start X,Y");
+        puts("  leaks and unreachable rooms are found only from a start: give --start X,Y");
     if (report->mended)
         print_mended(report);
     else
@@ -292,16 +435,21 @@ static json_fields fault_fields(const checked *found, const sl_fault *fault) {
     json_add_text(&fields, "kind", sl_fault_name(fault->kind));
     json_add_real(&fields, "size", fault->size);
     json_add_points(&fields, "at", at, 2);
-    if (fault->walls[0] != UINT32_MAX) {
-        json_add_count(&fields, "wall", fault->walls[0]);
-        json_add_count(&fields, "line", map->walls[fault->walls[0]].line);
-    }
-    if (fault->walls[1] != UINT32_MAX) {
-        json_add_count(&fields, "other_wall", fault->walls[1]);
-        json_add_count(&fields, "other_line", map->walls[fault->walls[1]].line);
+    static const char *const walls[] = {"wall", "other_wall"};
+    static const char *const lines[] = {"line", "other_line"}, *const items[] = {"item",
+                                                                                 "other_item"};
+    static const char *const labels[] = {"label", "other_label"};
+    for (int i = 0; i < 2; i++) {
+        if (fault->walls[i] == UINT32_MAX) continue;
+        const uint32_t line = map->walls[fault->walls[i]].line;
+        const char *label = sl_map_label(map, line);
+        json_add_count(&fields, walls[i], fault->walls[i]);
+        json_add_count(&fields, (map->lines_are_items ? items : lines)[i], line);
+        if (label) json_add_text(&fields, labels[i], label);
     }
     if (fault->cell != SL_NO_CELL) json_add_count(&fields, "cell", fault->cell);
-    if (fault->kind == SL_FAULT_GAP) json_add_flag(&fields, "needs_decision", fault->stays);
+    if (fault->kind == SL_FAULT_GAP || fault->kind == SL_FAULT_LEAK)
+        json_add_flag(&fields, "needs_decision", fault->stays);
     if (fault->cells) json_add_count(&fields, "cells", fault->cells);
     if (fault->point_count)
         json_add_points(&fields, "way", found->faults.points + fault->first_point,
@@ -318,7 +466,7 @@ static void add_counts(json_fields *fields, const char *key,
 }
 
 static sl_status faults_print_json(sl_context *context, const faults_report *report) {
-    static const char *const inside[] = {"sure", "leaks", "doubtful"};
+    static const char *const inside[] = {"sure", "leaks", "doubtful", "few", "none"};
     const checked *found = report->found;
     const uint32_t count = found->faults.count;
     json_fields fields = json_begin();
@@ -332,6 +480,9 @@ static sl_status faults_print_json(sl_context *context, const faults_report *rep
     json_add_flag(&fields, "has_starts", found->faults.has_starts);
     json_add_text(&fields, "inside", inside[found->inside]);
     if (report->helps > 0) json_add_real(&fields, "gap_that_helps", report->helps);
+    if (report->weld > 0) json_add_real(&fields, "suggested_weld", report->weld);
+    json_add_count(&fields, "closed_on_import", found->faults.welded);
+    json_add_real(&fields, "weld", found->faults.weld);
     add_counts(&fields, "counts", found->faults.counts);
     for (uint32_t i = 0; i < count; i++) items[i] = fault_fields(found, &found->faults.items[i]);
     json_add_list(&fields, "faults", items, count);
@@ -341,6 +492,7 @@ static sl_status faults_print_json(sl_context *context, const faults_report *rep
         json_add_count(&mended, "moved", report->snap.moved);
         json_add_real(&mended, "farthest", report->snap.farthest);
         json_add_count(&mended, "vanished", report->snap.vanished);
+        json_add_flag(&mended, "ground_dropped", report->snap.ground_dropped);
         add_counts(&mended, "counts", report->left->faults.counts);
         json_add_fields(&fields, "mended", &mended);
     }
@@ -354,10 +506,10 @@ typedef struct check_plan {
     map_pipeline pipeline;
     sl_faults_options faults;
     sl_draw_options drawing;
-    const char *output, *snap, *gap_given;
+    const char *output, *snap;
     uint64_t most;
     bool json, strict;
-    char gap_text[SL_NUMBER_TEXT];
+    options_given given;
 } check_plan;
 
 static void destroy(sl_context *context, checked *c) {
@@ -371,43 +523,33 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
     sl_faults_options options = plan->faults;
     options.gap = gap;
     options.clean = &plan->pipeline.input.clean;
+    c->gap = gap > 0 ? gap : sl_usual_gap(&c->map);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
     SL_TRY(sl_map_copy(context, &c->map, &c->baked.map));
     SL_TRY(input_clean(context, &plan->pipeline.input, &c->baked.map, NULL));
-    SL_TRY(pipeline_subdivide(context, &plan->pipeline, &c->baked.map, &c->baked.space));
+    map_pipeline pipeline = plan->pipeline;
+    const sl_subdivision *way = pipeline.bake.subdivision;
+    if (c->mended && way && way->takes_cells) pipeline.bake.subdivision = NULL;
+    SL_TRY(pipeline_subdivide(context, &pipeline, &c->baked.map, &c->baked.space));
     SL_TRY(sl_doubt_inside(context, &c->baked.map, &c->baked.space, &c->inside));
     return sl_find_faults(context, &c->map, &c->baked.space, &options, &c->faults);
 }
 
-static double usual_gap(const sl_map *map) {
-    const sl_box box = sl_map_bounds(map);
-    return hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;
-}
-
-/// Closes gaps of a copy until there is none that snapping closes. One round is mostly enough.
-static sl_status snap(sl_context *context, const check_plan *plan, const sl_map *map, double gap,
-                      sl_snap_account *account, checked *after) {
-    enum { ROUNDS = 8 };
+/// Mends a copy of the map as read, and looks at what is left.
+static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl_map *map,
+                           double gap, sl_snap_account *account, checked *after) {
     SL_TRY(sl_map_copy(context, map, &after->map));
-    for (int i = 0; i < ROUNDS; i++) {
-        sl_snap_account round;
-        SL_TRY(sl_map_snap(context, &after->map, gap, &round));
-        account->moved += round.moved;
-        account->vanished += round.vanished;
-        account->farthest = fmax(account->farthest, round.farthest);
-        if (!after->map.wall_count) return SL_OK;
-        const double own = plan->faults.gap > 0 ? gap : fmax(gap, usual_gap(&after->map));
-        SL_TRY(examine(context, plan, own, after));
-        if (!closable(&after->faults)) break;
-    }
-    return SL_OK;
+    SL_TRY(sl_map_mend(context, &after->map, gap, &plan->pipeline.input.clean, account));
+    if (!after->map.wall_count) return SL_OK;
+    after->mended = true;
+    return examine(context, plan, gap, after);
 }
 
 /// Closes gaps and writes the map.
 static sl_status mend(sl_context *context, const check_plan *plan, const sl_map *map,
                       faults_report *report, checked *after) {
-    SL_TRY(snap(context, plan, map, report->gap, &report->snap, after));
+    SL_TRY(mend_copy(context, plan, map, report->gap, &report->snap, after));
     if (!after->map.wall_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
@@ -438,10 +580,10 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     const sl_faults *faults = &c->faults;
     if (!faults->counts[SL_FAULT_LEAK] || !(faults->items[0].size > report->gap)) return SL_OK;
     const double gap = round_up(faults->items[0].size);
-    if (gap > 20 * usual_gap(&c->map)) return SL_OK;
+    if (gap > 20 * sl_usual_gap(&c->map)) return SL_OK;
     checked after = {0};
     sl_snap_account account = {0};
-    const sl_status status = snap(context, plan, &c->map, gap, &account, &after);
+    const sl_status status = mend_copy(context, plan, &c->map, gap, &account, &after);
     if (status == SL_OK && after.map.wall_count &&
         after.faults.counts[SL_FAULT_LEAK] < faults->counts[SL_FAULT_LEAK])
         report->helps = gap;
@@ -450,30 +592,41 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     return status == SL_NO_MEMORY || status == SL_CANCELLED ? status : SL_OK;
 }
 
+/// Reads the map; of a baked file, the map that it was made from.
+static sl_status read_map(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
+    if (!input_ends_with(pipeline->path, ".slv")) return pipeline_read(context, pipeline, map);
+    SL_TRY(input_read_either(context, pipeline->path, &pipeline->input, map));
+    sl_effects_leave_out(context, map, pipeline->without);
+    return pipeline->start_text ? sl_map_add_start(context, map, pipeline->start, 0, 0) : SL_OK;
+}
+
 static sl_status check(command_console *console, const check_plan *plan, checked *c,
                        checked *after) {
     sl_context *context = console->context;
-    SL_TRY(pipeline_read(context, &plan->pipeline, &c->map));
+    SL_TRY(read_map(context, &plan->pipeline, &c->map));
     SL_TRY(examine(context, plan, plan->faults.gap, c));
-    const double usual = usual_gap(&c->map);
+    const double usual = sl_usual_gap(&c->map);
     faults_report report = {.input = plan->pipeline.path,
                             .found = c,
                             .gap = plan->faults.gap > 0 ? plan->faults.gap : usual,
                             .thin = plan->faults.thin > 0 ? plan->faults.thin : usual,
                             .most = plan->most,
                             .picture = plan->output,
-                            .start = plan->pipeline.start_text,
-                            .gap_text = plan->gap_given ? plan->gap_text : NULL};
+                            .given = &plan->given};
     if (plan->snap)
         SL_TRY(mend(context, plan, &c->map, &report, after));
     else
         SL_TRY(suggest_gap(context, plan, c, &report));
+    const uint32_t *counts = c->faults.counts;
+    if (!plan->snap && (counts[SL_FAULT_GAP] || counts[SL_FAULT_LEAK]))
+        SL_TRY(sl_suggest_weld(context, &c->map, &report.weld));
     if (plan->output) {
         sl_draw_options drawing = plan->drawing;
         drawing.faults = &c->faults;
         SL_TRY(sl_draw_file(context, &c->baked, &drawing, plan->output));
     }
-    console->fault = plan->strict && (c->faults.count || c->inside == SL_INSIDE_SMALL);
+    console->fault = plan->strict && (c->faults.count || c->inside == SL_INSIDE_SMALL ||
+                                      c->inside == SL_INSIDE_NONE);
     progress_line_clear(&console->line);
     return plan->json ? faults_print_json(context, &report) : faults_print(&report);
 }
@@ -489,34 +642,42 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_spec options[] = {
         {"gap", 0, "SIZE",
-         "tell of gaps up to this width (the default is a\nthousandth of the map's diagonal)",
-         .number = &plan.faults.gap, .over_0 = true, .given = &plan.gap_given},
-        {"thin", 0, "SIZE", "tell of cells thinner than this (the same default)",
+         "list gaps up to this width (default: 1/1000 of the\nmap's diagonal, at most 1/8 of a "
+         "usual wall)",
+         .number = &plan.faults.gap, .over_0 = true},
+        {"thin", 0, "SIZE", "list cells thinner than this (same default)",
          .number = &plan.faults.thin, .over_0 = true},
-        {"snap", 0, "FIXED.map", "close such gaps and write the map so mended", .text = &plan.snap,
-         .check = CHECK_FILE},
-        {"output", 'o', "PICTURE", "mark all faults on the plan: .png, .svg or .pdf",
+        {"snap", 0, "FIXED.map", "close such gaps, and write the result as map text",
+         .text = &plan.snap, .check = CHECK_FILE},
+        {"output", 'o', "PICTURE", "draw the plan with all faults: .png, .svg or .pdf",
          .text = &plan.output, .check = CHECK_PICTURE},
-        {"width", 0, "PX", "of the picture, 64 to 20000 pixels or points",
+        {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
          .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
         {"dark", 0, NULL, "light on dark", .flag = &plan.drawing.dark},
-        {"most", 0, "N", "print up to N faults of a kind (default 10)", .count = &plan.most,
+        {"most", 0, "N", "print up to N faults of each kind (default 10)", .count = &plan.most,
          .most = UINT32_MAX},
         {.group = &pipeline},
-        {"strict", 0, NULL, "exit with status 3 if a fault is found", .flag = &plan.strict},
+        {"strict", 0, NULL, "exit with status 3 if there is a fault", .flag = &plan.strict},
         {"json", 0, NULL, "print all faults as one JSON object", .flag = &plan.json},
     };
     const command_usage usage = {
         .name = "check",
-        .synopsis = "MAP [options]",
+        .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP"},
-        .what = "Looks a map over: leaks from a start to the outside with their way, gaps between\n"
-                "walls, overlaps and crossings, thin cells, rooms that no start leads to.",
+        .what = "Lists what may be wrong with a map: leaks (openings through which a start leads\n"
+                "out of the map), gaps between walls, overlaps, crossings, thin cells, and rooms\n"
+                "that no start leads to. A fault has its place and the names of its walls in the\n"
+                "file: line, layer, handle, id. The last line is the next command to run.\n"
+                "\n"
+                "--snap moves ends of walls by up to --gap. What it cannot close is marked as\n"
+                "'needs a decision': a corner near the side of a wall, for example.",
         .tables = print_tables,
         .examples = "  sightline check office.map -o office-check.png\n"
-                    "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap mended.map",
+                    "  sightline check plan.dxf --start 3,5\n"
+                    "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap plan-fixed.map",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.given,
     };
     checked c = {0}, after = {0};
     bool helped;
@@ -524,7 +685,6 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;
     SL_TRY(pipeline_plan(console->context, input, &plan.pipeline));
-    if (plan.gap_given) sl_number_write(plan.faults.gap, plan.gap_text);
     const sl_status status = check(console, &plan, &c, &after);
     destroy(console->context, &c);
     destroy(console->context, &after);

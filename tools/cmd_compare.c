@@ -155,7 +155,8 @@ static sl_status prepare(sl_context *context, comparing *all) {
     SL_TRY(pipeline_read_clean(context, pipeline, &all->map, NULL));
     refuse_effects(context, all);
     SL_TRY(fail_if_all_refuse(context, all));
-    return pipeline_subdivide(context, pipeline, &all->map, &all->space);
+    SL_TRY(pipeline_subdivide(context, pipeline, &all->map, &all->space));
+    return pipeline_note_inside(context, pipeline, &all->map, &all->space);
 }
 
 /// Times each subdivision, where the map leaves the choice.
@@ -241,6 +242,7 @@ static sl_status compare_eye(command_console *console, comparing *all, const out
     SL_TRY(pipeline_read_clean(context, pipeline, &all->map, NULL));
     SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
     SL_TRY(pipeline_subdivide(context, pipeline, &all->map, &all->space));
+    SL_TRY(pipeline_note_inside(context, pipeline, &all->map, &all->space));
     SL_TRY(compare_eye_run(console, &all->plan->eye_plan, &all->space, all->plan->see.sight, out));
     out->input = pipeline->path;
     return folder ? write_eye_files(context, out, all->plan->dark, folder) : SL_OK;

@@ -9,6 +9,7 @@ static sl_status convert(sl_context *context, const char *input, const input_opt
     sl_map map = {0};
     SL_TRY(input_read_either(context, input, reading, &map));
     sl_status status = clean ? input_clean(context, reading, &map, NULL) : SL_OK;
+    if (status == SL_OK) status = sl_map_settle_ground(context, &map);
     if (status == SL_OK)
         status = input_ends_with(output, ".txt") ? sl_map_write_plan(context, &map, output)
                                                  : sl_map_write_text(context, &map, output);

@@ -58,11 +58,11 @@ static sl_status choose_cell(sl_context *context, const draw_plan *plan, const s
         SL_TRY(read_count(context, "--cell", plan->cell, space->cell_count - 1, &number));
         *cell = (uint32_t)number;
     } else if (plan->at_text) {
-        *cell = sl_space_locate(space, plan->at);
-        if (*cell == SL_NO_CELL)
-            return input_fail_outside(context, "--at", plan->at_text, space->bounds);
-    } else if (!plan->cell && baked->map.start_count) {
-        *cell = sl_space_locate(space, baked->map.starts[0].at);
+        SL_TRY(input_locate(context, "--at", plan->at_text, space, plan->at, cell));
+    } else if (!plan->cell) {
+        const size_t start = input_next_start(&baked->map, space, 0);
+        if (start < baked->map.start_count)
+            *cell = sl_space_locate(space, baked->map.starts[start].at);
     }
     return SL_OK;
 }

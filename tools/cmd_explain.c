@@ -404,12 +404,13 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
                            "%s %s: a cell from 0 to %u, or a point X,Y, is needed", name, text,
                            (unsigned)space->cell_count - 1);
         *cell = (uint32_t)number;
-        return SL_OK;
+        if (!space->cells[*cell].solid) return SL_OK;
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s %s: the cell is solid ground; choose a cell in a room", name, text);
     }
     sl_point at = {0};
     SL_TRY(read_point(context, name, text, &at));
-    *cell = sl_space_locate(space, at);
-    return *cell == SL_NO_CELL ? input_fail_outside(context, name, text, space->bounds) : SL_OK;
+    return input_locate(context, name, text, space, at, cell);
 }
 
 static sl_status explain(command_console *console, const explain_plan *plan,

@@ -172,9 +172,7 @@ static sl_status check_view(sl_context *context, const eye_plan *plan, const sl_
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--look and --fov make a view cone together; without both the eye looks "
                        "all round");
-    if (sl_space_locate(space, plan->at) == SL_NO_CELL)
-        return input_fail_outside(context, "--at", plan->at_text, space->bounds);
-    return SL_OK;
+    return input_locate(context, "--at", plan->at_text, space, plan->at, NULL);
 }
 
 /// Adds the objects to the picture, and the region past them.

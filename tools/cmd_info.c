@@ -233,6 +233,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
     json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
     json_add_count(&fields, "inside_cells", baked->space.inside_count);
+    ground_add_json(&fields, &baked->space);
     json_add_count(&fields, "tree_depth", baked->space.tree_depth);
     json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
     for (int i = 0; i < BAKED_PARTS; i++) {
@@ -263,6 +264,7 @@ static void print_baked(const info_request *request, const sl_baked *baked, cons
     printf("  inside    %" PRIu32 " of %" PRIu32 " cells", space->inside_count, space->cell_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');
+    ground_print(space);
     mean_pvs_print(mean);
     if (trees->cell_count)
         printf("  trees     %" PRIu32 " of %" PRIu32 " stab trees left out\n", trees->left_out,

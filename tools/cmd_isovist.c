@@ -59,19 +59,34 @@ static sl_status add_points(sl_context *context, const isovist_plan *plan, isovi
         const char *text = plan->at.items[i];
         eye_place eye = plan->like;
         SL_TRY(read_point(context, "--at", text, &eye.at));
-        if (sl_space_locate(&w->baked.space, eye.at) == SL_NO_CELL)
-            return input_fail_outside(context, "--at", text, w->baked.space.bounds);
+        SL_TRY(input_locate(context, "--at", text, &w->baked.space, eye.at, NULL));
         SL_TRY(eyes_add(context, &w->eyes, eye));
     }
     return SL_OK;
+}
+
+/// Says how many points of a path see nothing.
+static void note_solid(sl_context *context, const char *name, const isovist_work *w) {
+    const sl_space *space = &w->baked.space;
+    size_t solid = 0;
+    for (size_t i = 0; i < w->eyes.list.count; i++) {
+        const uint32_t cell = sl_space_locate(space, w->eyes.list.items[i].at);
+        solid += cell != SL_NO_CELL && space->cells[cell].solid;
+    }
+    if (solid)
+        sl_note(context, "--path %s: %zu of %zu points are in solid ground and see nothing", name,
+                solid, w->eyes.list.count);
 }
 
 static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const char *name = plan->path;
     const sl_map *map = &w->baked.map;
     for (size_t i = 0; i < map->path_count; i++)
-        if (strcmp(map->paths[i].name, name) == 0)
-            return eyes_add_path(context, &map->paths[i], plan->step, plan->like, &w->eyes);
+        if (strcmp(map->paths[i].name, name) == 0) {
+            SL_TRY(eyes_add_path(context, &map->paths[i], plan->step, plan->like, &w->eyes));
+            note_solid(context, name, w);
+            return SL_OK;
+        }
     const name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count, NULL};
     char names[NAME_LIST];
     name_list(&paths, names);
@@ -79,18 +94,23 @@ static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist
                    "--path %s: the map has no path of that name; its paths: %s", name, names);
 }
 
-/// The default viewpoints: the map's starts with their headings.
+/// The default viewpoints: the map's starts with their headings, but for those in solid ground.
 static sl_status add_starts(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const sl_map *map = &w->baked.map;
     if (!map->start_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start to look from: give one of --at, --grid, --cells, "
                        "--path, --csv");
-    for (size_t i = 0; i < map->start_count; i++) {
+    const sl_space *space = &w->baked.space;
+    for (size_t i = input_next_start(map, space, 0); i < map->start_count;
+         i = input_next_start(map, space, i + 1)) {
         const double look = plan->look_given ? plan->like.look : map->starts[i].heading;
         SL_TRY(eyes_add(context, &w->eyes, (eye_place){map->starts[i].at, look, plan->like.fov}));
     }
-    return SL_OK;
+    if (w->eyes.list.count) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "the map's starts are on the border of solid ground: give one of --at, --grid, "
+                   "--cells, --path, --csv");
 }
 
 static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isovist_work *w) {
@@ -169,9 +189,10 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
-                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR, &w->baked));
+                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
-        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked));
+        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
+    SL_TRY(doors_shut(context, NULL, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));

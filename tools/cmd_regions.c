@@ -149,6 +149,15 @@ static sl_status make_plan(sl_context *context, const char *input, regions_plan 
 
 // --- the work
 
+/// The space of the measurements is cut further, but has the same inside.
+static sl_status note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map) {
+    sl_space space;
+    SL_TRY(pipeline_subdivide(context, pipeline, map, &space));
+    const sl_status status = pipeline_note_inside(context, pipeline, map, &space);
+    sl_space_destroy(context, &space);
+    return status;
+}
+
 static sl_status measure_map(sl_context *context, const regions_plan *plan, const char *path,
                              uint32_t grid, regions_rows *rows) {
     sl_map map = {0};
@@ -162,6 +171,7 @@ static sl_status measure_map(sl_context *context, const regions_plan *plan, cons
     snprintf(name, sizeof name, "%.*s", (int)length, base);
     sl_status status = pipeline_read_clean(context, &pipeline, &map, NULL);
     if (status == SL_OK) status = sl_effects_check(context, &map, "regions", 0);
+    if (status == SL_OK) status = note_inside(context, &pipeline, &map);
     if (status == SL_OK) status = regions_measure(context, &map, name, &what, &plan->how, rows);
     sl_map_destroy(context, &map);
     return status;

@@ -3,6 +3,7 @@
 #include "json_print.h"
 #include "outputs.h"
 #include "pipeline.h"
+#include "report.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 #include "view_run.h"
@@ -67,6 +68,7 @@ static sl_status view_report_print(sl_context *context, const view_report *repor
     size_write(t.finest_bytes, finest);
     printf("%u view cells by %s: expected cost %.6g %s, sets of %s\n", run->cell_count,
            report->options->method->name, t.cut, objects_name(report), size);
+    ground_print(&run->baked.space);
     printf("  with one cell   %.6g\n", t.whole);
     printf("  with all %-7u%.6g, sets of %s\n", run->tree.cell_count, t.finest, finest);
     if (report->options->method->exact)
@@ -121,6 +123,7 @@ static sl_status view_report_print_json(sl_context *context, const view_report *
     json_add_text(&fields, "objects", objects_name(report));
     json_add_count(&fields, "walls", run->baked.space.wall_count);
     json_add_count(&fields, "cells", run->baked.space.cell_count);
+    ground_add_json(&fields, &run->baked.space);
     json_add_count(&fields, "samples", s->drawn);
     json_add_count(&fields, "samples_in_empty_space", s->empty);
     json_add_count(&fields, "samples_that_saw_no_wall", s->unseeing);
@@ -339,6 +342,7 @@ static sl_status read_space(sl_context *context, viewcells_plan *plan, view_run 
     SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
     const double read = sl_seconds();
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
+    SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
     run->seconds.read = read - start;
     run->seconds.subdivide = sl_seconds() - read;
     if (!plan->step_given) {

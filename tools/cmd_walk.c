@@ -4,6 +4,7 @@
 #include "names.h"
 #include "outputs.h"
 #include "pipeline.h"
+#include "report.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 #include "walk_run.h"
@@ -293,7 +294,8 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
     if (!map->start_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start for a tour: give a --path or a --start");
-    const sl_point start = map->starts[0].at;
+    const size_t first = input_next_start(map, space, 0);
+    const sl_point start = map->starts[first < map->start_count ? first : 0].at;
     w->step = plan->step > 0 ? plan->step : size / TOUR_STEPS_ACROSS;
     return way_tour(context, space, start, plan->options.seed, w->step * (double)plan->steps,
                     &w->way);
@@ -363,6 +365,7 @@ static sl_status walk_once(command_console *console, const walk_plan *plan, walk
         printf("%zu steps of %g, %zu nodes, %zu walls, view cone of %g degrees; means a frame\n",
                eyes.list.count, w->step * plan->speed, (size_t)w->hierarchy.node_count,
                (size_t)w->baked.space.wall_count, plan->fov);
+        ground_print(&w->baked.space);
         walk_print(&w->rows);
     }
     for (size_t i = 0; i < count; i++) sl_free(context, frames[i]);
@@ -460,6 +463,9 @@ static sl_status study(command_console *console, const walk_plan *plan, walk_wor
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
     SL_TRY(
         pipeline_read_space(console->context, &plan->pipeline, "walk", SL_EFFECT_DOOR, &w->baked));
+    if (!input_ends_with(plan->pipeline.path, ".slv"))
+        SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
+                                    &w->baked.space));
     SL_TRY(doors_shut(console->context, plan->shut, &w->baked));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));

@@ -373,6 +373,7 @@ void compare_eye_print(const eye_comparison *comparison) {
            comparison->input, space->wall_count, space->cell_count, space->inside_count,
            space->portal_count, sight_name(comparison->sight), comparison->plan->viewpoints,
            comparison->plan->seed, seconds);
+    ground_print(space);
     double fov = -1;
     for (size_t i = 0; i < comparison->row_count; i++) {
         const compare_eye_row *row = &comparison->rows[i];
@@ -467,6 +468,7 @@ sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comp
     json_add_count(&fields, "walls", space->wall_count);
     json_add_count(&fields, "cells", space->cell_count);
     json_add_count(&fields, "inside_cells", space->inside_count);
+    ground_add_json(&fields, space);
     json_add_count(&fields, "portals", space->portal_count);
     json_add_count(&fields, "viewpoints", comparison->plan->viewpoints);
     json_add_count(&fields, "seed", comparison->plan->seed);

@@ -364,6 +364,7 @@ void compare_print(const compare_result *comparison) {
     printf("%s: %" PRIu32 " walls, %" PRIu32 " cells, %" PRIu32 " portals; %s sight, one thread\n",
            comparison->input, space->wall_count, space->cell_count, space->portal_count,
            sight_name(comparison->sight));
+    ground_print(space);
     puts("\n  method    solver      guarantee      seconds     ratio       tests  per test      "
          "pairs  too many   too few  doubtful");
     for (size_t i = 0; i < comparison->run_count; i++)
@@ -415,6 +416,7 @@ sl_status compare_print_json(sl_context *context, const compare_result *comparis
     json_add_text(&fields, "sight", sight_name(comparison->sight));
     json_add_count(&fields, "walls", space->wall_count);
     json_add_count(&fields, "cells", space->cell_count);
+    ground_add_json(&fields, space);
     json_add_count(&fields, "portals", space->portal_count);
     json_add_count(&fields, "threads", 1);
     json_add_real(&fields, "time_limit", comparison->limit);

@@ -59,6 +59,11 @@ option_table input_option_table(input_options *input) {
          .flag = &to->has_slice, .given = given},
         {"layers", 0, "LAYER,...", "the layers of a drawing or tile map to take",
          .text = &to->layers, .given = given},
+        {"start-names", 0, "NAME,...",
+         "objects of a game map that are starts;\n'none': no starts (default: Player, "
+         "Spawn, "
+         "Start ...)",
+         .text = &to->start_names, .given = given},
         {"tolerance", 0, "T", "how far curves may be from their walls", .number = &to->tolerance,
          .over_0 = true, .given = given},
         {"unit", 0, "UNIT", "of a drawing, turned into this: mm cm m km in ft yd",
@@ -120,12 +125,8 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
 static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map *map) {
     sl_baked baked = {0};
     SL_TRY(sl_baked_read(context, path, &baked));
-    sl_status status = SL_OK;
     const sl_space *space = &baked.space;
-    for (uint32_t i = 0; i < space->wall_count && status == SL_OK; i++) {
-        const sl_wall *wall = &space->walls[i];
-        status = sl_map_add_wall(context, &baked.map, wall->a, wall->b, wall->line);
-    }
+    const sl_status status = sl_map_add_walls(context, &baked.map, space->walls, space->wall_count);
     if (status == SL_OK) {
         *map = baked.map;
         baked.map = (sl_map){0};
@@ -160,6 +161,24 @@ sl_status input_fail_outside(sl_context *context, const char *name, const char *
     for (int i = 0; i < 4; i++) sl_number_write(values[i], numbers[i]);
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s",
                    name, text, numbers[0], numbers[1], numbers[2], numbers[3]);
+}
+
+sl_status input_locate(sl_context *context, const char *name, const char *text,
+                       const sl_space *space, sl_point at, uint32_t *cell) {
+    const uint32_t found = sl_space_locate(space, at);
+    if (cell) *cell = found;
+    if (found == SL_NO_CELL) return input_fail_outside(context, name, text, space->bounds);
+    if (!space->cells[found].solid) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s %s: the point is in solid ground; choose a point in a room", name, text);
+}
+
+size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
+    for (; from < map->start_count; from++) {
+        const uint32_t cell = sl_space_locate(space, map->starts[from].at);
+        if (cell == SL_NO_CELL || !space->cells[cell].solid) break;
+    }
+    return from;
 }
 
 // --- doors

@@ -50,6 +50,14 @@ void input_print_formats(void);
 sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
                              sl_box bounds);
 
+/// Finds the cell of a place to look from, which an option or operand gives. SL_BAD_ARGUMENT where
+/// it lies outside the map's bounds or in solid ground. `cell` may be NULL.
+sl_status input_locate(sl_context *context, const char *name, const char *text,
+                       const sl_space *space, sl_point at, uint32_t *cell);
+
+/// The map's first start from the given one on that is in no solid ground; start_count for none.
+size_t input_next_start(const sl_map *map, const sl_space *space, size_t from);
+
 /// Shuts the doors of a baked file that --shut names: "a,b", or "none". NULL: those that the map
 /// says are shut. Sets the state of the map's doors too, for pictures. SL_BAD_ARGUMENT for a name
 /// that no door has.

@@ -384,8 +384,13 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
         return SL_OK;
     }
     SL_TRY(take_operands(&p, argc, argv, operands));
-    for (size_t i = 0; i < p.count; i++)
-        if (p.arguments[i])
-            SL_TRY(set_target(p.context, &p.options[i], p.arguments[i], operands[0]));
+    for (size_t i = 0; i < p.count; i++) {
+        const option_spec *option = &p.options[i];
+        if (!p.arguments[i]) continue;
+        SL_TRY(set_target(p.context, option, p.arguments[i], operands[0]));
+        if (!usage->given) continue;
+        usage->given->items[usage->given->count++] =
+            (struct option_given){option->name, option->argument ? p.arguments[i] : NULL};
+    }
     return SL_OK;
 }

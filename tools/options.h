@@ -60,6 +60,14 @@ struct option_table {
 
 void option_table_add(option_table *table, const option_spec *items, size_t count);
 
+/// Options that were given, in the order of their table. An argument is NULL for a flag.
+typedef struct options_given {
+    struct option_given {
+        const char *name, *argument;
+    } items[64];
+    size_t count;
+} options_given;
+
 /// How a command is used: for parsing, --help and messages.
 typedef struct command_usage {
     const char *name;
@@ -70,7 +78,8 @@ typedef struct command_usage {
     const char *examples;    ///< lines
     const option_spec *options;
     size_t option_count;
-    option_list *more; ///< where what follows the operands goes; NULL where nothing may
+    option_list *more;    ///< where what follows the operands goes; NULL where nothing may
+    options_given *given; ///< gets the options that were given; NULL: not asked for
 } command_usage;
 
 /// Reads the arguments after the command's name, argv[0], and fills the targets. Adds --help and

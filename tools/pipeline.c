@@ -5,9 +5,14 @@
 #include "sightline/support.h"
 #include "solvers.h"
 
+#include <string.h>
+
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
 enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };
 static const name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4, NULL};
+
+/// The longest that say_map() says, its 0 included; longer ones are cut.
+enum { SAID = 1024 };
 
 // --- options
 
@@ -139,20 +144,53 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
-sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline,
-                               const sl_baked *baked) {
+/// The map's file and what picks the map in it, as they are given to a command.
+static const char *say_map(const map_pipeline *pipeline, char text[SAID]) {
+    const sl_import_options *import = &pipeline->input.import;
+    char slice[SL_NUMBER_TEXT];
+    const char *quote = strpbrk(pipeline->path, " '\"$&();<>|*?") ? "'" : "";
+    size_t length = (size_t)snprintf(text, SAID, "%s%s%s", quote, pipeline->path, quote);
+    if (import->map && length < SAID)
+        length += (size_t)snprintf(text + length, SAID - length, " --map %s", import->map);
+    if (import->has_slice && length < SAID) {
+        sl_number_write(import->slice, slice);
+        snprintf(text + length, SAID - length, " --slice %s", slice);
+    }
+    return text;
+}
+
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space) {
+    char text[SAID];
+    const char *path = say_map(pipeline, text);
     sl_inside doubt;
-    SL_TRY(sl_doubt_inside(context, &baked->map, &baked->space, &doubt));
+    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    const sl_ground_shares shares = sl_space_ground(space);
     if (doubt == SL_INSIDE_LEAKS)
         sl_note(context,
-                "a start leads out of the map, so the outside counts as inside; "
-                "sightline check %s shows where",
-                pipeline->path);
-    if (doubt == SL_INSIDE_SMALL)
+                "a start leads out of the map, so the outside counts as inside, too (%.0f %% of "
+                "the area); to see where, run: sightline check %s",
+                100 * shares.inside, path);
+    if (doubt == SL_INSIDE_SMALL && shares.outside > 0)
         sl_note(context,
-                "the map has no start, and walls enclose less than half of it, so inside is "
-                "doubtful; sightline check %s --start X,Y tells more",
-                pipeline->path);
+                "the map has no start, and walls enclose only %.0f %% of the area, so inside is "
+                "doubtful; add a start: sightline check %s --start X,Y",
+                100 * shares.inside, path);
+    if (doubt == SL_INSIDE_SMALL && !(shares.outside > 0))
+        sl_note(context,
+                "the map has no start, and walls enclose nothing, so all of it counts as inside; "
+                "add a start: sightline check %s --start X,Y",
+                path);
+    if (doubt == SL_INSIDE_FEW)
+        sl_note(context,
+                "a start reaches %.2g %% of the area, and rooms that no start reaches have more; "
+                "they count as outside; sightline check %s lists them, --start X,Y adds a start",
+                100 * shares.inside, path);
+    if (doubt == SL_INSIDE_NONE)
+        sl_note(context,
+                "all of the map is solid ground, so nothing is inside; to see it, run: "
+                "sightline check %s -o check.png",
+                path);
     return SL_OK;
 }
 

@@ -47,9 +47,9 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, sl_baked *baked);
 
-/// Notes where it is in doubt what is inside.
-sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline,
-                               const sl_baked *baked);
+/// Notes how much is inside if that is in doubt, and what to run next.
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space);
 
 /// For --help: the names that the options take.
 void pipeline_print_subdivisions(void);

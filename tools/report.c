@@ -1,5 +1,6 @@
 #include "report.h"
 
+#include "sightline/faults.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -137,6 +138,24 @@ void mean_pvs_add_json(json_fields *fields, const pvs_means *mean) {
     json_add_real(fields, "mean_pvs_cells", mean->cells);
     json_add_real(fields, "mean_pvs_share_of_cells", mean->share_of_cells);
     json_add_real(fields, "mean_pvs_share_of_area", mean->share_of_area);
+}
+
+// --- ground
+
+void ground_print(const sl_space *space) {
+    const sl_ground_shares shares = sl_space_ground(space);
+    if (space->inside_count == space->cell_count) return;
+    printf("  area      %.1f %% inside", 100 * shares.inside);
+    if (shares.outside > 0) printf(", %.1f %% outside", 100 * shares.outside);
+    if (shares.solid > 0) printf(", %.1f %% solid ground", 100 * shares.solid);
+    putchar('\n');
+}
+
+void ground_add_json(json_fields *fields, const sl_space *space) {
+    const sl_ground_shares shares = sl_space_ground(space);
+    json_add_real(fields, "inside_share", shares.inside);
+    json_add_real(fields, "outside_share", shares.outside);
+    json_add_real(fields, "solid_share", shares.solid);
 }
 
 // --- times

@@ -16,6 +16,11 @@ void plan_add_json(json_fields *fields, const sl_map *map);
 /// Prints what cleaning did, if anything: the rest of a line, and a line about welding.
 void cleaning_print(const sl_clean_account *account);
 
+/// Prints the shares of inside, outside and solid ground, unless all is inside.
+void ground_print(const sl_space *space);
+/// Adds "inside_share", "outside_share" and "solid_share" of the area, 0 to 1.
+void ground_add_json(json_fields *fields, const sl_space *space);
+
 /// Means over the cells that count (sl_baked_counts), with equal weights. Only these cells count as
 /// seen, too.
 typedef struct pvs_means {

@@ -53,8 +53,11 @@ static sl_status read_line(sl_context *context, const char *path, unsigned numbe
     if (!count) return SL_OK;
     if (count < 2) return sl_fail_at(context, path, number, "two finite numbers are needed: x y");
     const sl_point point = {values[0], values[1]};
-    if (sl_space_locate(space, point) == SL_NO_CELL)
+    const uint32_t cell = sl_space_locate(space, point);
+    if (cell == SL_NO_CELL)
         return sl_fail_at(context, path, number, "the point lies outside the map");
+    if (space->cells[cell].solid)
+        return sl_fail_at(context, path, number, "the point is in solid ground");
     return add_point(context, way, point);
 }
 

@@ -94,8 +94,10 @@ static void make(const app_state *app, account *a, bool small) {
                                      .colour = 1,
                                      .marks = a->marks + methods,
                                      .mark_count = marks - methods};
-    snprintf(a->title, sizeof a->title, "What accuracy costs here: cell %u, cone of %.0f\xc2\xb0",
-             app->view.seen.cell, app->view.eye.fov);
+    char cell[32];
+    snprintf(cell, sizeof cell, "cell %u", app->view.seen.cell);
+    snprintf(a->title, sizeof a->title, "What accuracy costs here: %s, cone of %.0f\xc2\xb0",
+             app->view.seen.cell == SL_NO_CELL ? "no cell" : cell, app->view.eye.fov);
     a->chart = (sl_chart){
         .title = small ? NULL : a->title,
         .subtitle = small ? a->title : NULL,

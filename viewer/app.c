@@ -62,9 +62,18 @@ void app_check(app_state *app, sl_status status) {
         ui_say(&app->ui, true, "%s", sl_context_message(app->context));
 }
 
+bool app_is_solid(const app_state *app, sl_point at) {
+    if (!app->document.baked) return false;
+    const sl_space *space = &app->document.baked->space;
+    const uint32_t cell = sl_space_locate(space, at);
+    return cell != SL_NO_CELL && space->cells[cell].solid;
+}
+
 uint32_t app_eye_cell(const app_state *app) {
-    return app->document.baked ? sl_space_locate(&app->document.baked->space, app->view.eye.at)
-                               : SL_NO_CELL;
+    const sl_point eye = app->view.eye.at;
+    return app->document.baked && !app_is_solid(app, eye)
+               ? sl_space_locate(&app->document.baked->space, eye)
+               : SL_NO_CELL;
 }
 
 static sl_view eye_view(const app_state *app) {

@@ -163,7 +163,10 @@ void app_after_edit(app_state *app);
 /// Call after a change that needs no new bake.
 void app_after_touch(app_state *app);
 
-/// The cell of the eye; SL_NO_CELL outside, and without a map.
+/// Whether a point of the map is in solid ground, from where nobody looks.
+bool app_is_solid(const app_state *app, sl_point at);
+
+/// The cell of the eye; SL_NO_CELL outside, in solid ground, and without a map.
 uint32_t app_eye_cell(const app_state *app);
 
 /// The panes below the plan, side by side: rows of the table in modes.c.

@@ -131,9 +131,7 @@ static void take_progress(void *user, const sl_progress *progress) {
 /// Replaces the walls of a map.
 static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
     map->wall_count = 0;
-    for (size_t i = 0; i < count; i++)
-        SL_TRY(sl_map_add_wall(context, map, walls[i].a, walls[i].b, walls[i].line));
-    return SL_OK;
+    return sl_map_add_walls(context, map, walls, count);
 }
 
 /// A baked file has all but the map as drawn: the walls of its space take its place.
@@ -256,19 +254,22 @@ void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, source->path);
     sl_free(context, (char *)(uintptr_t)source->options.map);
     sl_free(context, (char *)(uintptr_t)source->options.layers);
+    sl_free(context, (char *)(uintptr_t)source->options.start_names);
     *source = (document_source){0};
 }
 
 sl_status document_source_copy(sl_context *context, const document_source *from,
                                document_source *to) {
-    char *path = NULL, *map = NULL, *layers = NULL;
+    char *path = NULL, *map = NULL, *layers = NULL, *start_names = NULL;
     sl_status status = copy_text(context, from->path, &path);
     if (status == SL_OK) status = copy_text(context, from->options.map, &map);
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
+    if (status == SL_OK) status = copy_text(context, from->options.start_names, &start_names);
     document_source copy = *from;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
+    copy.options.start_names = start_names;
     if (status == SL_OK)
         *to = copy;
     else
@@ -384,9 +385,10 @@ static sl_status measure_cells(sl_context *context, document_state *document) {
     document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
     if (!document->areas) return SL_NO_MEMORY;
     document->area = 0;
-    document->counted = 0;
+    document->counted = document->solid = 0;
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         document->areas[cell] = sl_space_area(space, cell);
+        document->solid += space->cells[cell].solid;
         if (!sl_baked_counts(document->baked, cell)) continue;
         document->area += document->areas[cell];
         document->counted++;

@@ -65,6 +65,7 @@ typedef struct document_state {
     double *areas;         ///< of the cells
     double area;           ///< of all cells that count
     uint32_t counted;      ///< how many there are
+    uint32_t solid;        ///< how many cells are solid ground
     uint32_t mirror_depth; ///< reflections of a sightline, at most
     uint32_t baked_depth;  ///< that cells are seen with
     /// The objects of the map that can be moved, and which of them block sight. A map with too many

@@ -200,6 +200,7 @@ static void keep_useful(sl_import_options *options, unsigned takes) {
     const sl_import_options usual = sl_import_options_default();
     if (!(takes & SL_TAKES_SLICE)) options->has_slice = false;
     if (!(takes & SL_TAKES_LAYERS)) options->layers = NULL;
+    if (!(takes & SL_TAKES_STARTS)) options->start_names = NULL;
     if (!(takes & SL_TAKES_TOLERANCE)) options->tolerance = usual.tolerance;
     if (!(takes & SL_TAKES_UNIT)) options->unit = NULL;
     if (!(takes & SL_TAKES_THRESHOLD)) options->threshold = usual.threshold;

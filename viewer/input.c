@@ -135,6 +135,12 @@ static void click(app_state *app, const hit_area *hit) {
 
 static void explain_to(app_state *app, sl_point at) {
     if (!app->document.baked) return;
+    if (app_is_solid(app, at) || app_is_solid(app, app->view.eye.at)) {
+        ui_say(&app->ui, false,
+               "%s solid ground, from where nobody looks: choose a place in a room",
+               app_is_solid(app, at) ? "this is" : "the eye is in");
+        return;
+    }
     const uint32_t to = sl_space_locate(&app->document.baked->space, at);
     const uint32_t from = app_eye_cell(app);
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
@@ -248,6 +254,8 @@ void input_release(app_state *app, sl_point at) {
     const uint32_t door = puts ? door_at(app, now) : UINT32_MAX;
     if (door != UINT32_MAX) {
         door_toggle(app, door);
+    } else if (puts && app_is_solid(app, now)) {
+        ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->view.eye.at = now;
         app->tool.recorder.plays = false;

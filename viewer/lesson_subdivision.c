@@ -149,6 +149,15 @@ static void draw_ground(app_state *app, const sl_frame *frame) {
     sl_path_polygon(app->ui.cairo, frame, corners, 4);
     sl_set_colour(app->ui.cairo, app->ui.palette.floor[0]);
     cairo_fill(app->ui.cairo);
+    const sl_space *space = &app->document.baked->space;
+    for (uint32_t cell = 0; cell < space->cell_count && app->document.solid; cell++) {
+        const sl_cell *c = &space->cells[cell];
+        if (c->solid)
+            sl_path_polygon(app->ui.cairo, frame, space->vertices + c->first_vertex,
+                            c->vertex_count);
+    }
+    sl_set_colour(app->ui.cairo, app->ui.palette.solid);
+    cairo_fill(app->ui.cairo);
 }
 
 static void draw_mesh(app_state *app, const sl_frame *frame) {

@@ -32,6 +32,8 @@ static void print_help(void) {
          "  --map NAME           which map of a file that holds several\n"
          "  --slice Z            cut a 3D model at this height, not in its middle\n"
          "  --layers LAYER,...   the layers of a drawing or tile map to take\n"
+         "  --start-names NAME,...\n"
+         "                       objects of a game map that are starts; 'none': no starts\n"
          "  --tolerance T        how far curves may be from their walls\n"
          "  --unit UNIT          of a drawing, turned into this: mm cm m km in ft yd\n"
          "  --threshold T        darkness from which a pixel is solid, up to 1\n"
@@ -88,6 +90,9 @@ static sl_status read_map_option(sl_context *context, int option, arguments *a) 
         return SL_OK;
     case 'l':
         o->layers = optarg;
+        return SL_OK;
+    case 'n':
+        o->start_names = optarg;
         return SL_OK;
     case 't':
         return read_number(context, "--tolerance", optarg, 1e-300, &o->tolerance);
@@ -149,6 +154,7 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
         {"slice", required_argument, NULL, 'z'},
         {"map", required_argument, NULL, 'm'},
         {"layers", required_argument, NULL, 'l'},
+        {"start-names", required_argument, NULL, 'n'},
         {"tolerance", required_argument, NULL, 't'},
         {"unit", required_argument, NULL, 'u'},
         {"threshold", required_argument, NULL, 'd'},

@@ -8,6 +8,8 @@
 #include "quiz.h"
 #include "sightline/canvas.h"
 
+#include <math.h>
+
 // --- modes
 
 static void lesson_below(app_state *app, const sl_frame *frame) {
@@ -43,6 +45,20 @@ void modes_draw_below(app_state *app, const sl_frame *frame, int index) {
     if (mode->below) mode->below(app, frame);
 }
 
+/// Says why an eye in solid ground sees nothing.
+static void draw_rock_note(app_state *app, const sl_frame *frame) {
+    static const char text[] = "The eye is in solid ground and sees nothing. Click in a room.";
+    ui_state *ui = &app->ui;
+    const double t = ui->text, middle = frame->left + frame->width / 2;
+    const double half = fmin(ui_text_width(ui, 1, true, text), frame->width - 3 * t) / 2;
+    const double base = frame->top + frame->height - 1.4 * t;
+    ui_fill_round(ui,
+                  (sl_box){{middle - half - 0.6 * t, base - 1.3 * t},
+                           {middle + half + 0.6 * t, base + 0.6 * t}},
+                  0.3 * t, ui->palette.page);
+    sl_text_show_within(ui->cairo, ui->palette.ink, middle - half, base, 2 * half, t, true, text);
+}
+
 void modes_draw_above(app_state *app, const sl_frame *frame) {
     const mode_row *mode = &modes[app->tool.mode];
     const sl_palette *palette = &app->ui.palette;
@@ -56,6 +72,7 @@ void modes_draw_above(app_state *app, const sl_frame *frame) {
     if (mode->eye)
         sl_draw_eye_mark(app->ui.cairo, palette, frame, app->view.eye.at, app->view.eye.heading,
                          0.5 * app->ui.text);
+    if (mode->eye && app_is_solid(app, app->view.eye.at)) draw_rock_note(app, frame);
 }
 
 // --- panes below the plan

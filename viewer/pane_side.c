@@ -61,6 +61,18 @@ static void button_row(app_state *app, column *c, const char *const *names) {
     c->y += 2 * t;
 }
 
+/// What the colour of solid ground means.
+static void ground_row(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    if (!app->document.baked || !app->document.solid) return;
+    c->y += 0.3 * t;
+    ui_fill_round(ui, (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 2.2 * t, c->y + 1.25 * t}},
+                  0.15 * t, ui->palette.solid);
+    ui_text(ui, c->left + 2.8 * t, c->y + 1.1 * t, 1, false, ui->palette.ink, "Solid ground");
+    c->y += 1.5 * t;
+}
+
 /// The layers that belong to the present mode.
 static void layer_rows(app_state *app, column *c) {
     heading(&app->ui, c, "Layers", "key");
@@ -268,6 +280,10 @@ void pane_describe(const app_state *app, sl_point at, char *text, size_t room) {
         return;
     }
     const sl_cell *c = &space->cells[cell];
+    if (c->solid) {
+        snprintf(text, room, "Solid ground at %.4g, %.4g: nobody looks from there.", at.x, at.y);
+        return;
+    }
     const size_t word = cell / 64, bit = cell % 64;
     const bool counts = sl_baked_counts(app->document.baked, cell);
     char area[SL_COUNT_TEXT];
@@ -326,6 +342,7 @@ void pane_side(app_state *app, sl_box box) {
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
+    ground_row(app, &c);
     c.y += 0.3 * app->ui.text;
     draw_sliders(app, &c);
     static const char *const views[] = {"views_merge", "views_split", "views_largest", NULL};
@@ -399,6 +416,7 @@ void pane_learn(app_state *app, sl_box box) {
     draw_account(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
+    ground_row(app, &c);
     draw_words(app, &c);
 }
 
@@ -421,6 +439,7 @@ void pane_draw(app_state *app, sl_box box) {
              app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
     rule(&app->ui, &c, text);
     layer_rows(app, &c);
+    ground_row(app, &c);
     draw_methods(app, &c);
     draw_words(app, &c);
 }

@@ -132,6 +132,7 @@ static void take_pvs(seen_state *seen, const document_state *document, const pre
     memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
     memset(seen->mirrored, 0, sl_eye_words(space) * sizeof *seen->mirrored);
     seen->cell = sl_space_locate(space, eye);
+    if (seen->cell != SL_NO_CELL && space->cells[seen->cell].solid) seen->cell = SL_NO_CELL;
     if (seen->cell != SL_NO_CELL) present_add_row(present, document, seen->cell, seen->pvs);
     if (seen->cell != SL_NO_CELL)
         present_add_mirrored(present, document, seen->cell, seen->mirrored);

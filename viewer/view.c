@@ -136,13 +136,14 @@ void walk_home(app_state *app) {
     const document_state *d = &app->document;
     if (!d->baked) return;
     const sl_map *map = &d->baked->map;
-    if (d->source.has_start) {
+    if (d->source.has_start && !app_is_solid(app, d->source.start)) {
         app->view.eye.at = d->source.start;
         return;
     }
-    if (map->start_count) {
-        app->view.eye.at = map->starts[0].at;
-        app->view.eye.heading = fmod(map->starts[0].heading, 360);
+    for (size_t i = 0; i < map->start_count; i++) {
+        if (app_is_solid(app, map->starts[i].at)) continue;
+        app->view.eye.at = map->starts[i].at;
+        app->view.eye.heading = fmod(map->starts[i].heading, 360);
         return;
     }
     uint32_t best = 0;

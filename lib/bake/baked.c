@@ -17,6 +17,7 @@ bool sli_slv_is_name(const char name[16]) {
 bool sl_baked_counts(const sl_baked *baked, uint32_t cell) {
     const sl_pvs *pvs = &baked->visibility.pvs;
     if (cell < pvs->cell_count && pvs->offsets[cell] == pvs->offsets[cell + 1]) return false;
+    if (baked->space.cells[cell].solid) return false;
     return !baked->map.start_count || baked->space.cells[cell].inside;
 }
 

@@ -49,7 +49,29 @@ static void print_cell(printer *out, const sl_space *space, uint32_t number) {
     for (uint32_t i = 0; i < cell->vertex_count; i++)
         print_point(out, space->vertices[cell->first_vertex + i]);
     sl_json_put_end(&out->json, ']');
+    sl_json_put_key(&out->json, "inside");
+    sl_json_put_flag(&out->json, cell->inside);
+    if (cell->solid) {
+        sl_json_put_key(&out->json, "solid");
+        sl_json_put_flag(&out->json, true);
+    }
     sl_json_put_end(&out->json, '}');
+}
+
+/// Solid ground, as the polygons of its cells.
+static void print_solids(printer *out, const sl_space *space) {
+    bool any = false;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        if (!cell->solid) continue;
+        fputs(any ? ",\n" : ",\n\"solids\": [\n", out->stream);
+        any = true;
+        sl_json_put_list(&out->json);
+        for (uint32_t k = 0; k < cell->vertex_count; k++)
+            print_point(out, space->vertices[cell->first_vertex + k]);
+        sl_json_put_end(&out->json, ']');
+    }
+    if (any) fputs("]", out->stream);
 }
 
 static void print_portal(printer *out, const sl_portal *portal) {
@@ -79,7 +101,9 @@ static sl_status print_space(printer *out, const sl_space *space) {
     for (uint32_t i = 0; begin_item(out, i, space->wall_count); i++)
         print_segment(out, space->walls[i].a, space->walls[i].b);
     SL_TRY(sl_check_cancelled(out->context));
-    fputs("],\n\"cells\": [", out->stream);
+    fputs("]", out->stream);
+    print_solids(out, space);
+    fputs(",\n\"cells\": [", out->stream);
     for (uint32_t i = 0; begin_item(out, i, space->cell_count); i++) print_cell(out, space, i);
     SL_TRY(sl_check_cancelled(out->context));
     fputs("],\n\"portals\": [", out->stream);

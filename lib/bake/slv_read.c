@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "effects/mirrors.h"
 #include "space/index.h"
+#include "space/kd_tree.h"
 
 #include <math.h>
 #include <string.h>
@@ -254,7 +255,9 @@ static sl_status load_space(const reader *r) {
     const bool is_mesh = r->header.version != SLI_SLV_VERSION_AXIAL;
     if (is_mesh && !s->neighbour) return fail_file(r, "damaged: section BEYO is missing");
     if (s->neighbour) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
-    return in_file(r, sl_space_check(r->context, s));
+    SL_TRY(in_file(r, sl_space_check(r->context, s)));
+    sli_ground_of_cells(s);
+    return SL_OK;
 }
 
 static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *bytes_tag,

@@ -75,10 +75,10 @@ static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size
     others.snap = 0;
     FILE *stream = open_memstream(&p->map_text, size);
     if (!stream) return sl_fail_memory(context);
-    sli_map_print_text(&others, stream);
+    const sl_status status = sli_map_print_text(context, &others, stream);
     const bool failed = ferror(stream) != 0;
     if (fclose(stream) != 0 || failed) return sl_fail_memory(context);
-    return SL_OK;
+    return status;
 }
 
 static void add_pvs(plan *p, const char *offsets_tag, const char *bytes_tag, const sl_pvs *pvs) {

@@ -211,7 +211,7 @@ static sl_status search_source(sl_context *context, sli_dfs *all, sli_dfs_thread
 static sl_status search_unit(sl_context *context, void *job, void *state, size_t unit) {
     sli_dfs *all = job;
     const uint32_t source = (uint32_t)unit;
-    const bool takes_part = !all->options->inside_only || all->space->cells[source].inside;
+    const bool takes_part = sli_looks_from(all->space, all->options->inside_only, source);
     if (!all->before) return takes_part ? search_source(context, all, state, source) : SL_OK;
     if (!sli_unit_is_wanted(all->options, all->before, source)) return SL_OK;
     if (sli_is_enough(all->options)) return SL_OK;

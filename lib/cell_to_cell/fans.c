@@ -13,6 +13,7 @@
 /// each different gain.
 #include "cell_to_cell/fans.h"
 
+#include "cell_to_cell/methods.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 
@@ -39,10 +40,6 @@ uint64_t sli_fans_bytes(const sli_fans *fans) {
 }
 
 // --- directed portals
-
-static bool takes_part(const sl_space *space, const sl_see_options *options, uint32_t cell) {
-    return !options->inside_only || space->cells[cell].inside;
-}
 
 typedef struct walker {
     const sl_space *space;
@@ -73,7 +70,9 @@ static sl_status copy_directed(sl_context *context, walker *w, const sl_see_opti
         const uint32_t first = space->cells[cell].first_directed;
         for (uint32_t i = first; i < first + space->cells[cell].directed_count; i++) {
             const sl_directed_portal *e = &space->directed[i];
-            if (!takes_part(space, options, cell) || !takes_part(space, options, e->cell)) continue;
+            if (!sli_looks_from(space, options->inside_only, cell) ||
+                !sli_looks_from(space, options->inside_only, e->cell))
+                continue;
             uint32_t *other = &of_portal[e->portal];
             fans->directed[at] =
                 (sli_walk_portal){.left = UINT32_MAX, .cell = e->cell, .twin = *other};

@@ -95,7 +95,7 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
     flood *all = job;
     flooder *me = state;
     const sl_cell *cell = &all->space->cells[unit];
-    if (all->options->inside_only && !cell->inside) return SL_OK;
+    if (!sli_looks_from(all->space, all->options->inside_only, (uint32_t)unit)) return SL_OK;
     if (all->hurries && sli_is_enough(all->options)) return SL_CANCELLED;
     sli_word_set_add(&me->row, (uint32_t)unit);
     for (uint32_t i = 0; i < cell->directed_count; i++) {
@@ -159,10 +159,6 @@ sl_status sli_see_flood(sl_context *context, const sl_space *space, const sl_see
 
 // --- the bound for sets that are not decided
 
-static bool takes_part(const sl_space *space, const sl_see_options *options, uint32_t cell) {
-    return !options->inside_only || space->cells[cell].inside;
-}
-
 /// Cells that portals join, as rows; and which of them each cell is in.
 typedef struct components {
     sli_pvs_maker rows;
@@ -181,7 +177,8 @@ static void gather_component(const sl_space *space, const sl_see_options *option
         sli_word_set_add(&c->rows.row, cell);
         for (uint32_t i = 0; i < space->cells[cell].directed_count; i++) {
             const uint32_t next = directed[i].cell;
-            if (c->of[next] != UINT32_MAX || !takes_part(space, options, next)) continue;
+            if (c->of[next] != UINT32_MAX || !sli_looks_from(space, options->inside_only, next))
+                continue;
             c->of[next] = c->rows.made;
             c->stack[count++] = next;
         }
@@ -197,7 +194,8 @@ static sl_status find_components(sl_context *context, const sl_space *space,
     if (!c->of || !c->stack) return SL_NO_MEMORY;
     memset(c->of, 0xff, count * sizeof *c->of);
     for (uint32_t cell = 0; cell < count; cell++) {
-        if (c->of[cell] != UINT32_MAX || !takes_part(space, options, cell)) continue;
+        if (c->of[cell] != UINT32_MAX || !sli_looks_from(space, options->inside_only, cell))
+            continue;
         gather_component(space, options, cell, c);
         SL_TRY(sli_pvs_maker_end_row(context, &c->rows));
     }

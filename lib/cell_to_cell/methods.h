@@ -40,6 +40,12 @@ sl_status sli_reuse_search(sl_context *context, const sl_space *space,
 sl_status sli_reuse_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                           const uint64_t *kept, const uint64_t *enclosed, sl_partial *partial);
 
+/// Whether a method looks from a cell. Solid ground has no row. Other cells do not see it either:
+/// there is always a wall between, so only the sources need to be asked.
+static inline bool sli_looks_from(const sl_space *space, bool inside_only, uint32_t cell) {
+    return inside_only ? space->cells[cell].inside : !space->cells[cell].solid;
+}
+
 /// SL_UNSUPPORTED where a solver cannot serve a plan.
 sl_status sli_plan_check_solver(sl_context *context, const sl_plan *plan, const sl_solver *solver);
 

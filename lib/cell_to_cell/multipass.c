@@ -247,7 +247,7 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
     }
     for (uint32_t i = first; i < end; i++) {
         const uint32_t cell = order->nodes[i];
-        if (all->options->inside_only && !all->space->cells[cell].inside) continue;
+        if (!sli_looks_from(all->space, all->options->inside_only, cell)) continue;
         SL_TRY(search_cell(context, all, p, me, cell, cyclic));
     }
     return SL_OK;

@@ -69,7 +69,8 @@ static bool is_alone(const shape *shapes, uint32_t count, uint32_t i) {
 
 static bool same_directed(const reusing *c, uint32_t then, uint32_t now) {
     const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
-    if (a->directed_count != b->directed_count || a->inside != b->inside) return false;
+    if (a->directed_count != b->directed_count || a->inside != b->inside || a->solid != b->solid)
+        return false;
     for (uint32_t i = 0; i < a->directed_count; i++) {
         const sl_directed_portal *e = &c->before->directed[a->first_directed + i];
         const sl_directed_portal *f = &c->space->directed[b->first_directed + i];
@@ -179,7 +180,7 @@ static sl_status take_rows(sl_context *context, const reusing *c, sl_partial *pa
 static bool looked_from_the_same(const sl_space *space, const sl_pvs *seen, bool inside_only) {
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const bool has_row = seen->offsets[i] < seen->offsets[i + 1];
-        if (has_row != (!inside_only || space->cells[i].inside)) return false;
+        if (has_row != sli_looks_from(space, inside_only, i)) return false;
     }
     return true;
 }

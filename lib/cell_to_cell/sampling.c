@@ -152,7 +152,7 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     const sampling *all = job;
     sampler *me = state;
     const sl_cell *cell = &all->space->cells[unit];
-    if (all->options->inside_only && !cell->inside) return SL_OK;
+    if (!sli_looks_from(all->space, all->options->inside_only, (uint32_t)unit)) return SL_OK;
     SL_TRY(sli_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const uint32_t next = all->space->directed[cell->first_directed + i].cell;

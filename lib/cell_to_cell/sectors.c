@@ -6,6 +6,7 @@
 /// they depend on before them.
 #include "cell_to_cell/sectors.h"
 
+#include "cell_to_cell/methods.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -200,7 +201,8 @@ void sli_order_destroy(sl_context *context, sli_order *order) {
 
 static bool faces(const sl_space *space, bool inside_only, uint32_t cell,
                   const sl_directed_portal *directed, sli_direction_sector cone) {
-    if (inside_only && !(space->cells[cell].inside && space->cells[directed->cell].inside))
+    if (!sli_looks_from(space, inside_only, cell) ||
+        !sli_looks_from(space, inside_only, directed->cell))
         return false;
     return sli_direction_sector_cut(&cone, directed);
 }

@@ -15,7 +15,7 @@ sl_status sli_sweep_finish(sl_context *context, const sl_space *space,
     const bool one_way = options->plan && options->plan->effects & SL_EFFECT_ONEWAY;
     for (uint32_t c = 0; c < space->cell_count; c++) {
         const sl_cell *cell = &space->cells[c];
-        if (options->inside_only && !cell->inside) continue;
+        if (!sli_looks_from(space, options->inside_only, c)) continue;
         SL_TRY(sli_bit_rows_add_one(context, rows, c, c));
         for (uint32_t i = 0; i < cell->directed_count; i++) {
             const uint32_t next = space->directed[cell->first_directed + i].cell;

@@ -35,7 +35,7 @@ typedef struct entry {
     char text[TEXT_MAX];
 } entry;
 
-#define ENTRIES 24
+#define ENTRIES 26
 
 typedef struct key {
     entry entries[ENTRIES];
@@ -97,6 +97,21 @@ static void swatch_hidden(cairo_t *cairo, const sl_scene *scene, const sli_pens 
     sli_mark_hatch(cairo, &scene->palette, box, (box.max.y - box.min.y) / 2.5, 0);
     cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
     sli_pen_outline(cairo, &scene->palette, pens);
+}
+
+static void swatch_solid(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    swatch_tones(cairo, scene, pens, box, &scene->palette.solid, 1);
+}
+
+/// As cells outside look that are shown.
+static void swatch_outside(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
+                           sl_box box) {
+    sl_palette palette = scene->palette;
+    palette.hatch = palette.outline;
+    fill_box(cairo, palette.floor[0], box.min.x, box.max.x, box);
+    sli_mark_hatch(cairo, &palette, box, (box.max.y - box.min.y) / 2.5, 0);
+    cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    sli_pen_outline(cairo, &palette, pens);
 }
 
 static void swatch_ramp(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
@@ -248,11 +263,24 @@ static void add_heat(key *k, const sl_scene *scene) {
     sl_text_percent(scene->least, e->lead);
 }
 
+/// Cells that are neither shown nor solid.
+static uint32_t hidden_count(const sl_scene *scene) {
+    return scene->baked->space.cell_count - scene->solid - scene->population;
+}
+
 static void add_cells(key *k, const sl_scene *scene) {
-    const uint32_t hidden = scene->baked->space.cell_count - scene->population;
+    const uint32_t hidden = hidden_count(scene);
+    char text[TEXT_MAX], count[SL_COUNT_TEXT];
     if (!scene->heat) add_count(k, swatch_floor, scene->population, "cell");
     if (hidden)
         add_count(k, swatch_hidden, hidden, scene->outside ? "inside cell" : "outside cell");
+    if (scene->hatched) {
+        sl_text_count(scene->hatched, "", count);
+        snprintf(text, sizeof text, "%s of the cells %s outside", count,
+                 scene->hatched == 1 ? "is" : "are");
+        add(k, swatch_outside, text);
+    }
+    if (scene->solid) add(k, swatch_solid, "solid ground");
 }
 
 static void add_effects(key *k, const sl_map *map) {
@@ -381,6 +409,23 @@ static double draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame 
     return y + LINE_HEIGHT / 2 * size;
 }
 
+double sli_draw_ground_key(cairo_t *cairo, const sl_scene *scene, sl_point at, double size,
+                           bool paint) {
+    const sli_pens pens = {.outline = 0.06 * size};
+    key k = {0};
+    if (!scene->solid && !scene->hatched) return 0;
+    if (scene->hatched) add(&k, swatch_outside, "outside");
+    if (!scene->hatched && hidden_count(scene))
+        add(&k, swatch_hidden, scene->outside ? "inside" : "outside");
+    if (scene->solid) add(&k, swatch_solid, "solid ground");
+    sl_text_font(cairo, size, false);
+    for (size_t i = 0; i < k.count && paint; i++) {
+        draw_entry(cairo, scene, &pens, &k.entries[i], at.x, at.y + 0.8 * size, size);
+        at.x += entry_width(cairo, &k.entries[i], size) + BETWEEN * size;
+    }
+    return LINE_HEIGHT * size;
+}
+
 /// "What cell 17 sees  ·  dfs with funnel  ·  closed sight, exact"
 static void describe(const sl_scene *scene, char *text, size_t room) {
     const sl_baked *baked = scene->baked;
@@ -443,10 +488,7 @@ static sl_status check_options(sl_context *context, const sl_baked *baked,
     if (options->layers & ~(unsigned)ALL_LAYERS)
         return sl_fail(context, SL_BAD_ARGUMENT, "layers 0x%x: only 0x%x are known",
                        options->layers, ALL_LAYERS);
-    if (options->cell != SL_NO_CELL && options->cell >= baked->space.cell_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", options->cell,
-                       baked->space.cell_count);
-    return SL_OK;
+    return sli_scene_check_cell(context, baked, options->cell);
 }
 
 static strip strip_at(const sli_page *page, double top, bool paint) {

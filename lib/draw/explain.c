@@ -745,6 +745,7 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     if (!paint) sli_page_place_plan(page, pic->frame, top, TALLEST);
     double y = page->key;
     y += draw_key(cairo, pic, page->margin, y, page->inner, page->text, paint);
+    y += sli_draw_ground_key(cairo, &pic->scene, (sl_point){page->margin, y}, page->text, paint);
     write_caption(pic, text);
     y += 0.4 * page->text;
     y += set_lines(cairo, palette->ink, page->margin, y, page->inner, 1.05 * page->text, text,

@@ -272,6 +272,7 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     y += sli_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
                            page->inner, page->text, paint);
     y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
+    y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
 }
 
@@ -318,6 +319,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = sl_space_locate(&baked->space, view->eye);
+    if (plain.cell != SL_NO_CELL && baked->space.cells[plain.cell].solid) plain.cell = SL_NO_CELL;
     eye_picture p = {.view = view,
                      .layers = layers,
                      .layer_count = layer_count,

@@ -104,6 +104,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
+    // Squares and patches may reach from the floor into solid ground.
+    sli_draw_solid(cairo, &p->scene, frame);
     for (size_t i = 0; i < p->region_count; i++)
         sl_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
@@ -150,6 +152,7 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     if (p->scale) y += draw_scale(cairo, p, page, paint);
     y += sli_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
                            page->inner, page->text, paint);
+    y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
     if (p->caption) {
         if (paint)
             sl_text_show_within(cairo, palette->ink, page->margin, y + 1.1 * page->text,

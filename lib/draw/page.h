@@ -91,4 +91,9 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
 double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
                          size_t count, sl_point at, double width, double size, bool paint);
 
+/// The key of solid ground and of what is outside, in one line, likewise. Returns 0 for maps where
+/// nothing is solid and nothing outside is shown.
+double sli_draw_ground_key(cairo_t *cairo, const sl_scene *scene, sl_point at, double size,
+                           bool paint);
+
 #endif

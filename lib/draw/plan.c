@@ -47,6 +47,7 @@ sl_colour sli_scene_colour(const sl_scene *scene, unsigned paint) {
     if (paint == SLI_PAINT_DOUBTFUL) return palette->doubtful;
     if (paint >= SLI_PAINT_SEEN) return palette->seen[paint - SLI_PAINT_SEEN];
     if (paint >= SLI_PAINT_FLOOR) return palette->floor[paint - SLI_PAINT_FLOOR];
+    if (paint == SLI_PAINT_SOLID) return palette->solid;
     return palette->ground;
 }
 
@@ -55,7 +56,15 @@ uint32_t sl_scene_tree_depth(const sl_scene *scene) {
 }
 
 bool sli_scene_shows(const sl_scene *scene, uint32_t cell) {
-    return sl_baked_counts(scene->baked, cell) != scene->outside;
+    return !scene->baked->space.cells[cell].solid &&
+           sl_baked_counts(scene->baked, cell) != scene->outside;
+}
+
+/// Whether a cell is shown although it is outside. It is so where the map has no starts, since then
+/// the cells outside count too.
+static bool is_hatched(const sl_scene *scene, uint32_t cell) {
+    return !scene->outside && !scene->baked->space.cells[cell].inside &&
+           sli_scene_shows(scene, cell);
 }
 
 /// Whether a table of rows belongs to the space.
@@ -65,10 +74,13 @@ static bool has_rows(const sl_pvs *pvs, const sl_space *space) {
 
 static void find_population(maker *m, sl_scene *scene) {
     const sl_space *space = &m->baked->space;
-    scene->outside = scene->chosen && !sl_baked_counts(m->baked, scene->options.cell);
+    scene->outside = scene->chosen && !space->cells[scene->options.cell].solid &&
+                     !sl_baked_counts(m->baked, scene->options.cell);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const bool shown = sli_scene_shows(scene, cell);
         scene->population += shown;
+        scene->solid += space->cells[cell].solid;
+        scene->hatched += is_hatched(scene, cell);
         m->area_before[cell + 1] = m->area_before[cell] + (shown ? sl_space_area(space, cell) : 0);
     }
     for (uint32_t i = 0; i < space->portal_count; i++)
@@ -84,6 +96,7 @@ static void choose_tones(maker *m, const sl_scene *scene) {
     const bool plain = !(scene->options.layers & SL_LAYER_CELLS);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const sl_cell *c = &space->cells[cell];
+        if (c->solid) m->paint[cell] = SLI_PAINT_SOLID;
         if (!sli_scene_shows(scene, cell)) continue;
         unsigned taken = 0, tone = 0;
         for (uint32_t i = 0; i < c->directed_count && !plain; i++) {
@@ -103,7 +116,8 @@ static void paint_seen(maker *m, sl_scene *scene) {
     for (sl_pvs_run r = sl_pvs_begin(&visibility->pvs, source); sl_pvs_next(&r);) {
         area += m->area_before[r.end] - m->area_before[r.first];
         for (uint32_t cell = r.first; cell < r.end; cell++) {
-            const unsigned tone = m->paint[cell] ? m->paint[cell] - SLI_PAINT_FLOOR : 0;
+            const unsigned tone =
+                m->paint[cell] >= SLI_PAINT_FLOOR ? m->paint[cell] - SLI_PAINT_FLOOR : 0;
             m->paint[cell] = (uint8_t)(SLI_PAINT_SEEN + tone);
             scene->seen++;
         }
@@ -285,12 +299,22 @@ void sli_scene_clear(sl_context *context, sl_scene *scene) {
     memset(scene, 0, sizeof *scene);
 }
 
+sl_status sli_scene_check_cell(sl_context *context, const sl_baked *baked, uint32_t cell) {
+    if (cell == SL_NO_CELL) return SL_OK;
+    if (cell >= baked->space.cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", cell,
+                       baked->space.cell_count);
+    if (baked->space.cells[cell].solid)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "cell %u is solid ground, from where nobody looks: choose a cell in a room",
+                       cell);
+    return SL_OK;
+}
+
 sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
                           const sl_draw_options *options, const sl_stab_trees *trees,
                           sl_scene **out) {
-    if (options->cell != SL_NO_CELL && options->cell >= baked->space.cell_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", options->cell,
-                       baked->space.cell_count);
+    SL_TRY(sli_scene_check_cell(context, baked, options->cell));
     sl_scene *scene = sl_alloc_array(context, 1, sizeof *scene);
     if (!scene) return SL_NO_MEMORY;
     const sl_status status = sli_scene_make(context, baked, options, trees, scene);
@@ -325,39 +349,64 @@ static void add_cell(const plan *p, uint32_t cell) {
     sl_path_polygon(p->cairo, p->frame, p->space->vertices + c->first_vertex, c->vertex_count);
 }
 
-/// Fills the bounds and hatches them like cut masonry. Cells are painted over it.
-static void draw_ground(const plan *p) {
-    const uint32_t *begin = p->scene->paint_begin;
-    if (begin[SLI_PAINT_NONE + 1] == begin[SLI_PAINT_NONE]) return;
+/// Fills the map's bounds with `ground` (NULL: not), and hatches them like cut masonry.
+static void hatch_bounds(const plan *p, const sl_colour *ground, const sl_palette *palette) {
     const sl_box guard = sli_frame_guard(p->frame);
     const sl_point low = sl_frame_point(p->frame, p->space->bounds.min);
     const sl_point high = sl_frame_point(p->frame, p->space->bounds.max);
     const sl_box box = {{fmax(low.x, guard.min.x), fmax(high.y, guard.min.y)},
                         {fmin(high.x, guard.max.x), fmin(low.y, guard.max.y)}};
     if (!(box.min.x < box.max.x && box.min.y < box.max.y)) return;
-    sl_set_colour(p->cairo, p->palette->ground);
-    cairo_rectangle(p->cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
-    cairo_fill(p->cairo);
-    sli_mark_hatch(p->cairo, p->palette, box, 9 * p->frame->unit, low.x + low.y);
+    if (ground) {
+        sl_set_colour(p->cairo, *ground);
+        cairo_rectangle(p->cairo, box.min.x, box.min.y, box.max.x - box.min.x,
+                        box.max.y - box.min.y);
+        cairo_fill(p->cairo);
+    }
+    sli_mark_hatch(p->cairo, palette, box, 9 * p->frame->unit, low.x + low.y);
+}
+
+/// What is not shown. Cells are painted over it.
+static void draw_ground(const plan *p) {
+    const uint32_t *begin = p->scene->paint_begin;
+    if (begin[SLI_PAINT_NONE + 1] > begin[SLI_PAINT_NONE])
+        hatch_bounds(p, &p->palette->ground, p->palette);
 }
 
 /// Cells of one colour make one path. A thin stroke covers the seams that smoothed edges leave
 /// between them.
+static void draw_paint(const plan *p, unsigned paint) {
+    const uint32_t first = p->scene->paint_begin[paint], end = p->scene->paint_begin[paint + 1];
+    if (first == end) return;
+    for (uint32_t i = first; i < end; i++) add_cell(p, p->scene->order[i]);
+    sl_set_colour(p->cairo, sli_scene_colour(p->scene, paint));
+    cairo_fill_preserve(p->cairo);
+    cairo_set_line_width(p->cairo, 0.6);
+    cairo_set_line_join(p->cairo, CAIRO_LINE_JOIN_MITER);
+    cairo_stroke(p->cairo);
+}
+
+/// Hatches the cells outside that are shown, so that they are told apart from those inside.
+static void draw_outside(const plan *p) {
+    sl_palette palette = *p->palette;
+    if (!p->scene->hatched) return;
+    cairo_save(p->cairo);
+    for (uint32_t cell = 0; cell < p->space->cell_count; cell++)
+        if (is_hatched(p->scene, cell)) add_cell(p, cell);
+    cairo_clip(p->cairo);
+    palette.hatch = palette.outline;
+    hatch_bounds(p, NULL, &palette);
+    cairo_restore(p->cairo);
+}
+
 static void draw_cells(const plan *p) {
-    for (unsigned paint = SLI_PAINT_NONE + 1; paint < SLI_PAINT_COUNT; paint++) {
-        const uint32_t first = p->scene->paint_begin[paint], end = p->scene->paint_begin[paint + 1];
-        if (first == end) continue;
-        for (uint32_t i = first; i < end; i++) add_cell(p, p->scene->order[i]);
-        sl_set_colour(p->cairo, sli_scene_colour(p->scene, paint));
-        cairo_fill_preserve(p->cairo);
-        cairo_set_line_width(p->cairo, 0.6);
-        cairo_set_line_join(p->cairo, CAIRO_LINE_JOIN_MITER);
-        cairo_stroke(p->cairo);
-    }
+    for (unsigned paint = SLI_PAINT_NONE + 1; paint < SLI_PAINT_COUNT; paint++)
+        draw_paint(p, paint);
+    draw_outside(p);
 }
 
 static void draw_outlines(const plan *p) {
-    for (unsigned paint = SLI_PAINT_NONE + 1; paint < SLI_PAINT_COUNT; paint++)
+    for (unsigned paint = SLI_PAINT_SOLID + 1; paint < SLI_PAINT_COUNT; paint++)
         for (uint32_t i = p->scene->paint_begin[paint]; i < p->scene->paint_begin[paint + 1]; i++)
             add_cell(p, p->scene->order[i]);
     sli_pen_outline(p->cairo, p->palette, &p->pens);
@@ -549,6 +598,11 @@ sl_status sl_draw_walls(sl_context *context, cairo_t *cairo, const sl_scene *sce
                         const sl_frame *frame) {
     const plan p = plan_of(cairo, scene, frame);
     return draw_steps(context, &p, scene->options.layers, WALLS_STEP);
+}
+
+void sli_draw_solid(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame) {
+    const plan p = plan_of(cairo, scene, frame);
+    draw_paint(&p, SLI_PAINT_SOLID);
 }
 
 void sl_draw_tree(cairo_t *cairo, const sl_scene *scene, sl_point from, uint32_t depth,

@@ -25,10 +25,11 @@ void sli_text_copy(const char *text, size_t length, char *out, size_t room);
 
 // --- scenes
 
-/// How a cell is filled: not at all (not shown), with a tone of the floor or of visible cells, as
-/// the chosen cell, as a doubtful one, or with a step of the heat map.
+/// How a cell is filled: not at all (not shown), as solid ground, with a tone of the floor or of
+/// visible cells, as the chosen cell, as a doubtful one, or with a step of the heat map.
 typedef enum sli_paint {
     SLI_PAINT_NONE,
+    SLI_PAINT_SOLID,
     SLI_PAINT_FLOOR,
     SLI_PAINT_SEEN = SLI_PAINT_FLOOR + SL_TONES,
     SLI_PAINT_DOUBTFUL = SLI_PAINT_SEEN + SL_TONES,
@@ -58,6 +59,8 @@ struct sl_scene {
 
     bool outside;             ///< cells that do not count are shown, those that do are not
     uint32_t population;      ///< cells shown: what the counts refer to
+    uint32_t solid;           ///< cells of solid ground: filled, but neither shown nor counted
+    uint32_t hatched;         ///< of the population, cells outside
     double cell_size;         ///< the side of a square of their mean area
     uint32_t portals;         ///< those shown
     bool chosen;              ///< a cell is chosen
@@ -74,13 +77,21 @@ struct sl_scene {
 };
 
 /// No portal joins cells that count (sl_baked_counts) with others, so only one group is shown: that
-/// of the chosen cell, or without one the cells that count. `baked` is referred to, not copied.
+/// of the chosen cell, or without one the cells that count. Solid ground is in neither group: it is
+/// filled in one colour, without the borders of its cells. `baked` is referred to, not copied.
 /// `trees` as in sl_scene_create. `out` is untouched on failure.
 sl_status sli_scene_make(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
                          const sl_stab_trees *trees, sl_scene *out);
 void sli_scene_clear(sl_context *context, sl_scene *scene);
 
+/// SL_BAD_ARGUMENT for a chosen cell that the map does not have, and for solid ground.
+sl_status sli_scene_check_cell(sl_context *context, const sl_baked *baked, uint32_t cell);
+
+/// Whether a cell is of the group that is shown. Never true of solid ground.
 bool sli_scene_shows(const sl_scene *scene, uint32_t cell);
+
+/// Fills solid ground once more, over what was drawn since.
+void sli_draw_solid(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame);
 
 /// The colour of a paint.
 sl_colour sli_scene_colour(const sl_scene *scene, unsigned paint);

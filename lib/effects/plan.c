@@ -160,7 +160,7 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
                            unsigned known) {
     const unsigned unknown = sl_plan_make(map).effects & ~known;
     if (!unknown) return SL_OK;
-    char several[128] = "", names[64] = "", line[16] = "";
+    char several[128] = "", names[64] = "";
     uint32_t first = UINT32_MAX;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         if (!calls_for(map, unknown, i)) continue;
@@ -168,13 +168,13 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
         append(names, sizeof names, ",", table[i]->name);
         if (table[i]->line(map) < first) first = table[i]->line(map);
     }
-    // A map out of a baked file has no lines that anyone could look up.
-    if (first && map->source) snprintf(line, sizeof line, "%u:", (unsigned)first);
-    const char *source = map->source ? map->source : "", *colon = map->source ? ":" : "";
-    const char *space = map->source ? " " : "", *bake = map->source ? "" : "bake ";
+    const char *bake = map->source ? "" : "bake ";
     const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
-    return sl_fail(context, SL_UNSUPPORTED,
-                   "%s%s%s%sthe map calls for %s, which '%s' does not know; "
-                   "%s--without %s leaves %s out",
-                   source, colon, line, space, several, method, bake, names, them);
+    char what[512];
+    snprintf(what, sizeof what,
+             "the map calls for %s, which '%s' does not know; %s--without %s leaves %s out",
+             several, method, bake, names, them);
+    // A map out of a baked file has no lines that anyone could look up.
+    if (!map->source) return sl_fail(context, SL_UNSUPPORTED, "%s", what);
+    return sl_map_fail(context, map, SL_UNSUPPORTED, first, "%s", what);
 }

@@ -91,7 +91,7 @@ sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_vie
     *out = (sli_eye_query){.search = search,
                            .space = search->space,
                            .pivot = {.eye = view->eye},
-                           .cell = sl_space_locate(search->space, view->eye),
+                           .cell = sli_eye_cell(search->space, view->eye),
                            .cells = cells};
     if (out->cell == SL_NO_CELL) return SL_OK;
     if (search->has_pvs) find_row(search, &out->cell);

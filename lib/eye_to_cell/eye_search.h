@@ -7,6 +7,7 @@
 #include "sightline/eye_to_cell.h"
 #include "sightline/support.h"
 #include "space/boxes.h"
+#include "space/index.h"
 
 /// A step of the exact method: a cell that is entered, or a node of the stab tree.
 typedef struct sli_eye_step {

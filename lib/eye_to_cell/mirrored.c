@@ -276,7 +276,7 @@ sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mi
     direct->count = 0;
     SL_TRY(sli_region_check_view(context, view, range));
     SL_TRY(sli_region_start(context, mirrors->outline, view, range, direct));
-    direct->cell = sl_space_locate(mirrors->outline->space, view->eye);
+    direct->cell = sli_eye_cell(mirrors->outline->space, view->eye);
     direct->memory->mirrors = depth ? mirrors : NULL;
     sl_status status = sli_region_spread(context, mirrors->outline, direct);
     const parent all = {SL_NO_PART, 0, direct->memory, sli_mirror_frame_of_map(), false};

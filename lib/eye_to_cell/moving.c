@@ -366,7 +366,7 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
     const sl_space *space = &moving->boxed->space;
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
     SL_TRY(sli_eye_exact(context, moving->search, view, moving->cells, account));
-    const bool inside = sl_space_locate(space, view->eye) != SL_NO_CELL;
+    const bool inside = sli_eye_cell(space, view->eye) != SL_NO_CELL;
     for (size_t i = 0; i < moving->count; i++) {
         const sl_box box = moving->boxes[i].box;
         seen[i] = moving->met[i] || (inside && holds(box, view->eye));

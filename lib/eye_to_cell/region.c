@@ -481,7 +481,7 @@ sl_status sl_region_make(sl_context *context, const sl_outline *outline, const s
     region->count = 0;
     SL_TRY(sli_region_check_view(context, view, range));
     SL_TRY(sli_region_start(context, outline, view, range, region));
-    region->cell = sl_space_locate(outline->space, view->eye);
+    region->cell = sli_eye_cell(outline->space, view->eye);
     const sl_status status = sli_region_spread(context, outline, region);
     if (status != SL_OK) region->count = 0;
     return status;

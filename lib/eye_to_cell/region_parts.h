@@ -7,6 +7,7 @@
 #include "geometry/orient.h"
 #include "sightline/region.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 /// A ray from the eye through a point other than it: a corner of the space, or a cone's border.
 typedef struct sli_eye_ray {

@@ -86,7 +86,7 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
 sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
                   sl_sight sight, bool *out) {
     const sl_space *space = outline->space;
-    const uint32_t start = sl_space_locate(space, eye);
+    const uint32_t start = sli_eye_cell(space, eye);
     if (start == SL_NO_CELL || sl_space_locate(space, point) == SL_NO_CELL) {
         *out = false;
         return SL_OK;
@@ -132,9 +132,9 @@ sl_status sl_ray_cast(sl_context *context, const sl_outline *outline, sl_point e
                       sl_point through, sl_hit *out) {
     struct sli_region_memory memory = {0};
     sl_region region = {.view = sl_view_all_round(eye), .memory = &memory};
-    region.cell = sl_space_locate(outline->space, eye);
+    region.cell = sli_eye_cell(outline->space, eye);
     if (region.cell == SL_NO_CELL)
-        return sl_fail(context, SL_BAD_ARGUMENT, "the eye is outside the map");
+        return sl_fail(context, SL_BAD_ARGUMENT, "the eye is outside the map or in solid ground");
     if (!isfinite(through.x) || !isfinite(through.y) || (through.x == eye.x && through.y == eye.y))
         return sl_fail(context, SL_BAD_ARGUMENT, "a ray needs a second point");
     const sli_eye_place place = sli_eye_place_at(eye);

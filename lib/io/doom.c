@@ -199,6 +199,7 @@ typedef struct doom_import {
     const bool *is_door; ///< NULL where doors are seen through
     bool seams;          ///< lines between sectors are to cut cells
     sl_map *map;
+    uint32_t item; ///< the number of the line at hand, from 1
     line_account lines;
 } doom_import;
 
@@ -217,7 +218,7 @@ static sl_status add_door(doom_import *import, const sli_doom_line *line) {
     import->lines.doors++;
     import->lines.shut += !open;
     return sl_map_add_door(import->context, import->map, name, (sl_segment){line->from, line->to},
-                           open, line->line);
+                           open, import->item);
 }
 
 static sl_status add_line(doom_import *import, const sli_doom_line *line) {
@@ -234,19 +235,48 @@ static sl_status add_line(doom_import *import, const sli_doom_line *line) {
         lines->seen_through++;
         if (import->seams && line->right != line->left)
             SL_TRY(sl_map_add_seam(import->context, import->map, (sl_segment){line->from, line->to},
-                                   line->line));
+                                   import->item));
         return import->is_door ? add_door(import, line) : SL_OK;
     }
     lines->walls++;
-    return sl_map_add_wall(import->context, import->map, line->from, line->to, line->line);
+    SL_TRY(sl_map_add_wall(import->context, import->map, line->from, line->to, import->item));
+    const uint32_t ground = SL_OPEN_RIGHT | SL_SOLID_LEFT; // the front is open, behind it is void
+    import->map->walls[import->map->wall_count - 1].ground =
+        line->right != SLI_NO_SECTOR ? ground : sl_ground_turned(ground);
+    import->map->ground_guessed = true;
+    return SL_OK;
 }
 
-/// The game puts player 1 where the last of the starts is.
-static sl_status add_start(doom_import *import) {
+/// The starts of one kind: all of them, or the last, where the game puts the player.
+static sl_status add_starts_of(doom_import *import, int kind, bool all) {
     const sli_doom_level *level = import->level;
-    if (level->start_count == 0) return SL_OK;
-    const sl_start *start = &level->starts[level->start_count - 1];
-    return sl_map_add_start(import->context, import->map, start->at, start->heading, start->line);
+    const sl_start *last = NULL;
+    for (size_t i = 0; i < level->start_count; i++) {
+        if (level->starts[i].kind != kind) continue;
+        if (all && last)
+            SL_TRY(sl_map_add_start(import->context, import->map, last->at, last->heading,
+                                    last->line));
+        last = &level->starts[i].start;
+    }
+    if (!last) return SL_OK;
+    return sl_map_add_start(import->context, import->map, last->at, last->heading, last->line);
+}
+
+/// The starts of the players; those of a deathmatch where there are none.
+static sl_status add_starts(doom_import *import, const char *name) {
+    const sli_doom_level *level = import->level;
+    for (int player = 1; player <= SLI_DOOM_PLAYERS; player++)
+        SL_TRY(add_starts_of(import, player, false));
+    const size_t count = import->map->start_count;
+    if (!count) SL_TRY(add_starts_of(import, SLI_DOOM_DEATHMATCH, true));
+    const size_t all = import->map->start_count;
+    if (all)
+        sl_note(import->context, "%s: map %s: taken: %zu start%s of %s", name, level->name, all,
+                all == 1 ? "" : "s",
+                count ? "players, the last of each" : "a deathmatch: players have none");
+    else
+        sl_note(import->context, "%s: map %s: no player has a start", name, level->name);
+    return SL_OK;
 }
 
 static void tell(const doom_import *import, const char *name) {
@@ -260,9 +290,6 @@ static void tell(const doom_import *import, const char *name) {
             "through%s; left out %zu of zero length, %zu without sides",
             name, level->name, level->format, level->line_count, lines->walls, lines->seen_through,
             doors, lines->zero_length, lines->without_sides);
-    if (level->start_count != 1)
-        sl_note(import->context, "%s: map %s: player 1 has %zu starts; %s", name, level->name,
-                level->start_count, level->start_count ? "the last is taken" : "there is none");
 }
 
 /// How many doors are seen through, as nobody asked for doors.
@@ -277,9 +304,23 @@ static void tell_doors_left_out(sl_context *context, const char *name, const sli
                 name, level->name, doors);
 }
 
+/// "linedef 117", and its line in a TEXTMAP.
+static sl_status name_line(doom_import *import, const sli_doom_line *line) {
+    char label[SL_LINE_TEXT];
+    snprintf(label, sizeof label, "linedef %u", (unsigned)import->item - 1);
+    const size_t used = strlen(label);
+    if (line->line)
+        snprintf(label + used, sizeof label - used, ", TEXTMAP line %u", (unsigned)line->line);
+    return sl_map_add_label(import->context, import->map, import->item, label);
+}
+
 static sl_status add_lines(doom_import *import) {
-    for (size_t i = 0; i < import->level->line_count; i++)
+    import->map->lines_are_items = true;
+    for (size_t i = 0; i < import->level->line_count; i++) {
+        import->item = (uint32_t)i + 1;
+        SL_TRY(name_line(import, &import->level->lines[i]));
         SL_TRY(add_line(import, &import->level->lines[i]));
+    }
     return SL_OK;
 }
 
@@ -297,8 +338,8 @@ static sl_status make_map(sl_context *context, const sli_wad *wad, const sli_wad
                           .map = map};
     sl_status status = add_lines(&import);
     if (status == SL_OK && options->cells) status = doom_add_cells(context, wad, chosen, map);
-    if (status == SL_OK) status = add_start(&import);
     if (status == SL_OK) tell(&import, name);
+    if (status == SL_OK) status = add_starts(&import, name);
     if (status == SL_OK && !options->doors) tell_doors_left_out(context, name, level, is_door);
     sl_free(context, is_door);
     return status;
@@ -315,6 +356,8 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
     SL_TRY(sli_doom_read(context, &wad, &chosen, &level));
     const sl_status status = make_map(context, &wad, &chosen, &level, options, &read);
     sli_doom_level_destroy(context, &level);
+    // The map's lines are numbers of linedefs: a start is none of them.
+    for (size_t i = 0; i < read.start_count; i++) read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

@@ -32,13 +32,14 @@ typedef struct doom_records {
     SL_ARRAY(doom_linedef) linedefs;
     SL_ARRAY(doom_sidedef) sidedefs;
     SL_ARRAY(sli_doom_sector) sectors;
-    SL_ARRAY(sl_start) starts;
+    SL_ARRAY(sli_doom_start) starts;
     bool hexen_specials;
     const char *format;
 } doom_records;
 
-/// The type of a thing where player 1 starts.
-enum { PLAYER_1 = 1 };
+static bool is_start(int64_t type) {
+    return (type >= 1 && type <= SLI_DOOM_PLAYERS) || type == SLI_DOOM_DEATHMATCH;
+}
 
 // --- lumps of records
 
@@ -136,10 +137,12 @@ static sl_status read_things(sl_context *context, const sli_wad *wad, const sli_
         // A Hexen thing has an id in front, and its height behind its place.
         const unsigned char *at = lump.bytes + i * bytes + (hexen ? 2 : 0);
         const unsigned char *angle = at + (hexen ? 6 : 4);
-        if (sli_wad_u16(angle + 2) != PLAYER_1) continue;
+        const int type = sli_wad_u16(angle + 2);
+        if (!is_start(type)) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &records->starts, 1));
-        records->starts.items[records->starts.count++] =
-            (sl_start){.at = {sli_wad_i16(at), sli_wad_i16(at + 2)}, .heading = sli_wad_i16(angle)};
+        const sl_start start = {.at = {sli_wad_i16(at), sli_wad_i16(at + 2)},
+                                .heading = sli_wad_i16(angle)};
+        records->starts.items[records->starts.count++] = (sli_doom_start){start, type};
     }
     return SL_OK;
 }
@@ -407,9 +410,9 @@ static sl_status read_thing(text_map *text, uint32_t line) {
                       {.name = "angle", .real = &start.heading},
                       {.name = "type", .whole = &type, .needed = true}};
     SL_TRY(read_block(text, "thing", line, fields, FIELD_COUNT(fields)));
-    if (type != PLAYER_1) return SL_OK;
+    if (!is_start(type)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(text->context, &text->records->starts, 1));
-    text->records->starts.items[text->records->starts.count++] = start;
+    text->records->starts.items[text->records->starts.count++] = (sli_doom_start){start, (int)type};
     return SL_OK;
 }
 

@@ -45,7 +45,8 @@ typedef struct drawing {
     dxf_range entities;
     int unit; ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
-    size_t work; ///< entities and insertions gone through
+    size_t work;    ///< entities and insertions gone through
+    sl_bits *walls; ///< the pairs that start an entity that was drawn
     /// Entities drawn; those of other layers, kinds, of the paper or out of the plan's plane.
     size_t drawn, other_layers, other_kinds, on_paper, out_of_plane;
 } drawing;
@@ -536,6 +537,7 @@ static sl_status draw_shape(drawing *dxf, dxf_range entity, size_t end, sli_word
                             unsigned depth) {
     const sli_word kind = dxf_at(dxf, entity.begin)->value;
     dxf->drawn++;
+    if (!sli_word_is(kind, "INSERT")) sl_bits_add(dxf->walls, entity.begin);
     if (sli_word_is(kind, "LINE")) return draw_line(dxf, entity);
     if (sli_word_is(kind, "LWPOLYLINE")) return draw_light_polyline(dxf, entity);
     if (sli_word_is(kind, "POLYLINE")) return draw_polyline(dxf, entity, end);
@@ -586,6 +588,34 @@ static sl_status dxf_draw(drawing *dxf, dxf_range range, sli_word layer, unsigne
         SL_TRY(count_work(dxf, dxf_at(dxf, i)->line));
         SL_TRY(draw_entity(dxf, entity, range.end, layer, depth));
         i = entity.end;
+    }
+    return SL_OK;
+}
+
+// --- names for walls
+
+/// Adds a part to a label: "layer WALLS, handle 1F".
+static void add_part(char *label, size_t size, const char *what, sli_word name) {
+    const size_t used = strlen(label);
+    if (name.length)
+        snprintf(label + used, size - used, "%s%s %s", used ? ", " : "", what, sli_show(name).text);
+}
+
+/// Names the entities that were drawn by their layer and handle; those of a block by its name too.
+static sl_status name_walls(drawing *dxf) {
+    sli_word block = {"", 0};
+    for (size_t i = 0; i < dxf->pairs.count; i++) {
+        const dxf_pair *pair = dxf_at(dxf, i);
+        if (pair->code != 0) continue;
+        const dxf_range entity = dxf_entity(dxf, i, dxf->pairs.count);
+        if (sli_word_is(pair->value, "BLOCK")) block = dxf_text(dxf, entity, 2);
+        if (sli_word_is(pair->value, "ENDBLK")) block.length = 0;
+        if (!sl_bits_has(dxf->walls, i)) continue;
+        char label[SL_LINE_TEXT] = "";
+        add_part(label, sizeof label, "block", block);
+        add_part(label, sizeof label, "layer", dxf_text(dxf, entity, 8));
+        add_part(label, sizeof label, "handle", dxf_text(dxf, entity, 5));
+        if (*label) SL_TRY(sl_map_add_label(dxf->context, dxf->pen.map, pair->line, label));
     }
     return SL_OK;
 }
@@ -650,7 +680,10 @@ static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
     SL_TRY(read_sections(dxf));
     SL_TRY(check_layers(dxf));
     SL_TRY(take_unit(dxf));
+    dxf->walls = sl_alloc_array(dxf->context, sl_bits_words(dxf->pairs.count), sizeof(sl_bits));
+    if (!dxf->walls) return SL_NO_MEMORY;
     SL_TRY(dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0));
+    SL_TRY(name_walls(dxf));
     dxf->pen.map->precision = sli_precision_of(dxf->pen.map, dxf->pen.finest);
     sl_note(dxf->context,
             "%s: %zu entities give %zu walls (unit: %s%s%s); left out: %zu on other layers, %zu of "
@@ -677,6 +710,7 @@ sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *tex
     sl_free(context, dxf.pairs.items);
     sl_free(context, dxf.blocks.items);
     sl_free(context, dxf.layers.items);
+    sl_free(context, dxf.walls);
     if (status == SL_OK)
         *map = read;
     else

@@ -151,21 +151,23 @@ sl_status sl_image_read(sl_context *context, const char *name, const char *bytes
 
 /// How a picture is a plan.
 typedef struct image_plan {
-    double threshold; ///< a pixel is solid where its darkness, 0 .. 1, is at least this
-    bool light;       ///< the light pixels are the dark ones
-    double step;      ///< the size of a pixel
-    sl_point origin;  ///< of the lower left pixel's lower left corner
+    double threshold;   ///< a pixel is solid where its darkness, 0 .. 1, is at least this
+    bool light;         ///< the light pixels are the dark ones
+    bool solid_outside; ///< beyond the picture all is solid; else it is open
+    double step;        ///< the size of a pixel
+    sl_point origin;    ///< of the lower left pixel's lower left corner
 } image_plan;
 
-/// Adds walls along the edges between solid and other pixels, merged. Beyond the picture all is
-/// open. Gives the number of solid pixels.
+/// Adds walls along the edges between solid and other pixels, merged. Gives the number of solid
+/// pixels.
 static sl_status image_add_walls(sl_context *context, const sl_image *image, const image_plan *plan,
                                  sl_map *map, size_t *solid) {
     sli_grid grid;
     SL_TRY(sli_grid_create(context, image->width, image->height, &grid));
     grid.origin = plan->origin;
     grid.step = (sl_point){plan->step, plan->step};
-    grid.open_outside = true;
+    grid.open_outside = !plan->solid_outside;
+    grid.sure = true;
     *solid = 0;
     for (size_t i = 0; i < image->width * image->height; i++) {
         const int value = plan->light ? image->pixels[i] : 255 - image->pixels[i];
@@ -204,7 +206,7 @@ typedef struct ros_map {
     sl_context *context;
     const char *name;
     char *image; ///< as written; NULL until it is met
-    double resolution, occupied;
+    double resolution, free;
     double origin[3];
     double negate;
     unsigned origin_count;
@@ -243,7 +245,7 @@ static sl_status take_value(ros_map *m, const char *key, const ros_value *value)
         return m->image ? SL_OK : SL_NO_MEMORY;
     }
     if (strcmp(key, "resolution") == 0) return read_number(m, key, value, &m->resolution);
-    if (strcmp(key, "occupied_thresh") == 0) return read_number(m, key, value, &m->occupied);
+    if (strcmp(key, "free_thresh") == 0) return read_number(m, key, value, &m->free);
     if (strcmp(key, "mode") == 0) m->raw = strcmp(value->text, "raw") == 0;
     if (strcmp(key, "negate") != 0) return SL_OK;
     const bool on = strcmp(value->text, "true") == 0, off = strcmp(value->text, "false") == 0;
@@ -357,17 +359,19 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     SL_TRY(sli_refuse_nul(m->context, m->name, text, size));
     SL_TRY(read_yaml(m, text, size));
     SL_TRY(read_image(m, &image));
-    const image_plan plan = {.threshold = options->threshold > 0 ? options->threshold : m->occupied,
+    const bool given = options->threshold > 0;
+    const image_plan plan = {.threshold = given ? options->threshold : m->free,
                              .light = m->negate != 0,
+                             .solid_outside = !given,
                              .step = m->resolution,
                              .origin = {m->origin[0], m->origin[1]}};
     const sl_status status = image_add_walls(m->context, &image, &plan, map, &solid);
     if (status == SL_OK)
         sl_note(m->context,
-                "%s: %zu of %zu x %zu pixels of %g m are obstacles (occupancy from %g); %zu walls; "
-                "unknown ground is taken as free",
+                "%s: %zu of %zu x %zu pixels of %g m are solid (occupancy from %g); %zu walls%s",
                 m->name, solid, image.width, image.height, plan.step, plan.threshold,
-                map->wall_count);
+                map->wall_count,
+                given ? "" : "; unknown ground is solid: --threshold 0.65 takes it as free");
     sl_image_destroy(m->context, &image);
     return status;
 }
@@ -375,7 +379,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
 sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text, size_t size,
                           const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
-    ros_map m = {.context = context, .name = name, .occupied = 0.65};
+    ros_map m = {.context = context, .name = name, .free = 0.196};
     const sl_status status = read_map(&m, options, text, size, &read);
     sl_free(context, m.image);
     if (status == SL_OK)

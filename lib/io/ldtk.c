@@ -1,11 +1,13 @@
-// LDtk projects and separate level files: JSON (https://ldtk.io/json). Of a level's layers those of
-// type IntGrid are read: a whole number a cell, 0 for none.
+/// LDtk projects and separate level files: JSON (https://ldtk.io/json). Of a level's layers those
+/// of type IntGrid give walls: a whole number a cell, 0 for none. Entities give starts and doors.
 #include "io/document.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "io/things.h"
 #include "sightline/io.h"
 
 #include <math.h>
+#include <strings.h>
 
 #define MOST_PIXELS 1000000000
 
@@ -15,6 +17,7 @@ typedef struct ldtk {
     const sl_import_options *options;
     sli_json root;
     sli_tiles tiles;
+    sli_things things;
     double bottom;   ///< the largest y of the levels taken, in pixels from the world's origin
     int64_t depth;   ///< of the levels taken
     char taken[160]; ///< the first level that is taken, as the account shows it
@@ -27,6 +30,12 @@ typedef struct ldtk {
 typedef struct place {
     double x, y;
 } place;
+
+static const char *text_of(const sli_json *parent, const char *key) {
+    const sli_json member = sli_json_member(parent, key);
+    const char *text = json_string_value(member.value);
+    return text ? text : "";
+}
 
 /// Whether an IntGrid layer's values have identifiers that say which of them are solid; the layer's
 /// definition is found by its number.
@@ -58,34 +67,46 @@ static bool any_says_solid(const sli_json *values) {
     return false;
 }
 
-/// Whether a cell's value is solid; 0 is not.
-static bool is_solid(const sli_json *values, bool by_name, int64_t cell) {
-    if (!by_name || cell == 0) return cell != 0;
-    for (size_t i = 0; i < json_array_size(values->value); i++) {
+/// What a value of the cells stands for.
+typedef struct cell_meaning {
+    bool solid;
+    sli_says says;
+} cell_meaning;
+
+/// Without names all values but 0 are solid. A door is solid then too: if no passage is found for
+/// it, it stays so.
+static cell_meaning meaning_of(const sli_json *values, bool by_name, int64_t cell) {
+    cell_meaning meaning = {.solid = !by_name && cell != 0};
+    for (size_t i = 0; cell && i < json_array_size(values->value); i++) {
         const sli_json value = sli_json_item(values, i), number = sli_json_member(&value, "value");
-        if (json_is_integer(number.value) && json_integer_value(number.value) == cell)
-            return value_says_solid(&value);
+        const sli_json name = sli_json_member(&value, "identifier");
+        if (!json_is_integer(number.value) || json_integer_value(number.value) != cell) continue;
+        meaning.solid |= value_says_solid(&value);
+        meaning.says = sli_says_of(json_string_value(name.value), NULL);
+        break;
     }
-    return false;
+    return meaning;
 }
 
-/// Fills in the solid cells; most cells are like the one before.
+/// Fills in the solid cells and gathers doors; most cells are like the one before.
 static sl_status read_cells(ldtk *reader, const sli_json *layer, const sli_json *cells,
-                            size_t count, char *squares) {
+                            size_t count, size_t columns, char *squares) {
     sli_json defs[3];
     const sli_json values = find_values(reader, layer, defs);
     const bool by_name = any_says_solid(&values);
     reader->by_name |= by_name;
     int64_t before = 0;
-    bool solid = false;
+    cell_meaning meaning = {0};
     for (size_t i = 0; i < count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
         const sli_json cell = sli_json_item(cells, i);
         int64_t value;
         SL_TRY(sli_json_whole(&cell, 0, INT32_MAX, &value));
-        if (value != before) solid = is_solid(&values, by_name, value);
+        if (value != before) meaning = meaning_of(&values, by_name, value);
         before = value;
-        if (solid) squares[i] = '#';
+        if (meaning.solid) squares[i] = '#';
+        if (meaning.says.kind == SLI_THING_DOOR)
+            SL_TRY(sli_things_add_square(&reader->things, &meaning.says, i % columns, i / columns));
     }
     return SL_OK;
 }
@@ -109,19 +130,105 @@ static sl_status read_layer(ldtk *reader, const sli_json *layer, place at) {
         return sli_json_fail(&cells, "%lld x %lld cells are %lld, found %zu", (long long)columns,
                              (long long)rows, (long long)(columns * rows), count);
     char *squares;
-    SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name,
-                         (sl_point){at.x + (double)offset_x, at.y + (double)offset_y},
-                         (sl_point){(double)step, (double)step}, (size_t)columns, (size_t)rows,
-                         &squares));
+    const sl_point corner = {at.x + (double)offset_x, at.y + (double)offset_y};
+    const sl_point square = {(double)step, (double)step};
+    SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name, corner, square,
+                         (size_t)columns, (size_t)rows, &squares));
     reader->layers++;
-    return read_cells(reader, layer, &cells, count, squares);
+    SL_TRY(read_cells(reader, layer, &cells, count, (size_t)columns, squares));
+    return sli_things_end_block(&reader->things, corner, square);
 }
 
-static const char *text_of(const sli_json *parent, const char *key) {
-    const sli_json member = sli_json_member(parent, key);
-    const char *text = json_string_value(member.value);
-    return text ? text : "";
+// --- entities
+
+/// Two numbers of an array, where it is there.
+static sl_status read_pair(const sli_json *pair, sl_point *out) {
+    if (!pair->value) return SL_OK;
+    const sli_json x = sli_json_item(pair, 0), y = sli_json_item(pair, 1);
+    SL_TRY(sli_json_number(&x, &out->x));
+    return sli_json_number(&y, &out->y);
 }
+
+/// The heading, if the field names one: clockwise degrees, or a direction on the screen.
+static void find_heading(const char *field, const sli_json *value, double *heading) {
+    static const char *const fields[] = {"angle", "rotation", "heading", "facing", "direction"};
+    static const struct {
+        const char *name;
+        double heading;
+    } words[] = {{"right", 0},  {"east", 0},   {"up", 90},    {"north", 90},
+                 {"left", 180}, {"west", 180}, {"down", 270}, {"south", 270}};
+    bool known = false;
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        known |= strcasecmp(field, fields[i]) == 0;
+    const char *text = json_string_value(value->value);
+    if (!known) return;
+    if (json_is_number(value->value)) *heading = sli_heading_of(json_number_value(value->value));
+    for (size_t i = 0; text && i < sizeof words / sizeof *words; i++)
+        if (strcasecmp(text, words[i].name) == 0) *heading = words[i].heading;
+}
+
+static void read_fields(const sli_json *entity, sli_says *says, double *heading) {
+    const sli_json fields = sli_json_member(entity, "fieldInstances");
+    for (size_t i = 0; i < json_array_size(fields.value); i++) {
+        const sli_json field = sli_json_item(&fields, i);
+        const sli_json value = sli_json_member(&field, "__value");
+        const char *name = text_of(&field, "__identifier");
+        if (json_is_boolean(value.value)) sli_says_add(says, name, json_is_true(value.value));
+        find_heading(name, &value, heading);
+    }
+}
+
+/// Adds an entity that is a start or a door. Its pivot is at its place "px".
+static sl_status read_entity(ldtk *reader, const sli_json *entity, sl_point corner, double step) {
+    const char *name = text_of(entity, "__identifier");
+    sli_says says = sli_says_of(name, NULL);
+    double heading = 0;
+    read_fields(entity, &says, &heading);
+    SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
+    if (!says.kind) return SL_OK;
+    const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
+    const sli_json width = sli_json_member(entity, "width");
+    const sli_json height = sli_json_member(entity, "height");
+    sl_point at = {0}, part = {0}, size = {step, step};
+    if (!px.value) return sli_json_fail(&px, "expected two numbers, found nothing");
+    SL_TRY(read_pair(&px, &at));
+    SL_TRY(read_pair(&pivot, &part));
+    SL_TRY(sli_json_number_if(&width, &size.x));
+    SL_TRY(sli_json_number_if(&height, &size.y));
+    reader->entities--;
+    const sli_thing thing = {.kind = says.kind,
+                             .middle = {corner.x + at.x + (0.5 - part.x) * size.x,
+                                        corner.y + at.y + (0.5 - part.y) * size.y},
+                             .u = {size.x / 2, 0},
+                             .v = {0, size.y / 2},
+                             .open = says.state != SLI_DOOR_SHUT,
+                             .heading = heading};
+    return sli_things_add(&reader->things, says.name, thing);
+}
+
+static sl_status read_entities(ldtk *reader, const sli_json *layer, place at) {
+    const sli_json entities = sli_json_member(layer, "entityInstances");
+    const sli_json x = sli_json_member(layer, "__pxTotalOffsetX");
+    const sli_json y = sli_json_member(layer, "__pxTotalOffsetY");
+    const sli_json size = sli_json_member(layer, "__gridSize");
+    const size_t count = json_array_size(entities.value);
+    sl_point corner = {0};
+    double step = 0;
+    if (!count) return SL_OK;
+    SL_TRY(sli_json_number_if(&x, &corner.x));
+    SL_TRY(sli_json_number_if(&y, &corner.y));
+    SL_TRY(sli_json_number_if(&size, &step));
+    corner = (sl_point){at.x + corner.x, at.y + corner.y};
+    reader->entities += count;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json entity = sli_json_item(&entities, i);
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(read_entity(reader, &entity, corner, step));
+    }
+    return SL_OK;
+}
+
+// --- layers
 
 static bool is_int_grid(const sli_json *layer) {
     return strcmp(text_of(layer, "__type"), "IntGrid") == 0;
@@ -163,8 +270,7 @@ static sl_status read_layers(ldtk *reader, const sli_json *layers, place at) {
     }
     for (size_t i = 0; i < count; i++) {
         const sli_json layer = sli_json_item(layers, i);
-        const sli_json entities = sli_json_member(&layer, "entityInstances");
-        reader->entities += json_array_size(entities.value);
+        SL_TRY(read_entities(reader, &layer, at));
         if (is_taken(reader, &layer, some_say_solid))
             SL_TRY(read_layer(reader, &layer, at));
         else
@@ -319,13 +425,16 @@ static sl_status read_file(ldtk *reader, sl_map *map) {
         SL_TRY(read_level(reader, &reader->root, (place){0}));
     if (reader->layers == 0)
         return sli_json_fail(&reader->root, "level %s has no IntGrid layer", reader->taken);
-    const sli_tiles_options options = {
-        .top = reader->bottom, .solid_between = true, .all_closed = true};
+    reader->things.top = reader->bottom;
+    const sli_tiles_options options = {.top = reader->bottom,
+                                       .solid_between = true,
+                                       .all_closed = true,
+                                       .things = &reader->things};
     size_t grids;
     SL_TRY(
         sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map, &grids));
     give_account(reader, map, grids);
-    return SL_OK;
+    return sli_things_finish(&reader->things, map);
 }
 
 static sl_status list_name(sl_context *context, const sli_json *thing, sl_map_list *list) {
@@ -381,10 +490,14 @@ sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *te
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};
-    ldtk reader = {
-        .context = context, .name = name, .options = options, .root = sli_json_root(&file)};
+    ldtk reader = {.context = context,
+                   .name = name,
+                   .options = options,
+                   .root = sli_json_root(&file),
+                   .things = {.context = context, .file = name, .options = options}};
     const sl_status status = read_file(&reader, &read);
     sli_tiles_destroy(context, &reader.tiles);
+    sli_things_destroy(&reader.things);
     sli_json_close(&file);
     if (status == SL_OK)
         *map = read;

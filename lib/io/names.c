@@ -1,4 +1,4 @@
-/// Names that say "solid", and files that a file names.
+/// Words in names that say what a thing is (solid, a start, a door), and files that a file names.
 #include "io/names.h"
 
 #include "map/scan.h"
@@ -10,14 +10,41 @@
 
 // --- words
 
+#define LONGEST 24
+
 static const char *const solid_words[] = {
     "wall",     "solid",     "collision", "collide",    "collider",
     "obstacle", "block",     "blocked",   "blocking",   "blocker",
     "occluder", "occlusion", "opaque",    "impassable", "collides",
 };
-static const char *const neutral_words[] = {
+static const char *const solid_neutral[] = {
     "layer", "tile", "object", "group", "map", "area", "shape", "box",
 };
+static const char *const start_words[] = {"player",           "spawn",         "start",
+                                          "starting",         "entrance",      "hero",
+                                          "playerstart",      "playerspawn",   "playerpos",
+                                          "spawnpoint",       "startpoint",    "startpos",
+                                          "spawnpos",         "startposition", "playerposition",
+                                          "playerspawnpoint", "spawnposition", "playercharacter"};
+static const char *const start_neutral[] = {
+    "point",  "position", "pos",  "location", "loc",  "place", "marker",    "object",
+    "entity", "tile",     "area", "zone",     "main", "here",  "character", "default",
+};
+static const char *const door_words[] = {"door", "gate", "doorway", "gateway"};
+/// What may stand behind the word "door", as in "door_left".
+static const char *const door_neutral[] = {
+    "object", "tile",  "entity", "wood",   "wooden",   "iron",   "metal",  "steel",      "stone",
+    "left",   "right", "top",    "bottom", "up",       "down",   "north",  "south",      "east",
+    "west",   "front", "back",   "main",   "open",     "opened", "closed", "shut",       "locked",
+    "secret", "small", "big",    "large",  "double",   "single", "side",   "horizontal", "vertical",
+    "exit",   "inner", "outer",  "red",    "green",    "blue",   "yellow", "h",          "v",
+    "hidden", "a",     "b",      "c",      "entrance",
+};
+/// Words before "door" with which it is no door in a wall.
+static const char *const door_others[] = {"trap", "no",     "not", "fake",
+                                          "to",   "behind", "at",  "near"};
+static const char *const open_words[] = {"open", "opened"};
+static const char *const shut_words[] = {"closed", "shut", "locked"};
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
 static bool is_capital(char c) {
@@ -28,47 +55,100 @@ static bool is_small(char c) {
     return c >= 'a' && c <= 'z';
 }
 
-/// Whether a word, in small letters, is in the list. A plural with s or es counts too.
-static bool in_list(const char *word, size_t length, const char *const *list, size_t count) {
+/// A word of a name, in small letters; empty for one too long to know.
+typedef struct name_word {
+    char text[LONGEST];
+    size_t length;
+} name_word;
+
+/// Whether a word is in the list. A plural with s or es counts too.
+static bool in_list(const name_word *word, const char *const *list, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const size_t stem = strlen(list[i]);
-        if (length < stem || memcmp(word, list[i], stem) != 0) continue;
-        const char *ending = word + stem;
-        if (length == stem || strcmp(ending, "s") == 0 || strcmp(ending, "es") == 0) return true;
+        if (word->length < stem || memcmp(word->text, list[i], stem) != 0) continue;
+        const char *ending = word->text + stem;
+        if (word->length == stem || strcmp(ending, "s") == 0 || strcmp(ending, "es") == 0)
+            return true;
     }
     return false;
 }
+#define IS_ONE_OF(word, list) in_list(word, list, COUNT(list))
 
-/// The word that begins at `*at`, in small letters; moves behind it. 0 for one too long to know.
-static size_t next_word(const char **at, char word[16]) {
-    size_t length = 0;
+/// The next word of the name; moves behind it. False at the end. A letter beyond ASCII gives an
+/// empty word: its words are in no list.
+static bool next_word(const char **at, name_word *out) {
+    *out = (name_word){0};
+    while (**at && !is_small(**at) && !is_capital(**at) && (unsigned char)**at < 0x80) ++*at;
+    if (!**at) return false;
     const char *from = *at;
-    for (; is_small(**at) || is_capital(**at); ++*at) {
+    size_t length = 0;
+    for (; is_small(**at) || is_capital(**at); ++*at, length++) {
         if (*at > from && is_capital(**at) && is_small((*at)[-1])) break;
-        if (length < 15) word[length] = is_capital(**at) ? (char)(**at - 'A' + 'a') : **at;
-        length++;
+        if (length + 1 < LONGEST)
+            out->text[length] = is_capital(**at) ? (char)(**at - 'A' + 'a') : **at;
     }
-    word[length < 15 ? length : 0] = '\0';
-    return length < 15 ? length : 0;
+    if (!length) ++*at;
+    if (length + 1 < LONGEST)
+        out->length = length;
+    else
+        *out = (name_word){0};
+    return true;
+}
+
+/// Whether all words are in one of two lists, one in the first at least.
+static bool says(const char *name, const char *const *first, size_t first_count,
+                 const char *const *neutral, size_t neutral_count) {
+    bool said = false;
+    for (name_word word; next_word(&name, &word);) {
+        if (in_list(&word, first, first_count))
+            said = true;
+        else if (!in_list(&word, neutral, neutral_count))
+            return false;
+    }
+    return said;
 }
 
 bool sli_says_solid(const char *name) {
-    bool solid = false;
-    while (*name) {
-        if (!is_small(*name) && !is_capital(*name)) {
-            // Letters beyond ASCII are of words that are not in the lists.
-            if ((unsigned char)*name >= 0x80) return false;
-            name++;
-            continue;
-        }
-        char word[16];
-        const size_t length = next_word(&name, word);
-        if (in_list(word, length, solid_words, COUNT(solid_words)))
-            solid = true;
-        else if (!in_list(word, length, neutral_words, COUNT(neutral_words)))
-            return false;
+    return says(name, solid_words, COUNT(solid_words), solid_neutral, COUNT(solid_neutral));
+}
+
+bool sli_says_start(const char *name) {
+    return says(name, start_words, COUNT(start_words), start_neutral, COUNT(start_neutral));
+}
+
+bool sli_says_door(const char *name) {
+    bool first = true, leads = false, said = false;
+    for (name_word word; next_word(&name, &word); first = false) {
+        if (IS_ONE_OF(&word, door_others)) return false;
+        const bool door = IS_ONE_OF(&word, door_words);
+        leads |= first && door;
+        said = door || (leads && said && IS_ONE_OF(&word, door_neutral));
     }
-    return solid;
+    return said;
+}
+
+/// Words beside the state in a property's name, as in "is_open".
+static const char *const state_neutral[] = {"is", "starts", "initially", "door", "gate"};
+
+sli_door_state sli_says_state_alone(const char *name) {
+    if (says(name, open_words, COUNT(open_words), state_neutral, COUNT(state_neutral)))
+        return SLI_DOOR_OPEN;
+    if (says(name, shut_words, COUNT(shut_words), state_neutral, COUNT(state_neutral)))
+        return SLI_DOOR_SHUT;
+    return SLI_DOOR_UNSAID;
+}
+
+bool sli_says_door_alone(const char *name) {
+    return says(name, door_words, COUNT(door_words), state_neutral, COUNT(state_neutral));
+}
+
+sli_door_state sli_says_state(const char *name) {
+    sli_door_state state = SLI_DOOR_UNSAID;
+    for (name_word word; next_word(&name, &word);) {
+        if (IS_ONE_OF(&word, shut_words)) return SLI_DOOR_SHUT;
+        if (IS_ONE_OF(&word, open_words)) state = SLI_DOOR_OPEN;
+    }
+    return state;
 }
 
 // --- files beside a file

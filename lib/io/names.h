@@ -1,4 +1,5 @@
-/// Names: the layers that a user asks for, the words that say "solid", the files that a file names.
+/// Names: the layers that a user asks for, the words that say what a thing is, the files that a
+/// file names.
 #ifndef SL_NAMES_H
 #define SL_NAMES_H
 
@@ -38,6 +39,26 @@ static inline bool sli_layers_have(const char *list, const char *layer) {
 /// the first at least. Words are runs of letters, in small letters or capitals, and end before a
 /// capital that follows a small letter: "Collision_Layer 2", "wallTiles", but not "wall_tops".
 bool sli_says_solid(const char *name);
+
+// --- words for starts and doors
+
+/// Whether all words of the name are words for a viewpoint (player, spawn, start, entrance ...) or
+/// for nothing in particular (point, position, marker ...), one of the first at least:
+/// "Player_Spawn 2", but not "starting_room" or "enemy_spawn".
+bool sli_says_start(const char *name);
+
+/// Whether the name is that of a door or gate: its last word says so ("KitchenDoor"), or its first
+/// one and all others say what door ("door_left"), but not "door_key" or "trap door".
+bool sli_says_door(const char *name);
+
+typedef enum sli_door_state { SLI_DOOR_UNSAID, SLI_DOOR_OPEN, SLI_DOOR_SHUT } sli_door_state;
+
+/// What the words say of a door: open, opened; closed, shut, locked (one of these is enough).
+sli_door_state sli_says_state(const char *name);
+/// For names of properties that are true or false, which have no other words: "open", "isLocked";
+/// "door", "is_door".
+sli_door_state sli_says_state_alone(const char *name);
+bool sli_says_door_alone(const char *name);
 
 // --- tilesets, levels and pictures in other files
 

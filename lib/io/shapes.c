@@ -6,6 +6,7 @@
 /// solid and an open square is drawn once and runs as far as it can.
 #include "io/shapes.h"
 
+#include "io/things.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -111,7 +112,7 @@ sl_status sli_pen_line(sli_pen *pen, sl_point to) {
         return sl_fail_at(pen->context, pen->name, pen->line,
                           "the drawing gives more than %zu walls", MOST_WALLS);
     if (pen->walls++ % 1024 == 0) SL_TRY(sl_check_cancelled(pen->context));
-    return sl_map_add_wall(pen->context, pen->map, a, b, pen->line);
+    return sl_map_add_wall(pen->context, pen->map, a, b, pen->item ? pen->item : pen->line);
 }
 
 void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit) {
@@ -265,6 +266,16 @@ static void put(const sli_tile_block *block, size_t column, size_t row, char kin
     }
 }
 
+/// Whether all blocks lie on the grid of the first one.
+static bool is_only_grid(const sli_tiles *tiles, const sli_tile_block *first) {
+    bool only = true;
+    for (size_t i = 0; i < tiles->blocks.count && only; i++) {
+        double column, row;
+        only = place_on(first, &tiles->blocks.items[i], &column, &row);
+    }
+    return only;
+}
+
 static void put_all(sli_tiles *tiles, const span *all, char kind, sli_grid *grid) {
     // The first block is what the others are held against: it is done last.
     const size_t first = (size_t)(all->first - tiles->blocks.items);
@@ -300,7 +311,10 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
     grid.origin =
         (sl_point){corner.x + all->left * step.x, options->top - (corner.y + all->bottom * step.y)};
     grid.open_outside = !closed;
-    const sl_status status = sli_grid_add_walls(context, &grid, map);
+    grid.sure = is_only_grid(tiles, all->first);
+    sl_status status = SL_OK;
+    if (options->things) status = sli_things_place(options->things, &grid);
+    if (status == SL_OK) status = sli_grid_add_walls(context, &grid, map);
     sli_grid_destroy(context, &grid);
     return status;
 }

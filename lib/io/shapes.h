@@ -39,6 +39,7 @@ typedef struct sli_pen {
     sli_affine affine; ///< from the drawing's coordinates to the map's
     double tolerance;  ///< in the map's unit; 0: the usual
     uint32_t line;     ///< of the file, where walls are said to be from
+    uint32_t item;     ///< 0, or what walls have in place of the line (sl_map.lines_are_items)
     sl_point at;       ///< the pen, in the drawing's coordinates
     size_t walls;      ///< drawn
     size_t points;     ///< lines of no length, left out
@@ -83,9 +84,10 @@ sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name,
                         sl_point step, size_t columns, size_t rows, char **squares);
 
 typedef struct sli_tiles_options {
-    double top;         ///< the files' y that is 0 in the map
-    bool solid_between; ///< what no block covers is solid; else it is open
-    bool all_closed;    ///< beyond each grid all is solid; else only beyond the first one
+    double top;                ///< the files' y that is 0 in the map
+    bool solid_between;        ///< what no block covers is solid; else it is open
+    bool all_closed;           ///< beyond each grid all is solid; else only beyond the first one
+    struct sli_things *things; ///< starts and doors, to be placed among the squares; NULL: none
 } sli_tiles_options;
 
 /// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then

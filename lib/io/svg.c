@@ -298,6 +298,7 @@ typedef struct svg {
     xmlDoc *document;
     sli_pen pen;
     size_t work, shapes, hidden, other;
+    bool by_number; ///< walls have the number of their shape in place of its line
 } svg;
 
 /// Where an element stands.
@@ -639,7 +640,69 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
     if (kind == NO_SHAPE) return draw_group(s, node, at);
     if (!at.taken) return SL_OK;
     s->pen.affine = at.affine;
+    s->pen.item = s->by_number ? (uint32_t)(uintptr_t)node->_private : 0;
     return draw_shape(s, node, kind);
+}
+
+// --- names for walls
+
+/// The name of a layer about an element: the nearest group's label, else its id.
+static char *layer_of(const xmlNode *node) {
+    for (node = node->parent; node && node->type == XML_ELEMENT_NODE; node = node->parent) {
+        if (!sli_xml_is(node, "g")) continue;
+        char *label = sli_xml_attribute(node, "label");
+        if (!label) label = sli_xml_attribute(node, "id");
+        if (label) return label;
+    }
+    return NULL;
+}
+
+/// "rect, id rect5, layer walls"
+static sl_status name_shape(svg *s, const xmlNode *node, uint32_t number) {
+    char *id = sli_xml_attribute(node, "id"), *layer = layer_of(node);
+    char label[SL_LINE_TEXT] = "";
+    size_t used = 0;
+    if (s->by_number && sli_xml_line(node))
+        used = (size_t)snprintf(label, sizeof label, "line %u, ", (unsigned)sli_xml_line(node));
+    snprintf(label + used, sizeof label - used, "%s%s%s%s%s", (const char *)node->name,
+             id ? ", id " : "", id ? sli_show((sli_word){id, strlen(id)}).text : "",
+             layer ? ", layer " : "", layer ? sli_show((sli_word){layer, strlen(layer)}).text : "");
+    sli_xml_free(id);
+    sli_xml_free(layer);
+    return sl_map_add_label(s->context, s->pen.map, s->by_number ? number : sli_xml_line(node),
+                            label);
+}
+
+/// Numbers the shapes from 1, in the order of the file. Tells whether each has a line of its own.
+static void number_shapes(xmlNode *node, uint32_t *count, uint32_t *line, bool *own_lines) {
+    for (; node; node = node->next) {
+        if (node->type != XML_ELEMENT_NODE) continue;
+        if (shape_of(node) != NO_SHAPE) {
+            *own_lines &= sli_xml_line(node) > *line;
+            *line = sli_xml_line(node);
+            node->_private = (void *)(uintptr_t)++ * count;
+        }
+        number_shapes(node->children, count, line, own_lines);
+    }
+}
+
+static sl_status name_shapes(svg *s, const xmlNode *node) {
+    for (; node; node = node->next) {
+        if (node->type != XML_ELEMENT_NODE) continue;
+        if (node->_private) SL_TRY(name_shape(s, node, (uint32_t)(uintptr_t)node->_private));
+        SL_TRY(name_shapes(s, node->children));
+    }
+    return SL_OK;
+}
+
+/// Walls have the line of their shape. Where several shapes stand on one line, walls have the
+/// number of their shape.
+static sl_status name_walls(svg *s, xmlNode *root) {
+    uint32_t count = 0, line = 0;
+    bool own_lines = true;
+    number_shapes(root, &count, &line, &own_lines);
+    s->by_number = s->pen.map->lines_are_items = !own_lines;
+    return name_shapes(s, root);
 }
 
 // --- the whole
@@ -654,6 +717,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
         height = box[1] + box[3];
     else if (!has_percent(root, "height"))
         SL_TRY(read_length(s, root, "height", &height));
+    SL_TRY(name_walls(s, root));
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
     s->pen.map->precision = sli_precision_of(s->pen.map, s->pen.finest);

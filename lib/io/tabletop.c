@@ -4,6 +4,8 @@
 #include "io/document.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "io/things.h"
+#include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 
@@ -19,6 +21,7 @@ typedef struct uvtt {
     double finest; ///< the finest unit of the coordinates
     size_t walls, points;
     size_t open, closed;
+    uint32_t item; ///< the number of the polyline or portal
 } uvtt;
 
 static const char *const layer_names[] = {"line_of_sight", "objects_line_of_sight", "portals"};
@@ -38,6 +41,15 @@ static sl_status read_point(uvtt *reader, const sli_json *at, sl_point *point) {
     return SL_OK;
 }
 
+/// Numbers the next item of a list: "line_of_sight[12]".
+static sl_status name_item(sl_context *context, sl_map *map, const char *list, size_t index,
+                           uint32_t *item) {
+    char label[SL_LINE_TEXT];
+    snprintf(label, sizeof label, "%s[%zu]", list, index);
+    map->lines_are_items = true;
+    return sl_map_add_label(context, map, ++*item, label);
+}
+
 static sl_status read_polyline(uvtt *reader, const sli_json *line) {
     size_t count;
     SL_TRY(sli_json_array(line, &count));
@@ -47,7 +59,7 @@ static sl_status read_polyline(uvtt *reader, const sli_json *line) {
         sl_point point;
         SL_TRY(read_point(reader, &item, &point));
         if (i && !sli_same_point(before, point)) {
-            SL_TRY(sl_map_add_wall(reader->context, reader->map, before, point, 0));
+            SL_TRY(sl_map_add_wall(reader->context, reader->map, before, point, reader->item));
             reader->walls++;
         } else if (i) {
             reader->points++;
@@ -57,12 +69,13 @@ static sl_status read_polyline(uvtt *reader, const sli_json *line) {
     return SL_OK;
 }
 
-static sl_status read_polylines(uvtt *reader, const sli_json *lines) {
+static sl_status read_polylines(uvtt *reader, const char *name, const sli_json *lines) {
     size_t count;
     SL_TRY(sli_json_array(lines, &count));
     for (size_t i = 0; i < count; i++) {
         SL_TRY(sl_check_cancelled(reader->context));
         const sli_json line = sli_json_item(lines, i);
+        SL_TRY(name_item(reader->context, reader->map, name, i, &reader->item));
         SL_TRY(read_polyline(reader, &line));
     }
     return SL_OK;
@@ -75,10 +88,11 @@ static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
     }
     *(open ? &reader->open : &reader->closed) += 1;
     if (!reader->options->doors)
-        return open ? SL_OK : sl_map_add_wall(reader->context, reader->map, at.a, at.b, 0);
+        return open ? SL_OK
+                    : sl_map_add_wall(reader->context, reader->map, at.a, at.b, reader->item);
     char name[32];
     snprintf(name, sizeof name, "door%zu", reader->map->door_count + 1);
-    return sl_map_add_door(reader->context, reader->map, name, at, open, 0);
+    return sl_map_add_door(reader->context, reader->map, name, at, open, reader->item);
 }
 
 static sl_status read_portals(uvtt *reader, const sli_json *portals) {
@@ -86,6 +100,7 @@ static sl_status read_portals(uvtt *reader, const sli_json *portals) {
     SL_TRY(sli_json_array(portals, &count));
     for (size_t i = 0; i < count; i++) {
         const sli_json portal = sli_json_item(portals, i);
+        SL_TRY(name_item(reader->context, reader->map, layer_names[2], i, &reader->item));
         SL_TRY(sli_json_object(&portal));
         const sli_json bounds = sli_json_member(&portal, "bounds");
         const sli_json closed = sli_json_member(&portal, "closed");
@@ -144,9 +159,10 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     const sli_json objects = sli_json_member(root, layer_names[1]);
     const sli_json portals = sli_json_member(root, layer_names[2]);
     // Files of the format's first versions have no list of objects.
-    if (takes(reader, layer_names[0])) SL_TRY(read_polylines(reader, &lines));
+    if (takes(reader, layer_names[0])) SL_TRY(read_polylines(reader, layer_names[0], &lines));
     const size_t of_lines = reader->walls;
-    if (takes(reader, layer_names[1]) && objects.value) SL_TRY(read_polylines(reader, &objects));
+    if (takes(reader, layer_names[1]) && objects.value)
+        SL_TRY(read_polylines(reader, layer_names[1], &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
     reader->map->precision = sli_precision_of(reader->map, reader->finest);
     const sli_json lights = sli_json_member(root, "lights");
@@ -204,6 +220,7 @@ typedef struct foundry {
 typedef struct record {
     sl_segment at;
     int64_t sight, side, door, state;
+    uint32_t item; ///< its number in the list, from 1
 } record;
 
 static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at) {
@@ -243,11 +260,11 @@ static sl_status add_wall(foundry *reader, const record *wall) {
     sl_segment at = wall->at;
     if (wall->side == BOTH_SIDES) {
         reader->walls++;
-        return sl_map_add_wall(reader->context, reader->map, at.a, at.b, 0);
+        return sl_map_add_wall(reader->context, reader->map, at.a, at.b, wall->item);
     }
     if (wall->side == RIGHT_ONLY) at = (sl_segment){at.b, at.a};
     reader->oneways++;
-    return sl_map_add_oneway(reader->context, reader->map, at, 0);
+    return sl_map_add_oneway(reader->context, reader->map, at, wall->item);
 }
 
 static sl_status add_door(foundry *reader, const record *wall) {
@@ -262,7 +279,17 @@ static sl_status add_door(foundry *reader, const record *wall) {
     }
     char name[32];
     snprintf(name, sizeof name, "door%zu", reader->map->door_count + 1);
-    return sl_map_add_door(reader->context, reader->map, name, wall->at, open, 0);
+    return sl_map_add_door(reader->context, reader->map, name, wall->at, open, wall->item);
+}
+
+/// Names a wall by its place in the list and its id: "walls[12], id eX3".
+static sl_status name_wall(foundry *reader, const sli_json *wall, const record *read) {
+    const sli_json id = sli_json_member(wall, "_id");
+    const char *text = json_string_value(id.value);
+    char label[SL_LINE_TEXT];
+    snprintf(label, sizeof label, "walls[%u]%s%s", (unsigned)read->item - 1, text ? ", id " : "",
+             text ? sli_show((sli_word){text, strlen(text)}).text : "");
+    return sl_map_add_label(reader->context, reader->map, read->item, label);
 }
 
 static sl_status take(foundry *reader, const record *wall) {
@@ -301,11 +328,13 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     size_t count;
     SL_TRY(sli_json_array(walls, &count));
     SL_TRY(find_top(reader, walls, count));
+    reader->map->lines_are_items = true;
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(reader->context));
         const sli_json wall = sli_json_item(walls, i);
-        record read = {.sight = SIGHT_NORMAL};
+        record read = {.sight = SIGHT_NORMAL, .item = (uint32_t)i + 1};
         SL_TRY(read_record(reader, &wall, &read));
+        SL_TRY(name_wall(reader, &wall, &read));
         SL_TRY(take(reader, &read));
     }
     reader->map->precision = sli_precision_of(reader->map, reader->finest);
@@ -322,12 +351,63 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     return SL_OK;
 }
 
+/// A token stands on squares of the scene's grid, `square` pixels wide. Friendly ones are starts.
+/// Turned by 0 degrees it faces down.
+static sl_status read_token(sli_things *things, const sli_json *token, double square) {
+    enum { FRIENDLY = 1 };
+    const sli_json disposition = sli_json_member(token, "disposition");
+    const sli_json name = sli_json_member(token, "name");
+    const char *text = json_string_value(name.value);
+    sli_says says = {0};
+    if (json_is_integer(disposition.value) && json_integer_value(disposition.value) == FRIENDLY)
+        says = (sli_says){.kind = SLI_THING_START, .name = text ? text : "token"};
+    SL_TRY(sli_things_ask(things, text, NULL, &says));
+    if (!says.kind) return SL_OK;
+    const sli_json x = sli_json_member(token, "x"), y = sli_json_member(token, "y");
+    const sli_json width = sli_json_member(token, "width");
+    const sli_json height = sli_json_member(token, "height");
+    const sli_json turn = sli_json_member(token, "rotation");
+    sl_point at, size = {1, 1};
+    double degrees = 0;
+    SL_TRY(sli_json_number(&x, &at.x));
+    SL_TRY(sli_json_number(&y, &at.y));
+    SL_TRY(sli_json_number_if(&width, &size.x));
+    SL_TRY(sli_json_number_if(&height, &size.y));
+    SL_TRY(sli_json_number_if(&turn, &degrees));
+    const sli_thing start = {.kind = SLI_THING_START,
+                             .middle = {at.x + size.x * square / 2, at.y + size.y * square / 2},
+                             .heading = sli_heading_of(degrees + 90)};
+    return sli_things_add(things, says.name, start);
+}
+
+/// The scene's grid is a number, or an object with its size.
+static sl_status read_tokens(foundry *reader, const sli_json *root) {
+    sli_things things = {.context = reader->context,
+                         .file = root->file->name,
+                         .options = reader->options,
+                         .top = reader->top};
+    const sli_json tokens = sli_json_member(root, "tokens"), grid = sli_json_member(root, "grid");
+    const sli_json size = sli_json_member(&grid, "size");
+    double square = 100;
+    sl_status status = SL_OK;
+    if (json_is_number(grid.value) || size.value)
+        status = sli_json_number(size.value ? &size : &grid, &square);
+    for (size_t i = 0; status == SL_OK && i < json_array_size(tokens.value); i++) {
+        const sli_json token = sli_json_item(&tokens, i);
+        status = read_token(&things, &token, square);
+    }
+    if (status == SL_OK) status = sli_things_finish(&things, reader->map);
+    sli_things_destroy(&things);
+    return status;
+}
+
 /// A scene, or a list of walls alone.
 static sl_status read_foundry(foundry *reader, const sli_json *root) {
-    if (json_is_array(root->value)) return read_foundry_walls(reader, root);
-    SL_TRY(sli_json_object(root));
+    const bool alone = json_is_array(root->value);
+    if (!alone) SL_TRY(sli_json_object(root));
     const sli_json walls = sli_json_member(root, "walls");
-    return read_foundry_walls(reader, &walls);
+    SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
+    return read_tokens(reader, root);
 }
 
 sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
@@ -348,7 +428,8 @@ sl_status sl_map_read_foundry(sl_context *context, const char *name, const char 
 
 // --- our export: its walls are a map; cells and what they see are made anew
 
-static sl_status read_export_wall(sl_context *context, const sli_json *wall, sl_map *map) {
+static sl_status read_export_wall(sl_context *context, const sli_json *wall, uint32_t item,
+                                  sl_map *map) {
     size_t count;
     double ends[4];
     SL_TRY(sli_json_array(wall, &count));
@@ -359,24 +440,59 @@ static sl_status read_export_wall(sl_context *context, const sli_json *wall, sl_
         SL_TRY(sli_json_number(&number, &ends[i]));
     }
     return sl_map_add_wall(context, map, (sl_point){ends[0], ends[1]}, (sl_point){ends[2], ends[3]},
-                           0);
+                           item);
+}
+
+/// A polygon of solid ground. Walls between two of them fall away when the map is cleaned.
+static sl_status read_export_solid(sl_context *context, const sli_json *polygon, sl_map *map) {
+    size_t count;
+    SL_TRY(sli_json_array(polygon, &count));
+    sl_point *corners = sl_alloc_array(context, count, sizeof *corners);
+    if (!corners) return SL_NO_MEMORY;
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const sli_json corner = sli_json_item(polygon, i);
+        const sli_json x = sli_json_item(&corner, 0), y = sli_json_item(&corner, 1);
+        status = sli_json_number(&x, &corners[i].x);
+        if (status == SL_OK) status = sli_json_number(&y, &corners[i].y);
+    }
+    if (status == SL_OK && count < 3)
+        status = sli_json_fail(polygon, "expected at least 3 corners, found %zu", count);
+    if (status == SL_OK)
+        status = sli_map_add_ground(context, map, polygon->file->name, false, corners, count, 0);
+    sl_free(context, corners);
+    return status;
+}
+
+static sl_status read_export_solids(sl_context *context, const sli_json *root, sl_map *map) {
+    const sli_json solids = sli_json_member(root, "solids");
+    size_t count = 0;
+    if (solids.value) SL_TRY(sli_json_array(&solids, &count));
+    for (size_t i = 0; i < count; i++) {
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
+        const sli_json polygon = sli_json_item(&solids, i);
+        SL_TRY(read_export_solid(context, &polygon, map));
+    }
+    return SL_OK;
 }
 
 static sl_status read_export_walls(sl_context *context, const sli_json *root, sl_map *map) {
     const sli_json walls = sli_json_member(root, "walls");
     size_t count;
+    uint32_t item = 0;
     SL_TRY(sli_json_object(root));
     SL_TRY(sli_json_array(&walls, &count));
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
         const sli_json wall = sli_json_item(&walls, i);
-        SL_TRY(read_export_wall(context, &wall, map));
+        SL_TRY(name_item(context, map, "walls", i, &item));
+        SL_TRY(read_export_wall(context, &wall, item, map));
     }
     sl_note(context,
-            "%s: an export: its %zu walls are taken; left out: cells, portals and what they "
-            "see",
+            "%s: an export: its %zu walls and its solid ground are taken; left out: cells, portals "
+            "and what they see",
             root->file->name, count);
-    return SL_OK;
+    return read_export_solids(context, root, map);
 }
 
 sl_status sl_map_read_export(sl_context *context, const char *name, const char *text, size_t size,

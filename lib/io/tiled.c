@@ -118,6 +118,8 @@ typedef struct tiled {
     size_t solid_layers, solid_tiles, shapes, objects; ///< taken
     size_t other_layers, other_objects, other_shapes;  ///< left out
     size_t unknown_tiles;                              ///< of tilesets that cannot be read
+    sli_things things;
+    sli_tiled_templates templates;
 } tiled;
 
 /// A layer's place, and what is said of it, its groups included.
@@ -199,6 +201,38 @@ static bool covers(const tiled *reader, const sli_tiled_set *set, const sli_tile
            set->height == reader->tile.y && set->x == 0 && set->y == 0;
 }
 
+/// Gives the next shape a number and a name. Shapes of tilesets stand in other files than the map,
+/// so that a line of its own would say nothing.
+static sl_status name_shape(tiled *reader, const char *label) {
+    reader->pen.map->lines_are_items = true;
+    return sl_map_add_label(reader->context, reader->pen.map, ++reader->pen.item, label);
+}
+
+static sl_status name_tile_shape(tiled *reader, uint32_t gid, size_t number) {
+    char label[SL_LINE_TEXT];
+    snprintf(label, sizeof label, "tile %u, shape %zu", (unsigned)(gid & SLI_TILED_TILE),
+             number + 1);
+    return name_shape(reader, label);
+}
+
+/// "layer Walls, object 12 'crate', line 40"
+static sl_status name_object(tiled *reader, const sli_json *layer, const sli_json *object,
+                             const sli_tiled_shape *shape) {
+    const char *const names[] = {text_of(layer, "name"), text_of(object, "name")};
+    const sli_json number = sli_json_member(object, "id");
+    int64_t id = 0;
+    char label[SL_LINE_TEXT];
+    SL_TRY(sli_json_whole_if(&number, INT32_MIN, INT32_MAX, &id));
+    int used = snprintf(label, sizeof label, "layer %s, object %d",
+                        sli_show((sli_word){names[0], strlen(names[0])}).text, (int)id);
+    if (*names[1])
+        used += snprintf(label + used, sizeof label - (size_t)used, " '%s'",
+                         sli_show((sli_word){names[1], strlen(names[1])}).text);
+    if (shape->line)
+        snprintf(label + used, sizeof label - (size_t)used, ", line %u", (unsigned)shape->line);
+    return name_shape(reader, label);
+}
+
 static sl_status draw_tile_shapes(tiled *reader, const block *all, size_t at,
                                   const sli_tiled_set *set, json_t *shapes) {
     const sli_json list = {
@@ -216,11 +250,21 @@ static sl_status draw_tile_shapes(tiled *reader, const block *all, size_t at,
         }
         *(shape.kind < SLI_TILED_PICTURE ? &reader->shapes : &reader->other_shapes) += 1;
         if (shape.kind >= SLI_TILED_PICTURE) continue;
+        SL_TRY(name_tile_shape(reader, all->gids[at], i));
         reader->pen.affine = affine_of_tile(reader, all, at, set);
         status = sli_tiled_draw_shape(&reader->pen, &shape);
         reader->pen.affine = outer;
     }
     return status;
+}
+
+/// A door's square is solid where it lies in a solid layer, or is drawn to collide with: if no
+/// passage is found for the door, it stays so.
+static sl_status take_door(tiled *reader, const place *at, const block *all, size_t i,
+                           const sli_tiled_tile *tile) {
+    if (at->word == SLI_TILED_SOLID || tile->word == SLI_TILED_SOLID || tile->shapes)
+        all->squares[i] = '#';
+    return sli_things_add_square(&reader->things, &tile->says, i % all->columns, i / all->columns);
 }
 
 /// What a tile's set says of it.
@@ -235,6 +279,8 @@ static sl_status take_tile(tiled *reader, const place *at, const block *all, siz
     const sli_tiled_set *set = sli_tiled_find_set(&reader->sets, gid);
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
     const sli_tiled_word word = word_of_tile(set, tile);
+    if (tile && tile->says.kind == SLI_THING_DOOR && !at->gids.length)
+        return take_door(reader, at, all, i, tile);
     if (at->word == SLI_TILED_SOLID) {
         const bool solid = at->gids.length ? tiled_among(at->gids, gid) : word != SLI_TILED_OPEN;
         if (solid) all->squares[i] = '#';
@@ -290,7 +336,7 @@ static sl_status take_tiles(tiled *reader, const sli_json *layer, const place *a
         else if ((all->gids[i] & SLI_TILED_TILE) == reader->guessed)
             all->squares[i] = '#';
     }
-    return SL_OK;
+    return sli_things_end_block(&reader->things, all->corner, reader->tile);
 }
 
 /// `holder` has the size; `corner` is where its first tile is.
@@ -357,6 +403,40 @@ static sli_tiled_word word_of_object(const tiled *reader, const sli_json *object
     return set ? word_of_tile(set, sli_tiled_find_tile(set, gid)) : SLI_TILED_UNSAID;
 }
 
+/// An object of a start or a door: `*taken` where it is one.
+static sl_status take_thing(tiled *reader, const sli_json *object, const place *at, bool *taken) {
+    sli_tiled_shape shape;
+    SL_TRY(sli_tiled_read_shape(object, &shape));
+    const char *class = text_of(object, "type");
+    const uint32_t gid = shape.gid & SLI_TILED_TILE;
+    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+    const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+    sli_says says = sli_tiled_says_of(object, "type");
+    if (!says.kind && tile) says = tile->says;
+    SL_TRY(sli_things_ask(&reader->things, text_of(object, "name"),
+                          *class ? class : text_of(object, "class"), &says));
+    *taken = says.kind != SLI_THING_NONE;
+    if (!*taken) return SL_OK;
+    if (set && shape.width == 0 && shape.height == 0) {
+        shape.width = set->width;
+        shape.height = set->height;
+    }
+    return sli_tiled_take_thing(&reader->things, &says, &shape, at->offset,
+                                at->word == SLI_TILED_SOLID && shape.kind != SLI_TILED_OTHER);
+}
+
+/// The same for an instance of a template too.
+static sl_status look_for_thing(tiled *reader, const sli_json *object, const place *at,
+                                bool *taken) {
+    sli_json_file file;
+    sl_status status = sli_tiled_instance(&reader->templates, object, &file);
+    const sli_json whole = sli_json_root(&file);
+    if (status == SL_OK) status = take_thing(reader, file.root ? &whole : object, at, taken);
+    sli_json_close(&file);
+    return status;
+}
+
+/// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
 static sl_status read_objects(tiled *reader, const sli_json *layer, const place *at) {
     const sli_json objects = sli_json_member(layer, "objects");
     size_t count = 0;
@@ -368,7 +448,11 @@ static sl_status read_objects(tiled *reader, const sli_json *layer, const place 
     for (size_t i = 0; status == SL_OK && i < count; i++) {
         const sli_json object = sli_json_item(&objects, i);
         sli_tiled_shape shape;
+        bool is_thing;
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
         SL_TRY(sli_tiled_read_shape(&object, &shape));
+        SL_TRY(look_for_thing(reader, &object, at, &is_thing));
+        if (is_thing || at->word == SLI_TILED_OPEN) continue;
         const sli_tiled_word word = word_of_object(reader, &object, &shape);
         const bool taken =
             at->word == SLI_TILED_SOLID ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
@@ -377,6 +461,7 @@ static sl_status read_objects(tiled *reader, const sli_json *layer, const place 
                                                           : &reader->objects;
         ++*counted;
         if (!taken || shape.kind == SLI_TILED_OTHER) continue;
+        SL_TRY(name_object(reader, layer, &object, &shape));
         reader->pen.affine = sli_affine_after(outer, move);
         status = sli_tiled_draw_shape(&reader->pen, &shape);
         reader->pen.affine = outer;
@@ -400,10 +485,12 @@ static sl_status read_layers(tiled *reader, const sli_json *parent, const place 
             SL_TRY(read_layers(reader, &layer, &own));
         else if (own.word != SLI_TILED_OPEN && strcmp(type, "tilelayer") == 0)
             SL_TRY(read_tile_layer(reader, &layer, &own));
-        else if (own.word != SLI_TILED_OPEN && strcmp(type, "objectgroup") == 0 && !reader->guess)
+        else if (strcmp(type, "objectgroup") == 0 && !reader->guess)
             SL_TRY(read_objects(reader, &layer, &own));
-        else
-            reader->other_layers += !reader->guess;
+        if (strcmp(type, "group") != 0 && !reader->guess)
+            reader->other_layers +=
+                own.word == SLI_TILED_OPEN ||
+                (strcmp(type, "tilelayer") != 0 && strcmp(type, "objectgroup") != 0);
     }
     return SL_OK;
 }
@@ -477,15 +564,18 @@ static sl_status read_map(tiled *reader) {
         if (reader->unknown_tiles) return fail_missing(reader);
         if (!reader->solid_tiles && !reader->shapes && !reader->objects) SL_TRY(guess(reader));
     }
+    reader->things.top = reader->top;
+    reader->things.shapes = reader->pen.map->wall_count;
     const sli_tiles_options options = {.top = reader->top,
-                                       .solid_between = reader->guess && !reader->guessed};
+                                       .solid_between = reader->guess && !reader->guessed,
+                                       .things = &reader->things};
     size_t grids;
     SL_TRY(sli_tiles_add_walls(reader->context, &reader->tiles, reader->map->file->name, &options,
                                reader->pen.map, &grids));
     if (!reader->pen.map->wall_count)
         return sli_json_fail(reader->map, "nothing in it says what is solid");
     give_account(reader, grids);
-    return SL_OK;
+    return sli_things_finish(&reader->things, reader->pen.map);
 }
 
 /// Reads a tree, and closes its file.
@@ -497,12 +587,18 @@ static sl_status read_tree(sl_context *context, sli_json_file *file,
         .context = context,
         .options = options,
         .map = &root,
+        .things = {.context = context, .file = file->name, .options = options},
         .pen = {
             .context = context, .name = file->name, .map = &read, .tolerance = options->tolerance}};
     const sl_status status = read_map(&reader);
     sli_tiles_destroy(context, &reader.tiles);
     sli_tiled_destroy_sets(context, &reader.sets);
+    sli_tiled_destroy_templates(context, &reader.templates);
+    sli_things_destroy(&reader.things);
     sli_json_close(file);
+    // The map's lines are numbers of shapes, if it has any: doors and starts are none of them.
+    for (size_t i = 0; i < read.door_count && read.lines_are_items; i++) read.doors[i].line = 0;
+    for (size_t i = 0; i < read.start_count && read.lines_are_items; i++) read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

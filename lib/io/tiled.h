@@ -4,6 +4,7 @@
 
 #include "io/document.h"
 #include "io/shapes.h"
+#include "io/things.h"
 
 // --- XML in the shape of JSON, so that one reader reads both
 
@@ -36,10 +37,26 @@ typedef enum sli_tiled_word { SLI_TILED_UNSAID, SLI_TILED_OPEN, SLI_TILED_SOLID 
 /// the class (member `class_key`, or "class"), where that is such a word.
 sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key);
 
+/// A walk over the properties of a layer, a tile or an object: newer files have a list, the older
+/// ones an object of names and values.
+typedef struct sli_tiled_properties {
+    sli_json all;
+    size_t next;
+    void *at;
+} sli_tiled_properties;
+
+/// The thing must outlive the walk.
+sli_tiled_properties sli_tiled_properties_of(const sli_json *thing);
+/// False at the end. The name is NULL for a property without one.
+bool sli_tiled_next_property(sli_tiled_properties *walk, const char **name, sli_json *value);
+
+bool sli_tiled_looks_like_xml(const sl_bytes *bytes);
+
 /// A tile that says something of itself, or has shapes to collide with.
 typedef struct sli_tiled_tile {
     uint32_t id;
     sli_tiled_word word;
+    sli_says says;  ///< by its class and its properties
     json_t *shapes; ///< an array of objects; NULL for none
 } sli_tiled_tile;
 
@@ -94,5 +111,31 @@ sl_status sli_tiled_read_shape(const sli_json *object, sli_tiled_shape *shape);
 
 /// Draws the outline. The pen's affine leads from the object's layer to the map.
 sl_status sli_tiled_draw_shape(sli_pen *pen, const sli_tiled_shape *shape);
+
+// --- starts and doors
+
+/// What an object or a tile says by its name, its class (member `class_key`, or "class"), and its
+/// properties.
+sli_says sli_tiled_says_of(const sli_json *thing, const char *class_key);
+
+typedef struct sli_tiled_template sli_tiled_template;
+/// Zero it to start.
+typedef struct sli_tiled_templates {
+    sli_tiled_template *items;
+    size_t count, capacity;
+} sli_tiled_templates;
+
+void sli_tiled_destroy_templates(sl_context *context, sli_tiled_templates *templates);
+
+/// An instance of a template with all that the template says; `file` has no root for an object that
+/// is no instance. sli_json_close is the caller's, on failure too. A template that cannot be read
+/// is noted, and the instance stands for itself.
+sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
+                             sli_json_file *file);
+
+/// Adds an object that is a start or a door; its layer is at `offset`, and it would be a wall else
+/// if `is_wall`.
+sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
+                               const sli_tiled_shape *shape, sl_point offset, bool is_wall);
 
 #endif

@@ -16,28 +16,33 @@ static sli_tiled_word word_of_property(const char *name, const sli_json *value) 
     return !said ? SLI_TILED_UNSAID : solid ? SLI_TILED_SOLID : SLI_TILED_OPEN;
 }
 
-/// The older files have an object of names and values, the others a list.
-static sli_tiled_word word_of_properties(const sli_json *properties) {
-    sli_tiled_word word = SLI_TILED_UNSAID;
-    const size_t count = json_array_size(properties->value);
-    for (size_t i = 0; i < count && word == SLI_TILED_UNSAID; i++) {
-        const sli_json item = sli_json_item(properties, i);
-        const sli_json name = sli_json_member(&item, "name"),
-                       value = sli_json_member(&item, "value");
-        word = word_of_property(json_string_value(name.value), &value);
+sli_tiled_properties sli_tiled_properties_of(const sli_json *thing) {
+    const sli_json all = sli_json_member(thing, "properties");
+    return (sli_tiled_properties){.all = all, .at = json_object_iter(all.value)};
+}
+
+bool sli_tiled_next_property(sli_tiled_properties *walk, const char **name, sli_json *value) {
+    const sli_json *all = &walk->all;
+    *value = (sli_json){.file = all->file};
+    if (walk->next < json_array_size(all->value)) {
+        const json_t *item = json_array_get(all->value, walk->next++);
+        *name = json_string_value(json_object_get(item, "name"));
+        value->value = json_object_get(item, "value");
+        return true;
     }
-    void *at = json_object_iter(properties->value);
-    for (; at && word == SLI_TILED_UNSAID; at = json_object_iter_next(properties->value, at)) {
-        const char *name = json_object_iter_key(at);
-        const sli_json value = sli_json_member(properties, name);
-        word = word_of_property(name, &value);
-    }
-    return word;
+    if (!walk->at) return false;
+    *name = json_object_iter_key(walk->at);
+    value->value = json_object_iter_value(walk->at);
+    walk->at = json_object_iter_next(all->value, walk->at);
+    return true;
 }
 
 sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {
-    const sli_json properties = sli_json_member(thing, "properties");
-    const sli_tiled_word word = word_of_properties(&properties);
+    sli_tiled_properties at = sli_tiled_properties_of(thing);
+    sli_tiled_word word = SLI_TILED_UNSAID;
+    const char *name;
+    for (sli_json value; word == SLI_TILED_UNSAID && sli_tiled_next_property(&at, &name, &value);)
+        word = word_of_property(name, &value);
     if (word != SLI_TILED_UNSAID) return word;
     const sli_json type = sli_json_member(thing, class_key),
                    class = sli_json_member(thing, "class");
@@ -48,7 +53,7 @@ sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {
 }
 
 static sl_status add_tile(sl_context *context, sli_tiled_set *set, sli_tiled_tile tile) {
-    if (tile.word == SLI_TILED_UNSAID && !tile.shapes) return SL_OK;
+    if (tile.word == SLI_TILED_UNSAID && !tile.says.kind && !tile.shapes) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &set->tiles, 1));
     set->tiles.items[set->tiles.count++] = tile;
     return SL_OK;
@@ -77,6 +82,7 @@ static sl_status read_tiles(const sli_json *json, sli_tiled_set *set) {
         SL_TRY(add_tile(json->file->context, set,
                         (sli_tiled_tile){.id = (uint32_t)number,
                                          .word = sli_tiled_word_of(&tile, "type"),
+                                         .says = sli_tiled_says_of(&tile, "type"),
                                          .shapes = shapes_of(&tile)}));
     }
     if (set->tiles.count)
@@ -99,7 +105,7 @@ static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
     return read_tiles(json, set);
 }
 
-static bool looks_like_xml(const sl_bytes *bytes) {
+bool sli_tiled_looks_like_xml(const sl_bytes *bytes) {
     const char *at = sli_lines_of(bytes->data, bytes->size).at;
     return at[strspn(at, " \t\r\n")] == '<';
 }
@@ -112,7 +118,7 @@ static sl_status read_separate(sl_context *context, const char *name, const char
     if (found == SL_BAD_INPUT) set->missing = source;
     if (found != SL_OK) return set->missing ? SL_OK : found;
     sl_status status =
-        looks_like_xml(&bytes)
+        sli_tiled_looks_like_xml(&bytes)
             ? sli_tiled_from_xml(context, set->path, "tileset", bytes.data, bytes.size, &set->file)
             : sli_json_open(context, set->path, bytes.data, bytes.size, &set->file);
     sl_free(context, bytes.data);

@@ -25,6 +25,7 @@ typedef struct ug_model {
     uint32_t *slots; ///< hash table: a vertex's number + 1, 0 for none
     size_t slot_count;
     SL_ARRAY(sl_point) crossings; ///< of the face at hand with the plane
+    sl_point normal;              ///< of that face: its part in the plane
     note_text notes;
     double slice, lowest, highest;
     size_t faces, cut, flat, walls, skipped;
@@ -197,6 +198,13 @@ static sl_status cross_edge(ug_model *model, const vertex *a, const vertex *b) {
 }
 
 /// Reads one contour of a face behind its '('. Says whether all of it lies in the plane.
+/// Takes an edge of the face at hand. The normal is Newell's: the sum over all edges.
+static sl_status take_edge(ug_model *model, const vertex *from, const vertex *to) {
+    model->normal.x += (from->y - to->y) * (from->z + to->z);
+    model->normal.y += (from->z - to->z) * (from->x + to->x);
+    return cross_edge(model, from, to);
+}
+
 static sl_status read_contour(ug_model *model, uint32_t line, bool *flat) {
     const vertex *first = NULL, *previous = NULL;
     size_t count = 0;
@@ -211,7 +219,7 @@ static sl_status read_contour(ug_model *model, uint32_t line, bool *flat) {
                               sli_show(word).text);
         const vertex *next = &model->vertices.items[slot - 1];
         if (previous)
-            SL_TRY(cross_edge(model, previous, next));
+            SL_TRY(take_edge(model, previous, next));
         else
             first = next;
         previous = next;
@@ -221,7 +229,7 @@ static sl_status read_contour(ug_model *model, uint32_t line, bool *flat) {
     if (count < 3)
         return sl_fail_at(model->context, model->name, line,
                           "a face has at least 3 vertices, this one has %zu", count);
-    return cross_edge(model, previous, first);
+    return take_edge(model, previous, first);
 }
 
 static int compare_x(const void *left, const void *right) {
@@ -234,6 +242,14 @@ static int compare_y(const void *left, const void *right) {
     const sl_point *a = left, *b = right;
     const int order = (a->y > b->y) - (a->y < b->y);
     return order ? order : (a->x > b->x) - (a->x < b->x);
+}
+
+/// The ground beside a face's wall.
+static uint32_t ground_of(const ug_model *model, sl_point a, sl_point b) {
+    const double side = (b.x - a.x) * model->normal.y - (b.y - a.y) * model->normal.x;
+    if (side == 0) return 0;
+    const uint32_t ground = SL_SOLID_LEFT | SL_OPEN_RIGHT;
+    return side > 0 ? sl_ground_turned(ground) : ground;
 }
 
 /// Makes walls of a face's crossings: along the cut, every other gap between them is in the face.
@@ -253,18 +269,30 @@ static sl_status add_walls(ug_model *model, uint32_t line) {
     for (size_t i = 0; i + 1 < count; i += 2) {
         if (compare_x(&points[i], &points[i + 1]) == 0) continue;
         SL_TRY(sl_map_add_wall(model->context, model->map, points[i], points[i + 1], line));
+        model->map->walls[model->map->wall_count - 1].ground =
+            ground_of(model, points[i], points[i + 1]);
         model->walls++;
     }
     return SL_OK;
 }
 
+/// "face W12"
+static sl_status name_face(ug_model *model, uint32_t line, sli_word name) {
+    char label[SL_LINE_TEXT];
+    if (!name.length) return SL_OK;
+    snprintf(label, sizeof label, "face %s", sli_show(name).text);
+    return sl_map_add_label(model->context, model->map, line, label);
+}
+
 /// Reads a face: a name (or none), contours, then at most a colour and an illumination.
 static sl_status read_face(ug_model *model, uint32_t line) {
     model->crossings.count = 0;
+    model->normal = (sl_point){0};
     bool flat = true;
     sli_word word;
     SL_TRY(next_word(model, &word));
-    if (!is_mark(word)) SL_TRY(next_word(model, &word));
+    const sli_word name = {word.at, is_mark(word) ? 0 : word.length};
+    if (name.length) SL_TRY(next_word(model, &word));
     if (!sli_word_is(word, "(")) return fail_expected(model, "'('", line, word);
     while (sli_word_is(word, "(")) {
         SL_TRY(read_contour(model, line, &flat));
@@ -274,7 +302,9 @@ static sl_status read_face(ug_model *model, uint32_t line) {
     if (!sli_word_is(word, ";")) return fail_expected(model, "';'", line, word);
     model->faces++;
     model->flat += flat;
-    return add_walls(model, line);
+    const size_t before = model->map->wall_count;
+    SL_TRY(add_walls(model, line));
+    return model->map->wall_count > before ? name_face(model, line, name) : SL_OK;
 }
 
 /// Goes through all statements, for the vertices or for the faces.
@@ -338,6 +368,7 @@ static sl_status read_model(ug_model *model, const char *text, size_t size,
     SL_TRY(read_points(model, text, size));
     SL_TRY(check_slice(model, options));
     model->slice = options->slice;
+    model->map->ground_guessed = true;
     SL_TRY(read_statements(model, sli_lines_of(text, size).at, true));
     if (model->notes.count) {
         model->notes.items[model->notes.count] = '\0';

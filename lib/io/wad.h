@@ -104,6 +104,14 @@ typedef struct sli_doom_sector {
     int tag;
 } sli_doom_sector;
 
+/// The kinds of things where players start: 1 to 4, and any of them in a deathmatch.
+enum { SLI_DOOM_PLAYERS = 4, SLI_DOOM_DEATHMATCH = 11 };
+
+typedef struct sli_doom_start {
+    sl_start start;
+    int kind; ///< 1 .. SLI_DOOM_PLAYERS, or SLI_DOOM_DEATHMATCH
+} sli_doom_start;
+
 /// Zeroed, it is empty.
 typedef struct sli_doom_level {
     char name[SLI_LUMP_NAME];
@@ -111,7 +119,7 @@ typedef struct sli_doom_level {
     bool hexen_specials;
     sli_doom_line *lines;
     sli_doom_sector *sectors;
-    sl_start *starts; ///< of player 1
+    sli_doom_start *starts;
     size_t line_count, sector_count, start_count;
 } sli_doom_level;
 

@@ -1,7 +1,8 @@
 /// Cleaning: the walls of a map become a planar set (see sl_map_clean).
 ///
 /// 1. Walls are sorted into uprights, levels and oblique ones; walls of no length are dropped.
-/// 2. Uprights and levels in one line that overlap or touch are joined; copies are dropped.
+/// 2. Uprights and levels in one line that overlap or touch are joined where the ground beside them
+///    is the same; copies are dropped, and walls inside of solid ground.
 /// 3. With nothing oblique, a sweep cuts walls where they cross or touch. Else the walls, together
 ///    with all else that the map holds, become one planar graph (clean_oblique.c). So they do where
 ///    ends of axial walls miss each other by no more than the tolerance.
@@ -15,9 +16,11 @@
 ///     ----+-----------|------      no coordinate is computed: a cut takes the x of one
 ///                     |            wall and the y of the other
 ///
-/// After step 2 there is at most one level of each height at x. So the set is one bit for each
-/// height, with a tree of bits above it to find the next one. Time O((n + k) log n) for k cuts.
+/// After step 2 there is at most one level of each height at x, or two that meet there, of which
+/// the second counts. So the set is one bit for each height, with a tree of bits above it to find
+/// the next one. Time O((n + k) log n) for k cuts.
 #include "geometry/orient.h"
+#include "map/ground.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -28,6 +31,7 @@
 typedef struct piece {
     double at, low, high;
     uint32_t line;
+    uint32_t ground; ///< as of a wall from low to high; SLI_GROUND_KEPT for a mirror's
     bool cut;
 } piece;
 
@@ -91,13 +95,13 @@ static sl_status sort_in(cleaning *work, sl_wall wall) {
         work->account.zero_length++;
         return SL_OK;
     }
-    if (order > 0) wall = (sl_wall){.a = wall.b, .b = wall.a, .line = wall.line};
+    if (order > 0) wall = (sl_wall){wall.b, wall.a, wall.line, sli_ground_turned(wall.ground)};
     if (wall.a.x == wall.b.x)
         return add_piece(work->context, &work->uprights,
-                         (piece){wall.a.x, wall.a.y, wall.b.y, wall.line, false});
+                         (piece){wall.a.x, wall.a.y, wall.b.y, wall.line, wall.ground, false});
     if (wall.a.y == wall.b.y)
         return add_piece(work->context, &work->levels,
-                         (piece){wall.a.y, wall.a.x, wall.b.x, wall.line, false});
+                         (piece){wall.a.y, wall.a.x, wall.b.x, wall.line, wall.ground, false});
     SL_TRY(SL_ARRAY_ROOM(work->context, &work->others, 1));
     work->others.items[work->others.count++] = wall;
     return SL_OK;
@@ -108,35 +112,87 @@ static sl_status sort_out(cleaning *work, const sl_map *map) {
     for (size_t i = 0; i < map->wall_count; i++) SL_TRY(sort_in(work, map->walls[i]));
     for (size_t i = 0; i < map->mirror_count; i++) {
         const sl_glass *mirror = &map->mirrors[i];
-        SL_TRY(
-            sort_in(work, (sl_wall){mirror->segment.a, mirror->segment.b, .line = mirror->line}));
+        SL_TRY(sort_in(
+            work, (sl_wall){mirror->segment.a, mirror->segment.b, mirror->line, SLI_GROUND_KEPT}));
     }
     return SL_OK;
 }
 
-/// Sorts pieces by place and joins those that overlap or touch.
-static void merge(pieces *list, sl_clean_account *account) {
-    if (list->count == 0) return;
-    qsort(list->items, list->count, sizeof *list->items, compare_pieces);
-    size_t kept = 0;
-    piece previous = list->items[0];
-    for (size_t i = 1; i < list->count; i++) {
-        const piece next = list->items[i];
-        piece *last = &list->items[kept];
-        if (next.at != last->at || next.low > last->high) {
-            list->items[++kept] = next;
-        } else {
-            const bool same = next.low == previous.low && next.high == previous.high;
-            if (same)
-                account->duplicate++;
-            else
-                account->merged++;
-            if (next.high > last->high) last->high = next.high;
-            last->line = lower_line(last->line, next.line);
-        }
-        previous = next;
+static bool same_sides(uint32_t a, uint32_t b) {
+    return ((a ^ b) & ~(uint32_t)SLI_GROUND_KEPT) == 0;
+}
+
+/// Joins sorted pieces of one run: in one line, each overlaps or touches one before it.
+static sl_status join_run(sl_context *context, const piece *run, size_t count, pieces *out,
+                          sl_clean_account *account) {
+    piece whole = run[0];
+    bool plain_ground = true, overlap = false;
+    for (size_t i = 1; i < count; i++) {
+        const bool same = run[i].low == run[i - 1].low && run[i].high == run[i - 1].high;
+        *(same ? &account->duplicate : &account->merged) += 1;
+        overlap |= run[i].low < whole.high;
+        if (run[i].high > whole.high) whole.high = run[i].high;
+        whole.line = lower_line(whole.line, run[i].line);
+        plain_ground &= same_sides(run[i].ground, whole.ground);
+        whole.ground |= run[i].ground & SLI_GROUND_KEPT;
     }
-    list->count = kept + 1;
+    if (plain_ground && !(overlap && sli_ground_begins(whole.ground)))
+        return sli_ground_hides_wall(whole.ground) ? SL_OK : add_piece(context, out, whole);
+    // The next piece to end, or to begin, ends the part that begins at `low`.
+    const size_t first = out->count;
+    SL_ARRAY(piece) active = {0};
+    sl_status status = SL_OK;
+    double low = run[0].low;
+    for (size_t next = 0; status == SL_OK && low < whole.high;) {
+        for (; next < count && run[next].low <= low && status == SL_OK; next++) {
+            status = SL_ARRAY_ROOM(context, &active, 1);
+            if (status == SL_OK) active.items[active.count++] = run[next];
+        }
+        piece part = {
+            .at = whole.at, .low = low, .high = next < count ? run[next].low : whole.high};
+        size_t kept = 0;
+        for (size_t i = 0; i < active.count && status == SL_OK; i++) {
+            const piece *p = &active.items[i];
+            if (p->high <= low) continue;
+            part.high = fmin(part.high, p->high);
+            part.ground = sli_ground_joined(part.ground, p->ground);
+            part.line = kept ? lower_line(part.line, p->line) : p->line;
+            active.items[kept++] = *p;
+        }
+        active.count = kept;
+        low = part.high;
+        piece *last = out->count > first ? &out->items[out->count - 1] : NULL;
+        if (sli_ground_hides_wall(part.ground)) continue;
+        if (last && same_sides(last->ground, part.ground) && last->high == part.low) {
+            last->high = part.high;
+            last->ground |= part.ground & SLI_GROUND_KEPT;
+            last->line = lower_line(last->line, part.line);
+        } else if (status == SL_OK)
+            status = add_piece(context, out, part);
+    }
+    sl_free(context, active.items);
+    const size_t more = out->count > first ? out->count - first - 1 : 0;
+    account->merged -= more < account->merged ? more : account->merged;
+    return status;
+}
+
+/// Sorts pieces by place and joins those that overlap or touch.
+static sl_status merge(sl_context *context, pieces *list, sl_clean_account *account) {
+    if (list->count == 0) return SL_OK;
+    qsort(list->items, list->count, sizeof *list->items, compare_pieces);
+    pieces joined = {0};
+    sl_status status = SL_OK;
+    for (size_t first = 0, end; status == SL_OK && first < list->count; first = end) {
+        double high = list->items[first].high;
+        for (end = first + 1; end < list->count && list->items[end].at == list->items[first].at &&
+                              list->items[end].low <= high;
+             end++)
+            high = fmax(high, list->items[end].high);
+        status = join_run(context, list->items + first, end - first, &joined, account);
+    }
+    sl_free(context, list->items);
+    *list = joined;
+    return status;
 }
 
 static void drop_duplicates(oblique_walls *list, sl_clean_account *account) {
@@ -145,9 +201,11 @@ static void drop_duplicates(oblique_walls *list, sl_clean_account *account) {
     size_t kept = 0;
     for (size_t i = 1; i < list->count; i++) {
         const sl_wall *last = &list->items[kept], *next = &list->items[i];
-        if (sli_compare_points(last->a, next->a) == 0 && sli_compare_points(last->b, next->b) == 0)
+        if (sli_compare_points(last->a, next->a) == 0 &&
+            sli_compare_points(last->b, next->b) == 0) {
             account->duplicate++;
-        else
+            list->items[kept].ground = sli_ground_joined(last->ground, next->ground);
+        } else
             list->items[++kept] = *next;
     }
     list->count = kept + 1;
@@ -273,7 +331,10 @@ static void advance(sweeper *sweep, size_t count, double x) {
             sweep->here[sweep->rank[level]] = level;
             add_rank(&sweep->active, sweep->rank[level]);
         } else {
-            remove_rank(&sweep->active, sweep->rank[sweep->outs[sweep->out++].level]);
+            const size_t level = sweep->outs[sweep->out++].level;
+            // Another one, with other ground beside it, may have begun where this one ends.
+            if (sweep->here[sweep->rank[level]] == level)
+                remove_rank(&sweep->active, sweep->rank[level]);
         }
     }
 }
@@ -335,11 +396,11 @@ static sl_status list_walls(const cleaning *work, const pieces *uprights, const 
     if (!next) return SL_NO_MEMORY;
     for (size_t i = 0; i < uprights->count; i++) {
         const piece *p = &uprights->items[i];
-        *next++ = (sl_wall){{p->at, p->low}, {p->at, p->high}, p->line};
+        *next++ = (sl_wall){{p->at, p->low}, {p->at, p->high}, p->line, p->ground};
     }
     for (size_t i = 0; i < levels->count; i++) {
         const piece *p = &levels->items[i];
-        *next++ = (sl_wall){{p->low, p->at}, {p->high, p->at}, p->line};
+        *next++ = (sl_wall){{p->low, p->at}, {p->high, p->at}, p->line, p->ground};
     }
     for (size_t i = 0; i < work->others.count; i++) *next++ = work->others.items[i];
     return SL_OK;
@@ -356,6 +417,7 @@ static sl_status clean_axial(cleaning *work, sl_map *map) {
     // The sweep leaves the uprights in order.
     if (levels->count) qsort(levels->items, levels->count, sizeof(piece), compare_pieces);
     SL_TRY(list_walls(work, uprights, levels, &walls, &count));
+    for (size_t i = 0; i < count; i++) walls[i].ground &= ~(uint32_t)SLI_GROUND_KEPT;
     sl_free(work->context, map->walls);
     map->walls = walls;
     map->wall_count = map->wall_room = work->account.after = count;
@@ -426,9 +488,10 @@ static sl_status clean(cleaning *work, sl_map *map, double weld) {
     const bool axial = sl_map_is_axial(map) && !(weld > 0) && !map->cell_count;
     const double precision = weld < 0 ? safe_precision(map, &bounds) : 0;
     if (weld < 0) weld = axial ? precision : fmax(sli_planar_tolerance(&bounds), precision);
+    work->account.tolerance = fmax(weld, 2 * map->snap);
     SL_TRY(sort_out(work, map));
-    merge(&work->uprights, &work->account);
-    merge(&work->levels, &work->account);
+    SL_TRY(merge(work->context, &work->uprights, &work->account));
+    SL_TRY(merge(work->context, &work->levels, &work->account));
     drop_duplicates(&work->others, &work->account);
     if (!axial) return clean_oblique(work, map, weld, NULL);
     bool idle = true;

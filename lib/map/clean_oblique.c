@@ -10,6 +10,8 @@
 /// a door that is shut is as tight as a wall. What the map holds is then replaced by its chains: an
 /// edge of a wall is a wall, a piece of glass becomes several, a door gets parts, a cell gets
 /// corners.
+#include "geometry/orient.h"
+#include "map/ground.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -79,13 +81,22 @@ static uint32_t lower_line(uint32_t a, uint32_t b) {
     return a - 1 <= b - 1 ? a : b;
 }
 
-/// Makes a wall of each edge that is part of one.
+/// The ground of an edge to which walls were moved. Solid ground on both sides may be two polygons
+/// side by side, or a thin one that is gone. The walls round it will tell (sl_wall.ground).
+static uint32_t sure_ground(uint32_t ground) {
+    return sli_ground_hides_wall(ground & ~(uint32_t)SLI_GROUND_KEPT) ? ground & SLI_GROUND_KEPT
+                                                                      : ground;
+}
+
+/// Makes a wall of each edge that is part of one, but for edges inside of solid ground.
 static sl_status make_walls(maker *m, replacement *out) {
     const sli_planar *graph = &m->graph;
     uint32_t *lines = sl_alloc_array(m->context, graph->edge_count, sizeof *lines);
+    uint32_t *ground = sl_alloc_array(m->context, graph->edge_count, sizeof *ground);
     bool *walled = sl_alloc_array(m->context, graph->edge_count, sizeof *walled);
+    bool *moved = sl_alloc_array(m->context, graph->edge_count, sizeof *moved);
     out->walls = sl_alloc_array(m->context, graph->edge_count, sizeof *out->walls);
-    const bool done = lines && walled && out->walls;
+    const bool done = lines && ground && walled && moved && out->walls;
     for (size_t i = 0; i < m->list.mirrors && done; i++) {
         const size_t parts = graph->first[i + 1] - graph->first[i];
         m->account->split += parts > 1;
@@ -96,14 +107,26 @@ static sl_status make_walls(maker *m, replacement *out) {
             lines[edge] = walled[edge] ? lower_line(lines[edge], line) : line;
             m->account->merged += walled[edge];
             walled[edge] = true;
+            const uint32_t own = m->walls[i].ground;
+            const sl_segment at = {graph->points[graph->edges[edge].a],
+                                   graph->points[graph->edges[edge].b]};
+            moved[edge] |= sli_orient(m->walls[i].a, m->walls[i].b, at.a) ||
+                           sli_orient(m->walls[i].a, m->walls[i].b, at.b);
+            ground[edge] =
+                sli_ground_joined(ground[edge], graph->links[k] % 2 ? sli_ground_turned(own) : own);
         }
     }
     for (size_t i = 0; i < graph->edge_count && done; i++)
-        if (walled[i])
-            out->walls[out->wall_count++] = (sl_wall){graph->points[graph->edges[i].a],
-                                                      graph->points[graph->edges[i].b], lines[i]};
+        if (moved[i]) ground[i] = sure_ground(ground[i]);
+    for (size_t i = 0; i < graph->edge_count && done; i++)
+        if (walled[i] && !sli_ground_hides_wall(ground[i]))
+            out->walls[out->wall_count++] =
+                (sl_wall){graph->points[graph->edges[i].a], graph->points[graph->edges[i].b],
+                          lines[i], ground[i] & ~(uint32_t)SLI_GROUND_KEPT};
     sl_free(m->context, lines);
+    sl_free(m->context, ground);
     sl_free(m->context, walled);
+    sl_free(m->context, moved);
     return done ? SL_OK : SL_NO_MEMORY;
 }
 

@@ -140,6 +140,7 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
         {"map", options->map, format->list},
         {"slice", options->has_slice, format->takes & SL_TAKES_SLICE},
         {"layers", options->layers, format->takes & SL_TAKES_LAYERS},
+        {"start-names", options->start_names, format->takes & SL_TAKES_STARTS},
         {"tolerance", options->tolerance != 0, format->takes & SL_TAKES_TOLERANCE},
         {"unit", options->unit, format->takes & SL_TAKES_UNIT},
         {"threshold", options->threshold != 0, format->takes & SL_TAKES_THRESHOLD},

@@ -17,6 +17,7 @@ typedef struct sli_grid {
     sl_point step;       ///< the size of a square, above 0
     uint32_t first_line; ///< the line of the first row in its file; 0 where rows are not lines
     bool open_outside;
+    bool sure;     ///< open squares are open whatever else the map says: no other grid lies on them
     char *squares; ///< from sli_grid_create: row after row, each `rows[0].length` long; else NULL
 } sli_grid;
 
@@ -44,9 +45,10 @@ static inline sl_point sli_grid_corner(const sli_grid *grid, size_t row, size_t 
                       grid->origin.y + (double)(grid->count - 1 - row) * grid->step.y};
 }
 
-/// Adds a wall for each longest straight piece of the boundary between solid and open squares, in
-/// the order in which they end, from the top down. The coordinate of a line is computed once, so
-/// that walls in one line have equal coordinates. Time O(squares).
+/// Adds a wall for each longest straight piece of the boundary between solid and open squares that
+/// has the solid ones on one side, in the order in which they end, from the top down. The
+/// coordinate of a line is computed once, so that walls in one line have equal coordinates. Time
+/// O(squares).
 sl_status sli_grid_add_walls(sl_context *context, const sli_grid *grid, sl_map *map);
 
 #endif

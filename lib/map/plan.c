@@ -1,7 +1,7 @@
 /// Grids of solid and open squares, and the ASCII plan, which is such a grid.
 ///
 /// A wall stands on each border between a solid square and an open one. Unit pieces in one line
-/// become one wall:
+/// that have the solid square on the same side become one wall:
 ///
 ///     # # # #                         level walls come from one pass over each pair of rows;
 ///     # . . #      .-----.            upright ones stay open in a table by column until a row
@@ -18,8 +18,6 @@
 #include "sightline/support.h"
 
 #include <math.h>
-
-#define NONE SIZE_MAX
 
 sl_status sli_grid_create(sl_context *context, size_t width, size_t height, sli_grid *grid) {
     sli_word *rows = sl_alloc_array(context, height, sizeof *rows);
@@ -56,35 +54,60 @@ static uint32_t line_of(const sli_grid *grid, size_t row) {
     return grid->first_line + (uint32_t)(row < grid->count ? row : row - 1);
 }
 
+/// What is beside the border of two squares: solid ground on one side, open ground on the other, or
+/// 0 for no wall. `left` is at the left hand of who goes along the border.
+static uint32_t ground_between(const sli_grid *grid, bool left, bool right) {
+    if (left == right) return 0;
+    const uint32_t open = grid->sure ? SL_OPEN_RIGHT : 0;
+    const uint32_t ground = SL_SOLID_LEFT | SL_SOLID_BEGINS | open;
+    return left ? ground : sl_ground_turned(ground);
+}
+
+static sl_status add_marked(sl_context *context, const sli_grid *grid, sl_point a, sl_point b,
+                            size_t row, uint32_t ground, sl_map *map) {
+    SL_TRY(sl_map_add_wall(context, map, a, b, line_of(grid, row)));
+    map->walls[map->wall_count - 1].ground = ground;
+    return SL_OK;
+}
+
 /// The walls between a row and the one above it; `row` may be the one after the last.
 static sl_status add_level(sl_context *context, const sli_grid *grid, size_t row, sl_map *map) {
     const size_t length = columns_about(grid, row);
-    for (size_t column = 0, first = NONE; column <= length; column++) {
-        const bool wall =
-            sli_grid_solid(grid, row - 1, column) != sli_grid_solid(grid, row, column);
-        if (wall && first == NONE) first = column;
-        if (wall || first == NONE) continue;
-        SL_TRY(sl_map_add_wall(context, map, sli_grid_corner(grid, row - 1, first),
-                               sli_grid_corner(grid, row - 1, column), line_of(grid, row)));
-        first = NONE;
+    uint32_t ground = 0;
+    for (size_t column = 0, first = 0; column <= length; column++) {
+        const uint32_t here = ground_between(grid, sli_grid_solid(grid, row - 1, column),
+                                             sli_grid_solid(grid, row, column));
+        if (here == ground) continue;
+        if (ground)
+            SL_TRY(add_marked(context, grid, sli_grid_corner(grid, row - 1, first),
+                              sli_grid_corner(grid, row - 1, column), row, ground, map));
+        first = column;
+        ground = here;
     }
     return SL_OK;
 }
 
+/// A wall between two columns that is not ended yet: the row where it begins, and its ground.
+typedef struct upright_run {
+    size_t first;
+    uint32_t ground; ///< 0 for none
+} upright_run;
+
 /// Begins and ends the walls between the columns of a row; the row after the last ends them all.
-/// `open_runs` has, for the left edge of each column, the row where its wall begins, or NONE.
+/// `runs` has one for the left edge of each column.
 static sl_status add_uprights(sl_context *context, const sli_grid *grid, size_t row,
-                              size_t *open_runs, sl_map *map) {
+                              upright_run *runs, sl_map *map) {
     const size_t length = columns_about(grid, row);
     for (size_t column = 0; column <= length; column++) {
-        size_t *first = &open_runs[column];
-        const bool wall =
-            sli_grid_solid(grid, row, column - 1) != sli_grid_solid(grid, row, column);
-        if (wall && *first == NONE) *first = row;
-        if (wall || *first == NONE) continue;
-        SL_TRY(sl_map_add_wall(context, map, sli_grid_corner(grid, row - 1, column),
-                               sli_grid_corner(grid, *first - 1, column), line_of(grid, *first)));
-        *first = NONE;
+        upright_run *run = &runs[column];
+        const uint32_t here = ground_between(grid, sli_grid_solid(grid, row, column - 1),
+                                             sli_grid_solid(grid, row, column));
+        if (here == run->ground) continue;
+        if (run->ground)
+            SL_TRY(add_marked(context, grid, sli_grid_corner(grid, row - 1, column),
+                              sli_grid_corner(grid, run->first - 1, column), run->first,
+                              run->ground, map));
+        *run = (upright_run){row, here};
     }
     return SL_OK;
 }
@@ -93,16 +116,15 @@ sl_status sli_grid_add_walls(sl_context *context, const sli_grid *grid, sl_map *
     size_t width = 0;
     for (size_t row = 0; row < grid->count; row++)
         if (grid->rows[row].length > width) width = grid->rows[row].length;
-    size_t *open_runs = sl_alloc_array(context, width + 1, sizeof *open_runs);
-    if (!open_runs) return SL_NO_MEMORY;
-    for (size_t column = 0; column <= width; column++) open_runs[column] = NONE;
+    upright_run *runs = sl_alloc_array(context, width + 1, sizeof *runs);
+    if (!runs) return SL_NO_MEMORY;
     sl_status status = SL_OK;
     for (size_t row = 0; status == SL_OK && row <= grid->count; row++) {
         if (row % 256 == 0) status = sl_check_cancelled(context);
         if (status == SL_OK) status = add_level(context, grid, row, map);
-        if (status == SL_OK) status = add_uprights(context, grid, row, open_runs, map);
+        if (status == SL_OK) status = add_uprights(context, grid, row, runs, map);
     }
-    sl_free(context, open_runs);
+    sl_free(context, runs);
     return status;
 }
 
@@ -196,7 +218,7 @@ static sl_status read_rows(const plan_reader *reader) {
 
 /// The plan of these rows: unit squares, one line for each row.
 static sli_grid plan_of(sli_word *rows, size_t count) {
-    return (sli_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
+    return (sli_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1, .sure = true};
 }
 
 sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
@@ -245,9 +267,7 @@ static sl_status refuse(const plan_maker *maker, uint32_t line, const char *form
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    const char *source = maker->map->source ? maker->map->source : "map";
-    if (line) return sl_fail(maker->context, SL_UNSUPPORTED, "%s:%u: %s", source, line, what);
-    return sl_fail(maker->context, SL_UNSUPPORTED, "%s: %s", source, what);
+    return sl_map_fail(maker->context, maker->map, SL_UNSUPPORTED, line, "%s", what);
 }
 
 static sl_status refuse_segment(const plan_maker *maker, uint32_t line, const char *what,

@@ -103,7 +103,7 @@ bool sli_name_usable(const char *name, size_t length);
 
 // --- writers of maps, to a stream that is open; the caller asks the stream for errors
 
-void sli_map_print_text(const sl_map *map, FILE *stream);
+sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *stream);
 
 /// Prints nothing on failure.
 sl_status sli_map_print_plan(sl_context *context, const sl_map *map, FILE *stream);

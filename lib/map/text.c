@@ -1,5 +1,6 @@
 /// The map text: one statement on each line, with a keyword first. One table has the form of every
 /// statement. Error messages name file and line.
+#include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 
@@ -31,6 +32,19 @@ static sl_status refuse_no_length(const text_reader *reader, const char *what) {
     if (at.a.x != at.b.x || at.a.y != at.b.y) return SL_OK;
     return sl_fail_at(reader->context, reader->name, reader->line,
                       "%s: expected two different ends", what);
+}
+
+static sl_status read_wall(text_reader *reader) {
+    const bool solid = reader->words.count == 5;
+    if (solid && !sli_word_is(reader->words.items[4], "solid"))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "wall: expected 'solid' or nothing after the coordinates, found '%s'",
+                          sli_show(reader->words.items[4]).text);
+    const sl_segment at = segment_of(reader);
+    SL_TRY(sl_map_add_wall(reader->context, reader->map, at.a, at.b, reader->line));
+    if (solid)
+        reader->map->walls[reader->map->wall_count - 1].ground = SL_SOLID_LEFT | SL_SOLID_BEGINS;
+    return SL_OK;
 }
 
 static sl_status read_walls(text_reader *reader) {
@@ -146,6 +160,24 @@ static sl_status read_cell(text_reader *reader) {
     return status;
 }
 
+static sl_status read_ground(text_reader *reader, bool open) {
+    size_t count;
+    sl_point *points = copy_points(reader, &count);
+    if (!points) return SL_NO_MEMORY;
+    const sl_status status = sli_map_add_ground(reader->context, reader->map, reader->name, open,
+                                                points, count, reader->line);
+    sl_free(reader->context, points);
+    return status;
+}
+
+static sl_status read_solid(text_reader *reader) {
+    return read_ground(reader, false);
+}
+
+static sl_status read_open(text_reader *reader) {
+    return read_ground(reader, true);
+}
+
 /// Any two opposite corners give the box.
 static sl_status read_object(text_reader *reader) {
     const sl_point a = point_of(reader, 0), b = point_of(reader, 1);
@@ -166,8 +198,10 @@ typedef struct statement {
 #define ANY SIZE_MAX
 
 static const statement statements[] = {
-    {"wall", "wall x0 y0 x1 y1", false, 4, 4, 4, read_walls},
+    {"wall", "wall x0 y0 x1 y1 [solid]", false, 4, 5, 4, read_wall},
     {"walls", "walls x0 y0 x1 y1 ...", false, 4, ANY, ANY, read_walls},
+    {"solid", "solid x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_solid},
+    {"open", "open x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_open},
     {"door", "door NAME x0 y0 x1 y1 open|shut", true, 4, 5, 4, read_door},
     {"mirror", "mirror x0 y0 x1 y1 one|both", false, 4, 5, 4, read_mirror},
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
@@ -245,10 +279,11 @@ static sl_status read_statement(text_reader *reader) {
                           "a second 'sightline': it is only the first statement");
     const statement *row = find_statement(word);
     if (!row)
-        return sl_fail_at(reader->context, reader->name, reader->line,
-                          "unknown statement '%s': expected wall, walls, door, mirror, oneway, "
-                          "seam, range, start, path, object, cell or snap",
-                          sli_show(word).text);
+        return sl_fail_at(
+            reader->context, reader->name, reader->line,
+            "unknown statement '%s': expected wall, walls, solid, open, door, mirror, "
+            "oneway, seam, range, start, path, object, cell or snap",
+            sli_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sli_word));
     const sl_status status = read_by(reader, row);
     sl_free(reader->context, reader->label);
@@ -406,7 +441,45 @@ static void print_cells(const sl_map *map, FILE *stream) {
     }
 }
 
-void sli_map_print_text(const sl_map *map, FILE *stream) {
+static sl_status print_polygon(void *user, const sl_point *corners, size_t count, bool solid) {
+    FILE *stream = user;
+    fprintf(stream, solid ? "solid" : "open");
+    for (size_t i = 0; i < count; i++) print_point(stream, corners[i]);
+    fprintf(stream, "\n");
+    return SL_OK;
+}
+
+static sl_status print_solid_wall(void *user, sl_point from, sl_point to) {
+    FILE *stream = user;
+    fprintf(stream, "wall");
+    print_ends(stream, from, to);
+    fprintf(stream, " solid\n");
+    return SL_OK;
+}
+
+static sl_status print_plain_wall(void *user, sl_point from, sl_point to) {
+    FILE *stream = user;
+    fprintf(stream, "wall");
+    print_ends(stream, from, to);
+    fprintf(stream, "\n");
+    return SL_OK;
+}
+
+/// Walls without solid ground beside them; then solid ground, whose outline is wall.
+static sl_status print_walls(sl_context *context, const sl_map *map, FILE *stream) {
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        const bool solid = wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT);
+        if (solid && !sli_ground_parts_rooms(wall->ground)) continue;
+        SL_TRY(print_plain_wall(stream, wall->a, wall->b));
+    }
+    const sli_loop_user plain = {.user = stream, .plain = print_plain_wall};
+    const sli_loop_user user = {stream, print_polygon, print_solid_wall, NULL};
+    SL_TRY(sli_ground_trace(context, map->walls, map->wall_count, &plain));
+    return sli_ground_trace(context, map->walls, map->wall_count, &user);
+}
+
+sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *stream) {
     fprintf(stream, "sightline 1\n");
     if (map->notes) print_notes(stream, map->notes);
     if (map->range > 0) {
@@ -414,18 +487,14 @@ void sli_map_print_text(const sl_map *map, FILE *stream) {
         print_number(stream, map->range);
         fprintf(stream, "\n");
     }
-    for (size_t i = 0; i < map->wall_count; i++) {
-        fprintf(stream, "wall");
-        print_ends(stream, map->walls[i].a, map->walls[i].b);
-        fprintf(stream, "\n");
-    }
+    SL_TRY(print_walls(context, map, stream));
     print_others(map, stream);
     print_cells(map, stream);
+    return SL_OK;
 }
 
 sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    sli_map_print_text(map, output.stream);
-    return sl_output_close(context, &output, SL_OK);
+    return sl_output_close(context, &output, sli_map_print_text(context, map, output.stream));
 }

@@ -177,8 +177,8 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 /// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
 /// portals (Teller & Séquin 1991, depth first). Returns their number, and puts the first `room` of
 /// them into `cells`. The eye's own cell comes first; each other cell comes after one through which
-/// it is seen. Returns 0 if the eye is in no cell. `scratch` may hold anything; each thread needs
-/// its own.
+/// it is seen. Returns 0 if the eye is in no cell or in solid ground. `scratch` may hold anything;
+/// each thread needs its own.
 ///
 /// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
 /// walls. No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of
@@ -873,6 +873,11 @@ SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cel
            slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 16) != 0;
 }
 
+/// Whether a cell is solid ground, from where nobody looks.
+static bool slrt_is_solid(const sl_runtime *runtime, uint32_t cell) {
+    return slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 20) != 0;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell) {
     sl_runtime_run run = sl_runtime_row(runtime, cell);
     uint32_t count = 0;
@@ -1461,7 +1466,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     const size_t count = runtime->cell_count;
     sl_runtime_run run;
     slrt_search s;
-    if (cell == SL_RUNTIME_NO_CELL) return 0;
+    if (cell == SL_RUNTIME_NO_CELL || slrt_is_solid(runtime, cell)) return 0;
     memset(&s, 0, sizeof s);
     s.rt = runtime;
     s.view = view;

@@ -170,7 +170,7 @@ sl_status sli_box_ground_create(sl_context *context, const sl_space *space, sli_
                        "have: bake the map anew");
     if (space->neighbour) return gather_axial(context, space, out);
     sli_piece *walls = NULL;
-    SL_TRY(sli_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
+    SL_TRY(sli_wall_lines(context, NULL, space->walls, space->wall_count, &walls));
     *out = (sli_box_ground){space, walls, space->wall_count};
     return SL_OK;
 }
@@ -497,9 +497,12 @@ static sl_status write_cells(maker *m) {
         const sl_box *box = &m->boxes.items[i];
         const sl_point corners[4] = {
             box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
-        const uint32_t inside = f->cells[m->parents.items[i]].inside;
-        s->cells[i] = (sl_cell){.first_vertex = 4 * i, .vertex_count = 4, .inside = inside};
-        s->inside_count += inside;
+        const sl_cell *parent = &f->cells[m->parents.items[i]];
+        s->cells[i] = (sl_cell){.first_vertex = 4 * i,
+                                .vertex_count = 4,
+                                .inside = parent->inside,
+                                .solid = parent->solid};
+        s->inside_count += parent->inside;
         memcpy(&s->vertices[(size_t)4 * i], corners, sizeof corners);
     }
     return SL_OK;

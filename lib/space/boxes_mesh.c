@@ -479,6 +479,7 @@ static sl_status write_cells(maker *m) {
         const new_cell made = m->cells.items[i];
         sl_cell cell = {.first_vertex = s->vertex_count, .first_directed = s->directed_count};
         cell.inside = f->cells[made.parent].inside;
+        cell.solid = f->cells[made.parent].solid;
         s->inside_count += cell.inside;
         m->out->parents[i] = made.parent;
         if (made.half == NONE)

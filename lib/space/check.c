@@ -100,7 +100,7 @@ static sl_status check_cells(const checker *c) {
             return fail_cell(c, i, "is not the region that the tree gives it");
         if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
             return fail_cell(c, i, "has portals out of range");
-        if (cell->inside > 1) return fail_cell(c, i, "is neither inside nor outside");
+        SL_TRY(sli_check_ground(c->context, s, i));
         directed += cell->directed_count;
         inside += cell->inside;
     }
@@ -243,6 +243,13 @@ static bool portal_on_edge(const sl_directed_portal *directed, const edge *e, do
     return on && (e->from < e->to ? *from < *to : *from > *to);
 }
 
+sl_status sli_check_ground(sl_context *context, const sl_space *s, uint32_t cell) {
+    const sl_cell *c = &s->cells[cell];
+    if (c->inside <= 1 && c->solid <= 1 && !(c->inside && c->solid)) return SL_OK;
+    return sl_fail(context, SL_BAD_INPUT,
+                   "cell %u is not one of these: inside, outside, solid ground", cell);
+}
+
 sl_status sli_check_directed(sl_context *context, const sl_space *s, uint32_t cell,
                              const sl_directed_portal *directed, uint8_t *directed_found) {
     if (directed->portal >= s->portal_count)
@@ -250,6 +257,9 @@ sl_status sli_check_directed(sl_context *context, const sl_space *s, uint32_t ce
     const sl_portal *p = &s->portals[directed->portal];
     if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
         return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", directed->portal);
+    if (s->cells[p->cell[0]].solid != s->cells[p->cell[1]].solid)
+        return sl_fail(context, SL_BAD_INPUT, "portal %u joins solid ground with open ground",
+                       directed->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
     if (p->cell[side] != cell || directed->cell != p->cell[!side] ||
         !sli_same_point(directed->left, side ? p->right : p->left) ||
@@ -294,7 +304,7 @@ static sl_status check_all(checker *c) {
     const sl_space *s = c->space;
     SL_TRY(check_tree(c));
     SL_TRY(check_cells(c));
-    SL_TRY(sli_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
+    SL_TRY(sli_wall_lines(c->context, NULL, s->walls, s->wall_count, &c->walls));
     SL_TRY(check_walls(c, c->walls, s->wall_count));
     for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
     return check_seams(c);

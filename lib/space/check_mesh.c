@@ -68,7 +68,7 @@ static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices
         return fail_cell(c, number, "has corners out of range");
     if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
         return fail_cell(c, number, "has portals out of range");
-    if (cell->inside > 1) return fail_cell(c, number, "is neither inside nor outside");
+    SL_TRY(sli_check_ground(c->context, c->space, number));
     const sl_point *corners = s->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
         if (!is_usable(corners[i]) || (!s->loose && !is_within(&s->bounds, corners[i])))

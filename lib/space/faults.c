@@ -1,5 +1,6 @@
 /// The search for faults; here thin cells, rooms that no start reaches, and whether it is in doubt
-/// what is inside. Leaks are in faults_leaks.c, faults between walls in faults_walls.c.
+/// what is inside. Leaks are in faults_leaks.c, faults between walls in faults_walls.c, closing
+/// gaps in faults_snap.c.
 ///
 /// Cells that portals join make a room. A cell is open where a piece of its boundary lies on the
 /// map's border and no wall covers it. A room with a start and an open cell leaks:
@@ -12,7 +13,6 @@
 /// O(n log n).
 #include "space/faults.h"
 
-#include "map/planar.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -169,6 +169,7 @@ static sl_status find_leaks(sli_fault_search *search, rooms *r, sl_bits *reached
     for (size_t i = 0; i < map->start_count && status == SL_OK; i++) {
         const uint32_t start = sl_space_locate(search->space, map->starts[i].at);
         if (start == SL_NO_CELL || sl_bits_has(reached, start)) continue;
+        if (search->space->cells[start].solid) continue;
         if (!reach(search->space, r, reached, start)) continue;
         if (!leaks) status = sli_leak_search_begin(search, &leaks);
         if (status == SL_OK) status = sli_find_leaks_of(leaks, map->starts[i].at);
@@ -220,7 +221,7 @@ static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, 
 
 static sl_status find_unreachable(sli_fault_search *search, rooms *r, sl_bits *reached) {
     for (uint32_t i = 0; i < search->space->cell_count; i++) {
-        if (sl_bits_has(reached, i)) continue;
+        if (search->space->cells[i].solid || sl_bits_has(reached, i)) continue;
         bool open;
         const sl_fault room = measure_room(search->space, r, reached, i, &open);
         if (!open) SL_TRY(sli_add_fault(search, room));
@@ -272,13 +273,13 @@ static sl_status find_thin(sli_fault_search *search) {
 /// Leaks, thin cells and unreachable rooms.
 static sl_status find_space_faults(sli_fault_search *search) {
     rooms r;
-    SL_TRY(find_thin(search));
+    if (!search->trial) SL_TRY(find_thin(search));
     if (!search->map->start_count) return SL_OK;
     SL_TRY(make_rooms(search->context, search->space, &r));
     sl_bits *reached =
         sl_alloc_array(search->context, sl_bits_words(search->space->cell_count), sizeof *reached);
     sl_status status = reached ? find_leaks(search, &r, reached) : SL_NO_MEMORY;
-    if (status == SL_OK) status = find_unreachable(search, &r, reached);
+    if (status == SL_OK && !search->trial) status = find_unreachable(search, &r, reached);
     sl_free(search->context, reached);
     destroy_rooms(search->context, &r);
     return status;
@@ -293,26 +294,69 @@ static bool inside_is_open(const sl_space *space, const border *edge) {
     return false;
 }
 
-static double inside_share(const sl_space *space) {
-    double all = 0, inside = 0;
+sl_ground_shares sl_space_ground(const sl_space *space) {
+    sl_ground_shares areas = {0};
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const double area = sl_space_area(space, i);
-        all += area;
-        if (space->cells[i].inside) inside += area;
+        const sl_cell *cell = &space->cells[i];
+        *(cell->solid    ? &areas.solid
+          : cell->inside ? &areas.inside
+                         : &areas.outside) += sl_space_area(space, i);
     }
-    return inside / all;
+    const double all = areas.inside + areas.outside + areas.solid;
+    if (!(all > 0)) return areas;
+    return (sl_ground_shares){areas.inside / all, areas.outside / all, areas.solid / all};
+}
+
+/// The area of the rooms that neither a start nor the border leads to, as a share of all.
+static sl_status find_shut_in(sl_context *context, const sl_space *space, const border *edge,
+                              double *share) {
+    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
+    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack), count = 0;
+    for (uint32_t i = 0; reached && stack && i < space->cell_count; i++) {
+        if (!is_open(space, edge, i)) continue;
+        sl_bits_add(reached, i);
+        stack[count++] = i;
+    }
+    while (count) {
+        const sl_cell *cell = &space->cells[stack[--count]];
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
+            if (sl_bits_has(reached, next)) continue;
+            sl_bits_add(reached, next);
+            stack[count++] = next;
+        }
+    }
+    double area = 0, all = 0;
+    for (uint32_t i = 0; reached && stack && i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        const double own = sl_space_area(space, i);
+        all += own;
+        if (!cell->solid && !cell->inside && !sl_bits_has(reached, i)) area += own;
+    }
+    const bool done = reached && stack;
+    *share = all > 0 ? area / all : 0;
+    sl_free(context, reached);
+    sl_free(context, stack);
+    return done ? SL_OK : SL_NO_MEMORY;
 }
 
 /// Without a start, all cells count as inside where the border leads to all of them.
 sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                           sl_inside *out) {
     border edge;
+    double shut_in = 0;
     SL_TRY(read_border(context, space, &edge));
     const bool open = inside_is_open(space, &edge);
+    const sl_ground_shares shares = sl_space_ground(space);
+    sl_status status = SL_OK;
+    if (map->start_count) status = find_shut_in(context, space, &edge, &shut_in);
     destroy_border(context, &edge);
+    SL_TRY(status);
     *out = SL_INSIDE_SURE;
+    if (shut_in > shares.inside) *out = SL_INSIDE_FEW;
     if (map->start_count && open) *out = SL_INSIDE_LEAKS;
-    if (!map->start_count && (open || inside_share(space) < 0.5)) *out = SL_INSIDE_SMALL;
+    if (!map->start_count && (open || shares.inside < shares.outside)) *out = SL_INSIDE_SMALL;
+    if (!space->inside_count) *out = SL_INSIDE_NONE;
     return SL_OK;
 }
 
@@ -354,7 +398,10 @@ static void finish(sli_fault_search *search, sl_faults *out) {
     sl_faults faults = {.items = search->faults.items,
                         .points = search->points.items,
                         .point_count = (uint32_t)search->points.count,
-                        .has_starts = search->map->start_count > 0};
+                        .has_starts = search->map->start_count > 0,
+                        .welded = search->welded,
+                        .weld = search->weld,
+                        .leaks_left = search->leaks_left};
     if (search->faults.count) qsort(faults.items, search->faults.count, sizeof(sl_fault), compare);
     for (size_t i = 0; i < search->faults.count; i++) {
         const sl_fault fault = faults.items[i];
@@ -365,26 +412,63 @@ static void finish(sli_fault_search *search, sl_faults *out) {
     *out = faults;
 }
 
-/// The tolerance that the map is cleaned with.
-static double weld_of(const sl_map *map, const sl_clean_options *clean, const sl_box *box) {
-    const sl_clean_options usual = sl_clean_options_default();
-    const double weld = clean ? clean->weld : usual.weld;
-    if (sl_map_is_axial(map) && !(weld > 0) && !map->cell_count) return 0;
-    return fmax(weld < 0 ? sli_planar_tolerance(box) : weld, 2 * map->snap);
+/// The power of two below the median length of walls.
+static double usual_length(const sl_map *map) {
+    enum { LOWEST = -1100, STEPS = 2200 };
+    uint32_t counts[STEPS] = {0};
+    size_t all = 0, below = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const double length = sli_apart(map->walls[i].a, map->walls[i].b);
+        int exponent;
+        if (!(length > 0)) continue;
+        (void)frexp(length, &exponent);
+        counts[exponent - LOWEST]++;
+        all++;
+    }
+    int step = 0;
+    while (all && below + counts[step] <= all / 2) below += counts[step++];
+    return all ? ldexp(0.5, step + LOWEST) : INFINITY;
 }
 
-sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
-                         const sl_faults_options *options, sl_faults *out) {
+double sl_usual_gap(const sl_map *map) {
     const sl_box box = sl_map_bounds(map);
-    const double usual = sli_apart(box.min, box.max) / 1000;
-    sli_fault_search search = {.context = context, .map = map, .space = space, .options = *options};
-    search.weld = weld_of(map, options->clean, &box);
+    return fmin(sli_apart(box.min, box.max) / 1000, usual_length(map) / 8);
+}
+
+/// Whether there is a gap or a leak.
+static bool has_openings(const sli_fault_search *search) {
+    for (size_t i = 0; i < search->faults.count; i++)
+        if (search->faults.items[i].kind == SL_FAULT_GAP ||
+            search->faults.items[i].kind == SL_FAULT_LEAK)
+            return true;
+    return false;
+}
+
+static sl_status find_all(sli_fault_search *search) {
+    sl_clean_account account;
+    SL_TRY(sl_map_copy(search->context, search->map, &search->clean));
+    SL_TRY(sl_map_clean(search->context, &search->clean, search->options.clean, &account));
+    search->weld = account.tolerance;
+    search->moved = account.largest_move;
+    SL_TRY(sli_wall_grid_create(search->context, search->map,
+                                fmax(search->options.gap, search->moved), &search->grid));
+    SL_TRY(sli_find_wall_faults(search));
+    SL_TRY(find_space_faults(search));
+    return search->trial || !has_openings(search) ? SL_OK : sli_try_mending(search);
+}
+
+sl_status sli_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
+                          const sl_faults_options *options, bool trial, sl_faults *out) {
+    const double usual = sl_usual_gap(map);
+    sli_fault_search search = {
+        .context = context, .map = map, .space = space, .options = *options, .trial = trial};
     if (!(options->gap >= 0 && options->thin >= 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "a gap or width cannot be less than 0");
     if (options->gap == 0) search.options.gap = usual;
     if (options->thin == 0) search.options.thin = usual;
-    sl_status status = sli_find_wall_faults(&search);
-    if (status == SL_OK) status = find_space_faults(&search);
+    const sl_status status = find_all(&search);
+    sl_map_destroy(context, &search.clean);
+    sli_wall_grid_destroy(context, &search.grid);
     if (status == SL_OK) {
         finish(&search, out);
         return SL_OK;
@@ -392,4 +476,9 @@ sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space 
     sl_free(context, search.faults.items);
     sl_free(context, search.points.items);
     return status;
+}
+
+sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
+                         const sl_faults_options *options, sl_faults *out) {
+    return sli_find_faults(context, map, space, options, false, out);
 }

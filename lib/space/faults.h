@@ -1,4 +1,5 @@
-/// The search for faults, shared by faults.c, faults_leaks.c and faults_walls.c.
+/// The search for faults, shared by faults.c, faults_leaks.c, faults_walls.c and
+/// faults_snap.c.
 #ifndef SL_SPACE_FAULTS_H
 #define SL_SPACE_FAULTS_H
 
@@ -8,28 +9,54 @@
 
 #include <math.h>
 
+typedef SL_ARRAY(sl_fault) sli_fault_list;
+
 typedef struct sli_fault_search {
     sl_context *context;
-    const sl_map *map;
+    const sl_map *map; ///< as read
+    sl_map clean;      ///< as it is used: gaps are looked for here
     const sl_space *space;
     sl_faults_options options;
-    double weld; ///< ends at most this far apart are one, as are an end and a wall at half of it
-    SL_ARRAY(sl_fault) faults;
+    sli_wall_grid grid;  ///< over the walls as read
+    double weld;         ///< ends at most this far apart are one, as are an end and a wall at half
+    double moved;        ///< how far a clean wall may be from the walls as read
+    uint32_t welded;     ///< gaps that cleaning closes
+    uint32_t leaks_left; ///< that mending leaves
+    bool trial;          ///< looks for gaps and leaks alone
+    sli_fault_list faults;
     SL_ARRAY(sl_point) points;
 } sli_fault_search;
 
-static inline sl_status sli_add_fault(sli_fault_search *search, sl_fault fault) {
-    SL_TRY(SL_ARRAY_ROOM(search->context, &search->faults, 1));
-    search->faults.items[search->faults.count++] = fault;
+static inline sl_status sli_add_to_list(sl_context *context, sli_fault_list *list, sl_fault fault) {
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    list->items[list->count++] = fault;
     return SL_OK;
+}
+
+static inline sl_status sli_add_fault(sli_fault_search *search, sl_fault fault) {
+    return sli_add_to_list(search->context, &search->faults, fault);
 }
 
 static inline double sli_apart(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
+/// All faults; a trial finds gaps and leaks alone, and does not ask what mending would close.
+sl_status sli_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
+                          const sl_faults_options *options, bool trial, sl_faults *out);
+
 /// Gaps, overlaps and crossings (faults_walls.c).
 sl_status sli_find_wall_faults(sli_fault_search *search);
+/// The point of a wall that is nearest to another point: an end, or rounded.
+sl_point sli_nearest_on_wall(const sl_wall *wall, sl_point point);
+/// Exact.
+bool sli_touches_wall(const sl_wall *wall, sl_point p);
+/// The wall as read that a place of a clean wall comes from, one of the same line if there is any;
+/// UINT32_MAX for none.
+uint32_t sli_wall_as_read(const sli_fault_search *search, sl_point p, uint32_t line);
+
+/// Marks the gaps and leaks that mending leaves (faults_snap.c).
+sl_status sli_try_mending(sli_fault_search *search);
 
 /// The plan without its walls, as a net of free pieces (faults_leaks.c).
 typedef struct sli_leak_search sli_leak_search;

@@ -47,7 +47,6 @@ typedef struct free_piece {
 struct sli_leak_search {
     sli_fault_search *search;
     sli_triangulation triangles;
-    sli_wall_grid grid;          ///< over the map's walls, to name them
     uint32_t *of_half;           ///< the piece of each half-edge
     SL_ARRAY(free_piece) pieces; ///< the last one is the outside
     SL_ARRAY(opening) openings;  ///< the widest first
@@ -206,14 +205,12 @@ sl_status sli_leak_search_begin(sli_fault_search *search, sli_leak_search **out)
     if (!s) return SL_NO_MEMORY;
     *out = s;
     *s = (sli_leak_search){.search = search};
-    SL_TRY(sli_wall_grid_create(search->context, search->map, search->options.gap, &s->grid));
     SL_TRY(triangulate(search->context, search->space, &s->triangles));
     return make_pieces(s);
 }
 
 void sli_leak_search_end(sl_context *context, sli_leak_search *s) {
     if (!s) return;
-    sli_wall_grid_destroy(context, &s->grid);
     sli_triangulation_destroy(context, &s->triangles);
     sl_free(context, s->of_half);
     sl_free(context, s->pieces.items);
@@ -377,42 +374,19 @@ static sl_status add_part(sli_leak_search *s, sl_point at, size_t first, size_t 
 
 // --- a leak as a fault
 
-static double distance_to_wall(const sl_wall *wall, sl_point p) {
-    const double length = sli_apart(wall->a, wall->b);
-    if (!(length > 0)) return sli_apart(wall->a, p);
-    const sl_point unit = {(wall->b.x - wall->a.x) / length, (wall->b.y - wall->a.y) / length};
-    const double at = (p.x - wall->a.x) * unit.x + (p.y - wall->a.y) * unit.y;
-    const double held = fmin(fmax(at, 0), length);
-    return sli_apart(p, (sl_point){wall->a.x + held * unit.x, wall->a.y + held * unit.y});
-}
-
-/// The wall of the map at an end of a leak; NONE at a corner of the border. Cleaning may have moved
-/// the wall by a little.
-static uint32_t wall_at(const sli_leak_search *s, sl_point p) {
-    uint32_t count, best = NONE;
-    const uint32_t *near = sli_wall_grid_at(&s->grid, p, &count);
-    double least = s->search->options.gap / 1024;
-    for (uint32_t i = 0; i < count; i++) {
-        const double distance = distance_to_wall(&s->search->map->walls[near[i]], p);
-        if (distance > least || (distance == least && near[i] > best)) continue;
-        least = distance;
-        best = near[i];
-    }
-    return best;
-}
-
 static sl_status add_leak(sli_leak_search *s, uint32_t number, uint32_t piece, sl_point start) {
     sli_fault_search *search = s->search;
     const opening *each = &s->openings.items[number];
     const sl_point middle = middle_of(each), left = each->left, right = each->right;
     const bool turned = left.x != right.x ? right.x < left.x : right.y < left.y;
     const sl_segment at_ends = turned ? (sl_segment){right, left} : (sl_segment){left, right};
-    sl_fault leak = {.kind = SL_FAULT_LEAK,
-                     .at = at_ends,
-                     .size = each->width,
-                     .walls = {wall_at(s, at_ends.a), wall_at(s, at_ends.b)},
-                     .cell = sl_space_locate(search->space, middle),
-                     .first_point = (uint32_t)search->points.count};
+    sl_fault leak = {
+        .kind = SL_FAULT_LEAK,
+        .at = at_ends,
+        .size = each->width,
+        .walls = {sli_wall_as_read(search, at_ends.a, 0), sli_wall_as_read(search, at_ends.b, 0)},
+        .cell = sl_space_locate(search->space, middle),
+        .first_point = (uint32_t)search->points.count};
     size_t at;
     SL_TRY(gather_way(s, number, piece, &at));
     SL_TRY(add_point(search, start));

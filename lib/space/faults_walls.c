@@ -1,29 +1,26 @@
-/// Faults between walls (gaps, overlaps, crossings), and closing gaps. A grid over the walls gives
-/// the pairs that are near each other; exact signs decide whether two walls touch, cross or
-/// overlap.
+/// Faults between walls: gaps, overlaps and crossings. A grid over the walls gives the pairs that
+/// are near each other; exact signs decide whether two walls touch, cross or overlap.
 ///
-///     gap                    closed              snapped: ends to ends      ends to walls
+///     gap                    closed by a wall that joins the two
 ///
-///     -----.  |              -----.  |           ---. .---                  ---.  |
-///             |                    \_|                   ->                        |   ->
-///             |                      |           ----o----                  ------o
-///                                                                                 |
+///     -----.  |              -----.  |
+///             |                    \_|
+///             |                      |
 ///
-/// A gap is an end near another wall, with no wall that joins the two and none between them.
-/// Snapping moves the ends near an often used place onto that place, and then free ends onto a near
-/// wall. Axial walls stay axial where they can. What snapping does not close is found by trying it.
-/// Time about O(n log n) for walls that are short
-/// against the map.
+/// Gaps are those of the clean map, which is the map as it is used: cleaning closes what the
+/// digits of a drawing leave open. A gap is an end near another wall, with no wall that joins the
+/// two and none between them. Overlaps and crossings are those of the map as read, as cleaning
+/// leaves none; but not where the two walls are welded. Time about O(n log n) for walls that are
+/// short against the map.
 #include "space/faults.h"
 
 #include "geometry/orient.h"
+#include "map/planar.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-/// The point of a wall that is nearest to another point: an end, or rounded.
-static sl_point nearest_on_wall(const sl_wall *wall, sl_point point) {
+sl_point sli_nearest_on_wall(const sl_wall *wall, sl_point point) {
     const sl_point along = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
     const double length = hypot(along.x, along.y);
     if (!(length > 0)) return wall->a;
@@ -35,8 +32,7 @@ static sl_point nearest_on_wall(const sl_wall *wall, sl_point point) {
     return (sl_point){wall->a.x + at * unit.x, wall->a.y + at * unit.y};
 }
 
-/// Exact.
-static bool touches_wall(const sl_wall *wall, sl_point p) {
+bool sli_touches_wall(const sl_wall *wall, sl_point p) {
     if (sli_orient(wall->a, wall->b, p) != 0) return false;
     return p.x >= fmin(wall->a.x, wall->b.x) && p.x <= fmax(wall->a.x, wall->b.x) &&
            p.y >= fmin(wall->a.y, wall->b.y) && p.y <= fmax(wall->a.y, wall->b.y);
@@ -47,41 +43,26 @@ static bool crosses(const sl_wall *wall, sl_point a, sl_point b) {
            sli_orient(a, b, wall->a) * sli_orient(a, b, wall->b) < 0;
 }
 
-/// Whether an end touches a wall, or is so near that cleaning welds it to the wall.
-static bool joins_wall(const sl_wall *wall, sl_point p, double weld) {
-    if (touches_wall(wall, p)) return true;
-    return weld > 0 && (sli_apart(wall->a, p) <= weld || sli_apart(wall->b, p) <= weld ||
-                        sli_apart(nearest_on_wall(wall, p), p) < weld / 2);
-}
-
-/// Whether two walls join at an end of one of them.
-static bool walls_join(const sl_wall *a, const sl_wall *b, double weld) {
-    return joins_wall(a, b->a, weld) || joins_wall(a, b->b, weld) || joins_wall(b, a->a, weld) ||
-           joins_wall(b, a->b, weld);
-}
-
-// --- gaps
+// --- gaps, in the clean map: there walls touch in common ends alone, by the same bits
 
 /// Whether two walls meet at an end of one of them, within `reach` of a point.
-static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach,
-                      double weld) {
-    return (sli_apart(b->a, point) <= reach && joins_wall(a, b->a, weld)) ||
-           (sli_apart(b->b, point) <= reach && joins_wall(a, b->b, weld)) ||
-           (sli_apart(a->a, point) <= reach && joins_wall(b, a->a, weld)) ||
-           (sli_apart(a->b, point) <= reach && joins_wall(b, a->b, weld));
+static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach) {
+    return (sli_apart(b->a, point) <= reach && sli_touches_wall(a, b->a)) ||
+           (sli_apart(b->b, point) <= reach && sli_touches_wall(a, b->b)) ||
+           (sli_apart(a->a, point) <= reach && sli_touches_wall(b, a->a)) ||
+           (sli_apart(a->b, point) <= reach && sli_touches_wall(b, a->b));
 }
 
 /// Whether a wall closes the gap from a wall's end to another wall: it joins the two, or passes
 /// between them.
-static bool is_closed(const sli_fault_search *search, const uint32_t *near, uint32_t count,
-                      sl_point end, const sl_wall *other, sl_point to) {
-    const sl_map *map = search->map;
-    const double weld = search->weld, reach = 2 * sli_apart(end, to) + weld;
+static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, sl_point end,
+                      const sl_wall *other, sl_point to) {
+    const double reach = 2 * sli_apart(end, to);
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *wall = &map->walls[near[i]];
         if (wall == other) continue;
         if (crosses(wall, end, to)) return true;
-        if (joins_wall(wall, end, weld) && meet_near(wall, other, end, reach, weld)) return true;
+        if (sli_touches_wall(wall, end) && meet_near(wall, other, end, reach)) return true;
     }
     return false;
 }
@@ -102,20 +83,19 @@ static bool is_reported_there(const sl_wall *other, sl_point end, sl_point to) {
     return to.x != end.x ? to.x < end.x : to.y < end.y;
 }
 
-static sl_status find_gap(sli_fault_search *search, const sli_wall_grid *grid, uint32_t wall,
-                          sl_point end) {
+static sl_status find_gap(sl_context *context, const sl_map *map, const sli_wall_grid *grid,
+                          double most, uint32_t wall, sl_point end, sli_fault_list *out) {
     uint32_t count;
     const uint32_t *near = sli_wall_grid_at(grid, end, &count);
-    const sl_map *map = search->map;
     if (is_reported(map, near, count, wall, end)) return SL_OK;
     sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *other = &map->walls[near[i]];
-        if (near[i] == wall || joins_wall(other, end, search->weld)) continue;
-        const sl_point to = nearest_on_wall(other, end);
+        if (near[i] == wall || sli_touches_wall(other, end)) continue;
+        const sl_point to = sli_nearest_on_wall(other, end);
         const double width = sli_apart(end, to);
-        if (!(width <= search->options.gap) || width >= gap.size) continue;
-        if (is_closed(search, near, count, end, other, to)) continue;
+        if (!(width <= most) || width >= gap.size) continue;
+        if (is_closed(map, near, count, end, other, to)) continue;
         gap.size = width;
         gap.at = (sl_segment){end, to};
         gap.walls[0] = wall;
@@ -123,10 +103,97 @@ static sl_status find_gap(sli_fault_search *search, const sli_wall_grid *grid, u
     }
     if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end, gap.at.b))
         return SL_OK;
-    return sli_add_fault(search, gap);
+    return sli_add_to_list(context, out, gap);
+}
+
+/// The gaps between a map's walls, up to a width. The faults' walls are those of this map.
+static sl_status list_gaps(sl_context *context, const sl_map *map, double most, bool reports,
+                           sli_fault_list *out) {
+    sli_wall_grid grid;
+    sl_status status = sli_wall_grid_create(context, map, most, &grid);
+    SL_TRY(status);
+    for (uint32_t i = 0; i < map->wall_count && status == SL_OK; i++) {
+        if (i % 1024 == 0) status = sl_check_cancelled(context);
+        for (int second = 0; second < 2 && status == SL_OK; second++)
+            status = find_gap(context, map, &grid, most, i,
+                              second ? map->walls[i].b : map->walls[i].a, out);
+        if (reports) sl_report(context, "check", "walls", i + 1, map->wall_count);
+    }
+    sli_wall_grid_destroy(context, &grid);
+    return status;
+}
+
+static sl_status find_gaps(sli_fault_search *search) {
+    const size_t first = search->faults.count;
+    SL_TRY(list_gaps(search->context, &search->clean, search->options.gap, !search->trial,
+                     &search->faults));
+    for (size_t i = first; i < search->faults.count; i++) {
+        sl_fault *gap = &search->faults.items[i];
+        const sl_wall *walls = search->clean.walls;
+        const uint32_t own = sli_wall_as_read(search, gap->at.a, walls[gap->walls[0]].line);
+        gap->walls[1] = sli_wall_as_read(search, gap->at.b, walls[gap->walls[1]].line);
+        gap->walls[0] = own;
+    }
+    return SL_OK;
+}
+
+/// Counts the gaps of the map as read that cleaning closes by its tolerance. The rounding of
+/// doubles closes none that anyone drew.
+static sl_status count_welded(sli_fault_search *search) {
+    const sl_box box = sl_map_bounds(search->map);
+    if (!(search->weld > 2 * sli_planar_tolerance(&box))) return SL_OK;
+    sli_fault_list gaps = {0};
+    const sl_status status = list_gaps(search->context, search->map, search->weld, false, &gaps);
+    for (size_t i = 0; i < gaps.count; i++) {
+        const sl_fault *gap = &gaps.items[i];
+        const sl_wall *other = &search->map->walls[gap->walls[1]];
+        const bool to_end =
+            sli_same_point(gap->at.b, other->a) || sli_same_point(gap->at.b, other->b);
+        // An end that goes too far is no gap: its wall crosses the other one.
+        if (crosses(&search->map->walls[gap->walls[0]], other->a, other->b)) continue;
+        search->welded += to_end || gap->size < search->weld / 2;
+    }
+    sl_free(search->context, gaps.items);
+    return status;
+}
+
+// --- walls as read
+
+uint32_t sli_wall_as_read(const sli_fault_search *search, sl_point p, uint32_t line) {
+    uint32_t count, best = UINT32_MAX;
+    const uint32_t *near = sli_wall_grid_at(&search->grid, p, &count);
+    double least = search->options.gap / 1024 + search->moved;
+    bool same_line = false;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_wall *wall = &search->map->walls[near[i]];
+        const double distance = sli_apart(p, sli_nearest_on_wall(wall, p));
+        const bool same = line && wall->line == line;
+        if (!(distance <= search->options.gap / 1024 + search->moved)) continue;
+        if (best != UINT32_MAX && (same_line && !same)) continue;
+        if (best != UINT32_MAX && same_line == same &&
+            (distance > least || (distance == least && near[i] > best)))
+            continue;
+        least = distance;
+        best = near[i];
+        same_line = same;
+    }
+    return best;
 }
 
 // --- pairs
+
+/// Whether an end touches a wall, or is so near that cleaning welds it to the wall.
+static bool joins_wall(const sl_wall *wall, sl_point p, double weld) {
+    if (sli_touches_wall(wall, p)) return true;
+    return weld > 0 && (sli_apart(wall->a, p) <= weld || sli_apart(wall->b, p) <= weld ||
+                        sli_apart(sli_nearest_on_wall(wall, p), p) < weld / 2);
+}
+
+/// Whether two walls join at an end of one of them.
+static bool walls_join(const sl_wall *a, const sl_wall *b, double weld) {
+    return joins_wall(a, b->a, weld) || joins_wall(a, b->b, weld) || joins_wall(b, a->a, weld) ||
+           joins_wall(b, a->b, weld);
+}
 
 /// The piece that two walls in one line share; false if it has no length.
 static bool shared_piece(const sl_wall *a, const sl_wall *b, sl_segment *out) {
@@ -175,315 +242,132 @@ static sl_status compare_in_square(sli_fault_search *search, const uint32_t *wal
     return SL_OK;
 }
 
-static sl_status find_gaps(sli_fault_search *search, const sli_wall_grid *grid) {
-    for (uint32_t i = 0; i < search->map->wall_count; i++) {
-        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
-        SL_TRY(find_gap(search, grid, i, search->map->walls[i].a));
-        SL_TRY(find_gap(search, grid, i, search->map->walls[i].b));
-        // A trial has no space, and is not reported.
-        if (search->space)
-            sl_report(search->context, "check", "walls", i + 1, search->map->wall_count);
-    }
-    return SL_OK;
-}
-
-static sl_status search_grid(sli_fault_search *search, const sli_wall_grid *grid) {
+static sl_status compare_all(sli_fault_search *search) {
+    const sli_wall_grid *grid = &search->grid;
     const size_t squares = (size_t)grid->columns * grid->rows;
     for (size_t i = 0; i < squares; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
         SL_TRY(compare_in_square(search, grid->walls + grid->offsets[i],
                                  grid->offsets[i + 1] - grid->offsets[i]));
     }
-    return find_gaps(search, grid);
-}
-
-// --- closing gaps
-
-/// An end of a wall.
-typedef struct wall_end {
-    sl_point at;
-    uint32_t wall;
-    uint32_t users; ///< the number of walls with an end at this place
-    bool second;
-} wall_end;
-
-typedef struct snapper {
-    sl_context *context;
-    sl_map *map;
-    double gap;
-    wall_end *ends; ///< sorted by place
-    size_t count;
-    sl_snap_account account;
-} snapper;
-
-static int compare_places(const void *left, const void *right) {
-    const wall_end *a = left, *b = right;
-    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
-    if (a->at.y != b->at.y) return a->at.y < b->at.y ? -1 : 1;
-    return a->wall != b->wall ? (a->wall < b->wall ? -1 : 1) : a->second - b->second;
-}
-
-/// The most used places first; then the order of walls.
-static int compare_use(const void *left, const void *right) {
-    const wall_end *a = left, *b = right;
-    if (a->users != b->users) return a->users > b->users ? -1 : 1;
-    return a->wall != b->wall ? (a->wall < b->wall ? -1 : 1) : a->second - b->second;
-}
-
-static sl_point *end_of(snapper *s, const wall_end *end) {
-    sl_wall *wall = &s->map->walls[end->wall];
-    return end->second ? &wall->b : &wall->a;
-}
-
-static void list_ends(snapper *s) {
-    for (size_t i = 0; i < s->map->wall_count; i++) {
-        s->ends[2 * i] = (wall_end){.at = s->map->walls[i].a, .wall = (uint32_t)i};
-        s->ends[2 * i + 1] =
-            (wall_end){.at = s->map->walls[i].b, .wall = (uint32_t)i, .second = true};
-    }
-    s->count = 2 * s->map->wall_count;
-    qsort(s->ends, s->count, sizeof *s->ends, compare_places);
-    for (size_t i = 0, end; i < s->count; i = end) {
-        for (end = i; end < s->count && sli_same_point(s->ends[i].at, s->ends[end].at); end++)
-            continue;
-        for (size_t k = i; k < end; k++) s->ends[k].users = (uint32_t)(end - i);
-    }
-}
-
-static void move_end(snapper *s, sl_point *end, sl_point to) {
-    const double way = sli_apart(*end, to);
-    if (sli_same_point(*end, to)) return;
-    s->account.moved++;
-    s->account.farthest = fmax(s->account.farthest, way);
-    *end = to;
-}
-
-// --- ends to ends
-
-/// Moves ends onto a near place that is used at least as often. Each end moves once. `settled` has
-/// two bits by wall: its ends that have their place.
-static sl_status join_ends(snapper *s, const sli_wall_grid *grid, uint8_t *settled) {
-    const sl_wall *before = s->map->walls;
-    for (size_t i = 0; i < s->count; i++) {
-        const wall_end *keep = &s->ends[i];
-        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
-        if (settled[keep->wall] >> keep->second & 1) continue;
-        uint32_t count;
-        const uint32_t *near = sli_wall_grid_at(grid, keep->at, &count);
-        for (uint32_t k = 0; k < count; k++) {
-            for (int second = 0; second < 2; second++) {
-                const sl_wall *wall = &before[near[k]];
-                const sl_point at = second ? wall->b : wall->a;
-                if (settled[near[k]] >> second & 1 || sli_apart(at, keep->at) > s->gap) continue;
-                settled[near[k]] |= (uint8_t)(1 << second);
-                const wall_end moved = {.wall = near[k], .second = second};
-                move_end(s, end_of(s, &moved), keep->at);
-            }
-        }
-    }
     return SL_OK;
 }
-
-// --- ends to walls
-
-static bool is_upright(const sl_wall *wall) {
-    return wall->a.x == wall->b.x;
-}
-
-static bool is_level(const sl_wall *wall) {
-    return wall->a.y == wall->b.y;
-}
-
-/// The place where an end of one wall meets another wall.
-static sl_point meeting(const sl_wall *own, sl_point end, const sl_wall *other) {
-    if (is_upright(own) && is_level(other)) return (sl_point){end.x, other->a.y};
-    if (is_level(own) && is_upright(other)) return (sl_point){other->a.x, end.y};
-    sl_point to = nearest_on_wall(other, end);
-    if (is_upright(other)) to.x = other->a.x;
-    if (is_level(other)) to.y = other->a.y;
-    return to;
-}
-
-static void put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_end *end) {
-    sl_point *at = end_of(s, end);
-    const sl_wall *own = &s->map->walls[end->wall];
-    uint32_t count;
-    const uint32_t *near = sli_wall_grid_at(grid, *at, &count);
-    sl_point best = *at;
-    double least = INFINITY;
-    for (uint32_t k = 0; k < count; k++) {
-        const sl_wall *other = &s->map->walls[near[k]];
-        if (near[k] == end->wall || sli_same_point(other->a, other->b)) continue;
-        if (touches_wall(other, *at)) return;
-        const sl_point to = meeting(own, *at, other);
-        const double way = sli_apart(*at, to);
-        const bool there = sli_apart(to, nearest_on_wall(other, to)) <= s->gap;
-        if (way > s->gap || way >= least || !there) continue;
-        least = way;
-        best = to;
-    }
-    move_end(s, at, best);
-}
-
-// --- both
-
-/// Drops walls of no length, and counts them. `numbers` (NULL for none) gets the old number of each
-/// wall that is kept.
-static size_t drop_points(sl_wall *walls, size_t *count, uint32_t *numbers) {
-    size_t kept = 0;
-    for (size_t i = 0; i < *count; i++) {
-        if (sli_same_point(walls[i].a, walls[i].b)) continue;
-        if (numbers) numbers[kept] = (uint32_t)i;
-        walls[kept++] = walls[i];
-    }
-    const size_t dropped = *count - kept;
-    *count = kept;
-    return dropped;
-}
-
-static sl_status snap_to_ends(snapper *s) {
-    sli_wall_grid grid;
-    uint8_t *settled = sl_alloc_array(s->context, s->map->wall_count, sizeof *settled);
-    if (!settled) return SL_NO_MEMORY;
-    sl_status status = sli_wall_grid_create(s->context, s->map, s->gap, &grid);
-    if (status == SL_OK) {
-        list_ends(s);
-        qsort(s->ends, s->count, sizeof *s->ends, compare_use);
-        status = join_ends(s, &grid, settled);
-        sli_wall_grid_destroy(s->context, &grid);
-    }
-    sl_free(s->context, settled);
-    return status;
-}
-
-/// The grid finds walls within twice the gap, as each may move by a gap while the grid is in use.
-static sl_status snap_to_walls(snapper *s) {
-    sli_wall_grid grid;
-    SL_TRY(sli_wall_grid_create(s->context, s->map, 2 * s->gap, &grid));
-    list_ends(s);
-    qsort(s->ends, s->count, sizeof *s->ends, compare_use);
-    for (size_t i = 0; i < s->count; i++)
-        if (s->ends[i].users == 1) put_on_wall(s, &grid, &s->ends[i]);
-    sli_wall_grid_destroy(s->context, &grid);
-    return SL_OK;
-}
-
-/// Moves the ends of a map's walls. Walls that lose their length stay.
-static sl_status snap_walls(sl_context *context, sl_map *map, double gap,
-                            sl_snap_account *account) {
-    snapper s = {.context = context, .map = map, .gap = gap};
-    s.ends = sl_alloc_array(context, 2 * map->wall_count, sizeof *s.ends);
-    if (!s.ends) return SL_NO_MEMORY;
-    sl_status status = snap_to_ends(&s);
-    if (status == SL_OK) status = snap_to_walls(&s);
-    sl_free(context, s.ends);
-    *account = s.account;
-    return status;
-}
-
-sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_account *account) {
-    sl_snap_account own = {0};
-    if (!(gap > 0 && sl_coordinate_usable(gap)))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the gap to close must be a positive number");
-    SL_TRY(snap_walls(context, map, gap, &own));
-    own.vanished = drop_points(map->walls, &map->wall_count, NULL);
-    sl_map_drop_cells(context, map);
-    if (account) *account = own;
-    return SL_OK;
-}
-
-// --- gaps that snapping does not close
-
-/// A list of gaps for each wall: those that a trial of snapping leaves.
-typedef struct left_gaps {
-    uint32_t *first; ///< by wall: its last gap's entry; UINT32_MAX for none
-    uint32_t *next;  ///< two entries by gap, one for each of its walls
-    const sl_fault *gaps;
-    uint32_t count;
-} left_gaps;
-
-/// Whether a gap is left at a wall, near a place.
-static bool is_left(const left_gaps *left, uint32_t wall, sl_point at, double reach) {
-    for (uint32_t i = left->first[wall]; i != UINT32_MAX; i = left->next[i])
-        if (sli_apart(left->gaps[i / 2].at.a, at) <= reach ||
-            sli_apart(left->gaps[i / 2].at.b, at) <= reach)
-            return true;
-    return false;
-}
-
-static void list_left(left_gaps *left, const uint32_t *numbers, size_t wall_count) {
-    for (size_t i = 0; i < wall_count; i++) left->first[i] = UINT32_MAX;
-    for (uint32_t i = 0; i < 2 * left->count; i++) {
-        const uint32_t wall = numbers[left->gaps[i / 2].walls[i % 2]];
-        left->next[i] = left->first[wall];
-        left->first[wall] = i;
-    }
-}
-
-/// Finds the gaps of the snapped map, and marks those of the search that are still there. An end
-/// has moved by twice the gap at most.
-static sl_status mark_stays(sli_fault_search *search, const sl_map *snapped,
-                            const uint32_t *numbers) {
-    sl_context *context = search->context;
-    sli_fault_search after = {
-        .context = context, .map = snapped, .options = search->options, .weld = search->weld};
-    sli_wall_grid grid = {0};
-    left_gaps left = {.first = sl_alloc_array(context, search->map->wall_count, sizeof(uint32_t))};
-    sl_status status = left.first ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK)
-        status = sli_wall_grid_create(context, snapped, search->options.gap, &grid);
-    if (status == SL_OK) status = find_gaps(&after, &grid);
-    left.gaps = after.faults.items;
-    left.count = (uint32_t)after.faults.count;
-    if (status == SL_OK) {
-        left.next = sl_alloc_array(context, 2 * (size_t)left.count, sizeof *left.next);
-        if (!left.next) status = SL_NO_MEMORY;
-    }
-    if (status == SL_OK) list_left(&left, numbers, search->map->wall_count);
-    for (size_t i = 0; i < search->faults.count && status == SL_OK; i++) {
-        sl_fault *gap = &search->faults.items[i];
-        if (gap->kind != SL_FAULT_GAP) continue;
-        for (int k = 0; k < 2; k++)
-            gap->stays |= is_left(&left, gap->walls[k], gap->at.a, 2 * search->options.gap);
-    }
-    sli_wall_grid_destroy(context, &grid);
-    sl_free(context, left.first);
-    sl_free(context, left.next);
-    sl_free(context, after.faults.items);
-    return status;
-}
-
-/// Snaps a copy of the walls.
-static sl_status try_snapping(sli_fault_search *search) {
-    sl_context *context = search->context;
-    const size_t count = search->map->wall_count;
-    sl_map copy = {.wall_count = count};
-    sl_snap_account account;
-    copy.walls = sl_alloc_array(context, count, sizeof *copy.walls);
-    uint32_t *numbers = sl_alloc_array(context, count, sizeof *numbers);
-    sl_status status = copy.walls && numbers ? SL_OK : SL_NO_MEMORY;
-    for (size_t i = 0; i < count && status == SL_OK; i++) copy.walls[i] = search->map->walls[i];
-    if (status == SL_OK) status = snap_walls(context, &copy, search->options.gap, &account);
-    if (status == SL_OK) {
-        drop_points(copy.walls, &copy.wall_count, numbers);
-        if (copy.wall_count) status = mark_stays(search, &copy, numbers);
-    }
-    for (size_t i = 0; i < search->faults.count && !copy.wall_count; i++)
-        search->faults.items[i].stays = search->faults.items[i].kind == SL_FAULT_GAP;
-    sl_free(context, copy.walls);
-    sl_free(context, numbers);
-    return status;
-}
-
-// --- all of it
 
 sl_status sli_find_wall_faults(sli_fault_search *search) {
-    sli_wall_grid grid;
-    SL_TRY(sli_wall_grid_create(search->context, search->map, search->options.gap, &grid));
-    const sl_status status = search_grid(search, &grid);
-    sli_wall_grid_destroy(search->context, &grid);
-    SL_TRY(status);
-    for (size_t i = 0; i < search->faults.count; i++)
-        if (search->faults.items[i].kind == SL_FAULT_GAP) return try_snapping(search);
+    if (!search->trial) {
+        SL_TRY(compare_all(search));
+        SL_TRY(count_welded(search));
+    }
+    return find_gaps(search);
+}
+
+// --- a welding tolerance for a map whose walls miss each other by rounding
+//
+// The gaps of such a map come in two sizes: those of rounding, and those that are meant, such as
+// a slit or a door. Sorted by width there is a step between them:
+//
+//     width   ........  ::::::                      |    |   |     |
+//             rounding          ^ the tolerance     slits, the shortest wall
+//
+// The widest step (as a ratio) is looked for. The tolerance lies above it, with room for walls
+// that overshoot or are rounded more than those that were found. Then the map is cleaned with it
+// for trial: it is suggested only if it leaves no gap up to that width. Time: that of two
+// searches.
+
+enum {
+    LEAST_STEP = 8, ///< between rounding and what is meant, as a ratio
+    ROOM = 4,       ///< between the widest gap of rounding and the tolerance
+};
+
+static int compare_widths(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/// The widths of a map's gaps up to `widest`, and its walls' lengths that are above 0; sorted.
+typedef struct widths {
+    SL_ARRAY(double) gaps;
+    SL_ARRAY(double) walls;
+} widths;
+
+static sl_status find_widths(sl_context *context, const sl_map *map, double widest, widths *out) {
+    sli_fault_list gaps = {0};
+    out->gaps.count = 0;
+    sl_status status = list_gaps(context, map, widest, false, &gaps);
+    if (status == SL_OK) status = SL_ARRAY_ROOM(context, &out->gaps, gaps.count);
+    for (size_t i = 0; i < gaps.count && status == SL_OK; i++)
+        if (gaps.items[i].size > 0) out->gaps.items[out->gaps.count++] = gaps.items[i].size;
+    sl_free(context, gaps.items);
+    if (out->gaps.count) qsort(out->gaps.items, out->gaps.count, sizeof(double), compare_widths);
+    return status;
+}
+
+static sl_status find_lengths(sl_context *context, const sl_map *map, widths *out) {
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const double length = sli_apart(map->walls[i].a, map->walls[i].b);
+        if (!(length > 0)) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &out->walls, 1));
+        out->walls.items[out->walls.count++] = length;
+    }
+    if (out->walls.count) qsort(out->walls.items, out->walls.count, sizeof(double), compare_widths);
     return SL_OK;
+}
+
+/// The shortest wall that is longer than `width`; HUGE_VAL for none.
+static double wall_above(const widths *w, double width) {
+    size_t low = 0, high = w->walls.count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (w->walls.items[middle] > width)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low < w->walls.count ? w->walls.items[low] : HUGE_VAL;
+}
+
+/// The tolerance at the widest step; 0 where no step is wide enough.
+static double tolerance_at_step(const widths *w) {
+    double step = LEAST_STEP, tolerance = 0;
+    for (size_t i = 0; i < w->gaps.count; i++) {
+        const double width = w->gaps.items[i];
+        double next = wall_above(w, width);
+        if (i + 1 < w->gaps.count) next = fmin(next, w->gaps.items[i + 1]);
+        if (!(next / width > step)) continue;
+        step = next / width;
+        tolerance = fmin(ROOM * width, sqrt(width) * sqrt(next));
+    }
+    if (!(tolerance > 0)) return 0;
+    // Rounded up to one digit where that stays below the step.
+    const double unit = pow(10, floor(log10(tolerance)));
+    const double round = ceil(tolerance / unit) * unit;
+    return round < 2 * tolerance ? round : tolerance;
+}
+
+static sl_status suggest(sl_context *context, const sl_map *map, widths *w, sl_map *copy,
+                         double *weld) {
+    const sl_box box = sl_map_bounds(map);
+    SL_TRY(find_widths(context, map, sli_apart(box.min, box.max) / 1000, w));
+    SL_TRY(find_lengths(context, map, w));
+    const double tolerance = tolerance_at_step(w);
+    if (!(tolerance > 0)) return SL_OK;
+    const sl_clean_options trial = {.weld = tolerance};
+    SL_TRY(sl_map_copy(context, map, copy));
+    const sl_status status = sl_map_clean(context, copy, &trial, NULL);
+    if (status == SL_UNSUPPORTED) return SL_OK;
+    SL_TRY(status);
+    SL_TRY(find_widths(context, copy, tolerance, w));
+    if (!w->gaps.count) *weld = tolerance;
+    return SL_OK;
+}
+
+sl_status sl_suggest_weld(sl_context *context, const sl_map *map, double *weld) {
+    widths w = {0};
+    sl_map copy = {0};
+    *weld = 0;
+    const sl_status status = map->wall_count ? suggest(context, map, &w, &copy, weld) : SL_OK;
+    sl_map_destroy(context, &copy);
+    sl_free(context, w.gaps.items);
+    sl_free(context, w.walls.items);
+    return status;
 }

@@ -137,9 +137,9 @@ static sl_status fail_at(const given *g, uint32_t half) {
             const bool along = (from == g->graph.edges[links[k] / 2].a) == (links[k] % 2 == 0);
             const bool entered = along == (area_of(g, i) >= 0);
             if (entered == (g->covers[half].count > 1))
-                return sl_fail_at(g->context, g->source, g->map->cells[i].line,
-                                  "cell %lu overlaps another one or itself near %.9g %.9g",
-                                  (unsigned long)i, at.x, at.y);
+                return sl_map_fail(g->context, g->map, SL_BAD_INPUT, g->map->cells[i].line,
+                                   "cell %lu overlaps another one or itself near %.9g %.9g",
+                                   (unsigned long)i, at.x, at.y);
         }
     }
     return SL_OK;

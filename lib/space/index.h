@@ -136,6 +136,12 @@ static inline bool sli_cell_grid_next(const sl_cell_grid *g, sli_cell_grid_range
     return false;
 }
 
+/// The cell that an eye looks from: as sl_space_locate, but SL_NO_CELL in solid ground.
+static inline uint32_t sli_eye_cell(const sl_space *space, sl_point eye) {
+    const uint32_t cell = sl_space_locate(space, eye);
+    return cell != SL_NO_CELL && space->cells[cell].solid ? SL_NO_CELL : cell;
+}
+
 // --- Rays within a cell.
 
 /// The length of a ray from a point of the cell to where it leaves the cell, as a multiple of

@@ -43,23 +43,24 @@ static sli_piece make_piece(const sl_wall *wall) {
         .axis = axis, .at = at, .lo = one < other ? one : other, .hi = one < other ? other : one};
 }
 
-static sl_status check_axial(sl_context *context, const char *source, const sl_wall *wall) {
+static sl_status check_axial(sl_context *context, const sl_map *map, const sl_wall *wall) {
     const bool vertical = wall->a.x == wall->b.x, horizontal = wall->a.y == wall->b.y;
     if (vertical && horizontal)
-        return sl_fail_at(context, source, wall->line,
-                          "a wall of zero length at %.17g %.17g: clean the map first", wall->a.x,
-                          wall->a.y);
+        return sl_map_fail(context, map, SL_BAD_INPUT, wall->line,
+                           "a wall of zero length at %.17g %.17g: clean the map first", wall->a.x,
+                           wall->a.y);
     if (vertical || horizontal) return SL_OK;
-    return sl_fail_at(context, source, wall->line,
-                      "the wall from %.17g %.17g to %.17g %.17g is neither horizontal nor "
-                      "vertical, which the kd-tree needs: make it axial or leave it out",
-                      wall->a.x, wall->a.y, wall->b.x, wall->b.y);
+    return sl_map_fail(context, map, SL_BAD_INPUT, wall->line,
+                       "the wall from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                       "vertical, which the kd-tree needs: make it axial or leave it out",
+                       wall->a.x, wall->a.y, wall->b.x, wall->b.y);
 }
 
-sl_status sli_wall_lines(sl_context *context, const char *source, const sl_wall *walls,
-                         size_t count, sli_piece **out) {
-    if (!source) source = "the map";
-    for (size_t i = 0; i < count; i++) SL_TRY(check_axial(context, source, &walls[i]));
+sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *walls, size_t count,
+                         sli_piece **out) {
+    const sl_map none = {0};
+    if (!map) map = &none;
+    for (size_t i = 0; i < count; i++) SL_TRY(check_axial(context, map, &walls[i]));
     sli_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
     if (!pieces) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) pieces[i] = make_piece(&walls[i]);
@@ -67,9 +68,9 @@ sl_status sli_wall_lines(sl_context *context, const char *source, const sl_wall 
     for (size_t i = 1; i < count; i++) {
         const sli_piece *a = &pieces[i - 1], *b = &pieces[i];
         if (a->axis != b->axis || a->at != b->at || b->lo >= a->hi) continue;
-        const sl_status status =
-            sl_fail_at(context, source, 0, "two walls overlap on %s = %.17g: clean the map first",
-                       a->axis ? "y" : "x", a->at);
+        const sl_status status = sl_map_fail(context, map, SL_BAD_INPUT, 0,
+                                             "two walls overlap on %s = %.17g: clean the map first",
+                                             a->axis ? "y" : "x", a->at);
         sl_free(context, pieces);
         return status;
     }

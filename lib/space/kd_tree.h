@@ -17,10 +17,10 @@ typedef struct sli_piece {
     uint32_t seam; ///< 0 for a wall; for a part of a seam, 1 + its number
 } sli_piece;
 
-/// Sorts walls by axis, at, lo. SL_BAD_INPUT names a wall of `source` that is not axial, or a place
-/// where two walls overlap.
-sl_status sli_wall_lines(sl_context *context, const char *source, const sl_wall *walls,
-                         size_t count, sli_piece **out);
+/// Sorts walls by axis, at, lo. SL_BAD_INPUT names a wall that is not axial, as `map` calls
+/// it (NULL: none), or a place where two walls overlap.
+sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *walls, size_t count,
+                         sli_piece **out);
 
 /// The first of `count` sorted pieces that is on the line and ends after `lo`, or is on a later
 /// line.
@@ -65,11 +65,14 @@ sl_status sli_check_has_walls(sl_context *context, const sl_map *map);
 /// A map whose walls all lie on one line has no area. This adds the missing width on both sides.
 sl_box sli_padded(sl_box box);
 
-/// Marks the cells that are inside: those reached from the map's starts, or, without starts, those
-/// not reached from the border. If there are none, all cells are inside. A mesh does not need
-/// `walls`.
+/// Marks the cells that are solid, and those that are inside (inside.c). A mesh does not need
+/// `walls`. SL_BAD_INPUT, with the line, where the map contradicts itself: see sl_space.
 sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piece *walls,
                           sl_space *space);
+
+/// Gives walls the marks of solid ground, and of open ground across, that the space's cells have
+/// (inside.c): those of a file have none yet. The space must pass sl_space_check.
+void sli_ground_of_cells(sl_space *space);
 
 // --- rooms (rooms.c)
 

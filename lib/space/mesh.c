@@ -21,6 +21,7 @@
 #include "space/mesh.h"
 
 #include "geometry/orient.h"
+#include "map/ground.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
@@ -301,10 +302,17 @@ static sl_status take_walls(merger *m, const sl_map *map, const sli_mesh_lines *
     for (size_t i = 0; i < lines->wall_count; i++)
         for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
             graph_edge *e = &m->edges[g->links[k] / 2];
-            if (e->wall) continue;
             const sl_segment at = sli_planar_at(g, g->links[k]);
-            s->walls[s->wall_count++] = (sl_wall){at.a, at.b, map->walls[i].line};
-            e->wall = s->wall_count;
+            const sl_wall *wall = &map->walls[i];
+            if (!e->wall) {
+                s->walls[s->wall_count++] = (sl_wall){at.a, at.b, wall->line, wall->ground};
+                e->wall = s->wall_count;
+                continue;
+            }
+            sl_wall *first = &s->walls[e->wall - 1];
+            const bool same = sli_same_point(first->a, at.a);
+            first->ground = sli_ground_joined(first->ground,
+                                              same ? wall->ground : sl_ground_turned(wall->ground));
         }
     return SL_OK;
 }

@@ -121,6 +121,9 @@ void sli_mesh_steps_corner(const sli_mesh_steps *steps, size_t place, sl_point c
 /// Checks a mesh whose counts and bounds are checked already (check_mesh.c).
 sl_status sli_check_mesh(sl_context *context, const sl_space *space);
 
+/// Checks that a cell is inside, outside or solid ground.
+sl_status sli_check_ground(sl_context *context, const sl_space *space, uint32_t cell);
+
 /// Checks a directed portal against its portal. `directed_found` notes, by portal, the bits 1 for
 /// cell[0] and 2 for cell[1]; each may come once.
 sl_status sli_check_directed(sl_context *context, const sl_space *space, uint32_t cell,

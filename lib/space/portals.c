@@ -1,4 +1,4 @@
-/// Portals and directed portals of a kd-tree's space, and which cells are inside.
+/// Portals and directed portals of a kd-tree's space.
 ///
 /// A portal lies on a split line, between a cell below it and a cell above it. For each node, both
 /// lists of cells that touch the line are gathered in order, and merged:
@@ -9,9 +9,6 @@
 ///
 /// Each common stretch of two cells, without the walls on it, gives portals: here D-A, D-B, E-B and
 /// E-C. Seams on the line cut portals too. Time: linear in the portals, plus sorting.
-///
-/// Inside is what the map's starts reach through portals. Without starts, it is what the border
-/// does not reach.
 #include "space/kd_tree.h"
 
 #include "geometry/orient.h"
@@ -200,73 +197,4 @@ sl_status sli_make_portals(sl_context *context, const sli_kd_tree *tree, sl_spac
     sl_free(context, maker.above.items);
     sl_free(context, maker.portals.items);
     return status;
-}
-
-// --- inside and outside
-
-/// Marks all cells that portals connect with those on the stack.
-static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size_t count) {
-    while (count) {
-        const sl_cell *cell = &space->cells[stack[--count]];
-        for (uint32_t i = 0; i < cell->directed_count; i++) {
-            const uint32_t next = space->directed[cell->first_directed + i].cell;
-            if (sl_bits_has(reached, next)) continue;
-            sl_bits_add(reached, next);
-            stack[count++] = next;
-        }
-    }
-}
-
-/// Whether the cell touches a part of the map's border that has no wall.
-static bool open_to_border(const sl_space *space, const sl_cell *cell, const sli_piece *walls) {
-    if (space->neighbour) {
-        for (uint32_t i = 0; i < cell->vertex_count; i++)
-            if (space->neighbour[cell->first_vertex + i] == SL_NEIGHBOUR_BORDER) return true;
-        return false;
-    }
-    const sl_point min = space->vertices[cell->first_vertex];
-    const sl_point max = space->vertices[cell->first_vertex + 2];
-    const size_t count = space->wall_count;
-    const sl_box *b = &space->bounds;
-    return (min.x == b->min.x && !sli_wall_lines_cover(walls, count, 0, min.x, min.y, max.y)) ||
-           (max.x == b->max.x && !sli_wall_lines_cover(walls, count, 0, max.x, min.y, max.y)) ||
-           (min.y == b->min.y && !sli_wall_lines_cover(walls, count, 1, min.y, min.x, max.x)) ||
-           (max.y == b->max.y && !sli_wall_lines_cover(walls, count, 1, max.y, min.x, max.x));
-}
-
-static void mark(const sl_map *map, const sli_piece *walls, sl_space *space, sl_bits *reached,
-                 uint32_t *stack) {
-    size_t count = 0;
-    const bool from_starts = map->start_count > 0;
-    for (size_t i = 0; i < map->start_count; i++) {
-        const uint32_t cell = sl_space_locate(space, map->starts[i].at);
-        if (cell == SL_NO_CELL || sl_bits_has(reached, cell)) continue;
-        sl_bits_add(reached, cell);
-        stack[count++] = cell;
-    }
-    for (uint32_t i = 0; i < space->cell_count && !from_starts; i++) {
-        if (!open_to_border(space, &space->cells[i], walls)) continue;
-        sl_bits_add(reached, i);
-        stack[count++] = i;
-    }
-    flood(space, reached, stack, count);
-    space->inside_count = 0;
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        space->cells[i].inside = sl_bits_has(reached, i) == from_starts;
-        space->inside_count += space->cells[i].inside;
-    }
-    if (space->inside_count) return;
-    for (uint32_t i = 0; i < space->cell_count; i++) space->cells[i].inside = 1;
-    space->inside_count = space->cell_count;
-}
-
-sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piece *walls,
-                          sl_space *space) {
-    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
-    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
-    if (reached && stack) mark(map, walls, space, reached, stack);
-    const bool done = reached && stack;
-    sl_free(context, reached);
-    sl_free(context, stack);
-    return done ? SL_OK : SL_NO_MEMORY;
 }

@@ -27,10 +27,10 @@ static sl_status add_seam(sl_context *context, const sl_map *map, bool axial, sl
     if (upright && level) return SL_OK;
     static const char *const names[] = {"seam", "door", "one-way glass"};
     if (axial && !upright && !level)
-        return sl_fail_at(context, map->source ? map->source : "the map", line,
-                          "the %s from %.17g %.17g to %.17g %.17g is neither horizontal nor "
-                          "vertical, which the kd-tree needs: make it axial or leave it out",
-                          names[seam.kind], at.a.x, at.a.y, at.b.x, at.b.y);
+        return sl_map_fail(context, map, SL_BAD_INPUT, line,
+                           "the %s from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                           "vertical, which the kd-tree needs: make it axial or leave it out",
+                           names[seam.kind], at.a.x, at.a.y, at.b.x, at.b.y);
     seam.at = at;
     space->seams[space->seam_count++] = seam;
     return SL_OK;

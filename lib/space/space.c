@@ -110,14 +110,13 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
                           const sl_subdivide_options *options, sl_space *out) {
     if (!(options->obscured >= 0 && options->obscured <= 1))
         return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
-    const char *source = map->source ? map->source : "the map";
     SL_TRY(sli_check_has_walls(context, map));
     if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
     sl_space space = {.bounds = sli_padded(sl_map_bounds(map))};
     sli_kd_tree tree = {0};
     sli_piece *walls = NULL;
     sli_seam_parts seams = {0};
-    sl_status status = sli_wall_lines(context, source, map->walls, map->wall_count, &walls);
+    sl_status status = sli_wall_lines(context, map, map->walls, map->wall_count, &walls);
     if (status == SL_OK) status = sli_seams_of_map(context, map, true, &space);
     if (status == SL_OK && space.seam_count) status = sli_seams_part(context, &space, &seams);
     if (status == SL_OK) status = fill_space(context, map, walls, &seams, options, &tree, &space);

@@ -308,9 +308,8 @@ typedef struct exact {
 } exact;
 
 static sl_status make_map(sl_context *context, const sl_map *map, exact *e) {
-    sl_status status = SL_OK;
-    for (size_t i = 0; i < map->wall_count && status == SL_OK; i++)
-        status = sl_map_add_wall(context, &e->map, map->walls[i].a, map->walls[i].b, 0);
+    sl_status status = sl_map_add_walls(context, &e->map, map->walls, map->wall_count);
+    e->map.ground_guessed = map->ground_guessed;
     for (size_t i = 0; i < map->start_count && status == SL_OK; i++)
         status = sl_map_add_start(context, &e->map, map->starts[i].at, map->starts[i].heading, 0);
     SL_TRY(status);

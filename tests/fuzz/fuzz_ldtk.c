@@ -5,6 +5,7 @@
 static void read_one(sl_context *context, const uint8_t *data, size_t size, const char *name) {
     sl_import_options options = sl_import_options_default();
     options.map = name;
+    options.doors = size % 2;
     fuzz_read(context, data, size, sl_map_read_ldtk, &options, NULL);
 }
 

@@ -29,6 +29,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (status == SL_OK) {
         free(fuzz_round_trip(context, &map));
         plan_round_trip(context, &map);
+        FUZZ_CHECK(sl_map_clean(context, &map, NULL, NULL) == SL_OK);
+        fuzz_ground(context, &map);
     } else {
         fuzz_refused(context, status, &map);
     }

@@ -42,6 +42,7 @@ bool oracle_by_sequences(const sl_space *space, uint64_t limit, bool *closed, bo
     free(ends);
     bool within = true;
     for (uint32_t c = 0; within && c < space->cell_count; c++) {
+        if (space->cells[c].solid) continue; // nobody looks from there
         s.closed = closed + (size_t)c * space->cell_count;
         s.open = open + (size_t)c * space->cell_count;
         s.closed[c] = s.open[c] = true;

@@ -14,7 +14,7 @@ static inline void assert_walls_of(import_reader *read, const sl_import_options 
     const sl_import_options usual = sl_import_options_default();
     sl_map map = {0};
     assert_ok(context, read(context, "f", input, size, options ? options : &usual, &map));
-    char *text = map_text(&map);
+    char *text = map_walls_text(&map);
     assert_string_equal(text + strlen("sightline 1\n"), expected);
     free(text);
     sl_map_destroy(context, &map);

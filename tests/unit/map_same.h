@@ -13,8 +13,24 @@ static inline char *map_text(const sl_map *map) {
     size_t size;
     FILE *stream = open_memstream(&text, &size);
     if (!stream) abort();
-    sli_map_print_text(map, stream);
+    sl_context *context = sl_context_create(NULL);
+    if (!context || sli_map_print_text(context, map, stream) != SL_OK) abort();
+    sl_context_destroy(context);
     if (fclose(stream) != 0) abort();
+    return text;
+}
+
+/// As map_text, with solid ground left out: all walls as walls.
+static inline char *map_walls_text(const sl_map *map) {
+    sl_map bare = *map;
+    bare.walls = malloc((map->wall_count + 1) * sizeof *bare.walls);
+    if (!bare.walls) abort();
+    for (size_t i = 0; i < map->wall_count; i++) {
+        bare.walls[i] = map->walls[i];
+        bare.walls[i].ground = 0;
+    }
+    char *text = map_text(&bare);
+    free(bare.walls);
     return text;
 }
 
@@ -55,7 +71,8 @@ static inline bool same_walls(const sl_map *a, const sl_map *b) {
     if (a->wall_count != b->wall_count) return false;
     for (size_t i = 0; i < a->wall_count; i++)
         if (!same_points(&a->walls[i].a, &b->walls[i].a, 1) ||
-            !same_points(&a->walls[i].b, &b->walls[i].b, 1))
+            !same_points(&a->walls[i].b, &b->walls[i].b, 1) ||
+            a->walls[i].ground != b->walls[i].ground)
             return false;
     return true;
 }

@@ -286,6 +286,96 @@ static void counts_refer_to_the_right_cells(void **state) {
     sl_context_destroy(context);
 }
 
+/// A room of 40 x 30 with a block of rock in it, cut into several cells, and a niche in the rock
+/// that nothing leads to.
+static void bake_rock(sl_context *context, bool start, sl_baked *baked) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "sightline 1\nwalls 0 0 40 0 40 30 0 30 0 0\nsolid 10 10 30 10 30 20 10 20\n"
+             "solid 14 20 18 20 18 24 14 24\nopen 22 14 26 14 26 16 22 16\n%s",
+             start ? "start 5 5 0\n" : "");
+    sl_map map = {0};
+    assert_ok(context, sl_map_read_text(context, "rock", text, strlen(text), &map));
+    assert_ok(context, sl_bake(context, &map, NULL, baked, NULL));
+}
+
+/// All of a block of rock has one colour: no borders of cells, no portals.
+static void solid_ground_is_filled_as_a_whole(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = {0};
+    bake_rock(context, true, &map.baked);
+    const uint32_t left = sl_space_locate(&map.baked.space, (sl_point){11, 15});
+    assert_int_not_equal(left, sl_space_locate(&map.baked.space, (sl_point){29, 15}));
+    const unsigned layers =
+        SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_PVS | SL_LAYER_WALLS | SL_LAYER_STARTS;
+    const uint32_t eye = sl_space_locate(&map.baked.space, (sl_point){5, 5});
+    for (int i = 0; i < 4; i++) {
+        const sl_palette palette = sl_palette_make(i % 2);
+        const picture p = draw(&map, options_for(layers, i < 2 ? eye : SL_NO_CELL, i % 2));
+        assert_int_equal(count_on(&p, 11, 12, 29, 12, palette.solid), 101);
+        assert_int_equal(count_on(&p, 16, 11, 16, 19, palette.solid), 101);
+        assert_int_equal(count_on(&p, 11, 10, 29, 10, palette.wall), 101);
+        assert_int_equal(count_on(&p, 14, 20.5, 14, 23.5, palette.wall), 101);
+        assert_int_equal(count_on(&p, 1, 25, 39, 25, palette.solid), 0);
+        // The niche is outside: hatched.
+        const int ground = count_on(&p, 22.5, 15, 25.5, 15, palette.ground);
+        assert_true(ground > 50 && ground < 101);
+        cairo_surface_destroy(p.surface);
+    }
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// Without a start, what is outside is shown too; it is hatched there.
+static void outside_is_hatched_where_it_is_shown(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    static const char text[] = "sightline 1\nwalls 0 0 20 0 20 30 0 30 0 0\n"
+                               "walls 40 0 40 30\nwall 20 0 40 0\n";
+    sl_map read = {0};
+    draw_map map = {0};
+    assert_ok(context, sl_map_read_text(context, "half", text, strlen(text), &read));
+    assert_ok(context, sl_bake(context, &read, NULL, &map.baked, NULL));
+    for (int dark = 0; dark < 2; dark++) {
+        const picture p = draw(&map, options_for(SL_LAYER_WALLS, SL_NO_CELL, dark));
+        const sl_colour floor = sl_palette_make(dark).floor[0];
+        assert_int_equal(count_on(&p, 1, 15, 19, 15, floor), 101);
+        const int plain = count_on(&p, 21, 15, 39, 15, floor);
+        assert_true(plain > 50 && plain < 98);
+        cairo_surface_destroy(p.surface);
+    }
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// Squares of a heat map that reach into rock are covered by it. Cells of rock are refused.
+static void rock_is_over_heat_and_has_no_view(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = {0};
+    bake_rock(context, false, &map.baked);
+    double values[4] = {1, 2, 3, 4};
+    const sl_field field = {.name = "area", .step = 20, .columns = 2, .rows = 2, .values = values};
+    char directory[32], path[48];
+    draw_directory(directory);
+    snprintf(path, sizeof path, "%s/a.png", directory);
+    sl_draw_options options = options_for(SL_LAYER_WALLS, SL_NO_CELL, false);
+    assert_ok(context, sl_draw_field_file(context, &map.baked, &field, &options, path));
+    cairo_surface_t *surface = cairo_image_surface_create_from_png(path);
+    const picture p = {surface, cairo_image_surface_get_width(surface),
+                       cairo_image_surface_get_height(surface)};
+    assert_int_equal(count_on(&p, 11, 12, 29, 12, sl_palette_make(false).solid), 101);
+    cairo_surface_destroy(surface);
+    options.cell = sl_space_locate(&map.baked.space, (sl_point){11, 15});
+    assert_int_equal(sl_draw_file(context, &map.baked, &options, path), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(context), "is solid ground"));
+    unlink(path);
+    assert_int_equal(rmdir(directory), 0);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
 /// Wherever the map stands and however large it is, the same picture comes out.
 static void place_and_size_do_not_matter(void **state) {
     (void)state;
@@ -402,6 +492,9 @@ int main(void) {
         cmocka_unit_test(heat_runs_over_the_whole_ramp),
         cmocka_unit_test(doubtful_cells_stand_out),
         cmocka_unit_test(counts_refer_to_the_right_cells),
+        cmocka_unit_test(solid_ground_is_filled_as_a_whole),
+        cmocka_unit_test(outside_is_hatched_where_it_is_shown),
+        cmocka_unit_test(rock_is_over_heat_and_has_no_view),
         cmocka_unit_test(place_and_size_do_not_matter),
         cmocka_unit_test(thin_maps_are_not_stretched),
         cmocka_unit_test(a_view_zoomed_in_shows_what_is_there),

@@ -42,7 +42,7 @@ static void assert_shape(const char *bytes, size_t size, double threshold, bool 
     options.threshold = threshold;
     sl_map map = {0};
     assert_ok(context, sl_map_read_image(context, "f", bytes, size, &options, &map));
-    char *text = map_text(&map), expected[] = SHAPE;
+    char *text = map_walls_text(&map), expected[] = SHAPE;
     sort_lines(text + strlen("sightline 1\n"));
     sort_lines(expected);
     if (is)
@@ -113,19 +113,22 @@ static void write_file(const char *path, const char *text) {
     assert_int_equal(fclose(file), 0);
 }
 
-static void read_ros(const char *yaml, const char *expected, const char *message) {
+/// A picture of an obstacle, unknown ground and free ground.
+static void read_ros(const char *yaml, double threshold, const char *expected,
+                     const char *message) {
     char folder[] = "/tmp/sightline-ros-XXXXXX", path[64], picture[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/m.yaml", folder);
     snprintf(picture, sizeof picture, "%s/m.pgm", folder);
-    write_file(picture, "P2 2 1 255 0 205");
+    write_file(picture, "P2 3 1 255 0 205 254");
     sl_context *context = testing_context(NULL);
-    const sl_import_options options = sl_import_options_default();
+    sl_import_options options = sl_import_options_default();
+    options.threshold = threshold;
     sl_map map = {0};
     const sl_status status = sl_map_read_ros(context, path, yaml, strlen(yaml), &options, &map);
     if (expected) {
         assert_ok(context, status);
-        char *text = map_text(&map);
+        char *text = map_walls_text(&map);
         sort_lines(text);
         assert_string_equal(text, expected);
         free(text);
@@ -143,29 +146,33 @@ static void read_ros(const char *yaml, const char *expected, const char *message
 
 static void test_ros(void **state) {
     (void)state;
-    static const char square[] = "sightline 1\nwall -0.5 2 -0.5 2.5\nwall -1 2 -0.5 2\n"
-                                 "wall -1 2 -1 2.5\nwall -1 2.5 -0.5 2.5\n";
-    char sorted[sizeof square];
-    memcpy(sorted, square, sizeof square);
-    sort_lines(sorted);
-    read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0.0]\nnegate: 0\n"
-             "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
-             sorted, NULL);
+    char obstacle[] = "sightline 1\nwall -0.5 2 -0.5 2.5\nwall -1 2 -0.5 2\n"
+                      "wall -1 2 -1 2.5\nwall -1 2.5 -0.5 2.5\n";
+    char free_ground[] = "sightline 1\nwall 0 2 0 2.5\nwall 0 2 0.5 2\n"
+                         "wall 0.5 2 0.5 2.5\nwall 0 2.5 0.5 2.5\n";
+    sort_lines(obstacle);
+    sort_lines(free_ground);
+    // Unknown ground is solid, unless a threshold takes it as free.
+    const char *yaml = "image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0.0]\nnegate: 0\n"
+                       "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    read_ros(yaml, 0, free_ground, NULL);
+    read_ros(yaml, 0.65, obstacle, NULL);
     // Renamed, and in another style.
-    read_ros("{image: other.pgm, resolution: 0.5, origin: [-1, 2, 0], mode: trinary}", sorted,
-             NULL);
-    // The lighter of the two, at 0.80, then neither.
-    read_ros("image: m.pgm\nresolution: 1\nnegate: 1\noccupied_thresh: 0.9\n", "sightline 1\n",
-             NULL);
-    read_ros("image: m.pgm\n", NULL, "m.yaml: 'resolution' is missing or not positive");
-    read_ros("resolution: 1\n", NULL, "m.yaml: no 'image' is named");
-    read_ros("image: m.pgm\nresolution: thin\n", NULL, "m.yaml:2: resolution: expected a number");
-    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0.1]\n", NULL,
+    read_ros("{image: other.pgm, resolution: 0.5, origin: [-1, 2, 0], mode: trinary}", 0,
+             free_ground, NULL);
+    // Negated, light pixels are the dark ones: none is dark enough here.
+    read_ros("image: m.pgm\nresolution: 1\nnegate: 1\n", 1, "sightline 1\n", NULL);
+    read_ros("image: m.pgm\n", 0, NULL, "m.yaml: 'resolution' is missing or not positive");
+    read_ros("resolution: 1\n", 0, NULL, "m.yaml: no 'image' is named");
+    read_ros("image: m.pgm\nresolution: thin\n", 0, NULL,
+             "m.yaml:2: resolution: expected a number");
+    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0.1]\n", 0, NULL,
              "m.yaml:3: origin: a turned");
-    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0, 0]\n", NULL, "m.yaml:3: origin: more");
-    read_ros("image: [m.pgm\n", NULL, "m.yaml:2: YAML: ");
-    read_ros("image: {a: b}\n", NULL, "m.yaml:1: expected 'key: value'");
-    read_ros("image: m.pgm\nresolution: 1\nmode: raw\n", NULL, "m.yaml: mode: only trinary");
+    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0, 0]\n", 0, NULL,
+             "m.yaml:3: origin: more");
+    read_ros("image: [m.pgm\n", 0, NULL, "m.yaml:2: YAML: ");
+    read_ros("image: {a: b}\n", 0, NULL, "m.yaml:1: expected 'key: value'");
+    read_ros("image: m.pgm\nresolution: 1\nmode: raw\n", 0, NULL, "m.yaml: mode: only trinary");
 }
 
 static void test_ros_without_a_picture(void **state) {

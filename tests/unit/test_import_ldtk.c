@@ -214,7 +214,7 @@ static void test_separate_levels(void **state) {
     // The project knows the names of the values.
     assert_ok(context, sl_io_use(context));
     assert_ok(context, sl_map_read(context, project, NULL, &map));
-    char *text = map_text(&map);
+    char *text = map_walls_text(&map);
     assert_string_equal(text + strlen("sightline 1\n"), TWO_TILES);
     free(text);
     sl_map_destroy(context, &map);

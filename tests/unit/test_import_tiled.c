@@ -479,7 +479,7 @@ static void test_tilesets_beside(void **state) {
             if (!strstr(said, cases[i].message)) fail_msg("%s", said);
         } else {
             if (status != SL_OK) fail_msg("%s", said);
-            char *walls = map_text(&map);
+            char *walls = map_walls_text(&map);
             assert_string_equal(walls + strlen("sightline 1\n"), TWO_TILES);
             free(walls);
         }

@@ -211,8 +211,10 @@ static void test_hexen(void **state) {
     assert_true(map.walls[0].a.x == 8 && map.walls[0].b.y == -8);
     assert_int_equal(map.door_count, 1);
     assert_string_equal(map.doors[0].name, "sector_1");
-    assert_int_equal(map.start_count, 1);
+    // The last start of player 1, then that of player 2.
+    assert_int_equal(map.start_count, 2);
     assert_true(map.starts[0].at.x == 4 && map.starts[0].heading == 45);
+    assert_true(map.starts[1].at.x == 0 && map.starts[1].at.y == 0);
     sl_map_destroy(context, &map);
     free(wad.bytes);
     sl_context_destroy(context);
@@ -248,7 +250,9 @@ static void test_textmap(void **state) {
     assert_ok(context, read_wad(context, &wad, "MAP01", true, &map));
     assert_int_equal(map.wall_count, 1);
     assert_true(map.walls[0].b.x == 0.5 && map.walls[0].b.y == 8);
-    assert_int_equal(map.walls[0].line, 7);
+    char named[SL_LINE_TEXT];
+    sl_map_say_line(&map, map.walls[0].line, named);
+    assert_string_equal(named, "linedef 0, TEXTMAP line 7");
     assert_int_equal(map.door_count, 1);
     assert_string_equal(map.doors[0].name, "sector_1");
     assert_true(map.doors[0].segment.b.x == 8 && map.doors[0].segment.b.y == 8);
@@ -264,6 +268,39 @@ static void test_textmap(void **state) {
     sl_map_destroy(context, &map);
     free(wad.bytes);
     sl_context_destroy(context);
+}
+
+static void assert_starts(const char *things, const char *expected, const char *note) {
+    noted notes = {""};
+    const sl_hooks hooks = {.user = &notes, .note = keep_note};
+    sl_context *context = sl_context_create(&hooks);
+    char text[2048], found[256] = "";
+    snprintf(text, sizeof text,
+             "namespace = \"doom\";" SQUARE "linedef { v1 = 0; v2 = 1; sidefront = 0; }\n%s",
+             things);
+    wad_made wad;
+    text_wad(&wad, text);
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, "MAP01", false, &map));
+    for (size_t i = 0; i < map.start_count; i++)
+        snprintf(found + strlen(found), sizeof found - strlen(found), "%g ", map.starts[i].at.x);
+    assert_string_equal(found, expected);
+    if (!strstr(notes.text, note)) fail_msg("no '%s' in: %s", note, notes.text);
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+/// The last start of each of four players; those of a deathmatch only where players have none.
+static void test_starts(void **state) {
+    (void)state;
+#define THING(x, type) "thing { x = " x "; y = 2; type = " type "; }\n"
+    assert_starts(THING("3", "2") THING("1", "1") THING("2", "1") THING("4", "4") THING("5", "11")
+                      THING("6", "3001"),
+                  "2 3 4 ", "taken: 3 starts of players, the last of each");
+    assert_starts(THING("5", "11") THING("6", "11") THING("7", "5"), "5 6 ",
+                  "taken: 2 starts of a deathmatch: players have none");
+    assert_starts(THING("6", "3001"), "", "no player has a start");
 }
 
 static void test_textmap_broken(void **state) {
@@ -443,7 +480,7 @@ int main(void) {
         cmocka_unit_test(test_hexen),          cmocka_unit_test(test_textmap),
         cmocka_unit_test(test_textmap_broken), cmocka_unit_test(test_directory_broken),
         cmocka_unit_test(test_lumps_broken),   cmocka_unit_test(test_references_broken),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory),         cmocka_unit_test(test_starts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,7 +141,8 @@ static void shuffle(sl_random *random, sl_map *map) {
         const sl_wall kept = *a;
         *a = *b;
         *b = kept;
-        if (sl_random_below(random, 2)) *a = (sl_wall){a->b, a->a, a->line};
+        if (sl_random_below(random, 2))
+            *a = (sl_wall){a->b, a->a, a->line, sl_ground_turned(a->ground)};
     }
 }
 

@@ -12,7 +12,7 @@ static sl_status read(sl_context *context, const char *text, sl_map *map) {
 static void assert_map(sl_context *context, const char *plan, const char *expected) {
     sl_map map = {0};
     assert_ok(context, read(context, plan, &map));
-    char *text = map_text(&map);
+    char *text = map_walls_text(&map);
     assert_string_equal(text, expected);
     free(text);
     sl_map_destroy(context, &map);
@@ -28,10 +28,10 @@ static void test_walls(void **state) {
     assert_map(context, "\xef\xbb\xbf#\n#.\n#\n", square);
     // The last line is empty, and solid as all is beyond the plan.
     assert_map(context, "#.\n\n", square);
-    // Walls go on as long as they can, on whichever side the floor is.
+    // Walls go on as long as the floor is on the same side.
     assert_map(context, ".#\n#.\n",
-               "sightline 1\nwall 0 2 1 2\nwall 0 1 2 1\nwall 0 1 0 2\n"
-               "wall 1 0 2 0\nwall 1 0 1 2\nwall 2 0 2 1\n");
+               "sightline 1\nwall 0 2 1 2\nwall 0 1 1 1\nwall 1 1 2 1\nwall 0 1 0 2\n"
+               "wall 1 1 1 2\nwall 1 0 2 0\nwall 1 0 1 1\nwall 2 0 2 1\n");
     assert_map(context, "..\n.\n",
                "sightline 1\nwall 0 2 2 2\nwall 1 1 2 1\nwall 2 1 2 2\nwall 0 0 1 0\n"
                "wall 0 0 0 2\nwall 1 0 1 1\n");
@@ -245,33 +245,33 @@ static void test_write_refusals(void **state) {
     const struct {
         const char *statements, *message;
     } cases[] = {
-        {"range 5\n", "map:2: a plan has no place for a range"},
-        {"", "map: a plan needs walls, the map has none"},
-        {ROOM "wall 1 1 2 2\n", "map:3: wall 1 1 2 2: a plan has horizontal and vertical"},
-        {ROOM "wall 1 1 1 2.5\n", "map:3: wall 1 1 1 2.5: a plan has walls at whole"},
-        {ROOM "wall 2 0 2 4\n", "map:3: wall 2 0 2 4: open floor on both sides"},
-        {ROOM "wall 2 1 2 3\n", "map:3: wall 2 1 2 3: open floor on both sides"},
-        {ROOM "wall 4 2 5 2\n", "map:3: wall 4 2 5 2: no floor at either side"},
-        {"walls 0 0 1 0 1 1 0 1\n", "map:2: wall 0 0 1 0: no floor at either side"},
-        {ROOM "wall 0 0 5000 0\n", "map:3: wall 0 0 5000 0: more than 4096 x 4096"},
-        {ROOM "wall 0 0 1e150 0\n", "map:3: wall 0 0 1e+150 0: more than 4096 x 4096"},
-        {ROOM "mirror 0 0 1 0\n", "map:3: a plan has no place for a mirror"},
-        {ROOM "oneway 0 0 1 0\n", "map:3: a plan has no place for one-way glass"},
-        {ROOM "seam 0 0 1 0\n", "map:3: a plan has no place for a seam"},
-        {ROOM "cell 0 0 1 0 1 1\n", "map:3: a plan has no place for cells of the map's own"},
-        {"wall 0 1 0 1\n", "map: a plan needs walls, the map has none"},
-        {ROOM "path p 1 1\n", "map:3: a plan has no place for path p"},
-        {ROOM "object o 1 1 2 2\n", "map:3: a plan has no place for object o"},
-        {"#! (c)\n" ROOM, "map: a plan has no place for the map's notes"},
-        {ROOM "start 5 5 0\n", "map:3: the start stands in a solid square"},
-        {ROOM "start 4 1 0\n", "map:3: the start stands in a solid square"},
-        {ROOM "start 1.2 1 0\nstart 1.7 1 0\n", "map:4: the start's square holds"},
+        {"range 5\n", "the map:2: a plan has no place for a range"},
+        {"", "the map: a plan needs walls, the map has none"},
+        {ROOM "wall 1 1 2 2\n", "the map:3: wall 1 1 2 2: a plan has horizontal and vertical"},
+        {ROOM "wall 1 1 1 2.5\n", "the map:3: wall 1 1 1 2.5: a plan has walls at whole"},
+        {ROOM "wall 2 0 2 4\n", "the map:3: wall 2 0 2 4: open floor on both sides"},
+        {ROOM "wall 2 1 2 3\n", "the map:3: wall 2 1 2 3: open floor on both sides"},
+        {ROOM "wall 4 2 5 2\n", "the map:3: wall 4 2 5 2: no floor at either side"},
+        {"walls 0 0 1 0 1 1 0 1\n", "the map:2: wall 0 0 1 0: no floor at either side"},
+        {ROOM "wall 0 0 5000 0\n", "the map:3: wall 0 0 5000 0: more than 4096 x 4096"},
+        {ROOM "wall 0 0 1e150 0\n", "the map:3: wall 0 0 1e+150 0: more than 4096 x 4096"},
+        {ROOM "mirror 0 0 1 0\n", "the map:3: a plan has no place for a mirror"},
+        {ROOM "oneway 0 0 1 0\n", "the map:3: a plan has no place for one-way glass"},
+        {ROOM "seam 0 0 1 0\n", "the map:3: a plan has no place for a seam"},
+        {ROOM "cell 0 0 1 0 1 1\n", "the map:3: a plan has no place for cells of the map's own"},
+        {"wall 0 1 0 1\n", "the map: a plan needs walls, the map has none"},
+        {ROOM "path p 1 1\n", "the map:3: a plan has no place for path p"},
+        {ROOM "object o 1 1 2 2\n", "the map:3: a plan has no place for object o"},
+        {"#! (c)\n" ROOM, "the map: a plan has no place for the map's notes"},
+        {ROOM "start 5 5 0\n", "the map:3: the start stands in a solid square"},
+        {ROOM "start 4 1 0\n", "the map:3: the start stands in a solid square"},
+        {ROOM "start 1.2 1 0\nstart 1.7 1 0\n", "the map:4: the start's square holds"},
         {ROOM "walls 1 1 2 1 2 2 1 2 1 1\nstart 1.5 1.5 0\n",
-         "map:4: the start stands in a solid square"},
-        {ROOM "door d 0 1.5 1 1.5\n", "map:3: door 0 1.5 1 1.5: a plan's doors stand"},
-        {"walls 0 0 3 0 3 1 0 1 0 0\ndoor d 1 0 1 1\n", "map:3: door 1 0 1 1: a plan's doors"},
+         "the map:4: the start stands in a solid square"},
+        {ROOM "door d 0 1.5 1 1.5\n", "the map:3: door 0 1.5 1 1.5: a plan's doors stand"},
+        {"walls 0 0 3 0 3 1 0 1 0 0\ndoor d 1 0 1 1\n", "the map:3: door 1 0 1 1: a plan's doors"},
         {"walls 0 0 3 0 3 1 0 1 0 0\ndoor d 1.5 0 1.5 1 shut\n",
-         "map:3: door 1.5 0 1.5 1: a plan has open doors only"},
+         "the map:3: door 1.5 0 1.5 1: a plan has open doors only"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *plan;
@@ -324,8 +324,9 @@ static void test_large(void **state) {
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){4097, 0}, (sl_point){4097, 1}, 9));
     assert_null(map_plan_text(context, &map, &status));
     assert_int_equal(status, SL_UNSUPPORTED);
-    assert_string_equal(sl_context_message(context),
-                        "map:9: wall 4097 0 4097 1: more than 4096 x 4096 squares up to this wall");
+    assert_string_equal(
+        sl_context_message(context),
+        "the map:9: wall 4097 0 4097 1: more than 4096 x 4096 squares up to this wall");
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }

@@ -306,7 +306,7 @@ static bool damage(sl_space *s, int number) {
         }
         return true;
     case 14: // one that no cell has
-        s->walls[0] = (sl_wall){{3, 12}, {11, 23}, 0};
+        s->walls[0] = (sl_wall){{3, 12}, {11, 23}, 0, 0};
         return true;
     case 15:
         s->wall_count--;

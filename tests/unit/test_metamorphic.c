@@ -436,7 +436,8 @@ static void shuffle(sl_context *context, sl_random *random, const sl_map *map, s
     }
     for (size_t i = 0; i < map->wall_count; i++) {
         sl_wall *wall = &out->walls[i];
-        if (sl_random_below(random, 2)) *wall = (sl_wall){wall->b, wall->a, wall->line};
+        if (sl_random_below(random, 2))
+            *wall = (sl_wall){wall->b, wall->a, wall->line, sl_ground_turned(wall->ground)};
         const sl_point a = wall->a, b = wall->b;
         if (sl_random_below(random, 8) == 0)
             assert_ok(context, sl_map_add_wall(context, out, a, b, 0));

@@ -272,7 +272,7 @@ static void add_box_walls(trial *t, const sl_map *from) {
         const sl_box b = t->boxes[i].box;
         const sl_point c[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
         for (int k = 0; k < 4 && t->boxes[i].blocks; k++)
-            t->map.walls[t->map.wall_count++] = (sl_wall){c[k], c[(k + 1) % 4], 0};
+            t->map.walls[t->map.wall_count++] = (sl_wall){c[k], c[(k + 1) % 4], 0, 0};
     }
 }
 

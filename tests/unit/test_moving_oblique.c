@@ -298,7 +298,7 @@ static void ask_oracle(trial *t, const sl_view *view, bool *sees) {
     bool closed[ORACLE_CELLS], open[ORACLE_CELLS];
     gather_segments(t);
     for (size_t i = 0; i < t->bent.count; i++)
-        walls[i] = (sl_wall){t->bent.items[i].a, t->bent.items[i].b, 0};
+        walls[i] = (sl_wall){t->bent.items[i].a, t->bent.items[i].b, 0, 0};
     space.walls = walls;
     space.wall_count = (uint32_t)t->bent.count;
     oracle_eye *oracle = oracle_eye_create(&space, view->eye, NULL, 0);
@@ -488,10 +488,19 @@ static void make_turned(trial *t) {
 /// Boxes behind one of these walls used to be said to be seen.
 static void make_fault(trial *t) {
     static const sl_wall walls[] = {
-        {{-1.7842492444667157, 5.7285647970167846}, {-3.5684984889334315, 11.457129594033569}, 0},
-        {{2.1600663080833531, 13.241378838500285}, {0.3758170636166378, 18.969943635517069}, 0},
-        {{-5.6501226074779334, 18.140455190553151}, {0.078442189538851181, 19.924704435019866}, 0},
-        {{0.61055576042498316, 14.853525563428095}, {-1.6588769899278365, 12.051879342189141}, 0}};
+        {{-1.7842492444667157, 5.7285647970167846},
+         {-3.5684984889334315, 11.457129594033569},
+         0,
+         0},
+        {{2.1600663080833531, 13.241378838500285}, {0.3758170636166378, 18.969943635517069}, 0, 0},
+        {{-5.6501226074779334, 18.140455190553151},
+         {0.078442189538851181, 19.924704435019866},
+         0,
+         0},
+        {{0.61055576042498316, 14.853525563428095},
+         {-1.6588769899278365, 12.051879342189141},
+         0,
+         0}};
     for (size_t i = 0; i < sizeof walls / sizeof *walls; i++)
         assert_ok(t->context,
                   sl_map_add_wall(t->context, &t->map, walls[i].a, walls[i].b, (uint32_t)i + 1));

@@ -113,7 +113,7 @@ static void add_cell(layout *l, double x0, double y0, double x1, double y1) {
 }
 
 static void add_wall(layout *l, double x0, double y0, double x1, double y1) {
-    l->walls[l->wall_count++] = (sl_wall){{x0, y0}, {x1, y1}, 0};
+    l->walls[l->wall_count++] = (sl_wall){{x0, y0}, {x1, y1}, 0, 0};
 }
 
 /// Crossed from cell a to cell b.

@@ -270,6 +270,60 @@ static void what_a_bake_does_not_know_is_refused(void **state) {
 }
 
 /// All that a caller does once, with an allocator that fails at its Nth call.
+/// The answers of one query for an eye in a map with rock, from a kd-tree or a mesh.
+static void ask_from(sl_context *context, sl_query *query, sl_point eye, bool sees) {
+    uint64_t cells[4] = {0};
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    const sl_view view = sl_query_view(query, eye, 0, 360);
+    sl_region region = {0};
+    sl_mirrored_region mirrored = {0};
+    bool out;
+    assert_true(sl_eye_words(&sl_query_baked(query)->space) <= 4);
+    for (size_t i = 0; i < count; i++) {
+        assert_ok(context, sl_query_look(context, query, &view, &methods[i], cells, NULL));
+        assert_true(((cells[0] | cells[1] | cells[2] | cells[3]) != 0) == sees);
+    }
+    assert_ok(context, sl_query_region(context, query, &view, &region));
+    assert_true((region.count > 0) == sees);
+    assert_ok(context, sl_query_mirrored_region(context, query, &view, &mirrored));
+    assert_true((mirrored.direct.count > 0) == sees);
+    assert_ok(context,
+              sl_query_can_see(context, query, eye, (sl_point){eye.x + 0.25, eye.y}, &out));
+    assert_true(out == sees);
+    const sl_moving_box near = {{{eye.x + 0.125, eye.y}, {eye.x + 0.25, eye.y + 0.125}}, false};
+    assert_ok(context, sl_query_set_boxes(context, query, &near, 1));
+    assert_ok(context, sl_query_boxes_seen(context, query, &view, &out, NULL));
+    assert_true(out == sees);
+    assert_ok(context, sl_query_set_boxes(context, query, NULL, 0));
+    sl_region_destroy(context, &region);
+    sl_mirrored_region_destroy(context, &mirrored);
+}
+
+static void an_eye_in_rock_sees_nothing(void **state) {
+    (void)state;
+    static const char *const rocks[] = {"solid 10 10 14 10 14 14 10 14\n",
+                                        "solid 10 10 14 10 12 15\n"};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 2; i++) {
+        const char *const parts[] = {rooms, rocks[i], NULL};
+        sl_baked baked = {0};
+        sl_query *query;
+        bool out;
+        bake(context, parts, &baked);
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        ask_from(context, query, (sl_point){12, 12}, false);
+        ask_from(context, query, (sl_point){5, 12}, true);
+        const uint32_t rock = sl_query_locate(query, (sl_point){12, 12});
+        assert_true(baked.space.cells[rock].solid);
+        assert_ok(context, sl_query_cell_sees(context, query, rock, rock, &out));
+        assert_false(out);
+        sl_query_destroy(context, query);
+        sl_baked_destroy(context, &baked);
+    }
+    sl_context_destroy(context);
+}
+
 static sl_status bake_and_ask(sl_context *context) {
     const char *const parts[] = {rooms, door, glass, NULL};
     char text[1024] = "";
@@ -324,6 +378,7 @@ int main(void) {
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),
+        cmocka_unit_test(an_eye_in_rock_sees_nothing),
         cmocka_unit_test(without_memory_nothing_leaks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

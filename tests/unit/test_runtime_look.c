@@ -83,6 +83,10 @@ static void compare(trial *t, const sl_view *view) {
                                        {up * (view->left.x - eye.x), up * (view->left.y - eye.y)}};
     const uint32_t cell = sl_runtime_locate(r, eye.x, eye.y);
     const uint32_t count = sl_runtime_look(r, &same_view, t->scratch, t->cells, r->cell_count);
+    if (t->f->baked.space.cells[cell].solid) {
+        assert_int_equal(count, 0);
+        return;
+    }
     assert_in_range(count, 1, r->cell_count);
     assert_int_equal(t->cells[0], cell);
     memset(t->said, 0, r->cell_count * sizeof *t->said);
@@ -254,6 +258,28 @@ static void signs_are_exact(void **state) {
     }
 }
 
+/// An eye in solid ground sees nothing, by a kd-tree and by a mesh.
+static void rock_has_no_view(void **state) {
+    (void)state;
+    static const char *const maps[] = {
+        "walls 0 0 8 0 8 8 0 8 0 0\nsolid 3 3 5 3 5 5 3 5\nstart 1 1 0\n",
+        "walls 0 0 8 0 8 8 0 8 0 0\nsolid 3 3 5 3 4 6\nstart 1 1 0\n"};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 2; i++) {
+        baked_file f = baked_file_of_text(context, maps[i]);
+        uint32_t cells[16];
+        uint32_t *scratch = malloc(sl_runtime_scratch_count(&f.runtime) * sizeof *scratch);
+        assert_non_null(scratch);
+        const sl_runtime_view rock = sl_runtime_view_all_round(4, 4);
+        const sl_runtime_view room = sl_runtime_view_all_round(1, 1);
+        assert_int_equal(sl_runtime_look(&f.runtime, &rock, scratch, cells, 16), 0);
+        assert_true(sl_runtime_look(&f.runtime, &room, scratch, cells, 16) > 0);
+        free(scratch);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(signs_are_exact),
@@ -261,6 +287,7 @@ int main(void) {
         cmocka_unit_test(what_an_eye_sees_of_a_turned_map_is_exact),
         cmocka_unit_test(an_odd_direction_looks_all_round),
         cmocka_unit_test(no_more_is_written_than_there_is_room),
+        cmocka_unit_test(rock_has_no_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,6 +17,8 @@ PICTURES = {
     "panes": ("office.map", "eye 53 20 160 90\nkey X\nkey Tab\n"),
     "difference": ("office.map", "eye 53 20 160 90\nkey X\nkey X\n"),
     "splits_dark": ("dungeon.txt", "key K\nkey T\nkey M\nkey R\n"),
+    # The eye in rock, and a click there, which leaves the eye where it is.
+    "rock": ("dungeon.txt", "eye 7.5 14.5 0\nclick 120 200\n"),
     "search": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 9 + "key Left\n"),
     "hidden": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 6),
     "subdivision": ("maze.map", "key F2\nkey U\n" + "key Right\n" * 4),

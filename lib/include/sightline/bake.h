@@ -81,8 +81,8 @@ SL_API sl_status sl_bake_see(sl_context *context, const sl_bake_options *options
 /// The plan of the effects that a baked map calls for, as the options say. `baked` must outlive it.
 SL_API sl_plan sl_bake_plan(const sl_bake_options *options, const sl_baked *baked);
 
-/// Whether reports and pictures count a cell: the bake looked from it, and it is inside, where the
-/// map's starts say what inside is.
+/// Whether reports and pictures count a cell: the bake looked from it, it is not solid ground, and
+/// it is inside, where the map's starts say what inside is.
 SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);
 
 /// Whether it is one shard of a bake: it has partial results and no visible sets.

@@ -66,6 +66,7 @@ typedef struct sl_colour {
 /// The colours of a picture.
 typedef struct sl_palette {
     sl_colour page, ground, hatch;   ///< paper, what is outside, the lines over it
+    sl_colour solid;                 ///< solid ground
     sl_colour floor[SL_TONES];       ///< cells
     sl_colour seen[SL_TONES];        ///< cells that the chosen cell sees
     sl_colour source, source_edge;   ///< the chosen cell
@@ -124,7 +125,7 @@ typedef struct sl_scene sl_scene;
 
 /// `baked` is referred to, not copied; options are as in sl_draw_file. `trees`: NULL for those of
 /// `baked`, else stab trees in their place, read here only. SL_BAD_ARGUMENT for a chosen cell that
-/// the map does not have. `*out` is untouched on failure.
+/// the map does not have or that is solid ground. `*out` is untouched on failure.
 SL_API sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
                                  const sl_draw_options *options, const sl_stab_trees *trees,
                                  sl_scene **out);

@@ -55,9 +55,11 @@ SL_API sl_draw_options sl_draw_options_default(void);
 /// large as fits and never stretched; the frame for it is between a sixth and 1.4 times as high as
 /// wide, so that a thin map stands free in it. No portal joins the cells that count
 /// (sl_baked_counts) with the others: those on the chosen cell's side are shown (those that count
-/// where none is chosen) and the others hatched. Where there is no visibility to show that layer is
-/// empty. The same input gives the same bytes. SL_BAD_ARGUMENT on an unknown ending or options out
-/// of range, SL_IO or SL_NO_MEMORY otherwise; a failure leaves an older file as it was.
+/// where none is chosen) and the others hatched. Without starts, cells outside count; they are
+/// shown and hatched. Solid ground is filled with one dark tone, in all pictures. Where there is no
+/// visibility to show that layer is empty. The same input gives the same bytes. SL_BAD_ARGUMENT on
+/// an unknown ending, options out of range or a chosen cell of solid ground, SL_IO or SL_NO_MEMORY
+/// otherwise; a failure leaves an older file as it was.
 SL_API sl_status sl_draw_file(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, const char *path);
 

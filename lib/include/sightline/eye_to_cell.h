@@ -11,7 +11,7 @@
 ///   that a line passes at the eye itself count.
 /// - An eye on a wall, or on a wall's end, sees what its cell sees there: not through the wall, and
 ///   not around its end against the direction of sight.
-/// - An eye outside the bounds sees nothing: no method keeps a cell.
+/// - An eye outside the bounds or in solid ground sees nothing: no method keeps a cell.
 /// - The eye's own cell is always seen, unless its visible set is empty.
 ///
 /// Open sight needs an open set of directions: with it, a cone of 0 degrees sees only the eye's own

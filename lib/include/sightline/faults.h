@@ -33,11 +33,12 @@ typedef struct sl_fault {
     /// Leak, gap: its width. Overlap: the length of the piece.
     /// Crossing: 0. Thin cell: its width. Unreachable room: its area.
     double size;
-    /// Gap, overlap, crossing: the map's walls. Leak: those at its two ends. UINT32_MAX for none.
+    /// Gap, overlap, crossing: the map's walls. Leak: those at its two ends. UINT32_MAX for none,
+    /// as at a mirror.
     uint32_t walls[2];
     uint32_t cell;  ///< the thin cell, the room's largest, one at the leak; else SL_NO_CELL
     uint32_t cells; ///< the number of cells of the room; else 0
-    bool stays;     ///< a gap that sl_map_snap does not close
+    bool stays;     ///< a gap or leak that sl_map_mend leaves: it needs a decision
     /// The way of a leak: points[first_point .. first_point + point_count), from the start through
     /// the middle of the leak to the border. It goes through no wall.
     uint32_t first_point, point_count;
@@ -51,20 +52,29 @@ typedef struct sl_faults {
     uint32_t count, point_count;
     uint32_t counts[SL_FAULT_KINDS];
     bool has_starts; ///< without a start, leaks and unreachable rooms are not looked for
+    /// Gaps of the map as read that are no faults, as cleaning joins ends up to `weld` apart.
+    uint32_t welded;
+    double weld;
+    uint32_t leaks_left; ///< leaks that sl_map_mend leaves, some of them perhaps at other places
 } sl_faults;
 
 SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and zeroes it
 
 /// Zeroed: the usual.
 typedef struct sl_faults_options {
-    double gap;  ///< the largest width of a gap; 0 for 1/1000 of the map's diagonal
-    double thin; ///< cells below this width are thin; 0 for the same
-    const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap and no
+    double gap;                    ///< the largest width of a gap; 0 for sl_usual_gap
+    double thin;                   ///< cells below this width are thin; 0 for the same
+    const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap, overlap or
                                    ///< crossing; NULL for the default
 } sl_faults_options;
 
+/// The width below which an opening is hardly meant: 1/1000 of the map's diagonal; at most 1/8 of
+/// the median length of walls, rounded down to a power of two. So large maps keep their doorways.
+SL_API double sl_usual_gap(const sl_map *map);
+
 /// Finds all faults. `map` is as read, not cleaned, so that walls keep their lines; `space` was
-/// made from it. Whether walls touch, cross or overlap is exact; widths are rounded. Reports stage
+/// made from it. Gaps and leaks are those of the clean map, overlaps and crossings those of the map
+/// as read. Whether walls touch, cross or overlap is exact; widths are rounded. Reports stage
 /// "check". Time about O(n log n) for maps whose walls are short against the map.
 ///
 /// The leaks of a room with a start are openings that would part it from the outside if all of them
@@ -73,34 +83,60 @@ typedef struct sl_faults_options {
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
 
+/// Finds a tolerance for sl_map_clean that closes the gaps of rounding in a map and no others.
+/// `map` is as read. *weld is 0 if there is none: no gaps, or no clear step between their widths
+/// and what is meant. Time about that of sl_find_faults.
+SL_API sl_status sl_suggest_weld(sl_context *context, const sl_map *map, double *weld);
+
+/// Shares of the area of a space: 0 to 1, together 1.
+typedef struct sl_ground_shares {
+    double inside, outside, solid;
+} sl_ground_shares;
+
+/// The shares of a space's inside, outside and solid ground.
+SL_API sl_ground_shares sl_space_ground(const sl_space *space);
+
 /// Whether it is in doubt what is inside.
 typedef enum sl_inside {
     SL_INSIDE_SURE,
     SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
-    SL_INSIDE_SMALL, ///< there is no start, and less than half of the bounds is inside
+    SL_INSIDE_SMALL, ///< there is no start, and less than half of what is not solid is inside
+    SL_INSIDE_FEW,   ///< rooms that no start reaches have more area than those that one reaches
+    SL_INSIDE_NONE,  ///< all is solid ground
 } sl_inside;
 
-/// Looks at the cells alone, in a time of about O(n): sl_find_faults tells where. `space` was made
-/// from `map`.
+/// Looks at the cells alone, in a time of about O(n): sl_find_faults finds the places. `space` was
+/// made from `map`.
 SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                  sl_inside *out);
 
 /// What sl_map_snap did.
 typedef struct sl_snap_account {
-    size_t moved;    ///< wall ends that moved
-    double farthest; ///< the largest move
-    size_t vanished; ///< walls of no length, which were dropped
+    size_t moved;        ///< wall ends that moved
+    double farthest;     ///< the largest move
+    size_t vanished;     ///< walls of no length, which were dropped
+    bool ground_dropped; ///< sl_map_mend: walls had marks of solid ground, which no longer fit
 } sl_snap_account;
 
 /// Closes gaps up to the width `gap`, in two steps. No end moves farther than `gap` in a step.
 ///
 /// 1. Ends that are near each other become one point: the one that most walls have, else the first.
 /// 2. A free end near a wall is put onto it. Two axial walls meet along their own lines; else the
-///    end goes to the nearest point, rounded. An end that touches a wall already stays.
+///    end goes to the nearest point, rounded, and the wall is split there. An end that touches a
+///    wall already stays.
 ///
-/// Only walls move. Cells of the map's own no longer fit them, and are dropped.
+/// Doors and glass with an end at a place that moves go with it, unless they would lose their
+/// length. Cells of the map's own no longer fit, and are dropped.
 SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
                              sl_snap_account *account);
+
+/// Cleans the map and snaps it by turns, until nothing moves. What was closed stays closed. Of the
+/// gaps that sl_find_faults lists by the same gap and options, those are left that have `stays`. No
+/// leak is left near one without `stays`. The walls of the result are clean, but walls for mirrors
+/// are not among them. If an end moves, no wall keeps its ground: rock may have lost its width.
+/// `account` may be NULL. On failure the map is still usable, and may be mended in part.
+SL_API sl_status sl_map_mend(sl_context *context, sl_map *map, double gap,
+                             const sl_clean_options *clean, sl_snap_account *account);
 
 #ifdef __cplusplus
 }

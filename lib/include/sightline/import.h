@@ -20,12 +20,15 @@ typedef struct sl_import_options {
     const char *map;
     /// The layers to take, by name, with commas between; NULL for the format's own choice.
     const char *layers;
+    /// The names of objects that are starts, with commas between; "" or "none" for no starts; NULL
+    /// for the usual names (player, spawn, start ...). Letters and capitals are the same.
+    const char *start_names;
     double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
     /// Coordinates are to be in this unit: mm, cm, m, km, in, ft or yd; NULL: in the file's own.
     const char *unit;
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
-    /// them at a touch (Doom) are seen through.
+    /// them at a touch (Doom) are seen through. Those of Tiled and LDtk are doors in any case.
     bool doors;
     /// Make seams of the lines between different sectors (Doom), so that each cell is in one
     /// sector.
@@ -59,6 +62,7 @@ typedef enum sl_import_takes {
     SL_TAKES_CELLS = 32,
     SL_TAKES_UNIT = 64,
     SL_TAKES_SECTORS = 128,
+    SL_TAKES_STARTS = 256,
 } sl_import_takes;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read

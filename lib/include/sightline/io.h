@@ -73,8 +73,10 @@ SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const ch
 
 /// A map of Tiled, as XML (.tmx) or JSON (.tmj): orthogonal, of either size, fixed or without
 /// bounds, with its tilesets, those in files beside it too. Solid is what the layers asked for
-/// hold; else what the layers, tiles and objects themselves say (lib/io/FORMATS.md). Unit:
-/// pixels. What was taken is noted.
+/// hold; else what the layers, tiles and objects themselves say (lib/io/FORMATS.md). Objects named
+/// as starts or doors are taken as such; a door runs from solid square to solid square. Unit:
+/// pixels. What was taken is noted. SL_BAD_ARGUMENT where options->layers or options->start_names
+/// has a name that the map has not.
 SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 /// As sl_map_read_tmx, from JSON.
@@ -82,7 +84,8 @@ SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const ch
                                  size_t size, const sl_import_options *options, sl_map *map);
 
 /// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
-/// the world's name): the cells of its IntGrid layers. Unit: pixels. What was taken is noted.
+/// the world's name): the cells of its IntGrid layers, and entities named as starts or doors. Unit:
+/// pixels. What was taken is noted. SL_BAD_ARGUMENT as sl_map_read_tmx.
 SL_API sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text,
                                   size_t size, const sl_import_options *options, sl_map *map);
 /// Lists the levels of an LDtk project into an empty list.
@@ -93,8 +96,8 @@ SL_API sl_status sl_map_list_ldtk(sl_context *context, const char *name, const c
 SL_API sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text,
                                   size_t size, const sl_import_options *options, sl_map *map);
 
-/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Unit: pixels. What
-/// was taken is noted.
+/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Friendly tokens are
+/// starts, or those of options->start_names. Unit: pixels. What was taken is noted.
 SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text,
                                      size_t size, const sl_import_options *options, sl_map *map);
 
@@ -106,8 +109,9 @@ SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const
 /// one side are walls; those with two are seen through, and so are doors, shut ones too: what a
 /// player may open hides nothing. With options->doors each line between a door sector (one whose
 /// ceiling meets the floor when the map begins, or that a door special of a line moves) and another
-/// is a door, named "sector_" and its number, open where there is room under the ceiling. Player
-/// 1's start is kept. What was taken is noted. Messages name the lump, and the line in a TEXTMAP.
+/// is a door, named "sector_" and its number, open where there is room under the ceiling. The
+/// starts of players 1 to 4 are kept, else those of a deathmatch. What was taken is noted. Messages
+/// name the lump, and the line in a TEXTMAP.
 SL_API sl_status sl_map_read_wad(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 /// Its maps, each name once, in the order of the directory.

@@ -9,11 +9,32 @@
 extern "C" {
 #endif
 
-/// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file; 0
-/// for none.
+/// What the ground beside a wall is, as bits of sl_wall.ground; left and right going from a to b.
+/// Unmarked ground is open unless solid ground reaches it without a wall between, or polygons of
+/// solid ground cover it.
+enum {
+    SL_SOLID_LEFT = 1,  ///< solid ground, such as rock: nobody stands there
+    SL_SOLID_RIGHT = 2, ///< as SL_SOLID_LEFT, at the right
+    SL_OPEN_LEFT = 4,   ///< open ground: the map contradicts itself where solid ground reaches it
+    SL_OPEN_RIGHT = 8,  ///< as SL_OPEN_LEFT, at the right
+    /// Solid ground begins at the wall, going from its right to its left: how often, as a number
+    /// times 32 that may be below 0, in the bits from here on. It tells a hole in a polygon from a
+    /// hole that another polygon covers. Readers of single walls leave it 0.
+    SL_SOLID_BEGINS = 32,
+};
+
+/// The ground of a wall whose ends are exchanged.
+static inline uint32_t sl_ground_turned(uint32_t ground) {
+    return (ground & (SL_SOLID_LEFT | SL_OPEN_LEFT)) << 1 |
+           (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~31u));
+}
+
+/// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file, or
+/// the number of an item where the map says so (`lines_are_items`); 0 for none.
 typedef struct sl_wall {
     sl_point a, b;
     uint32_t line;
+    uint32_t ground; ///< bits of SL_SOLID_LEFT ...; 0 for most maps
 } sl_wall;
 
 /// A door: a portal that can be shut.
@@ -63,6 +84,12 @@ typedef struct sl_map_cell {
     uint32_t line;
 } sl_map_cell;
 
+/// The name that the file itself has for one of its lines or items.
+typedef struct sl_label {
+    uint32_t line;
+    uint32_t text; ///< where it begins in the map's label_text
+} sl_label;
+
 /// All arrays belong to the map. A zeroed map is empty.
 typedef struct sl_map {
     char *source; ///< the name of its file, for messages; NULL for none
@@ -92,6 +119,14 @@ typedef struct sl_map {
     double precision;
     double range; ///< the view range; 0 for no limit
     uint32_t range_line;
+    /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
+    /// files do not keep them. Equal texts that follow each other stand in label_text once.
+    sl_label *labels;
+    char *label_text;
+    size_t label_count, label_length, label_room, label_text_room;
+    bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
+    bool ground_guessed;  ///< the reader found the walls' ground by rules of thumb: where they
+                          ///< contradict each other, ground is open
 } sl_map;
 
 SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
@@ -103,6 +138,20 @@ SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to
 /// (sl_coordinate_usable).
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
+/// Adds copies of walls, with their lines and their ground. As sl_map_add_wall.
+SL_API sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wall *walls,
+                                  size_t count);
+/// Adds a polygon of solid ground: its sides as walls with solid ground at one hand. Corners, at
+/// least 3, go either way round. Solid polygons may overlap, touch and lie in one another: solid is
+/// what any of them covers. SL_BAD_INPUT, with the line, if the polygon has no area or its sides
+/// cross each other. As sl_map_add_wall.
+SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_point *corners,
+                                  size_t count, uint32_t line);
+/// Adds a polygon of open ground that is cut out of solid ground: its sides as walls with solid
+/// ground outside. As sl_map_add_solid; open polygons may not overlap each other. They may share
+/// parts of their sides.
+SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
+                                 size_t count, uint32_t line);
 /// Adds a door. As sl_map_add_wall.
 SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                                  bool open, uint32_t line);
@@ -129,6 +178,31 @@ SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
 /// Adds a line to the notes.
 SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text);
 
+/// Adds the file's own name for a line. Lines come in ascending order. A line with several names
+/// keeps the first, and says that there are others. Control characters become '?', and long names
+/// are cut.
+SL_API sl_status sl_map_add_label(sl_context *context, sl_map *map, uint32_t line,
+                                  const char *text);
+
+/// Room for what sl_map_say_line writes.
+#define SL_LINE_TEXT 160
+
+/// Writes where a line is, for people: "line 12", "line 12 (layer WALLS, handle 1F)", "linedef
+/// 117"; nothing for line 0.
+SL_API void sl_map_say_line(const sl_map *map, uint32_t line, char text[SL_LINE_TEXT]);
+
+/// The file's own name for a line; NULL for none.
+SL_API const char *sl_map_label(const sl_map *map, uint32_t line);
+
+/// Fails, and says which line of the map is at fault: "FILE:12: layer WALLS, handle 1F: what is
+/// wrong", or "FILE: linedef 117: what is wrong".
+SL_API sl_status sl_map_fail(sl_context *context, const sl_map *map, sl_status status,
+                             uint32_t line, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 5, 6)))
+#endif
+    ;
+
 /// Finite, and 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
 SL_API bool sl_coordinate_usable(double value);
 
@@ -151,6 +225,7 @@ typedef struct sl_clean_account {
     size_t welded;       ///< ends of walls, doors, glass and seams that moved to another end
     size_t crossings;    ///< points where walls cross that had to be computed
     double largest_move; ///< the largest distance of a clean wall from the walls it comes from
+    double tolerance;    ///< ends at most this far apart became one
 } sl_clean_account;
 
 /// Start from sl_clean_options_default().
@@ -170,8 +245,9 @@ typedef struct sl_clean_options {
 SL_API sl_clean_options sl_clean_options_default(void);
 
 /// Makes the walls a planar set: no two of them cross, overlap or touch, except in common ends, by
-/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
-/// sorted by place. All later stages are exact for the clean map.
+/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls with
+/// solid ground at both sides are dropped. Walls are sorted by place. All later stages are exact
+/// for the clean map.
 ///
 /// If all is axial and welding by default would move nothing, no coordinate is computed: walls in
 /// one line that overlap or touch are joined, and walls are split where they cross or touch. Else

@@ -9,8 +9,9 @@
 ///     sl_query_look(context, query, &view, NULL, cells, NULL);
 ///
 /// Answers are exact where the bake is, unless a method of culling is asked for that is looser. An
-/// eye outside the bounds sees nothing. All questions about an eye fail (SL_UNSUPPORTED) on a map
-/// that has mirrors and one-way glass. Numbers of cells are those of the baked space.
+/// eye outside the bounds or in solid ground sees nothing: the answer is empty, not a failure. All
+/// questions about an eye fail (SL_UNSUPPORTED) on a map that has mirrors and one-way glass.
+/// Numbers of cells are those of the baked space.
 #ifndef SIGHTLINE_QUERY_H
 #define SIGHTLINE_QUERY_H
 

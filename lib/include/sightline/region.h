@@ -40,7 +40,8 @@ typedef struct sl_region_edge {
 typedef struct sl_region {
     sl_view view;
     double range;  ///< 0 for no limit
-    uint32_t cell; ///< that sl_space_locate gives for the eye; SL_NO_CELL: the region is empty
+    uint32_t cell; ///< that sl_space_locate gives for the eye; SL_NO_CELL, and the region is empty,
+                   ///< outside the bounds and in solid ground
     size_t count;  ///< of points, offsets and edges; 0 for an empty region
     sl_point *points;
     sl_point *offsets; ///< the points less the eye: more precise far from the origin
@@ -61,7 +62,7 @@ SL_API void sl_region_destroy(sl_context *context, sl_region *region); ///< and 
 /// cell by portals that touch the eye. That is the side right of or over the wall, or the inner
 /// side where the wall bounds the map. Where a wall ends at the eye, it sees all around, but for
 /// the wall. Such an eye is a point of its region; so is the eye of a cone. An eye outside the
-/// bounds and a cone of 0 degrees see nothing: the region is empty.
+/// bounds, an eye in solid ground and a cone of 0 degrees see nothing: the region is empty.
 ///
 /// SL_BAD_ARGUMENT for a range that is negative or not finite, and for a cone's border that is the
 /// eye itself or not finite. On failure the region is empty.

@@ -48,8 +48,8 @@ typedef struct sl_directed_portal {
 typedef struct sl_cell {
     uint32_t first_vertex, vertex_count;
     uint32_t first_directed, directed_count;
-    uint32_t inside;   ///< 1 if a start reaches it; without starts, 1 if the border does not
-    uint32_t reserved; ///< 0
+    uint32_t inside; ///< 1 if it is inside, else 0 (see sl_space)
+    uint32_t solid;  ///< 1 if it is solid ground, else 0
 } sl_cell;
 
 /// What a seam is in the map.
@@ -87,6 +87,13 @@ typedef struct sl_seam_portal {
 /// straight. Every corner is the end of a wall or a seam, a corner of the bounds, or a corner of
 /// one of the map's own cells. With boxes in it (`cut_walls`), it may also be a crossing of their
 /// sides.
+///
+/// What is inside is decided in this order, cell by cell:
+/// 1. Solid ground is not inside. It is what the ground beside walls says (sl_wall.ground), what
+///    solid polygons cover, and all that portals connect with it.
+/// 2. With starts, cells that portals connect with a start are inside.
+/// 3. Without starts, cells that portals do not connect with the border of the bounds are inside.
+/// 4. If that leaves none, all cells that are not solid are inside.
 ///
 /// Cells do not run over seams: a portal lies on a seam as a whole, or not at all. There is no
 /// portal where a wall covers a seam.
@@ -176,6 +183,12 @@ SL_API const sl_subdivision *sl_subdivisions(size_t *count);
 SL_API const sl_subdivision *sl_subdivision_for(const sl_map *map);
 
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
+
+/// Makes the guessed ground of a map certain (sl_map.ground_guessed), so that its text says what a
+/// space of it has. If the guesses contradict each other, the walls become those of the cleaned
+/// map. A map without guesses stays as it is. Fails as sl_map_clean and sl_subdivide_mesh do; the
+/// map may then have lost its walls if memory was lacking.
+SL_API sl_status sl_map_settle_ground(sl_context *context, sl_map *map);
 
 /// The cell that holds a point; SL_NO_CELL outside the bounds and for NaN. Exact.
 ///
