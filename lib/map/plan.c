@@ -449,7 +449,19 @@ static sl_status find_open(const plan_maker *maker) {
     return status;
 }
 
-/// Every unit of every wall must have a solid square on one side and an open one on the other.
+/// Whether the squares beside a wall are what the wall says of its ground; `here` is the one to the
+/// right of an upright wall, or above a level one.
+static bool is_as_said(const sl_wall *wall, bool upright, unsigned char here, unsigned char there) {
+    const bool rising = sli_compare_points(wall->a, wall->b) < 0;
+    const uint32_t ground = rising ? wall->ground : sl_ground_turned(wall->ground);
+    const unsigned char left = upright ? there : here, right = upright ? here : there;
+    return !((ground & SL_SOLID_LEFT && left & OPEN) || (ground & SL_SOLID_RIGHT && right & OPEN) ||
+             (ground & SL_OPEN_LEFT && !(left & OPEN)) ||
+             (ground & SL_OPEN_RIGHT && !(right & OPEN)));
+}
+
+/// Every unit of every wall must have a solid square on one side and an open one on the other, and
+/// those on which it says that the ground is solid or open.
 static sl_status check_walls(const plan_maker *maker) {
     for (size_t i = 0; i < maker->map->wall_count; i++) {
         const edges run = run_of(maker, &maker->map->walls[i]);
@@ -458,7 +470,11 @@ static sl_status check_walls(const plan_maker *maker) {
             const size_t level = run.level + (run.upright ? k : 0);
             const unsigned char here = *marks(maker, column, level);
             const unsigned char there = *marks(maker, column - run.upright, level - !run.upright);
-            if ((here ^ there) & OPEN) continue;
+            if ((here ^ there) & OPEN) {
+                if (is_as_said(&maker->map->walls[i], run.upright, here, there)) continue;
+                return refuse_wall(maker, &maker->map->walls[i],
+                                   "a plan cannot say which side of it is solid ground");
+            }
             return refuse_wall(maker, &maker->map->walls[i],
                                here & OPEN ? "open floor on both sides"
                                            : "no floor at either side");

@@ -253,6 +253,8 @@ static void test_write_refusals(void **state) {
         {ROOM "wall 2 1 2 3\n", "the map:3: wall 2 1 2 3: open floor on both sides"},
         {ROOM "wall 4 2 5 2\n", "the map:3: wall 4 2 5 2: no floor at either side"},
         {"walls 0 0 1 0 1 1 0 1\n", "the map:2: wall 0 0 1 0: no floor at either side"},
+        {"walls 0 0 9 0 9 9 0 9 0 0\nsolid 1 1 4 1 4 4 1 4\nsolid 3 3 6 3 6 6 3 6\n",
+         "the map:3: wall 4 1 4 4: a plan cannot say which side of it is solid ground"},
         {ROOM "wall 0 0 5000 0\n", "the map:3: wall 0 0 5000 0: more than 4096 x 4096"},
         {ROOM "wall 0 0 1e150 0\n", "the map:3: wall 0 0 1e+150 0: more than 4096 x 4096"},
         {ROOM "mirror 0 0 1 0\n", "the map:3: a plan has no place for a mirror"},
