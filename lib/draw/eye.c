@@ -30,7 +30,7 @@ static void set_light(cairo_t *cairo, const sl_palette *palette, double opacity)
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
 }
 
-/// What is seen past boxes, lighter than the rest.
+/// What is seen directly, lighter than the rest.
 static void draw_lit(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                      const sl_drawn_region *region) {
     if (region->count < 3) return;
@@ -219,8 +219,11 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
 /// "exact: 12 cells, 1.8 % of the area", the last entry for the eye.
 static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT]) {
     if (entry == p->layer_count) {
-        snprintf(text, KEY_TEXT, "the eye%s%s", p->view->full ? "" : " and its cone",
-                 p->scene.options.box_count ? "; pale: what it sees past objects" : "");
+        bool pale = false;
+        for (size_t i = 0; i < p->part_count; i++) pale |= !p->parts[i].depth;
+        snprintf(text, KEY_TEXT, "the eye%s%s%s", p->view->full ? "" : " and its cone",
+                 pale ? "; pale: what it sees" : "",
+                 pale && p->scene.options.box_count ? " past objects" : "");
         return;
     }
     char name[64], cells[SL_COUNT_TEXT], share[SL_COUNT_TEXT];
@@ -282,8 +285,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     const sl_draw_options *options = &p->scene.options;
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, options->layers, frame));
     for (size_t i = 0; i < p->part_count; i++) {
-        const bool pale = options->box_count && !p->parts[i].depth;
-        (pale ? draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
+        (p->parts[i].depth ? sl_draw_seen : draw_lit)(cairo, &p->scene.palette, frame,
+                                                      &p->parts[i]);
     }
     if (p->part_count) SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
