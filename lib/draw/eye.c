@@ -84,7 +84,7 @@ typedef struct eye_picture {
     const sl_eye_layer *layers;
     size_t layer_count;
     const sl_drawn_region *parts;
-    size_t part_count;
+    size_t part_count, direct_count; ///< those seen directly come first
     uint32_t counts[SL_EYE_LAYERS_MOST];
     double shares[SL_EYE_LAYERS_MOST]; ///< of the area shown
 } eye_picture;
@@ -219,8 +219,7 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
 /// "exact: 12 cells, 1.8 % of the area", the last entry for the eye.
 static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT]) {
     if (entry == p->layer_count) {
-        bool pale = false;
-        for (size_t i = 0; i < p->part_count; i++) pale |= !p->parts[i].depth;
+        const bool pale = p->direct_count;
         snprintf(text, KEY_TEXT, "the eye%s%s%s", p->view->full ? "" : " and its cone",
                  pale ? "; pale: what it sees" : "",
                  pale && p->scene.options.box_count ? " past objects" : "");
@@ -272,8 +271,10 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
     double y = page->key;
     y += draw_key(cairo, p, page->margin, y, page->inner, page->text, paint);
-    y += sli_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
-                           page->inner, page->text, paint);
+    // The key of layers has what is seen directly.
+    const size_t mirrored = p->part_count - p->direct_count;
+    y += sli_draw_seen_key(cairo, palette, mirrored ? p->parts + p->direct_count : NULL, mirrored,
+                           (sl_point){page->margin, y}, page->inner, page->text, paint);
     y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
     y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
@@ -328,6 +329,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
                      .layer_count = layer_count,
                      .parts = parts,
                      .part_count = part_count};
+    while (p.direct_count < part_count && !parts[p.direct_count].depth) p.direct_count++;
     SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p.scene));
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);

@@ -91,9 +91,9 @@ typedef struct sl_eye_layer {
 
 /// Draws what an eye sees, likewise: the map, the eye and its cone, and each cell in the colour of
 /// the last layer that still keeps it; layers go from loose to tight, each within the one before.
-/// Over it `parts` of the visible region: pale what is seen directly, in a colour of its own what
-/// is seen by mirror. The options' width, title and
-/// dark count. SL_BAD_ARGUMENT on more layers than SL_EYE_LAYERS_MOST or a view that is not usable.
+/// Over it `parts` of the visible region: first those seen directly, which are pale, then those
+/// seen by mirror, in a colour of their own. The options' width, title and dark count.
+/// SL_BAD_ARGUMENT on more layers than SL_EYE_LAYERS_MOST or a view that is not usable.
 SL_API sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
                              const sl_eye_layer *layers, size_t layer_count,
                              const sl_drawn_region *parts, size_t part_count,
