@@ -98,10 +98,9 @@ static void the_visible_region_is_drawn(void **state) {
         unlink(b->path);
     }
     const int width = cairo_image_surface_get_width(surfaces[0]);
-    const int height = cairo_image_surface_get_height(surfaces[0]);
-    assert_int_equal(height, cairo_image_surface_get_height(surfaces[1]));
+    const int plan = 380; // the key is below, and longer for a region
     size_t lighter = 0, darker = 0;
-    for (int y = 0; y < height * 3 / 4; y++) { // the key is below
+    for (int y = 0; y < plan; y++) {
         const unsigned char *rows[2];
         for (int i = 0; i < 2; i++)
             rows[i] = cairo_image_surface_get_data(surfaces[i]) +
