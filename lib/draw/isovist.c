@@ -197,7 +197,7 @@ static size_t place_labels(cairo_t *cairo, const picture *p, const sli_page *g, 
     return count;
 }
 
-/// The ramp, and a tip at each end that values are beyond of.
+/// The ramp. A tip at an end shows that some values are beyond it.
 static void draw_ramp(cairo_t *cairo, const picture *p, const sli_page *g, double width,
                       double high) {
     const double right = g->margin + width, tip = fmin(0.6 * high, 0.7 * g->margin);
