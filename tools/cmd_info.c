@@ -9,6 +9,7 @@
 #include "sightline/support.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct info_request {
@@ -27,6 +28,84 @@ static void print_bounds(sl_box box) {
         printf("%s%s", i == 0 ? "" : i == 2 ? " to " : " ", number);
     }
     putchar('\n');
+}
+
+// --- doors
+
+/// A door as its users know it: all doors of one name, which open and shut together.
+typedef struct named_door {
+    const char *name;
+    size_t first, parts, open; ///< `first`: the number of its first part in the map
+} named_door;
+
+static int compare_names(const void *a, const void *b) {
+    const named_door *p = a, *q = b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : (p->first > q->first) - (p->first < q->first);
+}
+
+static int compare_places(const void *a, const void *b) {
+    const named_door *p = a, *q = b;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+/// The doors by name, in the order of their first parts; the caller frees them.
+static named_door *name_doors(sl_context *context, const sl_map *map, size_t *count) {
+    named_door *doors = sl_alloc_array(context, map->door_count, sizeof *doors);
+    *count = 0;
+    if (!doors || !map->door_count) return doors;
+    for (size_t i = 0; i < map->door_count; i++)
+        doors[i] = (named_door){map->doors[i].name, i, 1, map->doors[i].open};
+    qsort(doors, map->door_count, sizeof *doors, compare_names);
+    for (size_t i = 0; i < map->door_count; i++) {
+        named_door *last = *count ? &doors[*count - 1] : NULL;
+        if (!last || strcmp(last->name, doors[i].name) != 0) {
+            doors[(*count)++] = doors[i];
+            continue;
+        }
+        last->parts++;
+        last->open += doors[i].open;
+    }
+    qsort(doors, *count, sizeof *doors, compare_places);
+    return doors;
+}
+
+static const char *state_of(const named_door *door) {
+    return door->open == 0 ? "shut" : door->open == door->parts ? "open" : "some open";
+}
+
+static sl_status print_doors(sl_context *context, const sl_map *map) {
+    if (!map->door_count) return SL_OK;
+    size_t count;
+    named_door *doors = name_doors(context, map, &count);
+    if (!doors) return SL_NO_MEMORY;
+    puts("  doors by name");
+    for (size_t i = 0; i < count; i++) {
+        printf("    %s  ", state_of(&doors[i]));
+        console_print_text(stdout, doors[i].name, strlen(doors[i].name));
+        if (doors[i].parts > 1) printf(" (%zu parts)", doors[i].parts);
+        putchar('\n');
+    }
+    sl_free(context, doors);
+    return SL_OK;
+}
+
+/// "named_doors": [{"name": "front", "state": "open", "parts": 1}, ...]
+static sl_status add_doors_json(sl_context *context, json_fields *fields, const sl_map *map) {
+    size_t count;
+    named_door *doors = name_doors(context, map, &count);
+    json_fields *items = sl_alloc_array(context, count, sizeof *items);
+    for (size_t i = 0; doors && items && i < count; i++) {
+        items[i] = json_begin();
+        json_add_text(&items[i], "name", doors[i].name);
+        json_add_text(&items[i], "state", state_of(&doors[i]));
+        json_add_count(&items[i], "parts", doors[i].parts);
+    }
+    const bool there = doors && items;
+    if (there) json_add_list(fields, "named_doors", items, count);
+    sl_free(context, items);
+    sl_free(context, doors);
+    return there ? SL_OK : SL_NO_MEMORY;
 }
 
 // --- maps
@@ -72,6 +151,10 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     json_add_count(&fields, "walls", cleaning->before);
     json_add_count(&fields, "oblique_walls", oblique);
     for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
+    if (add_doors_json(context, &fields, map) != SL_OK) {
+        json_drop(&fields);
+        return SL_NO_MEMORY;
+    }
     json_add_real(&fields, "range", map->range);
     json_add_cleaning(&fields, "cleaning", cleaning);
     plan_add_json(&fields, map);
@@ -98,8 +181,8 @@ static void print_notices(const char *notes) {
     }
 }
 
-static void print_map(const info_request *request, const sl_map *map, size_t oblique,
-                      const sl_clean_account *cleaning) {
+static sl_status print_map(sl_context *context, const info_request *request, const sl_map *map,
+                           size_t oblique, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
     count_map(map, counts);
     printf("%s: a map\n", request->path);
@@ -111,6 +194,7 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
         puts("all axial");
     for (int i = 0; i < MAP_COUNTS; i++)
         if (counts[i].count) printf("  %-9s %zu\n", counts[i].key, counts[i].count);
+    SL_TRY(print_doors(context, map));
     if (map->range > 0) {
         char number[SL_NUMBER_TEXT];
         sl_number_write(map->range, number);
@@ -120,6 +204,7 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
     cleaning_print(cleaning);
     print_effects(map);
     print_notices(map->notes);
+    return SL_OK;
 }
 
 // --- files of several maps
@@ -172,7 +257,7 @@ static sl_status inform_of_map(command_console *console, const info_request *req
     if (status == SL_OK && request->json)
         status = print_map_json(console->context, request, &map, oblique, &cleaning);
     else if (status == SL_OK)
-        print_map(request, &map, oblique, &cleaning);
+        status = print_map(console->context, request, &map, oblique, &cleaning);
     sl_map_destroy(console->context, &map);
     return status;
 }
@@ -240,13 +325,19 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
         json_add_count(&fields, parts[i].name, parts[i].count);
         json_add_count(&bytes, parts[i].name, parts[i].bytes);
     }
+    if (add_doors_json(context, &fields, &baked->map) != SL_OK) {
+        json_drop(&fields);
+        json_drop(&bytes);
+        return SL_NO_MEMORY;
+    }
     mean_pvs_add_json(&fields, mean);
     json_add_fields(&fields, "memory_bytes", &bytes);
     json_add_count(&fields, "file_bytes", size_of_file(request->path));
     return json_print(context, &fields);
 }
 
-static void print_baked(const info_request *request, const sl_baked *baked, const pvs_means *mean) {
+static sl_status print_baked(sl_context *context, const info_request *request,
+                             const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
     const sl_space *space = &baked->space;
@@ -275,7 +366,9 @@ static void print_baked(const info_request *request, const sl_baked *baked, cons
         size_write(parts[i].bytes, size);
         printf("  %-16s %12" PRIu64 " %12s\n", parts[i].name, parts[i].count, size);
     }
+    SL_TRY(print_doors(context, &baked->map));
     print_notices(baked->map.notes);
+    return SL_OK;
 }
 
 static sl_status inform_of_baked(command_console *console, const info_request *request) {
@@ -289,7 +382,7 @@ static sl_status inform_of_baked(command_console *console, const info_request *r
     if (status == SL_OK && request->json)
         status = print_baked_json(console->context, request, &baked, &mean);
     else if (status == SL_OK)
-        print_baked(request, &baked, &mean);
+        status = print_baked(console->context, request, &baked, &mean);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -150,8 +150,7 @@ bool console_is_asked(void) {
     return atomic_load(&asked);
 }
 
-void console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
-    fputs(before, stream);
+void console_print_text(FILE *stream, const char *text, size_t length) {
     for (size_t i = 0; i < length; i++) {
         const unsigned char c = (unsigned char)text[i];
         const unsigned char next = i + 1 < length ? (unsigned char)text[i + 1] : 0;
@@ -160,6 +159,11 @@ void console_print_line(FILE *stream, const char *before, const char *text, size
         putc(c < 0x20 || c == 0x7f || second ? '?' : c, stream);
         i += second;
     }
+}
+
+void console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
+    fputs(before, stream);
+    console_print_text(stream, text, length);
     putc('\n', stream);
 }
 

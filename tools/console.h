@@ -43,8 +43,10 @@ void console_ask_first(void);
 /// Whether there was one.
 bool console_is_asked(void);
 
-/// Prints a line of text from a file. Control characters become '?', since they could play tricks
-/// on the terminal.
+/// Prints text from a file. Control characters become '?', since they could play tricks on the
+/// terminal.
+void console_print_text(FILE *stream, const char *text, size_t length);
+/// Prints a line of such text.
 void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
 
 /// Checks that all of stdout was written, prints the message of a failure, and gives the exit

@@ -1,5 +1,5 @@
 /// The map text: one statement on each line, with a keyword first. One table has the form of every
-/// statement. Error messages name file and line.
+/// statement. Error messages name file and line. maps/FORMAT.md describes the format for users.
 #include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/support.h"
@@ -202,8 +202,8 @@ static const statement statements[] = {
     {"walls", "walls x0 y0 x1 y1 ...", false, 4, ANY, ANY, read_walls},
     {"solid", "solid x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_solid},
     {"open", "open x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_open},
-    {"door", "door NAME x0 y0 x1 y1 open|shut", true, 4, 5, 4, read_door},
-    {"mirror", "mirror x0 y0 x1 y1 one|both", false, 4, 5, 4, read_mirror},
+    {"door", "door NAME x0 y0 x1 y1 [open|shut]", true, 4, 5, 4, read_door},
+    {"mirror", "mirror x0 y0 x1 y1 [one|both]", false, 4, 5, 4, read_mirror},
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
     {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
     {"range", "range r", false, 1, 1, 1, read_range},

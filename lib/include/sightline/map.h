@@ -37,7 +37,8 @@ typedef struct sl_wall {
     uint32_t ground; ///< bits of SL_SOLID_LEFT ...; 0 for most maps
 } sl_wall;
 
-/// A door: a portal that can be shut.
+/// A door: a portal that can be shut. Doors of one name are parts of one door, which open and shut
+/// together.
 typedef struct sl_door {
     char *name;
     sl_segment segment;
