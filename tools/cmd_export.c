@@ -35,6 +35,19 @@ static sl_status check_wad(sl_context *context, const sl_export_format *format,
     return given->wad ? output_check_file(context, given->wad, "-o", output) : SL_OK;
 }
 
+/// Refuses --json-version for other formats, and mirrors for formats that have no place for them.
+static sl_status check_format(sl_context *context, const sl_export_format *format,
+                              const sl_export_options *given, const sl_map *map) {
+    if (given->json_version && format->write != sl_export_json)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--json-version: the format %s has no use for it",
+                       format->name);
+    if (format->shows_mirrors) return SL_OK;
+    char name[64];
+    snprintf(name, sizeof name, "export --format %s", format->name);
+    return sl_effects_check(context, map, name,
+                            SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
+}
+
 sl_status cmd_export(command_console *console, int argc, char **argv) {
     const char *path = NULL, *output = NULL;
     size_t chosen = 0, count;
@@ -46,6 +59,8 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
          .names = format_table(console->context)},
         {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad},
         {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
+        {"json-version", 0, "N", "json: the version to write, 1 or 2 (default: 2)",
+         .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
     };
     const command_usage usage = {
         .name = "export",
@@ -69,9 +84,7 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     SL_TRY(input_read_baked(console->context, path, &baked));
     progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
-    // Exports hold what is seen with all doors open. They have no place for what mirrors show.
-    sl_status status = sl_effects_check(console->context, &baked.map, "export",
-                                        SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
+    sl_status status = check_format(console->context, &formats[chosen], &given, &baked.map);
     if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
