@@ -26,21 +26,21 @@ static void print_formats(void) {
     sl_context_destroy(context);
 }
 
-/// Refuses --wad and --map for formats that do not take them, and an output that is the WAD itself.
-static sl_status check_wad(sl_context *context, const sl_export_format *format,
-                           const sl_export_options *given, const char *output) {
+/// Refuses options for formats that do not take them, and an output that is the WAD itself.
+static sl_status check_options(sl_context *context, const sl_export_format *format,
+                               const sl_export_options *given, const char *output) {
     if (!format->takes_wad && (given->wad || given->map))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the format %s has no use for it",
                        given->wad ? "wad" : "map", format->name);
-    return given->wad ? output_check_file(context, given->wad, "-o", output) : SL_OK;
-}
-
-/// Refuses --json-version for other formats, and mirrors for formats that have no place for them.
-static sl_status check_format(sl_context *context, const sl_export_format *format,
-                              const sl_export_options *given, const sl_map *map) {
     if (given->json_version && format->write != sl_export_json)
         return sl_fail(context, SL_BAD_ARGUMENT, "--json-version: the format %s has no use for it",
                        format->name);
+    return given->wad ? output_check_file(context, given->wad, "-o", output) : SL_OK;
+}
+
+/// Refuses mirrors for formats that have no place for them.
+static sl_status check_effects(sl_context *context, const sl_export_format *format,
+                               const sl_map *map) {
     if (format->shows_mirrors) return SL_OK;
     char name[64];
     snprintf(name, sizeof name, "export --format %s", format->name);
@@ -79,12 +79,12 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     const sl_export_format *formats = sl_export_formats(console->context, &count);
     if (!output) output = "-";
-    SL_TRY(check_wad(console->context, &formats[chosen], &given, output));
+    SL_TRY(check_options(console->context, &formats[chosen], &given, output));
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, path, &baked));
     progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
-    sl_status status = check_format(console->context, &formats[chosen], &given, &baked.map);
+    sl_status status = check_effects(console->context, &formats[chosen], &baked.map);
     if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
