@@ -150,8 +150,8 @@ SL_API const sl_export_format *sl_export_formats(const sl_context *context, size
 SL_API sl_status sl_export_formats_add(sl_context *context, const sl_export_format *more,
                                        size_t count);
 
-/// "json": one object with all that a baked file holds, but for stab trees. SL_UNSUPPORTED for a
-/// map with mirrors in version 1.
+/// "json": one object with all that a baked file holds, but for stab trees and notes.
+/// SL_UNSUPPORTED for a map with mirrors in version 1.
 SL_API sl_status sl_export_json(sl_context *context, const sl_baked *baked,
                                 const sl_export_options *options, const char *path);
 /// "geojson": a FeatureCollection of cells, portals, walls, doors, mirrors, one-way glass and
