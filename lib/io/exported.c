@@ -290,15 +290,16 @@ static void note_taken(const export_reader *reader, const char *file, size_t wal
                  {m->object_count, "object", "objects"}};
     char others[256] = "";
     size_t length = 0;
+    bool solid = false;
+    for (size_t i = 0; i < m->wall_count; i++) solid |= m->walls[i].ground != 0;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].count)
             length += (size_t)snprintf(others + length, sizeof others - length, ", %zu %s",
                                        kinds[i].count,
                                        kinds[i].count == 1 ? kinds[i].one : kinds[i].several);
     sl_note(reader->context,
-            "%s: an export: its %zu walls and its solid ground are taken%s; left out: cells, "
-            "portals and what they see",
-            file, walls, others);
+            "%s: an export; taken: %zu walls%s%s; made anew: cells, portals and what they see",
+            file, walls, solid ? ", solid ground" : "", others);
 }
 
 static sl_status read_all(export_reader *reader, const sli_json *root) {
