@@ -101,7 +101,8 @@ SL_API sl_status sl_map_read_uvtt(sl_context *context, const char *name, const c
 SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text,
                                      size_t size, const sl_import_options *options, sl_map *map);
 
-/// The walls of our own JSON export.
+/// The map in our own JSON export, version 1 or 2: walls, solid ground, doors, mirrors, one-way
+/// glass, seams, starts, paths, objects, range. SL_BAD_INPUT, naming the place, for other versions.
 SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
                                     size_t size, const sl_import_options *options, sl_map *map);
 
