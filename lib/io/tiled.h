@@ -1,4 +1,4 @@
-/// The parts of the reader of Tiled maps: notations, tilesets, shapes.
+/// The parts of the reader of Tiled maps: notations, lattices, tilesets, shapes.
 #ifndef SL_TILED_H
 #define SL_TILED_H
 
@@ -21,12 +21,69 @@ sl_status sli_tiled_from_xml(sl_context *context, const char *name, const char *
 #define SLI_TILED_DOWN     0x40000000u ///< mirrored top to bottom
 #define SLI_TILED_DIAGONAL 0x20000000u ///< x and y exchanged
 #define SLI_TILED_TILE     0x0fffffffu
+/// In hexagonal maps this bit is a turn by 120 degrees, and the one of x and y a turn by 60.
+#define SLI_TILED_HEXAGON_120 0x10000000u
 
 /// Reads `count` numbers: an array, or text by the layer's "encoding" (csv, base64) and
 /// "compression" (none, zlib, gzip, zstd). sl_free(*gids) is the caller's. SL_BAD_INPUT where there
 /// are more or fewer, or the text is damaged.
 sl_status sli_tiled_read_data(const sli_json *layer, const sli_json *data, size_t count,
                               uint32_t **gids);
+
+// --- how tiles lie on the screen, and the plan where diamonds are squares. Both have y down
+
+typedef enum sli_tiled_orientation {
+    SLI_TILED_ORTHOGONAL,
+    SLI_TILED_ISOMETRIC,
+    SLI_TILED_STAGGERED,
+    SLI_TILED_HEXAGONAL,
+} sli_tiled_orientation;
+
+typedef struct sli_tiled_lattice {
+    sli_tiled_orientation orientation;
+    sl_point tile;                ///< the size of the box of a tile, pixels
+    sl_point step;                ///< the size of a square of the plan; 1 x 1 for hexagons
+    bool stagger_x, stagger_even; ///< columns (else rows) are moved: the even ones, else the odd
+    double side, slope;           ///< the length of a hexagon's straight sides, and of its points
+    double left;                  ///< the plan's origin on the screen
+    double height;                ///< the screen's y that is 0 in the map
+} sli_tiled_lattice;
+
+/// Reads the head of a map: its orientation, its size, that of its tiles.
+sl_status sli_tiled_read_lattice(const sli_json *map, sli_tiled_lattice *lattice);
+
+/// Whether the plan is another than the screen: tiles are diamonds.
+bool sli_tiled_has_plan(const sli_tiled_lattice *lattice);
+/// From the screen to the plan, and back.
+sli_affine sli_tiled_to_plan(const sli_tiled_lattice *lattice);
+sli_affine sli_tiled_to_screen(const sli_tiled_lattice *lattice);
+
+/// The upper left corner of a tile's box on the screen.
+sl_point sli_tiled_tile_at(const sli_tiled_lattice *lattice, int64_t column, int64_t row);
+
+/// From the numbers of a tile to those of its square in the plan, and back.
+void sli_tiled_square_of(const sli_tiled_lattice *lattice, int64_t *column, int64_t *row);
+void sli_tiled_tile_of(const sli_tiled_lattice *lattice, int64_t *column, int64_t *row);
+
+/// Tiles or squares from `left` and `top` to before `right` and `bottom`.
+typedef struct sli_tiled_range {
+    int64_t left, top, right, bottom;
+} sli_tiled_range;
+/// The squares of the plan that a block of tiles lies in; a staggered block fills about half of it.
+void sli_tiled_plan_range(const sli_tiled_lattice *lattice, const sli_tiled_range *tiles,
+                          sli_tiled_range *squares);
+
+/// Moves walls, doors and starts from the plan to the screen, both with y up. SL_BAD_INPUT where a
+/// coordinate is not usable then.
+sl_status sli_tiled_project(const sli_json *json, const sli_tiled_lattice *lattice, sl_map *map);
+
+/// Adds the sides between solid and open hexagons as walls with their ground. The grid's places are
+/// numbers of columns and rows; `offset` is the layer's, pixels.
+sl_status sli_tiled_add_hexagons(sl_context *context, const sli_tiled_lattice *lattice,
+                                 sl_point offset, const sli_grid *grid, sl_map *map);
+/// Whether a place on the screen lies in a hexagon or on its border.
+bool sli_tiled_in_hexagon(const sli_tiled_lattice *lattice, int64_t column, int64_t row,
+                          sl_point at);
 
 // --- tilesets, as far as they say what is solid
 
@@ -64,6 +121,7 @@ typedef struct sli_tiled_set {
     uint32_t first;                 ///< the number of its first tile in the layers
     double width, height;           ///< of its tiles, pixels
     double x, y;                    ///< how far its tiles are drawn from their place
+    sl_point diamond;               ///< the tiles' shapes are drawn in this one; 0 for in pixels
     sli_tiled_word word;            ///< of all tiles that say nothing
     SL_ARRAY(sli_tiled_tile) tiles; ///< by id, ascending
     sli_json_file file;             ///< where it is in a file of its own
@@ -100,7 +158,8 @@ typedef enum sli_tiled_kind {
 typedef struct sli_tiled_shape {
     sli_tiled_kind kind;
     double x, y, width, height; ///< pixels, y down
-    double rotation;            ///< degrees, clockwise, about x, y
+    double rotation;            ///< degrees, clockwise on the screen, about x, y
+    sli_affine turn;            ///< by that; in a plan, what the screen's turn is there
     uint32_t gid;               ///< of a picture
     uint32_t line;              ///< 0 where there is none
     sli_json points;            ///< of a polygon or polyline, from x, y
@@ -133,9 +192,9 @@ void sli_tiled_destroy_templates(sl_context *context, sli_tiled_templates *templ
 sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
                              sli_json_file *file);
 
-/// Adds an object that is a start or a door; its layer is at `offset`, and it would be a wall else
-/// if `is_wall`.
+/// Adds an object that is a start or a door; `place` leads from its layer to the file's places, and
+/// it would be a wall else if `is_wall`.
 sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
-                               const sli_tiled_shape *shape, sl_point offset, bool is_wall);
+                               const sli_tiled_shape *shape, sli_affine place, bool is_wall);
 
 #endif
