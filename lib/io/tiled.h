@@ -61,9 +61,8 @@ sli_affine sli_tiled_to_screen(const sli_tiled_lattice *lattice);
 /// The upper left corner of a tile's box on the screen.
 sl_point sli_tiled_tile_at(const sli_tiled_lattice *lattice, int64_t column, int64_t row);
 
-/// From the numbers of a tile to those of its square in the plan, and back.
+/// From the numbers of a tile to those of its square in the plan.
 void sli_tiled_square_of(const sli_tiled_lattice *lattice, int64_t *column, int64_t *row);
-void sli_tiled_tile_of(const sli_tiled_lattice *lattice, int64_t *column, int64_t *row);
 
 /// Tiles or squares from `left` and `top` to before `right` and `bottom`.
 typedef struct sli_tiled_range {

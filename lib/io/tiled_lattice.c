@@ -176,18 +176,6 @@ void sli_tiled_square_of(const sli_tiled_lattice *lattice, int64_t *column, int6
     *row = half(top - across);
 }
 
-void sli_tiled_tile_of(const sli_tiled_lattice *lattice, int64_t *column, int64_t *row) {
-    if (lattice->orientation != SLI_TILED_STAGGERED) return;
-    const int64_t left = *column - *row - 1 - !lattice->stagger_even, top = *column + *row;
-    if (lattice->stagger_x) {
-        *column = left;
-        *row = half(top - is_moved(lattice, left));
-    } else {
-        *row = top;
-        *column = half(left - is_moved(lattice, top));
-    }
-}
-
 void sli_tiled_plan_range(const sli_tiled_lattice *lattice, const sli_tiled_range *tiles,
                           sli_tiled_range *squares) {
     *squares = *tiles;

@@ -496,11 +496,11 @@ static void test_starts_and_doors_on_lattices(void **state) {
                  "door door 12 6 20 10 open\n");
     assert_reads(
         TILE_DOOR(HEXAGONAL("y"), "1", "1,2,0"),
-        "wall 0 2 0 6\nwall 0 6 8 8\nwall 8 8 16 6\nwall 16 6 16 2\nwall 8 0 16 2\nwall 0 2 8 0\n");
+        "wall 8 8 0 6\nwall 16 6 8 8\nwall 0 6 0 2\nwall 16 6 16 2\nwall 16 2 8 0\nwall 8 0 0 2\n");
     assert_reads(WITH_OBJECTS(HEXAGONAL("y"), "3",
                               "<object name='door' x='24' y='10' width='16' height='1'/>"),
-                 "wall 24 12 32 14\nwall 32 14 40 12\nwall 24 8 24 12\nwall 40 12 40 8\n"
-                 "wall 32 6 24 8\nwall 40 8 32 6\ndoor door 24 9.5 40 9.5 open\n");
+                 "wall 32 14 24 12\nwall 40 12 32 14\nwall 24 12 24 8\nwall 40 12 40 8\nwall 40 8 "
+                 "32 6\nwall 32 6 24 8\ndoor door 24 9.5 40 9.5 open\n");
 }
 
 /// Shapes of tiles: those of isometric sets are drawn in a diamond, others in pixels; hexagons turn
@@ -778,13 +778,7 @@ static void test_tilesets_beside(void **state) {
 }
 
 /// Each allocation of ours fails once.
-static void test_memory(void **state) {
-    (void)state;
-    const char *text =
-        MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
-                LAYER("a", DATA("encoding='base64' compression='zlib'",
-                                ZLIB)) "<objectgroup "
-                                       "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>");
+static void fail_each_allocation(const char *text) {
     const sl_import_options options = sl_import_options_default();
     sl_status status = SL_NO_MEMORY;
     for (long fail_at = 1; status != SL_OK; fail_at++) {
@@ -800,6 +794,18 @@ static void test_memory(void **state) {
         assert_int_equal(memory.live, 0);
         assert_in_range(fail_at, 1, 100);
     }
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    fail_each_allocation(
+        MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
+                LAYER("a", DATA("encoding='base64' compression='zlib'",
+                                ZLIB)) "<objectgroup "
+                                       "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>"));
+    fail_each_allocation(WITH_OBJECTS("isometric", "3", START("12", "10")));
+    fail_each_allocation(TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"));
+    fail_each_allocation(WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16")));
 }
 
 int main(void) {
