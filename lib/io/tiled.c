@@ -14,6 +14,8 @@
 
 /// Layers of staggered and hexagonal maps are moved by no more pixels.
 #define FARTHEST 1e9
+/// So many squares of staggered layers and no more.
+#define MOST_TURNED ((size_t)1 << 27)
 
 // --- the layers asked for: NAME takes all tiles of a layer, or all layers of a group;
 // --- NAME:28+33-35 the tiles of these numbers
@@ -117,6 +119,7 @@ typedef struct tiled {
     sli_affine to_plan;  ///< from the screen
     sl_point offset;     ///< staggered and hexagonal: of the layers with tiles
     sli_tiled_range all; ///< and their tiles
+    size_t turned;       ///< squares of staggered blocks
     sli_tiled_sets sets;
     sli_tiles tiles;
     sli_pen pen;
@@ -442,6 +445,14 @@ static sl_status add_block(tiled *reader, block *all) {
                              origin.y + (double)all->range.top * lattice->step.y};
     const size_t columns = (size_t)(all->range.right - all->range.left);
     const size_t rows = (size_t)(all->range.bottom - all->range.top);
+    if (lattice->orientation == SLI_TILED_STAGGERED) {
+        // A few long rows make large blocks: a short file must not ask for all memory.
+        reader->turned += columns > MOST_TURNED / rows ? MOST_TURNED : columns * rows;
+        if (reader->turned >= MOST_TURNED)
+            return sli_json_fail(reader->map,
+                                 "its staggered layers or chunks are too large: together they span "
+                                 "more than 2^27 places");
+    }
     SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->map->file->name, all->corner,
                          lattice->step, columns, rows, &all->squares));
     if (lattice->orientation != SLI_TILED_STAGGERED) return SL_OK;
@@ -730,6 +741,7 @@ static layer_text list_layers(const tiled *reader) {
 /// Nothing says what is solid: the lowest tile layer is looked at once more.
 static sl_status guess(tiled *reader) {
     sli_tiles_destroy(reader->context, &reader->tiles);
+    reader->turned = 0;
     reader->guess = true;
     SL_TRY(read_layers(reader, reader->map, &(place){0}));
     if (!*reader->guessed_of) return SL_OK;
