@@ -196,4 +196,55 @@ sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *obj
 sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
                                const sli_tiled_shape *shape, sli_affine place, bool is_wall);
 
+// --- reading a map: what its parts share
+
+typedef struct sli_tiled_reader {
+    sl_context *context;
+    const sl_import_options *options;
+    const sli_json *map;
+    sli_tiled_lattice lattice;
+    double top;          ///< the plan's y that is 0 for the pen, which has y up
+    sli_affine to_plan;  ///< from the screen
+    sl_point offset;     ///< staggered and hexagonal: of the layers with tiles
+    sli_tiled_range all; ///< and their tiles
+    size_t turned;       ///< squares of staggered blocks
+    sli_tiled_sets sets;
+    sli_tiles tiles;
+    sli_pen pen;
+    bool guess;          ///< nothing says what is solid: the first tile layer is guessed from
+    uint32_t guessed;    ///< the tile that is taken as solid, 0 where the empty squares are
+    char guessed_of[64]; ///< and its layer
+    size_t solid_layers, solid_tiles, shapes, objects; ///< taken
+    size_t other_layers, other_objects, other_shapes;  ///< left out
+    size_t unknown_tiles;                              ///< of tilesets that cannot be read
+    size_t doors_left_out;                             ///< tiles that are doors and hexagons
+    sli_things things;
+    sli_tiled_templates templates;
+} sli_tiled_reader;
+
+/// A layer's place, and what is said of it, its groups included.
+typedef struct sli_tiled_place {
+    sl_point offset; ///< pixels, y down
+    sli_tiled_word word;
+    sli_word gids; ///< the tiles that are asked for; of no length for all
+    bool asked;
+} sli_tiled_place;
+
+/// Whether a tile is among the numbers that are asked for; any tile is among none.
+bool sli_tiled_among(sli_word gids, uint32_t gid);
+
+/// What a tile's set says of it; both may be NULL.
+sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_tile *tile);
+
+/// Gives the next shape of the pen a number and a name. Shapes of tilesets stand in other files
+/// than the map, so that a line of its own would say nothing.
+sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label);
+
+/// Reads the tiles of a layer: solid squares, doors, shapes of tiles.
+sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *layer,
+                                    const sli_tiled_place *at);
+
+/// Makes walls of all solid tiles that were read, in the plan. `*grids` counts their grids.
+sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader, size_t *grids);
+
 #endif
