@@ -338,6 +338,17 @@ static void test_rings(void **state) {
     }
 }
 
+static void test_lattices_as_json(void **state) {
+    (void)state;
+    assert_walls_json("{\"orientation\": \"hexagonal\", \"hexsidelength\": 4, \"staggeraxis\": "
+                      "\"x\", \"staggerindex\": \"even\", \"width\": 1, \"height\": 1, "
+                      "\"tilewidth\": 16, \"tileheight\": 8, \"layers\": [{\"type\": "
+                      "\"tilelayer\", \"name\": \"walls\", \"width\": 1, \"height\": 1, "
+                      "\"data\": [0]}]}",
+                      "wall 0 0 6 4\nwall 6 -4 0 0\nwall 6 4 10 4\nwall 6 -4 10 -4\n"
+                      "wall 10 -4 16 0\nwall 16 0 10 4\n");
+}
+
 /// Twice the area of what is open, by the walls: each has solid ground at one hand.
 static double open_area_of(const sl_map *map) {
     double area = 0;
@@ -821,6 +832,7 @@ int main(void) {
         cmocka_unit_test(test_ellipses),
         cmocka_unit_test(test_chunks),
         cmocka_unit_test(test_rings),
+        cmocka_unit_test(test_lattices_as_json),
         cmocka_unit_test(test_random_lattices),
         cmocka_unit_test(test_few_walls_of_diamonds),
         cmocka_unit_test(test_objects_on_lattices),
