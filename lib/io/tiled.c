@@ -373,6 +373,20 @@ static sl_status guess(sli_tiled_reader *reader) {
     return SL_OK;
 }
 
+/// A start on a tile that is guessed to be solid says that the guess is wrong.
+static void check_guess(const sli_tiled_reader *reader) {
+    bool stands = false;
+    for (size_t i = 0; reader->guess && i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        stands |= thing->kind == SLI_THING_START && thing->solid;
+    }
+    if (stands)
+        sl_note(reader->context,
+                "%s: a start stands on what is guessed to be solid, so the guess is wrong; "
+                "--layers NAME or NAME:TILE+TILE-TILE chooses",
+                reader->map->file->name);
+}
+
 static sl_status fail_no_walls(const sli_tiled_reader *reader) {
     const layer_text layers = list_layers(reader);
     const bool said = reader->options->layers || !reader->guess;
@@ -423,6 +437,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     size_t grids;
     SL_TRY(sli_tiled_add_tile_walls(reader, &grids));
     if (!reader->pen.map->wall_count) return fail_no_walls(reader);
+    check_guess(reader);
     give_account(reader, grids);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);
