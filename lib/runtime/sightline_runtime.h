@@ -42,11 +42,14 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
-    SL_RUNTIME_SHARD       ///< one shard of a bake, which has no rows yet
+    SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
+    SL_RUNTIME_TEXT        ///< a door or start of the map text is damaged
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
+/// The number of a door that does not exist.
+#define SL_RUNTIME_NO_DOOR UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -68,7 +71,9 @@ typedef struct sl_runtime {
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *door_offsets, *door_bytes; ///< NULL if no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
-    uint32_t seam_portal_count;
+    uint32_t seam_count, seam_portal_count;
+    const unsigned char *text; ///< what the map holds beside walls, as map text
+    size_t text_bytes;
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -108,11 +113,56 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
+// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
+// starts read the map text in the file: call them once after opening.
+
+/// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
+typedef struct sl_runtime_name {
+    const char *text;
+    uint32_t length;
+} sl_runtime_name;
+
+/// A segment, in map units.
+typedef struct sl_runtime_segment {
+    double x0, y0, x1, y1;
+} sl_runtime_segment;
+
+/// A start: a viewpoint of the map. The heading is in degrees, counter-clockwise from +x.
+typedef struct sl_runtime_viewpoint {
+    double x, y, heading;
+} sl_runtime_viewpoint;
+
+/// The name of a door; of length 0 if the door does not exist. Several doors may have one name.
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door);
+
+/// The first door with a name that a 0 ends; SL_RUNTIME_NO_DOOR for none. To open all doors of a
+/// name, compare the names of the doors after it too.
+SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name);
+
+/// Whether the map has the door open at the start. False if the door does not exist. A game that
+/// begins with the doors of the map sets shut[i] = !sl_runtime_door_open(runtime, i).
+SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door);
+
+/// Finds the segments of a door: one, or more if walls cut it. Returns their number, and puts the
+/// first `room` of them into `segments`. Coordinates are exact.
+SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
+                                                 sl_runtime_segment *segments, uint32_t room);
+
+/// The number of starts.
+SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
+
+/// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
+SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
+                                     sl_runtime_viewpoint *out);
+
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
 
 /// Whether a cell is inside, if the map says what inside is.
 SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether a cell is solid ground, such as rock. Nobody looks from there, and it has no row.
+SL_RUNTIME_API bool sl_runtime_is_solid(const sl_runtime *runtime, uint32_t cell);
 
 /// A run of cells of a row: first .. end - 1.
 typedef struct sl_runtime_run {
@@ -294,6 +344,7 @@ enum slrt_tag {
     SLRT_DORB,
     SLRT_BEYO,
     SLRT_SEPO,
+    SLRT_MAPT,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -365,6 +416,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"DORB", 1},
                           {"BEYO", 4},
                           {"SEPO", 12},
+                          {"MAPT", 1},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -692,7 +744,12 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
+    rt->seam_count = 0;
+    if (found[SLRT_SEAM].count > UINT32_MAX) return false;
+    if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
+    for (i = 0; i < rt->seam_count; i++)
+        if (!slrt_usable(rt->seams + i * 40, 4)) return false;
     rt->seam_portal_count = (uint32_t)count;
     for (i = 0; i < count; i++) {
         const unsigned char *on = rt->seam_portals + i * 12;
@@ -730,6 +787,217 @@ static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
     return true;
 }
 
+// --- the map text: statements in lines, words between blanks, comments after '#'
+
+/// A place in the map text: the rest of a line, or of the text.
+typedef struct slrt_text {
+    const unsigned char *at, *end;
+} slrt_text;
+
+/// Takes the next line off a text; false at its end.
+static bool slrt_take_line(slrt_text *text, slrt_text *line) {
+    if (text->at == text->end) return false;
+    line->at = line->end = text->at;
+    while (line->end < text->end && *line->end != '\n') line->end++;
+    text->at = line->end < text->end ? line->end + 1 : line->end;
+    if (line->end > line->at && line->end[-1] == '\r') line->end--;
+    return true;
+}
+
+/// Takes the next word off a line; it is empty at the line's end.
+static slrt_text slrt_take_word(slrt_text *line) {
+    slrt_text word;
+    while (line->at < line->end && (*line->at == ' ' || *line->at == '\t')) line->at++;
+    word.at = word.end = line->at;
+    while (word.end < line->end && *word.end != ' ' && *word.end != '\t' && *word.end != '#')
+        word.end++;
+    line->at = word.end < line->end && *word.end == '#' ? line->end : word.end;
+    return word;
+}
+
+static bool slrt_word_is(const slrt_text *word, const char *text) {
+    const unsigned char *at = word->at;
+    for (; at < word->end && *text && *at == (unsigned char)*text; at++) text++;
+    return at == word->end && !*text;
+}
+
+/// The `number`-th statement with this first word; what follows the word is put into `line`. Counts
+/// down `number`, so UINT32_MAX counts the statements.
+static bool slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t *number,
+                                slrt_text *line) {
+    slrt_text text;
+    text.at = rt->text;
+    text.end = rt->text + rt->text_bytes;
+    while (slrt_take_line(&text, line)) {
+        const slrt_text word = slrt_take_word(line);
+        if (slrt_word_is(&word, first) && !(*number)--) return true;
+    }
+    return false;
+}
+
+/// A decimal: digits, of which the last `fraction` are behind the point, and a power of ten.
+typedef struct slrt_decimal {
+    slrt_text digits; ///< among them the point
+    uint32_t digit_count, fraction;
+    int32_t exponent;
+    bool negative;
+} slrt_decimal;
+
+/// Reads digits, which may have a point among them. Returns how many there are.
+static uint32_t slrt_take_digits(slrt_text *word, uint32_t *fraction) {
+    uint32_t count = 0;
+    bool point = false;
+    *fraction = 0;
+    for (; word->at < word->end; word->at++) {
+        if (*word->at == '.' && !point) {
+            point = true;
+            continue;
+        }
+        if (*word->at < '0' || *word->at > '9') break;
+        count++;
+        if (point) ++*fraction;
+    }
+    return count;
+}
+
+/// Splits a word into the parts of a decimal; false if it is none, or has 512 characters or more.
+static bool slrt_parse_decimal(slrt_text word, slrt_decimal *out) {
+    int32_t exponent = 0;
+    bool down = false;
+    memset(out, 0, sizeof *out);
+    if (word.end - word.at >= 512) return false;
+    if (word.at < word.end && (*word.at == '-' || *word.at == '+'))
+        out->negative = *word.at++ == '-';
+    out->digits.at = word.at;
+    out->digit_count = slrt_take_digits(&word, &out->fraction);
+    out->digits.end = word.at;
+    if (!out->digit_count) return false;
+    if (word.at == word.end) return true;
+    if (*word.at != 'e' && *word.at != 'E') return false;
+    word.at++;
+    if (word.at < word.end && (*word.at == '-' || *word.at == '+')) down = *word.at++ == '-';
+    if (word.at == word.end) return false;
+    for (; word.at < word.end; word.at++) {
+        if (*word.at < '0' || *word.at > '9') return false;
+        if (exponent < 100000) exponent = 10 * exponent + (*word.at - '0');
+    }
+    out->exponent = down ? -exponent : exponent;
+    return true;
+}
+
+/// A fixed-point number in words of 32 bits, least first. Half of the words are behind the point,
+/// which is more than the smallest double needs.
+enum { SLRT_FIXED_WORDS = 128, SLRT_FIXED_POINT = 64 };
+
+/// Multiplies the words from `from` on by 10 and adds a digit there. False if the number becomes
+/// too large.
+static bool slrt_times_ten(uint32_t *fixed, uint32_t from, uint32_t digit) {
+    uint64_t carry = digit;
+    uint32_t i;
+    for (i = from; i < SLRT_FIXED_WORDS; i++) {
+        carry += (uint64_t)fixed[i] * 10;
+        fixed[i] = (uint32_t)(carry & UINT32_MAX);
+        carry >>= 32;
+    }
+    return !carry;
+}
+
+/// Divides by 10, rounding down. Returns whether there was a remainder.
+static bool slrt_over_ten(uint32_t *fixed) {
+    uint64_t rest = 0;
+    uint32_t i;
+    for (i = SLRT_FIXED_WORDS; i-- > 0;) {
+        rest = rest << 32 | fixed[i];
+        fixed[i] = (uint32_t)(rest / 10);
+        rest %= 10;
+    }
+    return rest != 0;
+}
+
+static bool slrt_bit(const uint32_t *fixed, int bit) {
+    return fixed[bit / 32] >> bit % 32 & 1;
+}
+
+/// Rounds a fixed-point number to the nearest double, a tie to the even one. `rest`: a little is
+/// missing. As bits; all ones in the exponent if it is too large.
+static uint64_t slrt_round_fixed(const uint32_t *fixed, bool rest) {
+    const int lowest = 32 * SLRT_FIXED_POINT - 1074; // the bit of the smallest double
+    int top = 32 * SLRT_FIXED_WORDS - 1, low, i;
+    uint64_t bits = 0;
+    while (top >= 0 && !slrt_bit(fixed, top)) top--;
+    low = top - 52 > lowest ? top - 52 : lowest;
+    for (i = top; i >= low; i--) bits = bits << 1 | slrt_bit(fixed, i);
+    for (i = 0; i < low - 1 && !rest; i++) rest = slrt_bit(fixed, i);
+    if (slrt_bit(fixed, low - 1) && (rest || (bits & 1))) bits++;
+    // The leading bit adds 1 to the exponent, also where rounding carries into it.
+    if (low - lowest > 2045) return UINT64_C(0x7ff) << 52;
+    return bits + ((uint64_t)(low - lowest) << 52);
+}
+
+/// The nearest double; false if it is not finite. In integers alone, so no option for arithmetic
+/// changes it. Below 1e-480 it is 0, as that is less than half the smallest double.
+static bool slrt_decimal_value(const slrt_decimal *decimal, double *out) {
+    uint32_t fixed[SLRT_FIXED_WORDS];
+    int32_t power = decimal->exponent - (int32_t)decimal->fraction;
+    const unsigned char *at;
+    uint64_t bits;
+    bool rest = false, any = false;
+    memset(fixed, 0, sizeof fixed);
+    for (at = decimal->digits.at; at < decimal->digits.end; at++) {
+        if (*at == '.') continue;
+        any = any || *at != '0';
+        if (!slrt_times_ten(fixed, SLRT_FIXED_POINT, (uint32_t)*at - '0')) return false;
+    }
+    if (!any || power < -1000) {
+        memset(fixed, 0, sizeof fixed);
+        power = 0;
+    }
+    for (; power > 0; power--)
+        if (!slrt_times_ten(fixed, SLRT_FIXED_POINT, 0)) return false;
+    for (; power < 0; power++) rest = slrt_over_ten(fixed) || rest;
+    bits = slrt_round_fixed(fixed, rest);
+    if (bits >> 52 == 0x7ff) return false;
+    bits |= (uint64_t)decimal->negative << 63;
+    memcpy(out, &bits, sizeof *out);
+    return true;
+}
+
+/// Reads the next word of a line as a number. Coordinates are in the range of slrt_usable.
+static bool slrt_take_number(slrt_text *line, bool coordinate, double *out) {
+    slrt_decimal decimal;
+    unsigned char bytes[sizeof *out];
+    if (!slrt_parse_decimal(slrt_take_word(line), &decimal) || !slrt_decimal_value(&decimal, out))
+        return false;
+    memcpy(bytes, out, sizeof bytes);
+    return !coordinate || slrt_usable(bytes, 1);
+}
+
+static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
+    return slrt_take_number(&line, true, &out->x) && slrt_take_number(&line, true, &out->y) &&
+           slrt_take_number(&line, false, &out->heading);
+}
+
+/// Each door that a seam is of has a name, and each start three numbers.
+static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
+    slrt_text text, line;
+    uint32_t doors = 0;
+    rt->text = found[SLRT_MAPT].items;
+    rt->text_bytes = (size_t)found[SLRT_MAPT].count;
+    text.at = rt->text;
+    text.end = rt->text + rt->text_bytes;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text first = slrt_take_word(&line);
+        sl_runtime_viewpoint start;
+        if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
+        if (slrt_word_is(&first, "door")) {
+            const slrt_text name = slrt_take_word(&line);
+            if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
+            doors++;
+        }
+    }
+    return doors >= rt->door_count;
+}
+
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
     slrt_section found[SLRT_TAGS];
@@ -744,6 +1012,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
+    if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -773,6 +1042,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
         return "damaged: a row of the visible sets";
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
+    case SL_RUNTIME_TEXT:
+        return "damaged: a door or start of the map text";
     }
     return "unknown status";
 }
@@ -795,6 +1066,80 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
     const unsigned char *at = runtime->vertices + (size_t)vertex * SLRT_VERTEX_BYTES;
     *x = slrt_f64(at);
     *y = slrt_f64(at + 8);
+}
+
+// --- doors and starts
+
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+    sl_runtime_name name;
+    slrt_text line;
+    name.text = "";
+    name.length = 0;
+    if (door < runtime->door_count && slrt_find_statement(runtime, "door", &door, &line)) {
+        const slrt_text word = slrt_take_word(&line);
+        name.text = (const char *)word.at;
+        name.length = (uint32_t)(word.end - word.at);
+    }
+    return name;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
+    slrt_text text, line;
+    uint32_t door = 0;
+    text.at = runtime->text;
+    text.end = runtime->text + runtime->text_bytes;
+    while (door < runtime->door_count && slrt_take_line(&text, &line)) {
+        slrt_text word = slrt_take_word(&line);
+        if (!slrt_word_is(&word, "door")) continue;
+        word = slrt_take_word(&line);
+        if (slrt_word_is(&word, name)) return door;
+        door++;
+    }
+    return SL_RUNTIME_NO_DOOR;
+}
+
+SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door) {
+    slrt_text line, word;
+    int i;
+    if (door >= runtime->door_count || !slrt_find_statement(runtime, "door", &door, &line))
+        return false;
+    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // its name and four coordinates
+    word = slrt_take_word(&line);
+    return !slrt_word_is(&word, "shut");
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
+                                                 sl_runtime_segment *segments, uint32_t room) {
+    uint32_t i, count = 0;
+    for (i = 0; i < runtime->seam_count; i++) {
+        const unsigned char *seam = runtime->seams + (size_t)i * 40;
+        if (slrt_u32(seam + 32) != 1 || slrt_u32(seam + 36) != door) continue;
+        if (count < room) {
+            segments[count].x0 = slrt_f64(seam);
+            segments[count].y0 = slrt_f64(seam + 8);
+            segments[count].x1 = slrt_f64(seam + 16);
+            segments[count].y1 = slrt_f64(seam + 24);
+        }
+        count++;
+    }
+    return count;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
+    uint32_t left = UINT32_MAX;
+    slrt_text line;
+    slrt_find_statement(runtime, "start", &left, &line);
+    return UINT32_MAX - left;
+}
+
+SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
+                                     sl_runtime_viewpoint *out) {
+    sl_runtime_viewpoint found;
+    slrt_text line;
+    if (!slrt_find_statement(runtime, "start", &start, &line) || !slrt_read_start(line, &found))
+        return false;
+    *out = found;
+    return true;
 }
 
 // --- rows
@@ -873,9 +1218,9 @@ SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cel
            slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 16) != 0;
 }
 
-/// Whether a cell is solid ground, from where nobody looks.
-static bool slrt_is_solid(const sl_runtime *runtime, uint32_t cell) {
-    return slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 20) != 0;
+SL_RUNTIME_API bool sl_runtime_is_solid(const sl_runtime *runtime, uint32_t cell) {
+    return cell < runtime->cell_count &&
+           slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 20) != 0;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell) {
@@ -1466,7 +1811,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     const size_t count = runtime->cell_count;
     sl_runtime_run run;
     slrt_search s;
-    if (cell == SL_RUNTIME_NO_CELL || slrt_is_solid(runtime, cell)) return 0;
+    if (cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell)) return 0;
     memset(&s, 0, sizeof s);
     s.rt = runtime;
     s.view = view;

@@ -97,6 +97,28 @@ static void check_places(const sl_runtime *r, sl_random *random, const buffers *
     check_place(r, odd_real(random), odd_real(random), random, b);
 }
 
+/// Doors and starts of the map text, whose bytes are in the block.
+static void check_text(const sl_runtime *r) {
+    const uint32_t doors = r->door_count < 64 ? r->door_count : 64;
+    const uint32_t starts = sl_runtime_start_count(r);
+    for (uint32_t i = 0; i < doors; i++) {
+        const sl_runtime_name name = sl_runtime_door_name(r, i);
+        char copy[256];
+        sl_runtime_segment at[2];
+        FUZZ_CHECK(name.length > 0);
+        sl_runtime_door_open(r, i);
+        sl_runtime_door_segments(r, i, at, 2);
+        if (name.length >= sizeof copy || memchr(name.text, 0, name.length)) continue;
+        memcpy(copy, name.text, name.length);
+        copy[name.length] = '\0';
+        FUZZ_CHECK(sl_runtime_find_door(r, copy) <= i);
+    }
+    for (uint32_t i = 0; i < starts && i < 64; i++) {
+        sl_runtime_viewpoint start;
+        FUZZ_CHECK(sl_runtime_start(r, i, &start) && isfinite(start.heading));
+    }
+}
+
 static void check_open(const sl_runtime *r, sl_random *random) {
     const buffers b = {.bits = room((r->cell_count + 7) / 8),
                        .seen = room(r->cell_count),
@@ -110,6 +132,7 @@ static void check_open(const sl_runtime *r, sl_random *random) {
     }
     FUZZ_CHECK(!sl_runtime_can_see(r, r->cell_count, 0) &&
                !sl_runtime_can_see(r, 0, r->cell_count));
+    check_text(r);
     check_places(r, random, &b);
     free(b.bits);
     free(b.seen);
