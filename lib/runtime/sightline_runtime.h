@@ -221,7 +221,7 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
                                                       double direction_y, double tan_half);
 
-/// The size of the scratch memory for sl_runtime_look, in uint32_t.
+/// The size of the scratch memory for sl_runtime_look and sl_runtime_visible_polygon, in uint32_t.
 SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 
 /// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
@@ -250,6 +250,27 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
+
+/// Eye-to-region: the polygon that the eye sees inside the cone, for fog of war. Returns the number
+/// of its points, and puts the first `room` of them into `points`, as pairs x, y. If there are more
+/// than `room`, ask again with that much room. Returns 0 if nothing is seen: the eye is outside the
+/// map or in solid ground, or the cone is one direction. `shut` and `scratch` are as for
+/// sl_runtime_look_past.
+///
+/// Points go counter-clockwise about the eye, so the triangles (eye, point i, point i + 1) cover
+/// what is seen. With a cone, the eye is the first point. Shut doors, mirrors and one-way glass
+/// that the eye cannot look through count as walls. It has no range: clip the polygon by a circle
+/// when you draw it.
+///
+/// As sl_region_make of the library: no sign comes from a rounded number. Points are corners of the
+/// map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in a
+/// single direction only is not part of it. An eye on a wall sees the side of its cell, and is then
+/// a point of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
+/// sound file does not cause. Time: the sides and portals of the cells that are seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, uint32_t *scratch,
+                                                   double *points, uint32_t room);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
@@ -1602,10 +1623,8 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right
     return true;
 }
 
-/// Whether a directed portal is on a shut door.
-static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
-    const sl_runtime *rt = s->rt;
-    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
     uint32_t low = 0, high = rt->seam_portal_count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -1614,6 +1633,14 @@ static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
         else
             high = middle;
     }
+    return low;
+}
+
+/// Whether a directed portal is on a shut door.
+static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
+    const sl_runtime *rt = s->rt;
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    uint32_t low = slrt_first_seam(rt, portal);
     for (; low < rt->seam_portal_count; low++) {
         const unsigned char *on = rt->seam_portals + (size_t)low * 12, *seam;
         if (slrt_u32(on) != portal) return false;
@@ -1831,6 +1858,614 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     while (sl_runtime_next(&run)) memset(s.marks + run.first, SLRT_IN_ROW, run.end - run.first);
     slrt_search_cone(&s, cell);
     return s.count;
+}
+
+// --- the visible polygon
+//
+// The view spreads from the cells at the eye through open portals, as sectors between two borders:
+//
+//      +---------+--------.-+
+//      |         |    .  left     On the way around the next cell, counter-clockwise from the
+//      |         b .        |     portal ab, pieces of its boundary come that are right of the
+//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
+//      |         a .        |     added to the polygon; a portal is entered with the sector
+//      |         |    .  right    between its ends.
+//      +---------+--------.-+
+//
+// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
+// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// in one line join; where one ends is computed only when the next one is known not to join. Cost:
+// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
+// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+
+/// No directed portal: a wall, or the border of the map. Also: no border, but a piece's own end.
+#define SLRT_NONE UINT32_MAX
+
+/// A piece of a cell's boundary, counter-clockwise from a to b.
+typedef struct slrt_piece {
+    double a[2], b[2];
+    uint32_t directed; ///< the portal, if it is one
+} slrt_piece;
+
+/// A walk around a cell, counter-clockwise, some times from a portal's left end to there again.
+typedef struct slrt_walk {
+    sl_runtime_cell cell;
+    uint32_t stop;            ///< the portal at which a lap ends
+    uint32_t passed, side;    ///< the portal passed last, and the side on which `at` lies
+    uint32_t next, next_side; ///< the next portal, and its side
+    uint32_t corners;         ///< the number of corners before it
+    uint32_t laps;            ///< left to do
+    double at[2];
+} slrt_walk;
+
+/// A polygon as it grows, and the part of the view about the eye that is being looked at.
+typedef struct slrt_polygon {
+    slrt_search s;
+    uint32_t eye_cell;
+    bool broken; ///< the file is not sound, or the search takes too long
+    double *points;
+    uint32_t room, count;
+    double first[2], last[2]; ///< points
+    bool pending;             ///< the end of the last piece is not added yet
+    slrt_piece piece;         ///< that piece
+    uint32_t piece_left;      ///< the border where it ends, or SLRT_NONE
+    slrt_piece first_piece;   ///< that starts at the first point
+    bool inside;              ///< the eye lies within its cell
+    uint32_t fan_first;       ///< the cell where the way around the eye starts
+    bool fan_is_closed;       ///< it leads back to that cell
+    bool gap;                 ///< the eye lies on a wall, which hides some directions
+    bool in_sector;           ///< only what is between these borders is looked at
+    uint32_t right, left;     ///< borders of the sector
+    bool second_lap, started, done;
+    uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
+} slrt_polygon;
+
+static void slrt_read_vertex(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t corner,
+                             double *out) {
+    sl_runtime_get_vertex(rt, cell->first_vertex + corner, &out[0], &out[1]);
+}
+
+/// Reads the left (0) or right (1) end of a directed portal.
+static void slrt_read_end(const sl_runtime *rt, uint32_t directed, int right, double *out) {
+    memcpy(out, rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8 + 16 * right, 16);
+}
+
+static bool slrt_same_place(const double *a, const double *b) {
+    return a[0] == b[0] && a[1] == b[1];
+}
+
+static bool slrt_is_between(double a, double value, double b) {
+    return (a <= value && value <= b) || (b <= value && value <= a);
+}
+
+static int slrt_turn(const double *a, const double *b, const double *c) {
+    const slrt_arm along = slrt_make_arm(a[0], a[1], b[0], b[1]);
+    const slrt_arm to = slrt_make_arm(a[0], a[1], c[0], c[1]);
+    return slrt_side(&along, &to);
+}
+
+/// Whether a point is on the segment from a to b.
+static bool slrt_is_on(const double *a, const double *b, const double *point) {
+    return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]) &&
+           (slrt_same_place(a, point) || slrt_same_place(b, point) || !slrt_turn(a, b, point));
+}
+
+/// The side of a cell that a portal is on, looked for from one side on.
+static uint32_t slrt_side_of_portal(slrt_polygon *p, const sl_runtime_cell *cell, uint32_t directed,
+                                    uint32_t from) {
+    double left[2], right[2], a[2], b[2];
+    uint32_t i, side = from;
+    slrt_read_end(p->s.rt, directed, 0, left);
+    slrt_read_end(p->s.rt, directed, 1, right);
+    slrt_read_vertex(p->s.rt, cell, side, a);
+    for (i = 0; i < cell->vertex_count && p->s.patience; i++) {
+        const uint32_t next = side + 1 < cell->vertex_count ? side + 1 : 0;
+        slrt_read_vertex(p->s.rt, cell, next, b);
+        if (slrt_is_on(a, b, right) && slrt_is_on(a, b, left)) return side;
+        a[0] = b[0], a[1] = b[1];
+        side = next;
+        p->s.patience--;
+    }
+    p->broken = true;
+    return from;
+}
+
+/// Whether a point on a side comes before another one.
+static bool slrt_comes_before(slrt_polygon *p, const slrt_walk *w, const double *point,
+                              const double *other) {
+    double a[2], b[2];
+    int axis;
+    slrt_read_vertex(p->s.rt, &w->cell, w->side, a);
+    slrt_read_vertex(p->s.rt, &w->cell, w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0, b);
+    axis = a[0] == b[0];
+    return a[axis] < b[axis] ? point[axis] < other[axis] : point[axis] > other[axis];
+}
+
+/// Finds the next portal of a walk.
+static void slrt_walk_aim(slrt_polygon *p, slrt_walk *w) {
+    const uint32_t first = w->cell.first_directed, count = w->cell.directed_count;
+    double right[2];
+    w->next = w->passed + 1 < first + count ? w->passed + 1 : first;
+    w->next_side = slrt_side_of_portal(p, &w->cell, w->next, w->side);
+    w->corners = w->next_side >= w->side ? w->next_side - w->side
+                                         : w->cell.vertex_count - w->side + w->next_side;
+    slrt_read_end(p->s.rt, w->next, 1, right);
+    if (!w->corners && (w->next == w->passed || slrt_comes_before(p, w, right, w->at)))
+        w->corners = w->cell.vertex_count;
+}
+
+/// Goes on with a walk behind a portal on a known side.
+static void slrt_walk_behind(slrt_polygon *p, slrt_walk *w, uint32_t passed, uint32_t side) {
+    w->passed = passed;
+    w->side = side;
+    slrt_read_end(p->s.rt, passed, 0, w->at);
+    slrt_walk_aim(p, w);
+}
+
+/// Starts a walk behind a portal. In a cell without portals it starts at a corner.
+static void slrt_walk_start(slrt_polygon *p, slrt_walk *w, uint32_t cell, uint32_t stop,
+                            uint32_t laps) {
+    w->cell = sl_runtime_get_cell(p->s.rt, cell);
+    w->stop = w->cell.directed_count ? stop : SLRT_NONE;
+    w->laps = laps;
+    if (w->stop != SLRT_NONE) {
+        slrt_walk_behind(p, w, stop, slrt_side_of_portal(p, &w->cell, stop, 0));
+        return;
+    }
+    w->passed = w->next = SLRT_NONE;
+    w->side = w->next_side = 0;
+    w->corners = w->cell.vertex_count;
+    slrt_read_vertex(p->s.rt, &w->cell, 0, w->at);
+}
+
+static void slrt_end_piece_at(slrt_walk *w, const double *end, slrt_piece *piece) {
+    memcpy(piece->a, w->at, sizeof piece->a);
+    memcpy(piece->b, end, sizeof piece->b);
+    memcpy(w->at, end, sizeof w->at);
+    piece->directed = SLRT_NONE;
+}
+
+/// Takes the next piece of the boundary, to a corner, to a portal, or of a portal.
+static void slrt_walk_step(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
+    double end[2];
+    if (w->corners) {
+        w->side = w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0;
+        slrt_read_vertex(p->s.rt, &w->cell, w->side, end);
+        slrt_end_piece_at(w, end, piece);
+        w->corners--;
+        if (w->stop != SLRT_NONE || w->corners) return;
+        w->laps--;
+        w->corners = w->cell.vertex_count;
+        return;
+    }
+    slrt_read_end(p->s.rt, w->next, 1, end);
+    if (!slrt_same_place(w->at, end)) {
+        slrt_end_piece_at(w, end, piece);
+        return;
+    }
+    slrt_read_end(p->s.rt, w->next, 0, end);
+    slrt_end_piece_at(w, end, piece);
+    piece->directed = w->next;
+    if (w->next == w->stop) w->laps--;
+    if (w->laps) slrt_walk_behind(p, w, w->next, w->next_side);
+}
+
+/// Takes the next piece that is not just a point; false at the end.
+static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
+    do {
+        if (!p->s.patience) p->broken = true;
+        if (!w->laps || p->broken) return false;
+        p->s.patience--;
+        slrt_walk_step(p, w, piece);
+    } while (slrt_same_place(piece->a, piece->b));
+    return true;
+}
+
+static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
+    return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);
+}
+
+/// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
+/// right to the left. For an eye on its line, the eye's cell decides.
+static bool slrt_is_dark(const slrt_polygon *p, const unsigned char *glass) {
+    const sl_runtime *rt = p->s.rt;
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, p->eye_cell);
+    const int side = slrt_side_of_line(glass, glass + 16, p->s.x, p->s.y);
+    uint32_t i;
+    if (side) return side > 0;
+    for (i = 0; i < cell.vertex_count; i++) {
+        double corner[2];
+        slrt_read_vertex(rt, &cell, i, corner);
+        if (slrt_side_of_line(glass, glass + 16, corner[0], corner[1]) > 0) return true;
+    }
+    return false;
+}
+
+/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+static bool slrt_is_blocked(const slrt_polygon *p, uint32_t directed) {
+    const sl_runtime *rt = p->s.rt;
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    uint32_t i;
+    if (p->s.shut && slrt_is_shut(&p->s, directed)) return true;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(p, seam)) return true;
+    }
+    return false;
+}
+
+/// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
+static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
+    const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    const uint32_t portal = slrt_u32(at);
+    const sl_runtime_cell cell = sl_runtime_get_cell(p->s.rt, slrt_u32(at + 4));
+    uint32_t i;
+    for (i = cell.first_directed; i < cell.first_directed + cell.directed_count; i++)
+        if (i != directed &&
+            slrt_u32(p->s.rt->directed + (size_t)i * SLRT_DIRECTED_BYTES) == portal)
+            return i;
+    return SLRT_NONE;
+}
+
+// The points of the polygon.
+
+/// Adds a point, unless it is the last one.
+static void slrt_add_point(slrt_polygon *p, const double *point) {
+    if (p->count && slrt_same_place(p->last, point)) return;
+    memcpy(p->last, point, sizeof p->last);
+    if (!p->count) memcpy(p->first, point, sizeof p->first);
+    if (p->count < p->room) memcpy(p->points + 2 * (size_t)p->count, point, sizeof p->last);
+    p->count++;
+}
+
+/// The cross product u x v of arms, rounded once or twice: the sum of its exact parts.
+static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
+    double parts[16], sum = 0;
+    int i, count = 0;
+    count = slrt_add_product(parts, count, u->to_x, v->to_y);
+    count = slrt_add_product(parts, count, u->to_x, -v->from_y);
+    count = slrt_add_product(parts, count, -u->from_x, v->to_y);
+    count = slrt_add_product(parts, count, u->from_x, v->from_y);
+    count = slrt_add_product(parts, count, -u->to_y, v->to_x);
+    count = slrt_add_product(parts, count, u->to_y, v->from_x);
+    count = slrt_add_product(parts, count, u->from_y, v->to_x);
+    count = slrt_add_product(parts, count, -u->from_y, v->from_x);
+    for (i = 0; i < count; i++) sum += parts[i];
+    return sum;
+}
+
+/// Limits a number to those between a and b.
+static double slrt_limited(double a, double value, double b) {
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return !(value >= low) ? low : value > high ? high : value;
+}
+
+/// The end of a piece: its own, or where a border meets its line.
+static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own,
+                       const slrt_piece *piece, double *out) {
+    const double *a = piece->a, *b = piece->b;
+    slrt_arm ray, along, to;
+    double share;
+    if (border == SLRT_NONE) {
+        memcpy(out, own, 2 * sizeof *out);
+        return;
+    }
+    ray = slrt_border(&p->s, border);
+    if (a[0] == b[0]) {
+        share = (a[0] - p->s.x) / ray.x;
+    } else if (a[1] == b[1]) {
+        share = (a[1] - p->s.y) / ray.y;
+    } else {
+        along = slrt_make_arm(a[0], a[1], b[0], b[1]);
+        to = slrt_arm_to(p, a);
+        share = slrt_cross(&to, &along) / slrt_cross(&ray, &along);
+    }
+    out[0] = slrt_limited(a[0], p->s.x + ray.x * share, b[0]);
+    out[1] = slrt_limited(a[1], p->s.y + ray.y * share, b[1]);
+}
+
+/// Whether two pieces lie in one line.
+static bool slrt_in_line(const slrt_piece *piece, const slrt_piece *other) {
+    return !slrt_turn(piece->a, piece->b, other->a) && !slrt_turn(piece->a, piece->b, other->b);
+}
+
+/// Adds the end of the pending piece.
+static void slrt_end_pending(slrt_polygon *p) {
+    double end[2];
+    if (!p->pending) return;
+    slrt_place(p, p->piece_left, p->piece.b, &p->piece, end);
+    slrt_add_point(p, end);
+    p->pending = false;
+}
+
+/// Adds a wall, from the border `right` to the border `left` or, for SLRT_NONE, its own ends.
+static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t right, uint32_t left) {
+    if (!p->pending || !slrt_in_line(&p->piece, piece)) {
+        double start[2];
+        slrt_place(p, right, piece->a, piece, start);
+        slrt_end_pending(p);
+        if (!p->count) p->first_piece = *piece;
+        slrt_add_point(p, start);
+    }
+    p->pending = true;
+    p->piece = *piece;
+    p->piece_left = left;
+}
+
+/// Adds the eye, where the polygon has it as a corner.
+static void slrt_add_eye(slrt_polygon *p) {
+    double eye[2];
+    eye[0] = p->s.x;
+    eye[1] = p->s.y;
+    slrt_end_pending(p);
+    slrt_add_point(p, eye);
+}
+
+/// Ends the polygon. All round, the last piece may go on as the first one.
+static void slrt_close(slrt_polygon *p, bool all_round) {
+    if (all_round && p->pending && p->count > 1 && slrt_in_line(&p->first_piece, &p->piece)) {
+        if (p->room) memcpy(p->points, p->last, sizeof p->last);
+        p->count--;
+        return;
+    }
+    slrt_end_pending(p);
+    if (p->count > 1 && slrt_same_place(p->first, p->last)) p->count--;
+}
+
+// The search. The path is a stack of six numbers for each cell: the cell, the portal through which
+// it was entered, the portal passed last and its side, and the borders of the sector.
+
+enum { SLRT_FRAME = 6 };
+
+static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32_t left) {
+    uint32_t *top = p->s.path + (size_t)SLRT_FRAME * p->s.depth;
+    const uint32_t twin = slrt_twin(p, directed);
+    sl_runtime_cell cell;
+    if (twin == SLRT_NONE || p->s.depth == p->s.rt->cell_count) {
+        p->broken = true;
+        return;
+    }
+    top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    cell = sl_runtime_get_cell(p->s.rt, top[0]);
+    top[1] = top[2] = twin;
+    top[3] = slrt_side_of_portal(p, &cell, twin, 0);
+    top[4] = right;
+    top[5] = left;
+    p->s.depth++;
+}
+
+/// Goes on around the cell on top of the path: adds walls up to the next open portal and enters
+/// that, or leaves the cell.
+static void slrt_spread_on(slrt_polygon *p) {
+    uint32_t *top = p->s.path + (size_t)SLRT_FRAME * (p->s.depth - 1);
+    const slrt_arm a = slrt_border(&p->s, top[4]), b = slrt_border(&p->s, top[5]);
+    slrt_walk w;
+    slrt_piece piece;
+    w.cell = sl_runtime_get_cell(p->s.rt, top[0]);
+    w.stop = top[1];
+    w.laps = 1;
+    slrt_walk_behind(p, &w, top[2], top[3]);
+    while (slrt_walk_next(p, &w, &piece)) {
+        const uint32_t portal = piece.directed;
+        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        uint32_t right = SLRT_NONE, left = SLRT_NONE;
+        int end;
+        if (slrt_side(&from, &to) <= 0 || slrt_side(&a, &to) <= 0) continue;
+        if (slrt_side(&from, &b) <= 0) break;
+        end = slrt_side(&to, &b);
+        if (slrt_side(&from, &a) > 0) right = top[4];
+        if (end < 0) left = top[5];
+        if (portal != SLRT_NONE && !slrt_is_blocked(p, portal)) {
+            top[2] = portal;
+            top[3] = w.side;
+            if (end <= 0) p->s.depth--; // nothing is left to see of this cell
+            slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
+                      left == SLRT_NONE ? 2 * portal : left);
+            return;
+        }
+        slrt_add_wall(p, &piece, right, left);
+        if (end <= 0) break;
+    }
+    p->s.depth--;
+}
+
+/// Adds what is seen of a piece, or through it.
+static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t right,
+                           uint32_t left) {
+    const uint32_t portal = piece->directed;
+    if (portal == SLRT_NONE || slrt_is_blocked(p, portal)) {
+        slrt_add_wall(p, piece, right, left);
+        return;
+    }
+    slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
+              left == SLRT_NONE ? 2 * portal : left);
+    while (p->s.depth && !p->broken) slrt_spread_on(p);
+}
+
+// The fan: the pieces about the eye, of all cells that touch it.
+
+/// Sees a piece of the fan, as far as it is in the sector. The fan may start anywhere. So the first
+/// lap begins with the piece that the sector starts in, and the second lap ends before that piece.
+static void slrt_see_fan_piece(slrt_polygon *p, const slrt_piece *piece, const slrt_arm *from,
+                               const slrt_arm *to) {
+    uint32_t right = SLRT_NONE, left = SLRT_NONE;
+    if (p->in_sector) {
+        const slrt_arm a = slrt_border(&p->s, p->right), b = slrt_border(&p->s, p->left);
+        const int from_a = slrt_side(from, &a), a_to = slrt_side(&a, to);
+        const bool starts = from_a >= 0 && a_to > 0;
+        if (starts) p->done = p->second_lap && p->started;
+        if (starts && !p->second_lap) p->started = true;
+        if (p->done || (!p->second_lap && !p->started)) return;
+        if (!starts && (from_a > 0 || slrt_side(from, &b) <= 0)) return;
+        if (from_a > 0) right = p->right;
+        if (a_to <= 0 || slrt_side(to, &b) < 0) left = p->left;
+    }
+    // The fan starts behind the gap: who comes to an earlier piece has passed it.
+    if (p->gap && (p->fan_at < p->fan_last || (p->fan_at == p->fan_last && right == SLRT_NONE)))
+        slrt_add_eye(p);
+    p->fan_last = p->fan_at;
+    slrt_see_piece(p, piece, right, left);
+}
+
+/// Goes around a cell of the fan. On its border, the eye sees a run of pieces: it begins behind one
+/// that does not face the eye.
+static void slrt_see_fan_cell(slrt_polygon *p, uint32_t cell) {
+    bool run = p->inside, ready = p->inside;
+    slrt_walk w;
+    slrt_piece piece;
+    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed,
+                    p->inside ? 1 : 2);
+    while (slrt_walk_next(p, &w, &piece)) {
+        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        const bool faces = slrt_side(&from, &to) > 0;
+        if (faces && ready) {
+            run = true;
+            slrt_see_fan_piece(p, &piece, &from, &to);
+            p->fan_at++;
+        } else if (!faces && run && !p->inside) {
+            return;
+        }
+        ready = ready || !faces;
+    }
+}
+
+/// What of a cell's boundary is at the eye: counter-clockwise behind it and before it.
+typedef struct slrt_touch {
+    bool any;
+    uint32_t behind, before; ///< open portals, or SLRT_NONE
+    double behind_end[2], before_end[2];
+} slrt_touch;
+
+static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
+    slrt_touch touch;
+    slrt_walk w;
+    slrt_piece piece;
+    memset(&touch, 0, sizeof touch);
+    touch.behind = touch.before = SLRT_NONE;
+    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed, 1);
+    while (slrt_walk_next(p, &w, &piece)) {
+        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        uint32_t open;
+        if (slrt_side(&from, &to) || slrt_same_way(&from, &to)) continue;
+        open = piece.directed != SLRT_NONE && slrt_is_blocked(p, piece.directed) ? SLRT_NONE
+                                                                                 : piece.directed;
+        touch.any = true;
+        if (!slrt_is_zero(&to)) {
+            touch.behind = open;
+            memcpy(touch.behind_end, piece.b, sizeof piece.b);
+        }
+        if (!slrt_is_zero(&from)) {
+            touch.before = open;
+            memcpy(touch.before_end, piece.a, sizeof piece.a);
+        }
+    }
+    return touch;
+}
+
+static uint32_t slrt_cell_behind(const slrt_polygon *p, uint32_t directed) {
+    return slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// Finds where the way around the eye starts: clockwise as far as portals lead, or once around. A
+/// wall that ends at the eye is seen edge-on, and hides nothing.
+static void slrt_find_fan(slrt_polygon *p) {
+    slrt_touch touch = slrt_touch_of(p, p->eye_cell), last = touch;
+    p->fan_first = p->eye_cell;
+    p->inside = !touch.any;
+    p->fan_is_closed = p->inside;
+    if (p->inside) return;
+    while (touch.behind != SLRT_NONE && !p->broken) {
+        p->fan_first = slrt_cell_behind(p, touch.behind);
+        p->fan_is_closed = p->fan_first == p->eye_cell;
+        if (p->fan_is_closed) return;
+        touch = slrt_touch_of(p, p->fan_first);
+    }
+    while (last.before != SLRT_NONE && !p->broken)
+        last = slrt_touch_of(p, slrt_cell_behind(p, last.before));
+    {
+        const slrt_arm right = slrt_arm_to(p, touch.behind_end);
+        const slrt_arm left = slrt_arm_to(p, last.before_end);
+        p->gap = !slrt_same_ray(&right, &left);
+    }
+}
+
+/// Sees the whole fan, once around.
+static void slrt_see_fan(slrt_polygon *p) {
+    uint32_t cell = p->fan_first;
+    p->fan_at = 0;
+    slrt_see_fan_cell(p, cell);
+    while (!p->inside && !p->broken) {
+        const uint32_t before = slrt_touch_of(p, cell).before;
+        if (before == SLRT_NONE) return;
+        cell = slrt_cell_behind(p, before);
+        if (p->fan_is_closed && cell == p->fan_first) return;
+        slrt_see_fan_cell(p, cell);
+    }
+}
+
+/// Cuts the view cone into sectors of up to 180 degrees between the arms of `cone`, as
+/// slrt_search_cone does. 0 for a view all round; `last` is the arm where the last sector ends.
+static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
+    const double *right = s->view->right, *left = s->view->left;
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) return 0;
+    s->cone[0] = slrt_direction(right[0], right[1]);
+    s->cone[1] = slrt_direction(-right[1], right[0]);
+    s->cone[2] = slrt_direction(-right[0], -right[1]);
+    s->cone[3] = slrt_direction(left[0], left[1]);
+    *last = 3;
+    return slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]) ? 1
+                                                                                              : 3;
+}
+
+/// Sees what is in a sector of less than 180 degrees.
+static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
+    const slrt_arm a = slrt_border(&p->s, right), b = slrt_border(&p->s, left);
+    if (slrt_side(&a, &b) <= 0) return;
+    p->in_sector = true;
+    p->right = right;
+    p->left = left;
+    p->second_lap = p->started = p->done = false;
+    slrt_see_fan(p);
+    p->second_lap = true;
+    slrt_see_fan(p);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, uint32_t *scratch,
+                                                   double *points, uint32_t room) {
+    const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
+    const uint32_t cell = sl_runtime_locate(runtime, x, y);
+    uint32_t last, i, pieces;
+    slrt_polygon p;
+    if (runtime->loose || cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell))
+        return 0;
+    memset(&p, 0, sizeof p);
+    p.s.rt = runtime;
+    p.s.view = view;
+    p.s.shut = shut;
+    p.s.x = x;
+    p.s.y = y;
+    p.s.path = scratch;
+    p.s.patience = (uint64_t)SLRT_PATIENCE * 16 *
+                   ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
+    p.eye_cell = cell;
+    p.points = points;
+    p.room = room;
+    slrt_find_fan(&p);
+    pieces = slrt_cut_cone(&p.s, &last);
+    p.fan_last = UINT32_MAX;
+    if (!pieces) {
+        slrt_see_fan(&p);
+    } else {
+        slrt_add_eye(&p);
+        for (i = 0; i < pieces; i++)
+            slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    }
+    slrt_close(&p, !pieces && !p.gap);
+    return p.broken || p.count < 3 ? 0 : p.count;
 }
 
 #ifdef __cplusplus
