@@ -1910,6 +1910,7 @@ typedef struct slrt_polygon {
     slrt_piece piece;         ///< that piece
     uint32_t piece_left;      ///< the border where it ends, or SLRT_NONE
     slrt_piece first_piece;   ///< that starts at the first point
+    bool first_is_short;      ///< it is shorter than a step of doubles
     bool inside;              ///< the eye lies within its cell
     uint32_t fan_first;       ///< the cell where the way around the eye starts
     bool fan_is_closed;       ///< it leads back to that cell
@@ -2113,7 +2114,10 @@ static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
 
 /// Adds a point, unless it is the last one.
 static void slrt_add_point(slrt_polygon *p, const double *point) {
-    if (p->count && slrt_same_place(p->last, point)) return;
+    if (p->count && slrt_same_place(p->last, point)) {
+        p->first_is_short = p->first_is_short || p->count == 1;
+        return;
+    }
     memcpy(p->last, point, sizeof p->last);
     if (!p->count) memcpy(p->first, point, sizeof p->first);
     if (p->count < p->room) memcpy(p->points + 2 * (size_t)p->count, point, sizeof p->last);
@@ -2203,9 +2207,11 @@ static void slrt_add_eye(slrt_polygon *p) {
     slrt_add_point(p, eye);
 }
 
-/// Ends the polygon. All round, the last piece may go on as the first one.
+/// Ends the polygon. All round, the last piece may go on as the first one. Then that one's start
+/// goes, unless rounding made it the end too.
 static void slrt_close(slrt_polygon *p, bool all_round) {
-    if (all_round && p->pending && p->count > 1 && slrt_in_line(&p->first_piece, &p->piece)) {
+    if (all_round && p->pending && p->count > 1 && !p->first_is_short &&
+        slrt_in_line(&p->first_piece, &p->piece)) {
         if (p->room) memcpy(p->points, p->last, sizeof p->last);
         p->count--;
         return;

@@ -126,8 +126,9 @@ static void compare(trial *t, const sl_view *view) {
     const double area = sl_region_area(is), error = 1e-14 * size + 4e-16 * largest;
     if (count == 0 || is->count < 3) {
         if (count || fabs(area) > error * size)
-            fail_msg("%s: (%.17g, %.17g): %u points for %zu", t->f->name, eye.x, eye.y, count,
-                     is->count);
+            fail_msg("%s: (%.17g, %.17g)%s from (%g, %g) to (%g, %g): %u points for %zu",
+                     t->f->name, eye.x, eye.y, view->full ? "" : " with a cone", same.right[0],
+                     same.right[1], same.left[0], same.left[1], count, is->count);
         return;
     }
     t->seen++;
@@ -137,8 +138,10 @@ static void compare(trial *t, const sl_view *view) {
     const double off = farthest(points, count, needless, is_count);
     const double missed = farthest(needless, is_count, points, count);
     if (!(fabs(said - area) <= 8 * error * size && off <= 4 * error && missed <= 4 * error))
-        fail_msg("%s: (%.17g, %.17g)%s: area %.17g for %.17g, off by %g and %g of %g", t->f->name,
-                 eye.x, eye.y, view->full ? "" : " with a cone", said, area, off, missed, size);
+        fail_msg("%s: (%.17g, %.17g)%s from (%g, %g) to (%g, %g): area %.17g for %.17g, off by "
+                 "%g and %g of %g",
+                 t->f->name, eye.x, eye.y, view->full ? "" : " with a cone", same.right[0],
+                 same.right[1], same.left[0], same.left[1], said, area, off, missed, size);
     has_corners(t, needless, exact, is_count, points, count);
     if (t->asked % 16) return;
     // The same number for any room, and no more written than there is room for.
@@ -151,12 +154,18 @@ static void compare(trial *t, const sl_view *view) {
     assert_int_equal(sl_runtime_visible_polygon(r, &same, t->shut, t->scratch, NULL, 0), count);
 }
 
+/// Whether a rounded sum is the sum (Knuth's two-sum leaves nothing over).
+static bool is_sum(double a, double b, double sum) {
+    return sum - a == b && sum - b == a;
+}
+
+/// A point of the cone's border, exact to subtract again; the eye itself where there is none such.
 static sl_point border(sl_random *random, sl_point eye, double reach) {
     const double step = ldexp(1, ilogb(reach) - 4);
     const sl_point by = {step * ((double)sl_random_below(random, 9) - 4),
                          step * ((double)sl_random_below(random, 9) - 4)};
     const sl_point at = {eye.x + by.x, eye.y + by.y};
-    return at.x - eye.x == by.x && at.y - eye.y == by.y ? at : eye;
+    return is_sum(eye.x, by.x, at.x) && is_sum(eye.y, by.y, at.y) ? at : eye;
 }
 
 static bool same_point(sl_point a, sl_point b) {
