@@ -923,14 +923,16 @@ static bool slrt_times_ten(uint32_t *fixed, uint32_t from, uint32_t digit) {
     return !carry;
 }
 
-/// Divides by 10, rounding down. Returns whether there was a remainder.
-static bool slrt_over_ten(uint32_t *fixed) {
-    uint64_t rest = 0;
-    uint32_t i;
-    for (i = SLRT_FIXED_WORDS; i-- > 0;) {
+/// Divides by 10 to the `power`, at most 9, rounding down. Returns whether there was a remainder.
+static bool slrt_over_tens(uint32_t *fixed, int32_t power) {
+    uint64_t rest = 0, divisor = 1;
+    uint32_t i = SLRT_FIXED_WORDS;
+    for (; power; power--) divisor *= 10;
+    while (i && !fixed[i - 1]) i--;
+    while (i-- > 0) {
         rest = rest << 32 | fixed[i];
-        fixed[i] = (uint32_t)(rest / 10);
-        rest %= 10;
+        fixed[i] = (uint32_t)(rest / divisor);
+        rest %= divisor;
     }
     return rest != 0;
 }
@@ -975,7 +977,8 @@ static bool slrt_decimal_value(const slrt_decimal *decimal, double *out) {
     }
     for (; power > 0; power--)
         if (!slrt_times_ten(fixed, SLRT_FIXED_POINT, 0)) return false;
-    for (; power < 0; power++) rest = slrt_over_ten(fixed) || rest;
+    for (; power < -9; power += 9) rest = slrt_over_tens(fixed, 9) || rest;
+    if (power < 0) rest = slrt_over_tens(fixed, -power) || rest;
     bits = slrt_round_fixed(fixed, rest);
     if (bits >> 52 == 0x7ff) return false;
     bits |= (uint64_t)decimal->negative << 63;
@@ -1945,10 +1948,11 @@ static int slrt_turn(const double *a, const double *b, const double *c) {
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is on the segment from a to b.
+/// Whether a point is on the segment from a to b. The box of an axial segment is the segment.
 static bool slrt_is_on(const double *a, const double *b, const double *point) {
     return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]) &&
-           (slrt_same_place(a, point) || slrt_same_place(b, point) || !slrt_turn(a, b, point));
+           (a[0] == b[0] || a[1] == b[1] || slrt_same_place(a, point) ||
+            slrt_same_place(b, point) || !slrt_turn(a, b, point));
 }
 
 /// The side of a cell that a portal is on, looked for from one side on.
@@ -2172,7 +2176,10 @@ static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own
 
 /// Whether two pieces lie in one line.
 static bool slrt_in_line(const slrt_piece *piece, const slrt_piece *other) {
-    return !slrt_turn(piece->a, piece->b, other->a) && !slrt_turn(piece->a, piece->b, other->b);
+    const double *a = piece->a, *b = piece->b;
+    if (a[0] == b[0]) return other->a[0] == a[0] && other->b[0] == a[0];
+    if (a[1] == b[1]) return other->a[1] == a[1] && other->b[1] == a[1];
+    return !slrt_turn(a, b, other->a) && !slrt_turn(a, b, other->b);
 }
 
 /// Adds the end of the pending piece.
