@@ -40,7 +40,8 @@ static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
 static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, slrt_no_dust(view->x), slrt_no_dust(view->y));
     const uint32_t count = sl_runtime_look(r, view, b->scratch, b->cells, r->cell_count);
-    FUZZ_CHECK((count > 0) == (cell != SL_RUNTIME_NO_CELL) && count <= r->cell_count);
+    const bool looks = cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(r, cell);
+    FUZZ_CHECK((count > 0) == looks && count <= r->cell_count);
     FUZZ_CHECK(!count || b->cells[0] == cell);
     memset(b->seen, 0, r->cell_count);
     for (uint32_t i = 0; i < count; i++) {
