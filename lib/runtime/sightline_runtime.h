@@ -947,10 +947,12 @@ static uint64_t slrt_round_fixed(const uint32_t *fixed, bool rest) {
     const int lowest = 32 * SLRT_FIXED_POINT - 1074; // the bit of the smallest double
     int top = 32 * SLRT_FIXED_WORDS - 1, low, i;
     uint64_t bits = 0;
+    while (top >= 0 && !fixed[top / 32]) top -= 32;
     while (top >= 0 && !slrt_bit(fixed, top)) top--;
     low = top - 52 > lowest ? top - 52 : lowest;
     for (i = top; i >= low; i--) bits = bits << 1 | slrt_bit(fixed, i);
-    for (i = 0; i < low - 1 && !rest; i++) rest = slrt_bit(fixed, i);
+    for (i = 0; i < (low - 1) / 32 && !rest; i++) rest = fixed[i] != 0;
+    if (fixed[i] & ((UINT32_C(1) << (low - 1) % 32) - 1)) rest = true;
     if (slrt_bit(fixed, low - 1) && (rest || (bits & 1))) bits++;
     // The leading bit adds 1 to the exponent, also where rounding carries into it.
     if (low - lowest > 2045) return UINT64_C(0x7ff) << 52;
@@ -1005,7 +1007,7 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
     slrt_text text, line;
     uint32_t doors = 0;
-    rt->text = found[SLRT_MAPT].items;
+    rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
     rt->text_bytes = (size_t)found[SLRT_MAPT].count;
     text.at = rt->text;
     text.end = rt->text + rt->text_bytes;

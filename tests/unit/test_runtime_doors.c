@@ -207,12 +207,34 @@ static void a_damaged_text_is_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// A file without the section has no doors and starts. With doors, it is damaged.
+static void a_missing_text_is_empty(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (int doors = 0; doors < 2; doors++) {
+        baked_file f =
+            baked_file_of_text(context, doors ? "walls 0 0 9 0 9 9 0 9 0 0\ndoor front 4 0 4 9\n"
+                                              : "walls 0 0 9 0 9 9 0 9 0 0\nstart 1 2 3\n");
+        char *entry = slv_entry(f.bytes, "MAPT");
+        assert_non_null(entry);
+        memcpy(entry, "NONE", 4);
+        slv_seal(f.bytes, f.size);
+        sl_runtime r;
+        const sl_runtime_status status = sl_runtime_open(f.bytes, f.size, &r);
+        assert_int_equal(status, doors ? SL_RUNTIME_TEXT : SL_RUNTIME_OK);
+        if (!doors) assert_int_equal(sl_runtime_start_count(&r), 0);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_map_has_the_same),
         cmocka_unit_test(doors_are_found_by_name),
         cmocka_unit_test(numbers_are_read_to_the_last_bit),
         cmocka_unit_test(a_damaged_text_is_refused),
+        cmocka_unit_test(a_missing_text_is_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
