@@ -11,9 +11,12 @@ static sl_status convert(sl_context *context, const char *input, const input_opt
     SL_TRY(input_read_either(context, input, reading, &map));
     sl_status status = clean ? input_clean(context, reading, &map, NULL) : SL_OK;
     if (status == SL_OK) status = sl_map_settle_ground(context, &map);
+    const bool plan = input_ends_with(output, ".txt");
+    if (status == SL_OK && plan && map.comment_count)
+        sl_note(context, "%s: an ASCII plan has no place for comments, which are left out", output);
     if (status == SL_OK)
-        status = input_ends_with(output, ".txt") ? sl_map_write_plan(context, &map, output)
-                                                 : sl_map_write_text(context, &map, output);
+        status = plan ? sl_map_write_plan(context, &map, output)
+                      : sl_map_write_text(context, &map, output);
     sl_map_destroy(context, &map);
     return status;
 }
