@@ -403,6 +403,7 @@ typedef struct text_writer {
     const sl_map *map;
     FILE *stream;
     bool *done;
+    size_t walls; ///< written so far
 } text_writer;
 
 /// The first comment that belongs to a line, or to one below.
@@ -556,13 +557,18 @@ static void print_cells(text_writer *writer) {
     }
 }
 
+/// Asked at each wall or polygon, as a map may have very many.
+static sl_status check_cancelled(text_writer *writer) {
+    return ++writer->walls % 1024 ? SL_OK : sl_check_cancelled(writer->context);
+}
+
 static sl_status print_polygon(void *user, const sl_point *corners, size_t count, bool solid,
                                uint32_t line) {
     text_writer *writer = user;
     begin(writer, line, solid ? "solid" : "open");
     for (size_t i = 0; i < count; i++) print_point(writer->stream, corners[i]);
     end(writer, line);
-    return SL_OK;
+    return check_cancelled(writer);
 }
 
 static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line) {
@@ -571,7 +577,7 @@ static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32
     print_ends(writer->stream, from, to);
     fputs(" solid", writer->stream);
     end(writer, line);
-    return SL_OK;
+    return check_cancelled(writer);
 }
 
 static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32_t line) {
@@ -579,7 +585,7 @@ static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32
     begin(writer, line, "wall");
     print_ends(writer->stream, from, to);
     end(writer, line);
-    return SL_OK;
+    return check_cancelled(writer);
 }
 
 /// Walls without solid ground beside them; then solid ground, whose outline is wall.
