@@ -17,6 +17,7 @@ typedef struct info_request {
     input_options input;
     const char *shut;
     bool json;
+    sl_bytes bytes; ///< the file
 } info_request;
 
 static void print_bounds(sl_box box) {
@@ -232,10 +233,17 @@ static void print_list(const char *path, const sl_map_list *list) {
 
 /// Lists the maps of a file that holds several; *done says whether it does. Not for standard input,
 /// which can be read only once.
+static sl_status list_maps(sl_context *context, const info_request *request, sl_map_list *list) {
+    sl_map_choice choice;
+    SL_TRY(sl_map_choice_parse(context, request->path, request->bytes.data, request->bytes.size,
+                               &choice));
+    *list = choice.maps;
+    return SL_OK;
+}
+
 static sl_status inform_of_list(command_console *console, const info_request *request, bool *done) {
     sl_map_list list = {0};
-    if (strcmp(request->path, "-") == 0) return SL_OK;
-    SL_TRY(sl_map_list_read(console->context, request->path, &list));
+    SL_TRY(list_maps(console->context, request, &list));
     progress_line_clear(&console->line);
     sl_status status = SL_OK;
     *done = list.count > 1;
@@ -250,7 +258,8 @@ static sl_status inform_of_list(command_console *console, const info_request *re
 static sl_status inform_of_map(command_console *console, const info_request *request) {
     sl_map map = {0};
     sl_clean_account cleaning;
-    SL_TRY(input_read_map(console->context, request->path, &request->input, &map));
+    SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
+                        &request->input.import, &map));
     const size_t oblique = sl_map_count_oblique(&map);
     sl_status status = input_clean(console->context, &request->input, &map, &cleaning);
     progress_line_clear(&console->line);
@@ -332,7 +341,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     }
     mean_pvs_add_json(&fields, mean);
     json_add_fields(&fields, "memory_bytes", &bytes);
-    json_add_count(&fields, "file_bytes", size_of_file(request->path));
+    json_add_count(&fields, "file_bytes", request->bytes.size);
     return json_print(context, &fields);
 }
 
@@ -343,7 +352,7 @@ static sl_status print_baked(sl_context *context, const info_request *request,
     const sl_space *space = &baked->space;
     const sl_stab_trees *trees = &baked->visibility.trees;
     char size[SIZE_TEXT];
-    size_write(size_of_file(request->path), size);
+    size_write(request->bytes.size, size);
     printf("%s: a baked file, %s\n", request->path, size);
     print_bounds(space->bounds);
     printf("  seen      %s sight, by %s%s%s (%s)\n", sight_name(baked->visibility.sight),
@@ -375,7 +384,7 @@ static sl_status inform_of_baked(command_console *console, const info_request *r
     sl_baked baked = {0};
     pvs_means mean;
     SL_TRY(input_refuse_options(console->context, request->path, &request->input));
-    SL_TRY(input_read_baked(console->context, request->path, &baked));
+    SL_TRY(input_parse_baked(console->context, request->path, &request->bytes, &baked));
     sl_status status = request->shut ? doors_shut(console->context, request->shut, &baked) : SL_OK;
     if (status == SL_OK) status = mean_pvs_of(console->context, &baked, &mean);
     progress_line_clear(&console->line);
@@ -385,6 +394,16 @@ static sl_status inform_of_baked(command_console *console, const info_request *r
         status = print_baked(console->context, request, &baked, &mean);
     sl_baked_destroy(console->context, &baked);
     return status;
+}
+
+/// The file is read once, as a pipe can be read once only.
+static sl_status inform(command_console *console, const info_request *request) {
+    bool done = false;
+    if (input_is_baked(request->path, &request->bytes)) return inform_of_baked(console, request);
+    if (request->shut)
+        return sl_fail(console->context, SL_BAD_ARGUMENT, "--shut is for baked files");
+    if (!request->input.import.map) SL_TRY(inform_of_list(console, request, &done));
+    return done ? SL_OK : inform_of_map(console, request);
 }
 
 sl_status cmd_info(command_console *console, int argc, char **argv) {
@@ -411,10 +430,8 @@ sl_status cmd_info(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &request.path, &helped));
     if (helped) return SL_OK;
-    if (input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
-    if (request.shut)
-        return sl_fail(console->context, SL_BAD_ARGUMENT, "--shut is for baked files");
-    bool done = false;
-    if (!request.input.import.map) SL_TRY(inform_of_list(console, &request, &done));
-    return done ? SL_OK : inform_of_map(console, &request);
+    SL_TRY(sl_file_read(console->context, request.path, &request.bytes));
+    const sl_status status = inform(console, &request);
+    sl_free(console->context, request.bytes.data);
+    return status;
 }

@@ -38,7 +38,8 @@ typedef struct command_console {
 /// False where there is no memory; a message has been printed.
 bool console_open(command_console *console);
 
-/// From now on the first Ctrl-C (or SIGTERM) is only noted. The second one stops running calls.
+/// From now on the first Ctrl-C (SIGTERM, SIGHUP) is only noted. The second one stops running
+/// calls.
 void console_ask_first(void);
 /// Whether there was one.
 bool console_is_asked(void);
