@@ -114,12 +114,13 @@ sl_status output_check_picture(sl_context *context, const char *option, const ch
     return output_check_file(context, option, output, NULL);
 }
 
-/// What the names of exports end with.
+/// What the names of exports end with; `named` where the format is given by name.
 static const struct {
-    const char *format, *endings;
+    const char *format, *endings, *named;
 } exports[] = {
-    {"json", ".json"}, {"csv", OUTPUT_TABLES}, {"c", ".h"},
-    {"png", ".png"},   {"reject", ".wad"},     {"geojson", ".geojson"},
+    {"json", ".json", ".json"}, {"csv", OUTPUT_TABLES, OUTPUT_TABLES},
+    {"c", ".h", ".h"},          {"geojson", ".geojson", ".geojson .json"},
+    {"png", ".png", ".png"},    {"reject", ".wad", ".wad"},
 };
 
 sl_status output_choose_export(sl_context *context, const name_table *formats, const char *option,
@@ -129,7 +130,8 @@ sl_status output_choose_export(sl_context *context, const name_table *formats, c
     for (size_t i = 0; i < formats->count; i++) {
         const char *endings = NULL, *name = name_table_at(formats, i);
         for (size_t k = 0; k < sizeof exports / sizeof *exports; k++)
-            if (strcmp(exports[k].format, name) == 0) endings = exports[k].endings;
+            if (strcmp(exports[k].format, name) == 0)
+                endings = given ? exports[k].named : exports[k].endings;
         if (given && i != *chosen) continue;
         if (!endings) return SL_OK; // a format that may have any ending
         if (output_has_ending(output, endings)) {
