@@ -46,8 +46,8 @@ class Export:
     """The file's contents in integers: a coordinate times `unit`."""
 
     def __init__(self, data):
-        if data.get("format") != "sightline" or data.get("version") != 1:
-            raise ValueError("not a sightline export of version 1")
+        if data.get("format") != "sightline" or data.get("version") not in (1, 2):
+            raise ValueError("not a sightline export of version 1 or 2")
         if data["sight"] not in ("closed", "open"):
             raise ValueError("sight is neither closed nor open")
         values = list(data["bounds"])

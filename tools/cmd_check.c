@@ -594,10 +594,8 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
 
 /// Reads the map; of a baked file, the map that it was made from.
 static sl_status read_map(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
-    if (!input_ends_with(pipeline->path, ".slv")) return pipeline_read(context, pipeline, map);
     SL_TRY(input_read_either(context, pipeline->path, &pipeline->input, map));
-    sl_effects_leave_out(context, map, pipeline->without);
-    return pipeline->start_text ? sl_map_add_start(context, map, pipeline->start, 0, 0) : SL_OK;
+    return pipeline_prepare(context, pipeline, map);
 }
 
 static sl_status check(command_console *console, const check_plan *plan, checked *c,
@@ -648,7 +646,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         {"thin", 0, "SIZE", "list cells thinner than this (same default)",
          .number = &plan.faults.thin, .over_0 = true},
         {"snap", 0, "FIXED.map", "close such gaps, and write the result as map text",
-         .text = &plan.snap, .check = CHECK_FILE},
+         .text = &plan.snap, .check = CHECK_FILE, .endings = ".map"},
         {"output", 'o', "PICTURE", "draw the plan with all faults: .png, .svg or .pdf",
          .text = &plan.output, .check = CHECK_PICTURE},
         {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",

@@ -26,26 +26,42 @@ static void print_formats(void) {
     sl_context_destroy(context);
 }
 
-/// Refuses --wad and --map for formats that do not take them, and an output that is the WAD itself.
-static sl_status check_wad(sl_context *context, const sl_export_format *format,
-                           const sl_export_options *given, const char *output) {
+/// Refuses options for formats that do not take them.
+static sl_status check_options(sl_context *context, const sl_export_format *format,
+                               const sl_export_options *given) {
     if (!format->takes_wad && (given->wad || given->map))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the format %s has no use for it",
                        given->wad ? "wad" : "map", format->name);
-    return given->wad ? output_check_file(context, given->wad, "-o", output) : SL_OK;
+    if (given->json_version && format->write != sl_export_json)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--json-version: the format %s has no use for it",
+                       format->name);
+    return SL_OK;
+}
+
+/// Refuses mirrors for formats that have no place for them.
+static sl_status check_effects(sl_context *context, const sl_export_format *format,
+                               const sl_map *map) {
+    if (format->shows_mirrors) return SL_OK;
+    char name[64];
+    snprintf(name, sizeof name, "export --format %s", format->name);
+    return sl_effects_check(context, map, name,
+                            SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
 }
 
 sl_status cmd_export(command_console *console, int argc, char **argv) {
-    const char *path = NULL, *output = NULL;
+    const char *path = NULL, *output = NULL, *format_given = NULL;
     size_t chosen = 0, count;
     sl_export_options given = {0};
     const option_spec options[] = {
         {"output", 'o', "FILE", "where to write; stdout, or -, without it", .text = &output,
          .check = CHECK_FILE},
-        {"format", 0, "NAME", "what to write", .choice = &chosen,
-         .names = format_table(console->context)},
-        {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad},
+        {"format", 0, "NAME", "what to write (default: by the ending of FILE, else json)",
+         .choice = &chosen, .names = format_table(console->context), .given = &format_given},
+        {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad,
+         .is_input = true},
         {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
+        {"json-version", 0, "N", "json: the version to write, 1 or 2 (default: 2)",
+         .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
     };
     const command_usage usage = {
         .name = "export",
@@ -64,14 +80,14 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     const sl_export_format *formats = sl_export_formats(console->context, &count);
     if (!output) output = "-";
-    SL_TRY(check_wad(console->context, &formats[chosen], &given, output));
+    const name_table names = format_table(console->context);
+    SL_TRY(output_choose_export(console->context, &names, "-o", output, format_given, &chosen));
+    SL_TRY(check_options(console->context, &formats[chosen], &given));
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, path, &baked));
     progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
-    // Exports hold what is seen with all doors open. They have no place for what mirrors show.
-    sl_status status = sl_effects_check(console->context, &baked.map, "export",
-                                        SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
+    sl_status status = check_effects(console->context, &formats[chosen], &baked.map);
     if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;

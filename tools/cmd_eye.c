@@ -175,16 +175,16 @@ static sl_status check_view(sl_context *context, const eye_plan *plan, const sl_
     return input_locate(context, "--at", plan->at_text, space, plan->at, NULL);
 }
 
-/// Adds the objects to the picture, and the region past them.
+/// Adds the objects to the picture, and the region past them; the whole `region` without objects.
 static sl_status add_objects(sl_context *context, const sl_space *space, const eye_objects *objects,
-                             seen_parts *parts, sl_drawn_box *boxes, sl_draw_options *options) {
+                             const sl_region *region, seen_parts *parts, sl_drawn_box *boxes,
+                             sl_draw_options *options) {
     for (size_t i = 0; i < objects->count; i++)
         boxes[i] = (sl_drawn_box){objects->boxes[i].box, objects->boxes[i].blocks,
                                   objects->seen[i] || objects->mirrored[i]};
     options->boxes = boxes;
     options->box_count = objects->count;
-    if (!objects->count) return SL_OK;
-    return seen_parts_add_region(context, space, &objects->region, parts);
+    return seen_parts_add_region(context, space, objects->count ? &objects->region : region, parts);
 }
 
 static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
@@ -200,7 +200,8 @@ static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked 
     sl_drawn_box *boxes = sl_alloc_array(context, objects->count, sizeof *boxes);
     sl_status status = boxes ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK)
-        status = add_objects(context, &baked->space, objects, &parts, boxes, &options);
+        status =
+            add_objects(context, &baked->space, objects, &run->region, &parts, boxes, &options);
     if (status == SL_OK)
         status = seen_parts_add(context, &baked->space,
                                 objects->count ? &objects->mirrored_region : &run->mirrored, false,

@@ -43,7 +43,8 @@ sl_status cmd_generate(command_console *console, int argc, char **argv) {
     char walls[48];
     snprintf(walls, sizeof walls, "at least %d are needed", SL_GENERATE_WALLS_LEAST);
     const option_spec table[] = {
-        {"output", 'o', "OUT.map", "map text; without it, or for -, on stdout", .text = &output},
+        {"output", 'o', "OUT.map", "map text; without it, or for -, on stdout", .text = &output,
+         .check = CHECK_FILE, .endings = ".map"},
         {"seed", 0, "N", "the same map for the same number, on every machine;\n1 unless told",
          .count = &options.seed},
         {"size", 0, "N", "how large, as the kind counts it", .count = &options.size, .least = 1,
@@ -80,8 +81,5 @@ sl_status cmd_generate(command_console *console, int argc, char **argv) {
     if (turned && options.in_line)
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "--turned and --turned-exact: give one of them");
-    if (strcmp(output, "-") != 0 && !input_ends_with(output, ".map"))
-        return sl_fail(console->context, SL_BAD_ARGUMENT,
-                       "-o %s: end the name in .map, for it is map text", output);
     return generate(console->context, kind, &options, output);
 }

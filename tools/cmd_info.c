@@ -9,6 +9,7 @@
 #include "sightline/support.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct info_request {
@@ -16,6 +17,7 @@ typedef struct info_request {
     input_options input;
     const char *shut;
     bool json;
+    sl_bytes bytes; ///< the file
 } info_request;
 
 static void print_bounds(sl_box box) {
@@ -27,6 +29,84 @@ static void print_bounds(sl_box box) {
         printf("%s%s", i == 0 ? "" : i == 2 ? " to " : " ", number);
     }
     putchar('\n');
+}
+
+// --- doors
+
+/// A door as its users know it: all doors of one name, which open and shut together.
+typedef struct named_door {
+    const char *name;
+    size_t first, parts, open; ///< `first`: the number of its first part in the map
+} named_door;
+
+static int compare_names(const void *a, const void *b) {
+    const named_door *p = a, *q = b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : (p->first > q->first) - (p->first < q->first);
+}
+
+static int compare_places(const void *a, const void *b) {
+    const named_door *p = a, *q = b;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+/// The doors by name, in the order of their first parts; the caller frees them.
+static named_door *name_doors(sl_context *context, const sl_map *map, size_t *count) {
+    named_door *doors = sl_alloc_array(context, map->door_count, sizeof *doors);
+    *count = 0;
+    if (!doors || !map->door_count) return doors;
+    for (size_t i = 0; i < map->door_count; i++)
+        doors[i] = (named_door){map->doors[i].name, i, 1, map->doors[i].open};
+    qsort(doors, map->door_count, sizeof *doors, compare_names);
+    for (size_t i = 0; i < map->door_count; i++) {
+        named_door *last = *count ? &doors[*count - 1] : NULL;
+        if (!last || strcmp(last->name, doors[i].name) != 0) {
+            doors[(*count)++] = doors[i];
+            continue;
+        }
+        last->parts++;
+        last->open += doors[i].open;
+    }
+    qsort(doors, *count, sizeof *doors, compare_places);
+    return doors;
+}
+
+static const char *state_of(const named_door *door) {
+    return door->open == 0 ? "shut" : door->open == door->parts ? "open" : "some open";
+}
+
+static sl_status print_doors(sl_context *context, const sl_map *map) {
+    if (!map->door_count) return SL_OK;
+    size_t count;
+    named_door *doors = name_doors(context, map, &count);
+    if (!doors) return SL_NO_MEMORY;
+    puts("  doors by name");
+    for (size_t i = 0; i < count; i++) {
+        printf("    %s  ", state_of(&doors[i]));
+        console_print_text(stdout, doors[i].name, strlen(doors[i].name));
+        if (doors[i].parts > 1) printf(" (%zu parts)", doors[i].parts);
+        putchar('\n');
+    }
+    sl_free(context, doors);
+    return SL_OK;
+}
+
+/// "named_doors": [{"name": "front", "state": "open", "parts": 1}, ...]
+static sl_status add_doors_json(sl_context *context, json_fields *fields, const sl_map *map) {
+    size_t count;
+    named_door *doors = name_doors(context, map, &count);
+    json_fields *items = sl_alloc_array(context, count, sizeof *items);
+    for (size_t i = 0; doors && items && i < count; i++) {
+        items[i] = json_begin();
+        json_add_text(&items[i], "name", doors[i].name);
+        json_add_text(&items[i], "state", state_of(&doors[i]));
+        json_add_count(&items[i], "parts", doors[i].parts);
+    }
+    const bool there = doors && items;
+    if (there) json_add_list(fields, "named_doors", items, count);
+    sl_free(context, items);
+    sl_free(context, doors);
+    return there ? SL_OK : SL_NO_MEMORY;
 }
 
 // --- maps
@@ -72,6 +152,10 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     json_add_count(&fields, "walls", cleaning->before);
     json_add_count(&fields, "oblique_walls", oblique);
     for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
+    if (add_doors_json(context, &fields, map) != SL_OK) {
+        json_drop(&fields);
+        return SL_NO_MEMORY;
+    }
     json_add_real(&fields, "range", map->range);
     json_add_cleaning(&fields, "cleaning", cleaning);
     plan_add_json(&fields, map);
@@ -98,8 +182,8 @@ static void print_notices(const char *notes) {
     }
 }
 
-static void print_map(const info_request *request, const sl_map *map, size_t oblique,
-                      const sl_clean_account *cleaning) {
+static sl_status print_map(sl_context *context, const info_request *request, const sl_map *map,
+                           size_t oblique, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
     count_map(map, counts);
     printf("%s: a map\n", request->path);
@@ -111,6 +195,7 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
         puts("all axial");
     for (int i = 0; i < MAP_COUNTS; i++)
         if (counts[i].count) printf("  %-9s %zu\n", counts[i].key, counts[i].count);
+    SL_TRY(print_doors(context, map));
     if (map->range > 0) {
         char number[SL_NUMBER_TEXT];
         sl_number_write(map->range, number);
@@ -120,6 +205,7 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
     cleaning_print(cleaning);
     print_effects(map);
     print_notices(map->notes);
+    return SL_OK;
 }
 
 // --- files of several maps
@@ -147,10 +233,17 @@ static void print_list(const char *path, const sl_map_list *list) {
 
 /// Lists the maps of a file that holds several; *done says whether it does. Not for standard input,
 /// which can be read only once.
+static sl_status list_maps(sl_context *context, const info_request *request, sl_map_list *list) {
+    sl_map_choice choice;
+    SL_TRY(sl_map_choice_parse(context, request->path, request->bytes.data, request->bytes.size,
+                               &choice));
+    *list = choice.maps;
+    return SL_OK;
+}
+
 static sl_status inform_of_list(command_console *console, const info_request *request, bool *done) {
     sl_map_list list = {0};
-    if (strcmp(request->path, "-") == 0) return SL_OK;
-    SL_TRY(sl_map_list_read(console->context, request->path, &list));
+    SL_TRY(list_maps(console->context, request, &list));
     progress_line_clear(&console->line);
     sl_status status = SL_OK;
     *done = list.count > 1;
@@ -165,14 +258,15 @@ static sl_status inform_of_list(command_console *console, const info_request *re
 static sl_status inform_of_map(command_console *console, const info_request *request) {
     sl_map map = {0};
     sl_clean_account cleaning;
-    SL_TRY(input_read_map(console->context, request->path, &request->input, &map));
+    SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
+                        &request->input.import, &map));
     const size_t oblique = sl_map_count_oblique(&map);
     sl_status status = input_clean(console->context, &request->input, &map, &cleaning);
     progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_map_json(console->context, request, &map, oblique, &cleaning);
     else if (status == SL_OK)
-        print_map(request, &map, oblique, &cleaning);
+        status = print_map(console->context, request, &map, oblique, &cleaning);
     sl_map_destroy(console->context, &map);
     return status;
 }
@@ -240,19 +334,25 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
         json_add_count(&fields, parts[i].name, parts[i].count);
         json_add_count(&bytes, parts[i].name, parts[i].bytes);
     }
+    if (add_doors_json(context, &fields, &baked->map) != SL_OK) {
+        json_drop(&fields);
+        json_drop(&bytes);
+        return SL_NO_MEMORY;
+    }
     mean_pvs_add_json(&fields, mean);
     json_add_fields(&fields, "memory_bytes", &bytes);
-    json_add_count(&fields, "file_bytes", size_of_file(request->path));
+    json_add_count(&fields, "file_bytes", request->bytes.size);
     return json_print(context, &fields);
 }
 
-static void print_baked(const info_request *request, const sl_baked *baked, const pvs_means *mean) {
+static sl_status print_baked(sl_context *context, const info_request *request,
+                             const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
     const sl_space *space = &baked->space;
     const sl_stab_trees *trees = &baked->visibility.trees;
     char size[SIZE_TEXT];
-    size_write(size_of_file(request->path), size);
+    size_write(request->bytes.size, size);
     printf("%s: a baked file, %s\n", request->path, size);
     print_bounds(space->bounds);
     printf("  seen      %s sight, by %s%s%s (%s)\n", sight_name(baked->visibility.sight),
@@ -275,23 +375,35 @@ static void print_baked(const info_request *request, const sl_baked *baked, cons
         size_write(parts[i].bytes, size);
         printf("  %-16s %12" PRIu64 " %12s\n", parts[i].name, parts[i].count, size);
     }
+    SL_TRY(print_doors(context, &baked->map));
     print_notices(baked->map.notes);
+    return SL_OK;
 }
 
 static sl_status inform_of_baked(command_console *console, const info_request *request) {
     sl_baked baked = {0};
     pvs_means mean;
     SL_TRY(input_refuse_options(console->context, request->path, &request->input));
-    SL_TRY(input_read_baked(console->context, request->path, &baked));
+    SL_TRY(input_parse_baked(console->context, request->path, &request->bytes, &baked));
     sl_status status = request->shut ? doors_shut(console->context, request->shut, &baked) : SL_OK;
     if (status == SL_OK) status = mean_pvs_of(console->context, &baked, &mean);
     progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_baked_json(console->context, request, &baked, &mean);
     else if (status == SL_OK)
-        print_baked(request, &baked, &mean);
+        status = print_baked(console->context, request, &baked, &mean);
     sl_baked_destroy(console->context, &baked);
     return status;
+}
+
+/// The file is read once, as a pipe can be read once only.
+static sl_status inform(command_console *console, const info_request *request) {
+    bool done = false;
+    if (input_is_baked(request->path, &request->bytes)) return inform_of_baked(console, request);
+    if (request->shut)
+        return sl_fail(console->context, SL_BAD_ARGUMENT, "--shut is for baked files");
+    if (!request->input.import.map) SL_TRY(inform_of_list(console, request, &done));
+    return done ? SL_OK : inform_of_map(console, request);
 }
 
 sl_status cmd_info(command_console *console, int argc, char **argv) {
@@ -318,10 +430,8 @@ sl_status cmd_info(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &request.path, &helped));
     if (helped) return SL_OK;
-    if (input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
-    if (request.shut)
-        return sl_fail(console->context, SL_BAD_ARGUMENT, "--shut is for baked files");
-    bool done = false;
-    if (!request.input.import.map) SL_TRY(inform_of_list(console, &request, &done));
-    return done ? SL_OK : inform_of_map(console, &request);
+    SL_TRY(sl_file_read(console->context, request.path, &request.bytes));
+    const sl_status status = inform(console, &request);
+    sl_free(console->context, request.bytes.data);
+    return status;
 }

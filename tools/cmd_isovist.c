@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "eye_run.h"
 #include "isovist.h"
+#include "json_print.h"
 #include "outputs.h"
 #include "pipeline.h"
 #include "sightline/draw.h"
@@ -20,6 +21,8 @@ typedef struct isovist_plan {
     uint32_t cells, mirror_depth;
     const char *look_given, *cells_given, *range_given, *measure_given;
     size_t measure;
+    sl_point scale; ///< from x to y
+    const char *scale_given;
     unsigned threads;
     sl_draw_options drawing;
 } isovist_plan;
@@ -49,6 +52,12 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
                        "--picture is for points (--at, starts) and grids (--grid, --cells)");
     if (p->measure_given && !(p->picture && grid))
         return sl_fail(context, SL_BAD_ARGUMENT, "--measure is for the --picture of a grid");
+    if (p->scale_given && !(p->picture && grid))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--scale is for the --picture of a grid");
+    if (p->scale_given && !(p->scale.x < p->scale.y))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
+                       p->scale.y);
     return pipeline_plan(context, p->input, &p->pipeline);
 }
 
@@ -127,6 +136,26 @@ static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isov
     return eyes_add_grid(context, space, step, plan->like, &w->eyes);
 }
 
+/// The name of a measure in words.
+static void write_measure(size_t measure, char *text, size_t size) {
+    const name_table measures = isovist_measures();
+    snprintf(text, size, "%s", name_table_at(&measures, measure));
+    for (char *at = text; *at; at++)
+        if (*at == '_') *at = ' ';
+}
+
+/// "office: area", or "doom.wad E1M1: area" for one of several maps.
+static void write_title(const isovist_plan *plan, const char *measure, char *text, size_t size) {
+    const char *slash = strrchr(plan->input, '/'), *map = plan->pipeline.input.import.map;
+    char name[256], readable[256];
+    snprintf(name, sizeof name, "%s", slash ? slash + 1 : plan->input);
+    char *ending = strrchr(name, '.');
+    if (ending && ending != name && !map) *ending = '\0';
+    text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);
+    const char *known = map && sl_text_is_utf8(map) ? map : "";
+    snprintf(text, size, "%s%s%.64s: %s", readable, *known ? " " : "", known, measure);
+}
+
 static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
     const eye_places *eyes = &w->eyes;
     const size_t count = eyes->columns * eyes->rows;
@@ -135,15 +164,21 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     for (size_t i = 0; i < count; i++) values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count; i++)
         values[eyes->squares.items[i]] = isovist_value(&w->isovists[i], plan->measure);
-    const name_table measures = isovist_measures();
-    const sl_field field = {.name = name_table_at(&measures, plan->measure),
+    char measure[64], title[512];
+    write_measure(plan->measure, measure, sizeof measure);
+    write_title(plan, measure, title, sizeof title);
+    sl_draw_options drawing = plan->drawing;
+    if (!drawing.title) drawing.title = title;
+    const sl_field field = {.name = measure,
                             .corner = eyes->corner,
                             .step = eyes->step,
                             .columns = eyes->columns,
                             .rows = eyes->rows,
-                            .values = values};
+                            .values = values,
+                            .least = plan->scale.x,
+                            .most = plan->scale.y};
     const sl_status status =
-        sl_draw_field_file(context, &w->baked, &field, &plan->drawing, plan->picture);
+        sl_draw_field_file(context, &w->baked, &field, &drawing, plan->picture);
     sl_free(context, values);
     return status;
 }
@@ -237,7 +272,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"step", 0, "STEP", "look every STEP along the path instead", .number = &plan.step,
          .over_0 = true},
         {"csv", 0, "FILE", "look from a table: x, y, and maybe angle, field of\nview, in degrees",
-         .text = &plan.csv},
+         .text = &plan.csv, .is_input = true},
         {"look", 0, "DEGREES", "heading, counter-clockwise from +x", .number = &plan.like.look,
          .given = &plan.look_given},
         {"fov", 0, "DEGREES", "width of the view cone; 360 without it", .number = &plan.like.fov,
@@ -248,12 +283,16 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .number = &plan.range, .over_0 = true, .given = &plan.range_given},
         {"output", 'o', "FILE.csv",
          "where the table goes; without it to stdout,\nor nowhere where there is a --picture",
-         .text = &plan.output, .check = CHECK_FILE},
+         .text = &plan.output, .check = CHECK_TABLE},
         {"picture", 0, "PICTURE",
          "draw what the points see, or a heat map of the\ngrid: .png, .svg or .pdf, by the ending",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"measure", 0, "NAME", "what the heat map shows; area without it", .choice = &plan.measure,
          .names = isovist_measures(), .given = &plan.measure_given},
+        {"scale", 0, "MIN,MAX",
+         "the ends of the heat map's colour scale, to compare\npictures (default: smallest and "
+         "largest value)",
+         .point = &plan.scale, .given = &plan.scale_given},
         {.group = &picture},
         {"threads", 0, "N", "0, as without it: one a core", .count32 = &plan.threads, .most = 1024},
         {.group = &pipeline},

@@ -142,7 +142,7 @@ static sl_status merge_and_report(command_console *console, merge_plan *plan) {
 sl_status cmd_merge(command_console *console, int argc, char **argv) {
     merge_plan plan = {0};
     const option_spec options[] = {
-        {"output", 'o', "FILE.slv", "where to write", .text = &plan.output},
+        {"output", 'o', "FILE.slv", "where to write", .text = &plan.output, .check = CHECK_BAKED},
     };
     const command_usage usage = {
         .name = "merge",
@@ -161,10 +161,8 @@ sl_status cmd_merge(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.first, &helped));
     if (helped) return SL_OK;
-    if (!plan.output || !input_ends_with(plan.output, ".slv"))
+    if (!plan.output)
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "-o FILE.slv is needed: where to write what the shards make");
-    for (uint32_t i = 0; i < part_count(&plan); i++)
-        SL_TRY(output_check_file(console->context, part_name(&plan, i), "-o", plan.output));
     return merge_and_report(console, &plan);
 }

@@ -105,7 +105,7 @@ sl_status cmd_reject(command_console *console, int argc, char **argv) {
     plan.options.row_bytes = sl_machine_memory() / 2;
     const option_spec options[] = {
         {"output", 'o', "OUT.wad", "where to write the copy; - for stdout", .text = &plan.output,
-         .check = CHECK_FILE},
+         .check = CHECK_FILE, .endings = ".wad"},
         {"map", 0, "NAME", "only this map; may be given several times", .list = &plan.maps},
         {"sight", 0, "closed|open",
          "open (the default): lines that only touch wall ends\nhide; closed: they count as seen",

@@ -445,7 +445,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
         {"threads", 0, "N", "0, as without it: one a core", .count32 = &run->sampling.threads,
          .most = 1024},
         {"output", 'o', "FILE.csv", "a table of the view cells; - for stdout", .text = &plan.output,
-         .check = CHECK_FILE},
+         .check = CHECK_TABLE},
         {"picture", 0, "PICTURE", "draw the cells by their cost: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"slv", 0, "FILE.slv",

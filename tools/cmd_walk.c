@@ -502,7 +502,7 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
         {"path", 0, "P.txt|NAME",
          "a path of the map by its name, or a file with a line\n'x y' a point; without it a tour "
          "from the map's start",
-         .text = &plan.path},
+         .text = &plan.path, .is_input = true},
         {"shut", 0, "NAME,...",
          "doors that are shut, the others being open; 'none':\nall open; without it as the map "
          "says",
@@ -535,9 +535,9 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
         {"wall-cost", 0, "NS",
          "count so many nanoseconds for drawing a wall instead\nof what it takes here",
          .number = &plan.wall_cost, .over_0 = true},
-        {"csv", 0, "FILE.csv", "all figures of the table", .text = &plan.csv, .check = CHECK_FILE},
+        {"csv", 0, "FILE.csv", "all figures of the table", .text = &plan.csv, .check = CHECK_TABLE},
         {"frames", 0, "FILE.csv", "all figures of each frame", .text = &plan.frames,
-         .check = CHECK_FILE},
+         .check = CHECK_TABLE},
         {"output", 'o', "DIR",
          "instead of one walk: speeds from 0.25 to 8 and chances\nfrom 0 to 0.9, as tables and "
          "charts",

@@ -3,8 +3,10 @@
 #include "built.h"
 #include "sightline/support.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -104,7 +106,7 @@ void progress_line_tick(progress_line *line) {
 
 // --- the console
 
-/// Set by SIGINT or SIGTERM. At file scope because a signal handler is given nothing but
+/// Set by SIGINT, SIGTERM or SIGHUP. At file scope because a signal handler is given nothing but
 /// the signal's number; lock-free and atomic because worker threads read it.
 static atomic_bool interrupted;
 
@@ -125,6 +127,7 @@ static void on_signal(int number) {
     atomic_store(&interrupted, true);
     set_handler(SIGINT, SIG_DFL);
     set_handler(SIGTERM, SIG_DFL);
+    set_handler(SIGHUP, SIG_DFL);
 }
 
 /// A signal that is ignored from the start (nohup) stays ignored.
@@ -150,8 +153,7 @@ bool console_is_asked(void) {
     return atomic_load(&asked);
 }
 
-void console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
-    fputs(before, stream);
+void console_print_text(FILE *stream, const char *text, size_t length) {
     for (size_t i = 0; i < length; i++) {
         const unsigned char c = (unsigned char)text[i];
         const unsigned char next = i + 1 < length ? (unsigned char)text[i + 1] : 0;
@@ -160,6 +162,11 @@ void console_print_line(FILE *stream, const char *before, const char *text, size
         putc(c < 0x20 || c == 0x7f || second ? '?' : c, stream);
         i += second;
     }
+}
+
+void console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
+    fputs(before, stream);
+    console_print_text(stream, text, length);
     putc('\n', stream);
 }
 
@@ -190,6 +197,7 @@ bool console_open(command_console *console) {
     set_handler(SIGXFSZ, SIG_IGN);
     catch_signal(SIGINT);
     catch_signal(SIGTERM);
+    catch_signal(SIGHUP);
     const char *kind = getenv("TERM");
     *console = (command_console){
         .main_thread = pthread_self(),
@@ -219,6 +227,17 @@ static int exit_status(sl_status status) {
     return 2;
 }
 
+/// Whether output failed because its reader went away, as with "| head": no fault of anybody.
+/// stdio forgets why a write to stdout failed, so the pipe is asked.
+static bool is_reader_gone(const char *message) {
+    const char *reason = strerror(EPIPE);
+    const size_t length = strlen(message), tail = strlen(reason);
+    if (length > tail && strcmp(message + length - tail, reason) == 0) return true;
+    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return strncmp(message, "standard output:", 16) == 0 && poll(&out, 1, 0) > 0 &&
+           (out.revents & POLLERR);
+}
+
 int console_close(command_console *console, sl_status status) {
     progress_line_clear(&console->line);
     if (status == SL_OK) {
@@ -230,7 +249,8 @@ int console_close(command_console *console, sl_status status) {
     if (status == SL_IO && atomic_load(&interrupted))
         status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
     const char *message = sl_context_message(console->context);
-    if (status != SL_OK && message[0])
+    const bool silent = status == SL_IO && is_reader_gone(message);
+    if (status != SL_OK && message[0] && !silent)
         console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
     return status == SL_OK && console->fault ? 3 : exit_status(status);

@@ -38,13 +38,16 @@ typedef struct command_console {
 /// False where there is no memory; a message has been printed.
 bool console_open(command_console *console);
 
-/// From now on the first Ctrl-C (or SIGTERM) is only noted. The second one stops running calls.
+/// From now on the first Ctrl-C (SIGTERM, SIGHUP) is only noted. The second one stops running
+/// calls.
 void console_ask_first(void);
 /// Whether there was one.
 bool console_is_asked(void);
 
-/// Prints a line of text from a file. Control characters become '?', since they could play tricks
-/// on the terminal.
+/// Prints text from a file. Control characters become '?', since they could play tricks on the
+/// terminal.
+void console_print_text(FILE *stream, const char *text, size_t length);
+/// Prints a line of such text.
 void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
 
 /// Checks that all of stdout was written, prints the message of a failure, and gives the exit

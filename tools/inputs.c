@@ -88,12 +88,28 @@ option_table input_option_table(input_options *input) {
 
 // --- maps
 
+bool input_is_baked(const char *path, const sl_bytes *bytes) {
+    static const char start[] = "\x89SLV";
+    return is_baked_name(path) ||
+           (bytes->size > sizeof start - 1 && memcmp(bytes->data, start, sizeof start - 1) == 0);
+}
+
+static sl_status fail_baked(sl_context *context, const char *path) {
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s: is baked already; name the map that it was made from", path);
+}
+
 sl_status input_read_map(sl_context *context, const char *path, const input_options *input,
                          sl_map *map) {
-    if (is_baked_name(path))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s: is baked already; name the map that it was made from", path);
-    return sl_map_read(context, path, &input->import, map);
+    if (is_baked_name(path)) return fail_baked(context, path);
+    sl_bytes bytes;
+    SL_TRY(sl_file_read(context, path, &bytes));
+    const sl_status status =
+        input_is_baked(path, &bytes)
+            ? fail_baked(context, path)
+            : sl_map_parse(context, path, bytes.data, bytes.size, &input->import, map);
+    sl_free(context, bytes.data);
+    return status;
 }
 
 sl_status input_clean(sl_context *context, const input_options *input, sl_map *map,
@@ -113,7 +129,16 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
             context, SL_BAD_ARGUMENT,
             "%s: is a map, not a baked file; bake it first: sightline bake %s -o FILE.slv", path,
             path);
-    SL_TRY(sl_baked_read(context, path, baked));
+    sl_bytes bytes;
+    SL_TRY(sl_file_read(context, path, &bytes));
+    const sl_status status = input_parse_baked(context, path, &bytes, baked);
+    sl_free(context, bytes.data);
+    return status;
+}
+
+sl_status input_parse_baked(sl_context *context, const char *path, const sl_bytes *bytes,
+                            sl_baked *baked) {
+    SL_TRY(sl_baked_parse(context, path, bytes->data, bytes->size, baked));
     char partial[SL_PARTIAL_TEXT];
     sl_baked_say_partial(baked, partial);
     if (partial[0]) sl_note(context, "%s is %s", path, partial);
@@ -122,9 +147,10 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
 
 /// The map that a baked file was made from: the rest of the map that it kept, and the walls of its
 /// space.
-static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map *map) {
+static sl_status parse_map_of_baked(sl_context *context, const char *path, const sl_bytes *bytes,
+                                    sl_map *map) {
     sl_baked baked = {0};
-    SL_TRY(sl_baked_read(context, path, &baked));
+    SL_TRY(sl_baked_parse(context, path, bytes->data, bytes->size, &baked));
     const sl_space *space = &baked.space;
     const sl_status status = sl_map_add_walls(context, &baked.map, space->walls, space->wall_count);
     if (status == SL_OK) {
@@ -137,9 +163,16 @@ static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map
 
 sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
                             sl_map *map) {
-    if (!is_baked_name(path)) return input_read_map(context, path, input, map);
-    SL_TRY(input_refuse_options(context, path, input));
-    return read_map_of_baked(context, path, map);
+    sl_bytes bytes;
+    if (is_baked_name(path)) SL_TRY(input_refuse_options(context, path, input));
+    SL_TRY(sl_file_read(context, path, &bytes));
+    const bool baked = input_is_baked(path, &bytes);
+    sl_status status = baked ? input_refuse_options(context, path, input) : SL_OK;
+    if (status == SL_OK)
+        status = baked ? parse_map_of_baked(context, path, &bytes, map)
+                       : sl_map_parse(context, path, bytes.data, bytes.size, &input->import, map);
+    sl_free(context, bytes.data);
+    return status;
 }
 
 void input_print_formats(void) {

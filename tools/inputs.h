@@ -5,6 +5,7 @@
 #include "options.h"
 #include "sightline/bake.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 /// Whether a name ends with `ending` (".slv"), in upper or lower case.
 bool input_ends_with(const char *path, const char *ending);
@@ -25,6 +26,9 @@ input_options input_options_default(void);
 /// The command-line options that fill it.
 option_table input_option_table(input_options *input);
 
+/// Whether a file is a baked one, by its name or its first bytes. Pipes have no names that say so.
+bool input_is_baked(const char *path, const sl_bytes *bytes);
+
 /// Reads a map file. A baked file is refused.
 sl_status input_read_map(sl_context *context, const char *path, const input_options *input,
                          sl_map *map);
@@ -42,6 +46,10 @@ sl_status input_refuse_options(sl_context *context, const char *path, const inpu
 /// Reads a map file, or the map that a baked file was made from.
 sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
                             sl_map *map);
+
+/// The same as input_read_baked() from memory; `path` is for messages.
+sl_status input_parse_baked(sl_context *context, const char *path, const sl_bytes *bytes,
+                            sl_baked *baked);
 
 /// Prints the formats of maps that can be read.
 void input_print_formats(void);

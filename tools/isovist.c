@@ -205,6 +205,7 @@ static sl_status measure_bundle(sl_context *context, void *all, void *state, siz
     const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
     for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
         const sl_view view = eye_view(space, &j->eyes->list.items[i]);
+        SL_TRY(sl_check_cancelled(context));
         SL_TRY(isovist_look(context, j->scene, &view, region));
         j->out[i] = (isovist_result){sl_region_measure(&region->direct),
                                      sl_region_corners(&region->direct, space, NULL, 0),

@@ -341,13 +341,18 @@ static sl_status set_sight(sl_context *context, const char *label, const char *t
     return SL_OK;
 }
 
-static sl_status set_target(sl_context *context, const option_spec *option, const char *text,
-                            const char *input) {
-    char label[40];
+enum { LABEL = 40 };
+
+static void write_label(const option_spec *option, char label[LABEL]) {
     if (option->letter)
-        snprintf(label, sizeof label, "-%c", option->letter);
+        snprintf(label, LABEL, "-%c", option->letter);
     else
-        snprintf(label, sizeof label, "--%s", option->name);
+        snprintf(label, LABEL, "--%s", option->name);
+}
+
+static sl_status set_target(sl_context *context, const option_spec *option, const char *text) {
+    char label[LABEL];
+    write_label(option, label);
     if (option->given && !*option->given) *option->given = option->name;
     if (option->text) *option->text = text;
     if (option->number) {
@@ -361,9 +366,57 @@ static sl_status set_target(sl_context *context, const option_spec *option, cons
     if (option->sight) return set_sight(context, label, text, option->sight);
     if (option->choice) return read_choice(context, label, text, &option->names, option->choice);
     if (option->choices) return read_choices(context, label, text, &option->names, option->choices);
-    if (option->check == CHECK_FILE) return output_check_file(context, input, label, text);
-    if (option->check == CHECK_PICTURE) return output_check_picture(context, input, label, text);
-    if (option->check == CHECK_BAKED) return output_check_baked(context, input, label, text);
+    return SL_OK;
+}
+
+static sl_status check_output(sl_context *context, const option_spec *option, const char *label,
+                              const char *text) {
+    switch (option->check) {
+    case CHECK_NONE:
+        break;
+    case CHECK_FILE:
+        return output_check_file(context, label, text, option->endings);
+    case CHECK_TABLE:
+        return output_check_table(context, label, text);
+    case CHECK_PICTURE:
+        return output_check_picture(context, label, text);
+    case CHECK_BAKED:
+        return output_check_baked(context, label, text);
+    }
+    return SL_OK;
+}
+
+/// Checks an output file against all inputs and the outputs before it.
+static sl_status check_apart(const parsing *p, size_t output, const char *input) {
+    const char *path = p->arguments[output];
+    const option_list *more = p->usage->more;
+    char label[LABEL], other[LABEL];
+    write_label(&p->options[output], label);
+    if (input) SL_TRY(output_check_apart(p->context, input, label, path));
+    for (size_t i = 0; more && i < more->count; i++)
+        SL_TRY(output_check_apart(p->context, more->items[i], label, path));
+    for (size_t i = 0; i < p->count; i++) {
+        if (!p->arguments[i]) continue;
+        if (p->options[i].is_input)
+            SL_TRY(output_check_apart(p->context, p->arguments[i], label, path));
+        write_label(&p->options[i], other);
+        if (i < output && p->options[i].check && output_is_same(path, p->arguments[i]))
+            return sl_fail(p->context, SL_BAD_ARGUMENT,
+                           "%s and %s both write to %s; give them two names", other, label, path);
+    }
+    return SL_OK;
+}
+
+/// Names are checked when all options are known, and before the work begins.
+static sl_status check_outputs(const parsing *p, const char *input) {
+    for (size_t i = 0; i < p->count; i++) {
+        const option_spec *option = &p->options[i];
+        char label[LABEL];
+        if (!p->arguments[i] || !option->check) continue;
+        write_label(option, label);
+        SL_TRY(check_output(p->context, option, label, p->arguments[i]));
+        SL_TRY(check_apart(p, i, input));
+    }
     return SL_OK;
 }
 
@@ -387,10 +440,10 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
     for (size_t i = 0; i < p.count; i++) {
         const option_spec *option = &p.options[i];
         if (!p.arguments[i]) continue;
-        SL_TRY(set_target(p.context, option, p.arguments[i], operands[0]));
+        SL_TRY(set_target(p.context, option, p.arguments[i]));
         if (!usage->given) continue;
         usage->given->items[usage->given->count++] =
             (struct option_given){option->name, option->argument ? p.arguments[i] : NULL};
     }
-    return SL_OK;
+    return check_outputs(&p, usage->operands[0] ? operands[0] : NULL);
 }

@@ -16,7 +16,13 @@ typedef struct option_list {
 } option_list;
 
 /// How the name of an output file is checked before the work begins (outputs.h).
-typedef enum output_check { CHECK_NONE, CHECK_FILE, CHECK_PICTURE, CHECK_BAKED } output_check;
+typedef enum output_check {
+    CHECK_NONE,
+    CHECK_FILE,    ///< any name, or one with one of the option's `endings`
+    CHECK_TABLE,   ///< .csv, .txt, or no ending
+    CHECK_PICTURE, ///< .png, .svg or .pdf
+    CHECK_BAKED,   ///< .slv
+} output_check;
 
 typedef struct option_table option_table;
 
@@ -48,6 +54,8 @@ typedef struct option_spec {
     bool over_0;        ///< a number must be over 0
     const char *needs;  ///< says what is needed; NULL: as least, most and over_0 say
     output_check check;
+    const char *endings; ///< for CHECK_FILE: ".map", ".map .txt"; NULL for any
+    bool is_input;       ///< it names a file to read, which no output may replace
 
     const option_table *group; ///< instead of all this: a group's options stand here
 } option_spec;
@@ -84,8 +92,9 @@ typedef struct command_usage {
 
 /// Reads the arguments after the command's name, argv[0], and fills the targets. Adds --help and
 /// --quiet to the options. `operands` has a place for each operand of the usage. The first of them
-/// is the input, which no output file may be. After --help, *helped is true and nothing else is
-/// done. SL_BAD_ARGUMENT, with a message that names the option.
+/// is the input. No output file may be it, or a file of an `is_input` option, or of another output.
+/// After --help, *helped is true and nothing else is done. SL_BAD_ARGUMENT, with a message that
+/// names the option.
 sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
                         const char **operands, bool *helped);
 

@@ -14,38 +14,134 @@
 
 // --- names
 
-static bool is_same_file(const char *path, const char *other) {
-    struct stat a, b;
-    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
-           a.st_ino == b.st_ino && S_ISREG(a.st_mode);
+/// What a name stands for; "-" is a standard stream.
+static bool find_file(const char *path, int stream, struct stat *file) {
+    return strcmp(path, "-") == 0 ? fstat(stream, file) == 0 : stat(path, file) == 0;
 }
 
-sl_status output_check_file(sl_context *context, const char *path, const char *option,
-                            const char *output) {
-    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "%s is empty; name a file", option);
-    if (!is_same_file(path, output)) return sl_output_try(context, output);
+static bool is_one_file(const struct stat *a, const struct stat *b) {
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && S_ISREG(a->st_mode);
+}
+
+bool output_is_same(const char *path, const char *other) {
+    struct stat a, b;
+    if (strcmp(path, other) == 0) return true;
+    return find_file(path, STDOUT_FILENO, &a) && find_file(other, STDOUT_FILENO, &b) &&
+           is_one_file(&a, &b);
+}
+
+sl_status output_check_apart(sl_context *context, const char *input, const char *option,
+                             const char *output) {
+    struct stat a, b;
+    const bool same = find_file(input, STDIN_FILENO, &a) && find_file(output, STDOUT_FILENO, &b) &&
+                      is_one_file(&a, &b);
+    if (!same || strcmp(output, "-") == 0) return SL_OK; // the shell has opened stdout already
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "%s %s: is the input itself, which would be lost; give another name", option,
                    output);
 }
 
-sl_status output_check_baked(sl_context *context, const char *path, const char *option,
-                             const char *output) {
+/// Whether a name stands for stdout, a pipe or a device: such names have no ending.
+static bool is_stream(const char *path) {
+    struct stat there;
+    return strcmp(path, "-") == 0 ||
+           (stat(path, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode));
+}
+
+bool output_is_plain_file(const char *path) {
+    struct stat there;
+    return strcmp(path, "-") != 0 && stat(path, &there) == 0 && S_ISREG(there.st_mode);
+}
+
+bool output_has_ending(const char *path, const char *endings) {
+    for (const char *word = endings; *word; word += strspn(word, " ")) {
+        const size_t length = strcspn(word, " ");
+        char ending[32];
+        snprintf(ending, sizeof ending, "%.*s", (int)length, word);
+        if (input_ends_with(path, ending)) return true;
+        word += length;
+    }
+    return false;
+}
+
+sl_status output_fail_ending(sl_context *context, const char *option, const char *output,
+                             const char *endings) {
+    char list[160] = "";
+    for (const char *word = endings; *word;) {
+        const size_t length = strcspn(word, " "), used = strlen(list);
+        const char *next = word + length + strspn(word + length, " ");
+        const char *joint = word == endings ? "" : *next ? ", " : " or ";
+        snprintf(list + used, sizeof list - used, "%s%.*s", joint, (int)length, word);
+        word = next;
+    }
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in %s", option, output, list);
+}
+
+/// Whether the last part of a path has a dot behind its first character.
+static bool has_some_ending(const char *path) {
+    const char *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path;
+    const char *dot = strrchr(base, '.');
+    return dot && dot > base;
+}
+
+sl_status output_check_file(sl_context *context, const char *option, const char *output,
+                            const char *endings) {
+    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "%s is empty; name a file", option);
+    if (endings && !is_stream(output) && !output_has_ending(output, endings))
+        return output_fail_ending(context, option, output, endings);
+    return sl_output_try(context, output);
+}
+
+sl_status output_check_table(sl_context *context, const char *option, const char *output) {
+    return output_check_file(context, option, output,
+                             has_some_ending(output) ? OUTPUT_TABLES : NULL);
+}
+
+sl_status output_check_baked(sl_context *context, const char *option, const char *output) {
     if (!input_ends_with(output, ".slv"))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s %s: the name of a baked file ends in .slv, by which it is known", option,
                        output);
-    return output_check_file(context, path, option, output);
+    return output_check_file(context, option, output, NULL);
 }
 
-sl_status output_check_picture(sl_context *context, const char *path, const char *option,
-                               const char *output) {
+sl_status output_check_picture(sl_context *context, const char *option, const char *output) {
+    const char *const endings = ".png .svg .pdf";
     SL_TRY(built_need_pictures(context));
-    if (input_ends_with(output, ".png") || input_ends_with(output, ".svg") ||
-        input_ends_with(output, ".pdf"))
-        return output_check_file(context, path, option, output);
-    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in .png, .svg or .pdf", option,
-                   output);
+    if (!output_has_ending(output, endings))
+        return output_fail_ending(context, option, output, endings);
+    return output_check_file(context, option, output, NULL);
+}
+
+/// What the names of exports end with; `named` where the format is given by name.
+static const struct {
+    const char *format, *endings, *named;
+} exports[] = {
+    {"json", ".json", ".json"}, {"csv", OUTPUT_TABLES, OUTPUT_TABLES},
+    {"c", ".h", ".h"},          {"geojson", ".geojson", ".geojson .json"},
+    {"png", ".png", ".png"},    {"reject", ".wad", ".wad"},
+};
+
+sl_status output_choose_export(sl_context *context, const name_table *formats, const char *option,
+                               const char *output, const char *given, size_t *chosen) {
+    char all[160] = "";
+    if (is_stream(output) || !has_some_ending(output)) return SL_OK;
+    for (size_t i = 0; i < formats->count; i++) {
+        const char *endings = NULL, *name = name_table_at(formats, i);
+        for (size_t k = 0; k < sizeof exports / sizeof *exports; k++)
+            if (strcmp(exports[k].format, name) == 0)
+                endings = given ? exports[k].named : exports[k].endings;
+        if (given && i != *chosen) continue;
+        if (!endings) return SL_OK; // a format that may have any ending
+        if (output_has_ending(output, endings)) {
+            *chosen = i;
+            return SL_OK;
+        }
+        const size_t used = strlen(all);
+        snprintf(all + used, sizeof all - used, "%s%s", used ? " " : "", endings);
+    }
+    return output_fail_ending(context, option, output, all);
 }
 
 option_table picture_option_table(sl_draw_options *drawing, bool titled) {
@@ -126,10 +222,32 @@ sl_status folder_open(sl_context *context, const char *path, const char *const *
     return status == SL_OK ? SL_OK : folder_close(context, out, status);
 }
 
+/// Replaces what a link leads to, and leaves the link.
+static sl_status copy_file(sl_context *context, const char *from, const char *to) {
+    sl_bytes bytes;
+    sl_output output;
+    SL_TRY(sl_file_read(context, from, &bytes));
+    sl_status status = sl_output_open(context, to, &output);
+    if (status == SL_OK) {
+        fwrite(bytes.data, 1, bytes.size, output.stream);
+        status = sl_output_commit(context, &output);
+    }
+    sl_free(context, bytes.data);
+    return status;
+}
+
 static sl_status move_file(sl_context *context, const output_folder *folder, const char *name) {
     char *from = join(context, folder->temporary, name), *to = join(context, folder->path, name);
+    struct stat older;
     sl_status status = from && to ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK && rename(from, to) != 0) status = fail_write(context, to);
+    const bool exists = status == SL_OK && lstat(to, &older) == 0;
+    if (exists && S_ISLNK(older.st_mode)) {
+        status = copy_file(context, from, to);
+        unlink(from);
+    } else if (status == SL_OK) {
+        if (exists) (void)!chmod(from, older.st_mode & 0777);
+        if (rename(from, to) != 0) status = fail_write(context, to);
+    }
     sl_free(context, from);
     sl_free(context, to);
     return status;

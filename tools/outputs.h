@@ -10,16 +10,41 @@
 #include <stdint.h>
 
 /// Checks the argument of `option`, a file to be written, before the work is done. SL_BAD_ARGUMENT
-/// where it is empty, or the input `path` itself, which it would replace. SL_IO where nothing can
-/// be written there.
-sl_status output_check_file(sl_context *context, const char *path, const char *option,
-                            const char *output);
+/// where it is empty, or ends in none of `endings` (".map .txt"; NULL: any), and is no pipe or
+/// device. SL_IO where nothing can be written there.
+sl_status output_check_file(sl_context *context, const char *option, const char *output,
+                            const char *endings);
+/// The same for a table, whose name ends in .csv or .txt, or has no ending.
+sl_status output_check_table(sl_context *context, const char *option, const char *output);
 /// The same for a baked file, whose name must end in .slv.
-sl_status output_check_baked(sl_context *context, const char *path, const char *option,
-                             const char *output);
+sl_status output_check_baked(sl_context *context, const char *option, const char *output);
 /// The same for a picture, whose name must end in .png, .svg or .pdf.
-sl_status output_check_picture(sl_context *context, const char *path, const char *option,
-                               const char *output);
+sl_status output_check_picture(sl_context *context, const char *option, const char *output);
+
+#define OUTPUT_TABLES ".csv .txt"
+
+/// Whether a name ends in one of `endings`.
+bool output_has_ending(const char *path, const char *endings);
+
+/// SL_BAD_ARGUMENT: "-o x.abc: end the name in .map or .txt".
+sl_status output_fail_ending(sl_context *context, const char *option, const char *output,
+                             const char *endings);
+
+/// Sets *chosen to the export format that the ending of `output` says, where `given` is NULL. Else
+/// checks that the ending fits the chosen format. A stream, or a name without an ending, fits all.
+sl_status output_choose_export(sl_context *context, const name_table *formats, const char *option,
+                               const char *output, const char *given, size_t *chosen);
+
+/// Whether two names of outputs stand for one file, maybe through links.
+bool output_is_same(const char *path, const char *other);
+
+/// Whether a name stands for a file that is there, and no pipe or device; "-" does not.
+bool output_is_plain_file(const char *path);
+
+/// SL_BAD_ARGUMENT where an output is the input itself, maybe through links: it would be replaced.
+/// "-" is stdin or stdout.
+sl_status output_check_apart(sl_context *context, const char *input, const char *option,
+                             const char *output);
 
 /// The options --width, --dark and, if `titled`, --title.
 option_table picture_option_table(sl_draw_options *drawing, bool titled);

@@ -103,13 +103,17 @@ static sl_status add_start(sl_context *context, const map_pipeline *pipeline, sl
     return sl_map_add_start(context, map, at, 0, 0);
 }
 
-sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
-    SL_TRY(input_read_map(context, pipeline->path, &pipeline->input, map));
+sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
     if (pipeline->bake.subdivision && !pipeline->bake.subdivision->takes_cells)
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
     return SL_OK;
+}
+
+sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
+    SL_TRY(input_read_map(context, pipeline->path, &pipeline->input, map));
+    return pipeline_prepare(context, pipeline, map);
 }
 
 sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
@@ -126,18 +130,32 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
     return bake->check || space->neighbour ? sl_space_check(context, space) : SL_OK;
 }
 
+/// Reads a file into one of the two; *is_baked says which one.
+static sl_status read_map_or_baked(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                                   sl_baked *baked, bool *is_baked) {
+    sl_bytes bytes;
+    const input_options *input = &pipeline->input;
+    const char *path = pipeline->path;
+    SL_TRY(sl_file_read(context, path, &bytes));
+    *is_baked = input_is_baked(path, &bytes);
+    sl_status status = *is_baked ? input_refuse_options(context, path, input) : SL_OK;
+    if (status == SL_OK && *is_baked)
+        status = input_parse_baked(context, path, &bytes, baked);
+    else if (status == SL_OK)
+        status = sl_map_parse(context, path, bytes.data, bytes.size, &input->import, map);
+    sl_free(context, bytes.data);
+    return status;
+}
+
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, sl_baked *baked) {
-    const char *path = pipeline->path;
-    if (input_ends_with(path, ".slv")) {
-        SL_TRY(input_refuse_options(context, path, &pipeline->input));
-        SL_TRY(input_read_baked(context, path, baked));
-        return sl_effects_check(context, &baked->map, user, effects);
-    }
+    bool is_baked;
     sl_map map = {0};
     sl_bake_options options = pipeline->bake;
     sl_bake_account account = {0};
-    sl_status status = pipeline_read(context, pipeline, &map);
+    SL_TRY(read_map_or_baked(context, pipeline, &map, baked, &is_baked));
+    if (is_baked) return sl_effects_check(context, &baked->map, user, effects);
+    sl_status status = pipeline_prepare(context, pipeline, &map);
     if (status == SL_OK) status = sl_effects_check(context, &map, user, effects);
     if (status == SL_OK) status = sl_bake_space(context, &map, &options, baked, &account);
     sl_map_destroy(context, &map);

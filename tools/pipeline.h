@@ -31,6 +31,9 @@ option_table pipeline_without_table(map_pipeline *pipeline);
 /// Call it after the options are read and before anything else.
 sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *pipeline);
 
+/// Adds the start of --start to a map and drops the effects of --without.
+sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl_map *map);
+
 /// Reads the map, adds the start of --start and drops the effects of --without.
 sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map);
 
@@ -42,7 +45,7 @@ sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline,
 sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                              sl_space *space);
 
-/// The space of a map, or of a baked file (a name that ends in .slv). Fails where the map has
+/// The space of a map, or of a baked file (by its name or its first bytes). Fails where the map has
 /// effects other than `effects`, those that the command `user` supports.
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, sl_baked *baked);

@@ -2,7 +2,8 @@
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
-# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), and MPI.
+# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, and the Python
+# package jsonschema.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -11,7 +12,7 @@ ci=no
 for argument in "$@"; do
     case $argument in
     --ci) ci=yes ;;
-    -h | --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown argument $argument (there is --ci)" >&2; exit 2 ;;
     esac
 done
@@ -83,6 +84,7 @@ is_there() {
     font) font ;;
     clang | clang-format | clang-tidy | doxygen | llvm-symbolizer) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
+    jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
 }
 
@@ -106,6 +108,7 @@ package() { # system thing
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
+    apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
     *:llvm-symbolizer) echo llvm ;;
 
     dnf:c) echo gcc ;;
@@ -127,6 +130,7 @@ package() { # system thing
     pacman:c | pacman:c++) echo gcc ;;
     pacman:pkg-config) echo pkgconf ;;
     pacman:python3) echo python ;;
+    pacman:jsonschema | brew:jsonschema) echo python-jsonschema ;;
     pacman:font) echo ttf-dejavu ;;
     pacman:clang-format | pacman:clang-tidy) echo clang ;;
     pacman:xvfb) echo xorg-server-xvfb ;;
@@ -184,7 +188,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi jsonschema"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

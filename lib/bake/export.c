@@ -1,9 +1,11 @@
-/// Exports of a baked file that need no other library: JSON, CSV and C source. Each is printed
-/// piece by piece, so that a large map needs no tree in memory.
+/// Exports of a baked file that need no other library: JSON, GeoJSON, CSV and C source. Each is
+/// printed piece by piece, so that a large map needs no tree in memory. EXPORT.md describes them.
+/// Numbers have 17 digits, and read back to the same double.
 #include "base/base.h"
 #include "sightline/bake.h"
 #include "sightline/json_write.h"
 #include "sightline/support.h"
+#include "space/kd_tree.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -14,6 +16,7 @@ typedef struct printer {
     sl_context *context;
     FILE *stream;
     sl_json_writer json;
+    bool any; ///< a list of features has one already
 } printer;
 
 /// What stands before item i; false where there is none, or the stream takes no more.
@@ -21,6 +24,16 @@ static bool begin_item(const printer *out, uint32_t i, uint32_t count) {
     if (i >= count || ferror(out->stream)) return false;
     fputs(i ? ",\n" : "\n", out->stream);
     return true;
+}
+
+/// Begins the next member of the object, on a line of its own.
+static void begin_member(const printer *out, const char *key) {
+    fprintf(out->stream, ",\n\"%s\": ", key);
+}
+
+static void print_text_member(printer *out, const char *key, const char *text) {
+    fprintf(out->stream, ", \"%s\": ", key);
+    sl_json_put_text(&out->json, text);
 }
 
 static void print_point(printer *out, sl_point p) {
@@ -39,16 +52,20 @@ static void print_segment(printer *out, sl_point a, sl_point b) {
     sl_json_put_end(&out->json, ']');
 }
 
+static void print_polygon(printer *out, const sl_space *space, const sl_cell *cell) {
+    sl_json_put_list(&out->json);
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        print_point(out, space->vertices[cell->first_vertex + i]);
+    sl_json_put_end(&out->json, ']');
+}
+
 static void print_cell(printer *out, const sl_space *space, uint32_t number) {
     const sl_cell *cell = &space->cells[number];
     sl_json_put_object(&out->json);
     sl_json_put_key(&out->json, "id");
     sl_json_put_integer(&out->json, number);
     sl_json_put_key(&out->json, "polygon");
-    sl_json_put_list(&out->json);
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        print_point(out, space->vertices[cell->first_vertex + i]);
-    sl_json_put_end(&out->json, ']');
+    print_polygon(out, space, cell);
     sl_json_put_key(&out->json, "inside");
     sl_json_put_flag(&out->json, cell->inside);
     if (cell->solid) {
@@ -66,23 +83,94 @@ static void print_solids(printer *out, const sl_space *space) {
         if (!cell->solid) continue;
         fputs(any ? ",\n" : ",\n\"solids\": [\n", out->stream);
         any = true;
-        sl_json_put_list(&out->json);
-        for (uint32_t k = 0; k < cell->vertex_count; k++)
-            print_point(out, space->vertices[cell->first_vertex + k]);
-        sl_json_put_end(&out->json, ']');
+        print_polygon(out, space, cell);
     }
     if (any) fputs("]", out->stream);
 }
 
-static void print_portal(printer *out, const sl_portal *portal) {
+/// The walls that have solid ground at one hand, by number. Readers need not find them by place.
+static void put_solid_walls(printer *out, const sl_wall *walls, uint32_t count) {
+    static const struct {
+        uint32_t side;
+        const char *name;
+    } hands[] = {{SL_SOLID_LEFT, "left"}, {SL_SOLID_RIGHT, "right"}};
+    begin_member(out, "solid_walls");
     sl_json_put_object(&out->json);
+    for (size_t hand = 0; hand < sizeof hands / sizeof *hands; hand++) {
+        sl_json_put_key(&out->json, hands[hand].name);
+        sl_json_put_list(&out->json);
+        for (uint32_t i = 0; i < count; i++)
+            if (walls[i].ground & hands[hand].side) sl_json_put_integer(&out->json, i);
+        sl_json_put_end(&out->json, ']');
+    }
+    sl_json_put_end(&out->json, '}');
+}
+
+/// Walls take their ground from the cells, so it is that of `solids`. A loose space does not tell.
+static sl_status print_solid_walls(printer *out, const sl_space *space) {
+    bool any = false;
+    for (uint32_t i = 0; i < space->cell_count; i++) any |= space->cells[i].solid != 0;
+    if (!any || space->loose) return SL_OK;
+    sl_space marked = *space;
+    marked.walls = sl_alloc_array(out->context, space->wall_count, sizeof *marked.walls);
+    if (!marked.walls) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        marked.walls[i] = (sl_wall){.a = space->walls[i].a, .b = space->walls[i].b};
+    sli_ground_of_cells(&marked);
+    put_solid_walls(out, marked.walls, marked.wall_count);
+    sl_free(out->context, marked.walls);
+    return SL_OK;
+}
+
+/// The first door that a portal lies on; NULL for none.
+static const sl_door *door_of(const sl_baked *baked, uint32_t portal) {
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(&baked->space, portal, &count);
+    for (size_t i = 0; i < count; i++) {
+        const sl_seam *seam = &baked->space.seams[on[i].seam];
+        if (seam->kind == SL_SEAM_DOOR) return &baked->map.doors[seam->number];
+    }
+    return NULL;
+}
+
+/// The end of a portal's `cells` that is looked from ("from": the first one), or "none" between two
+/// panes that face each other; NULL where no one-way glass is.
+static const char *oneway_of(const sl_space *space, uint32_t portal) {
+    bool blocked[2] = {false};
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (space->seams[on[i].seam].kind == SL_SEAM_ONEWAY) blocked[on[i].forward != 0] = true;
+    if (blocked[0] && blocked[1]) return "none";
+    return blocked[0] ? "to" : blocked[1] ? "from" : NULL;
+}
+
+/// What a portal is, as members of an object.
+static void put_portal_members(printer *out, const sl_baked *baked, uint32_t number) {
+    const sl_portal *portal = &baked->space.portals[number];
     sl_json_put_key(&out->json, "cells");
     sl_json_put_list(&out->json);
     sl_json_put_integer(&out->json, portal->cell[0]);
     sl_json_put_integer(&out->json, portal->cell[1]);
     sl_json_put_end(&out->json, ']');
+}
+
+static void put_portal_effects(printer *out, const sl_baked *baked, uint32_t number) {
+    const sl_door *door = door_of(baked, number);
+    const char *oneway = oneway_of(&baked->space, number);
+    if (door) sl_json_put_key(&out->json, "door");
+    if (door) sl_json_put_text(&out->json, door->name);
+    if (oneway) sl_json_put_key(&out->json, "oneway");
+    if (oneway) sl_json_put_text(&out->json, oneway);
+}
+
+static void print_portal(printer *out, const sl_baked *baked, uint32_t number, int version) {
+    const sl_portal *portal = &baked->space.portals[number];
+    sl_json_put_object(&out->json);
+    put_portal_members(out, baked, number);
     sl_json_put_key(&out->json, "segment");
     print_segment(out, portal->left, portal->right);
+    if (version > 1) put_portal_effects(out, baked, number);
     sl_json_put_end(&out->json, '}');
 }
 
@@ -93,48 +181,436 @@ static void print_row(printer *out, const sl_pvs *pvs, uint32_t cell) {
     sl_json_put_end(&out->json, ']');
 }
 
-static sl_status print_space(printer *out, const sl_space *space) {
-    const sl_box *b = &space->bounds;
-    fputs(",\n\"bounds\": ", out->stream);
-    print_segment(out, b->min, b->max);
-    fputs(",\n\"walls\": [", out->stream);
+/// Rows of cells; nothing where there are none.
+static sl_status print_rows(printer *out, const char *key, const sl_pvs *pvs) {
+    if (!pvs->cell_count) return SL_OK;
+    begin_member(out, key);
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, pvs->cell_count); i++) {
+        print_row(out, pvs, i);
+        SL_TRY(sl_check_cancelled(out->context));
+    }
+    fputs("]", out->stream);
+    return SL_OK;
+}
+
+static sl_status print_space(printer *out, const sl_baked *baked, int version) {
+    const sl_space *space = &baked->space;
+    begin_member(out, "bounds");
+    print_segment(out, space->bounds.min, space->bounds.max);
+    begin_member(out, "walls");
+    fputs("[", out->stream);
     for (uint32_t i = 0; begin_item(out, i, space->wall_count); i++)
         print_segment(out, space->walls[i].a, space->walls[i].b);
     SL_TRY(sl_check_cancelled(out->context));
     fputs("]", out->stream);
     print_solids(out, space);
-    fputs(",\n\"cells\": [", out->stream);
+    if (version > 1) SL_TRY(print_solid_walls(out, space));
+    begin_member(out, "cells");
+    fputs("[", out->stream);
     for (uint32_t i = 0; begin_item(out, i, space->cell_count); i++) print_cell(out, space, i);
     SL_TRY(sl_check_cancelled(out->context));
-    fputs("],\n\"portals\": [", out->stream);
+    fputs("]", out->stream);
+    begin_member(out, "portals");
+    fputs("[", out->stream);
     for (uint32_t i = 0; begin_item(out, i, space->portal_count); i++)
-        print_portal(out, &space->portals[i]);
+        print_portal(out, baked, i, version);
     fputs("]", out->stream);
     return sl_check_cancelled(out->context);
 }
 
-static sl_status print_baked(printer *out, const sl_baked *baked) {
-    const sl_visibility *visibility = &baked->visibility;
-    fprintf(out->stream, "{\"format\": \"sightline\", \"version\": 1, \"sight\": \"%s\"",
-            visibility->sight == SL_CLOSED ? "closed" : "open");
-    if (sl_partial_begun(&baked->partial)) fputs(", \"finished\": false", out->stream);
-    SL_TRY(print_space(out, &baked->space));
-    fputs(",\n\"pvs\": [", out->stream);
-    for (uint32_t i = 0; begin_item(out, i, visibility->pvs.cell_count); i++) {
-        print_row(out, &visibility->pvs, i);
+// --- JSON: effects, places, and all else that a map holds
+
+/// The stretches of a door: those that its cells end at, or all of it where no cell does.
+static void put_door_segments(printer *out, const sl_baked *baked, uint32_t number) {
+    const sl_space *space = &baked->space;
+    bool any = false;
+    sl_json_put_list(&out->json);
+    for (uint32_t i = 0; i < space->seam_count; i++) {
+        const sl_seam *seam = &space->seams[i];
+        if (seam->kind != SL_SEAM_DOOR || seam->number != number) continue;
+        print_segment(out, seam->at.a, seam->at.b);
+        any = true;
+    }
+    const sl_segment *whole = &baked->map.doors[number].segment;
+    if (!any) print_segment(out, whole->a, whole->b);
+    sl_json_put_end(&out->json, ']');
+}
+
+static void print_doors(printer *out, const sl_baked *baked) {
+    const uint32_t count = (uint32_t)baked->map.door_count;
+    if (!count) return;
+    begin_member(out, "doors");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, count); i++) {
+        sl_json_put_object(&out->json);
+        sl_json_put_key(&out->json, "name");
+        sl_json_put_text(&out->json, baked->map.doors[i].name);
+        sl_json_put_key(&out->json, "segments");
+        put_door_segments(out, baked, i);
+        sl_json_put_key(&out->json, "open");
+        sl_json_put_flag(&out->json, baked->map.doors[i].open);
+        sl_json_put_end(&out->json, '}');
+    }
+    fputs("]", out->stream);
+}
+
+/// The next number of a row of door sets, which is sound.
+static uint32_t next_number(const uint8_t **at) {
+    uint32_t value = 0;
+    for (unsigned shift = 0;; shift += 7) {
+        const uint8_t byte = *(*at)++;
+        value |= (uint32_t)(byte & 127) << shift;
+        if (byte < 128) return value;
+    }
+}
+
+/// One alternative of a pair, as names of doors, each once.
+static void put_alternative(printer *out, const sl_map *map, const uint8_t **at) {
+    uint32_t door = UINT32_MAX, names = 0;
+    sl_json_put_list(&out->json);
+    const uint8_t *const first = *at;
+    for (uint32_t left = next_number(at); left; left--, names++) {
+        door += 1 + next_number(at);
+        const uint8_t *before = first;
+        uint32_t other = UINT32_MAX;
+        bool told = false;
+        (void)next_number(&before);
+        for (uint32_t i = 0; i < names && !told; i++) {
+            other += 1 + next_number(&before);
+            told = strcmp(map->doors[other].name, map->doors[door].name) == 0;
+        }
+        if (!told) sl_json_put_text(&out->json, map->doors[door].name);
+    }
+    sl_json_put_end(&out->json, ']');
+}
+
+/// The pairs of one row: {"cells": [from, to], "needs": [[names], ...]}.
+static void print_door_row(printer *out, const sl_door_sets *sets, const sl_map *map,
+                           uint32_t from) {
+    const uint8_t *at = sets->bytes + sets->offsets[from];
+    const uint8_t *const stop = sets->bytes + sets->offsets[from + 1];
+    for (uint32_t to = UINT32_MAX; at != stop && !ferror(out->stream);) {
+        to += 1 + next_number(&at);
+        fputs(out->any ? ",\n" : "\n", out->stream);
+        out->any = true;
+        fprintf(out->stream, "{\"cells\":[%" PRIu32 ",%" PRIu32 "],\"needs\":", from, to);
+        sl_json_put_list(&out->json);
+        for (uint32_t left = next_number(&at); left; left--) put_alternative(out, map, &at);
+        sl_json_put_end(&out->json, ']');
+        fputs("}", out->stream);
+    }
+}
+
+static sl_status print_door_sets(printer *out, const char *key, const sl_door_sets *sets,
+                                 const sl_map *map) {
+    if (!sl_door_sets_bytes(sets)) return SL_OK;
+    begin_member(out, key);
+    fputs("[", out->stream);
+    out->any = false;
+    for (uint32_t i = 0; i < sets->cell_count; i++) {
+        print_door_row(out, sets, map, i);
         SL_TRY(sl_check_cancelled(out->context));
     }
-    fputs("]}\n", out->stream);
+    fputs("]", out->stream);
+    return SL_OK;
+}
+
+static void print_glass(printer *out, const char *key, const sl_glass *glass, size_t count) {
+    if (!count) return;
+    begin_member(out, key);
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, (uint32_t)count); i++)
+        print_segment(out, glass[i].segment.a, glass[i].segment.b);
+    fputs("]", out->stream);
+}
+
+/// The numbers of mirrors that reflect on their left only.
+static void print_one_sided(printer *out, const sl_map *map) {
+    bool any = false;
+    for (size_t i = 0; i < map->mirror_count; i++) any |= map->mirrors[i].one_sided;
+    if (!any) return;
+    begin_member(out, "one_sided_mirrors");
+    sl_json_put_list(&out->json);
+    for (size_t i = 0; i < map->mirror_count; i++)
+        if (map->mirrors[i].one_sided) sl_json_put_integer(&out->json, (int64_t)i);
+    sl_json_put_end(&out->json, ']');
+}
+
+static void print_starts(printer *out, const sl_map *map) {
+    if (!map->start_count) return;
+    begin_member(out, "starts");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, (uint32_t)map->start_count); i++) {
+        sl_json_put_object(&out->json);
+        sl_json_put_key(&out->json, "at");
+        print_point(out, map->starts[i].at);
+        sl_json_put_key(&out->json, "heading");
+        sl_json_put_real(&out->json, map->starts[i].heading);
+        sl_json_put_end(&out->json, '}');
+    }
+    fputs("]", out->stream);
+}
+
+static void print_paths(printer *out, const sl_map *map) {
+    if (!map->path_count) return;
+    begin_member(out, "paths");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, (uint32_t)map->path_count); i++) {
+        sl_json_put_object(&out->json);
+        sl_json_put_key(&out->json, "name");
+        sl_json_put_text(&out->json, map->paths[i].name);
+        sl_json_put_key(&out->json, "points");
+        sl_json_put_list(&out->json);
+        for (size_t k = 0; k < map->paths[i].count; k++) print_point(out, map->paths[i].points[k]);
+        sl_json_put_end(&out->json, ']');
+        sl_json_put_end(&out->json, '}');
+    }
+    fputs("]", out->stream);
+}
+
+static void print_objects(printer *out, const sl_map *map) {
+    if (!map->object_count) return;
+    begin_member(out, "objects");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, (uint32_t)map->object_count); i++) {
+        sl_json_put_object(&out->json);
+        sl_json_put_key(&out->json, "name");
+        sl_json_put_text(&out->json, map->objects[i].name);
+        sl_json_put_key(&out->json, "box");
+        print_segment(out, map->objects[i].box.min, map->objects[i].box.max);
+        sl_json_put_end(&out->json, '}');
+    }
+    fputs("]", out->stream);
+}
+
+static void print_range(printer *out, const sl_map *map) {
+    begin_member(out, "range");
+    if (map->range > 0)
+        sl_json_put_real(&out->json, map->range);
+    else
+        sl_json_put_null(&out->json);
+}
+
+/// The cells of each view cell, and the cells that it sees.
+static sl_status print_views(printer *out, const sl_view_rows *views, uint32_t cells,
+                             sl_bits *seen) {
+    begin_member(out, "view_cells");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, views->view_cell_count); i++) {
+        SL_TRY(sl_check_cancelled(out->context));
+        sl_json_put_list(&out->json);
+        for (uint32_t k = 0; k < cells; k++)
+            if (views->view_cells[k] == i) sl_json_put_integer(&out->json, k);
+        sl_json_put_end(&out->json, ']');
+    }
+    fputs("]", out->stream);
+    begin_member(out, "view_cell_pvs");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, views->view_cell_count); i++) {
+        SL_TRY(sl_check_cancelled(out->context));
+        memset(seen, 0, sl_bits_words(cells) * sizeof *seen);
+        sl_view_rows_add_to(views, i, seen);
+        sl_json_put_list(&out->json);
+        for (uint32_t k = 0; k < cells; k++)
+            if (sl_bits_has(seen, k)) sl_json_put_integer(&out->json, k);
+        sl_json_put_end(&out->json, ']');
+    }
+    fputs("]", out->stream);
+    return SL_OK;
+}
+
+static sl_status print_view_cells(printer *out, const sl_baked *baked) {
+    const uint32_t cells = baked->space.cell_count;
+    if (!baked->views.view_cell_count) return SL_OK;
+    sl_bits *seen = sl_alloc_array(out->context, sl_bits_words(cells), sizeof *seen);
+    const sl_status status = seen ? print_views(out, &baked->views, cells, seen) : SL_NO_MEMORY;
+    sl_free(out->context, seen);
+    return status;
+}
+
+/// What version 2 has and version 1 had not.
+static sl_status print_rest(printer *out, const sl_baked *baked) {
+    const sl_visibility *seen = &baked->visibility;
+    const sl_map *map = &baked->map;
+    SL_TRY(print_rows(out, "doubtful", &seen->doubtful));
+    print_doors(out, baked);
+    SL_TRY(print_door_sets(out, "door_sets", &seen->doors, map));
+    print_glass(out, "mirrors", map->mirrors, map->mirror_count);
+    print_one_sided(out, map);
+    SL_TRY(print_rows(out, "mirrored", &seen->mirrored));
+    SL_TRY(print_door_sets(out, "mirrored_door_sets", &seen->mirrored_doors, map));
+    print_glass(out, "oneways", map->oneways, map->oneway_count);
+    print_glass(out, "seams", map->seams, map->seam_count);
+    print_starts(out, map);
+    print_paths(out, map);
+    print_objects(out, map);
+    print_range(out, map);
+    return print_view_cells(out, baked);
+}
+
+static sl_status print_json(printer *out, const sl_baked *baked, int version) {
+    const sl_visibility *seen = &baked->visibility;
+    fprintf(out->stream, "{\"format\": \"sightline\", \"version\": %d, \"sight\": \"%s\"", version,
+            seen->sight == SL_CLOSED ? "closed" : "open");
+    if (version > 1) {
+        print_text_member(out, "guarantee", sl_guarantee_name(seen->guarantee));
+        if (baked->method[0]) print_text_member(out, "method", baked->method);
+        if (baked->solver[0]) print_text_member(out, "solver", baked->solver);
+        if (baked->space.loose) fputs(", \"loose\": true", out->stream);
+    }
+    if (sl_partial_begun(&baked->partial)) fputs(", \"finished\": false", out->stream);
+    SL_TRY(print_space(out, baked, version));
+    SL_TRY(print_rows(out, "pvs", &seen->pvs));
+    if (version > 1) SL_TRY(print_rest(out, baked));
+    fputs("}\n", out->stream);
     return SL_OK;
 }
 
 sl_status sl_export_json(sl_context *context, const sl_baked *baked,
                          const sl_export_options *options, const char *path) {
+    const unsigned version = options->json_version ? options->json_version : SL_JSON_VERSION;
+    if (version > SL_JSON_VERSION)
+        return sl_fail(context, SL_BAD_ARGUMENT, "there is no JSON version %u; the newest is %d",
+                       version, SL_JSON_VERSION);
+    // Version 1 has no place for what mirrors show.
+    if (version == 1)
+        SL_TRY(sl_effects_check(context, &baked->map, "JSON version 1",
+                                SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE));
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    printer out = {context, output.stream, sl_json_writer_to(output.stream, 0), false};
+    return sl_output_close(context, &output, print_json(&out, baked, (int)version));
+}
+
+// --- GeoJSON: a FeatureCollection in the plane of the map
+
+/// Begins a feature, up to the coordinates of its geometry.
+static void begin_feature(printer *out, const char *geometry) {
+    fputs(out->any ? ",\n" : "\n", out->stream);
+    out->any = true;
+    sl_json_put_object(&out->json);
+    sl_json_put_key(&out->json, "type");
+    sl_json_put_text(&out->json, "Feature");
+    sl_json_put_key(&out->json, "geometry");
+    sl_json_put_object(&out->json);
+    sl_json_put_key(&out->json, "type");
+    sl_json_put_text(&out->json, geometry);
+    sl_json_put_key(&out->json, "coordinates");
+}
+
+/// Ends the geometry and begins the properties.
+static void begin_properties(printer *out, const char *kind) {
+    sl_json_put_end(&out->json, '}');
+    sl_json_put_key(&out->json, "properties");
+    sl_json_put_object(&out->json);
+    sl_json_put_key(&out->json, "kind");
+    sl_json_put_text(&out->json, kind);
+}
+
+static void end_feature(printer *out) {
+    sl_json_put_end(&out->json, '}');
+    sl_json_put_end(&out->json, '}');
+}
+
+static void begin_line(printer *out, const char *kind, sl_point a, sl_point b) {
+    begin_feature(out, "LineString");
+    sl_json_put_list(&out->json);
+    print_point(out, a);
+    print_point(out, b);
+    sl_json_put_end(&out->json, ']');
+    begin_properties(out, kind);
+}
+
+/// A ring ends at the corner where it begins.
+static void print_cell_feature(printer *out, const sl_baked *baked, uint32_t number) {
+    const sl_space *space = &baked->space;
+    const sl_cell *cell = &space->cells[number];
+    begin_feature(out, "Polygon");
+    sl_json_put_list(&out->json);
+    sl_json_put_list(&out->json);
+    for (uint32_t i = 0; i <= cell->vertex_count; i++)
+        print_point(out, space->vertices[cell->first_vertex + i % cell->vertex_count]);
+    sl_json_put_end(&out->json, ']');
+    sl_json_put_end(&out->json, ']');
+    begin_properties(out, "cell");
+    sl_json_put_key(&out->json, "id");
+    sl_json_put_integer(&out->json, number);
+    sl_json_put_key(&out->json, "inside");
+    sl_json_put_flag(&out->json, cell->inside);
+    sl_json_put_key(&out->json, "solid");
+    sl_json_put_flag(&out->json, cell->solid);
+    sl_json_put_key(&out->json, "sees");
+    sl_json_put_integer(&out->json, sl_pvs_count(&baked->visibility.pvs, number));
+    end_feature(out);
+}
+
+static void print_door_features(printer *out, const sl_baked *baked) {
+    for (uint32_t i = 0; i < baked->space.seam_count; i++) {
+        const sl_seam *seam = &baked->space.seams[i];
+        if (seam->kind != SL_SEAM_DOOR) continue;
+        const sl_door *door = &baked->map.doors[seam->number];
+        begin_line(out, "door", seam->at.a, seam->at.b);
+        sl_json_put_key(&out->json, "name");
+        sl_json_put_text(&out->json, door->name);
+        sl_json_put_key(&out->json, "open");
+        sl_json_put_flag(&out->json, door->open);
+        end_feature(out);
+    }
+}
+
+static void print_glass_features(printer *out, const char *kind, const sl_glass *glass,
+                                 size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        begin_line(out, kind, glass[i].segment.a, glass[i].segment.b);
+        end_feature(out);
+    }
+}
+
+static void print_start_features(printer *out, const sl_map *map) {
+    for (size_t i = 0; i < map->start_count; i++) {
+        begin_feature(out, "Point");
+        print_point(out, map->starts[i].at);
+        begin_properties(out, "start");
+        sl_json_put_key(&out->json, "heading");
+        sl_json_put_real(&out->json, map->starts[i].heading);
+        end_feature(out);
+    }
+}
+
+static sl_status print_geojson(printer *out, const sl_baked *baked) {
+    const sl_space *space = &baked->space;
+    const sl_map *map = &baked->map;
+    fputs("{\"type\": \"FeatureCollection\", \"features\": [", out->stream);
+    for (uint32_t i = 0; i < space->cell_count && !ferror(out->stream); i++)
+        print_cell_feature(out, baked, i);
+    SL_TRY(sl_check_cancelled(out->context));
+    for (uint32_t i = 0; i < space->portal_count && !ferror(out->stream); i++) {
+        begin_line(out, "portal", space->portals[i].left, space->portals[i].right);
+        put_portal_members(out, baked, i);
+        put_portal_effects(out, baked, i);
+        end_feature(out);
+    }
+    SL_TRY(sl_check_cancelled(out->context));
+    for (uint32_t i = 0; i < space->wall_count && !ferror(out->stream); i++) {
+        begin_line(out, "wall", space->walls[i].a, space->walls[i].b);
+        end_feature(out);
+    }
+    print_door_features(out, baked);
+    print_glass_features(out, "mirror", map->mirrors, map->mirror_count);
+    print_glass_features(out, "oneway", map->oneways, map->oneway_count);
+    print_start_features(out, map);
+    fputs("]}\n", out->stream);
+    return sl_check_cancelled(out->context);
+}
+
+sl_status sl_export_geojson(sl_context *context, const sl_baked *baked,
+                            const sl_export_options *options, const char *path) {
     (void)options;
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    printer out = {context, output.stream, sl_json_writer_to(output.stream, 0)};
-    return sl_output_close(context, &output, print_baked(&out, baked));
+    printer out = {context, output.stream, sl_json_writer_to(output.stream, 0), false};
+    return sl_output_close(context, &output, print_geojson(&out, baked));
 }
 
 // --- CSV: a line for each ordered pair of cells of which the first sees the second
@@ -169,7 +645,7 @@ static void fill_row(const sl_pvs *pvs, uint32_t cell, uint8_t *row, size_t byte
         for (uint32_t i = run.first; i < run.end; i++) row[i / 8] |= (uint8_t)(1u << i % 8);
 }
 
-static sl_status print_rows(sl_context *context, const sl_pvs *pvs, uint8_t *row, size_t bytes,
+static sl_status print_bits(sl_context *context, const sl_pvs *pvs, uint8_t *row, size_t bytes,
                             FILE *stream) {
     fprintf(stream,
             "/* Which cells see which, by Sightline. */\n"
@@ -202,7 +678,7 @@ sl_status sl_export_c(sl_context *context, const sl_baked *baked, const sl_expor
     sl_status status = sl_output_open(context, path, &output);
     if (status == SL_OK)
         status =
-            sl_output_close(context, &output, print_rows(context, pvs, row, bytes, output.stream));
+            sl_output_close(context, &output, print_bits(context, pvs, row, bytes, output.stream));
     sl_free(context, row);
     return status;
 }
@@ -211,8 +687,13 @@ sl_status sl_export_c(sl_context *context, const sl_baked *baked, const sl_expor
 
 static const sl_export_format formats[] = {
     {.name = "json",
-     .what = "everything: walls, cells, portals, visible sets",
+     .what = "everything: walls, cells, portals, visible sets, doors, mirrors, starts",
+     .shows_mirrors = true,
      .write = sl_export_json},
+    {.name = "geojson",
+     .what = "cells, portals, walls, doors and starts for maps in a GIS",
+     .shows_mirrors = true,
+     .write = sl_export_geojson},
     {.name = "csv", .what = "a line for each ordered pair seen", .write = sl_export_csv},
     {.name = "c", .what = "a C header with the matrix, a bit a pair", .write = sl_export_c},
 };

@@ -68,11 +68,12 @@ sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out) {
     return status;
 }
 
-/// mkstemp makes files private; a result is as readable as any file the user writes.
-static void set_usual_mode(int descriptor) {
+/// mkstemp makes files private. A result keeps the mode of the file that it replaces; a new one is
+/// as readable as any file the user writes.
+static void set_mode(int descriptor, const struct stat *older) {
     const mode_t mask = umask(0);
     umask(mask);
-    (void)!fchmod(descriptor, 0666 & ~mask);
+    (void)!fchmod(descriptor, older ? older->st_mode & 0777 : 0666 & ~mask);
 }
 
 static sl_status fail_write(sl_context *context, const char *path, int reason) {
@@ -80,18 +81,40 @@ static sl_status fail_write(sl_context *context, const char *path, int reason) {
                    reason ? strerror(reason) : "the system refused");
 }
 
-/// The file that a path leads to where it is a link, else the path itself. To be freed.
-static char *final_target(sl_context *context, const char *path) {
-    struct stat here;
-    const bool link = lstat(path, &here) == 0 && S_ISLNK(here.st_mode);
-    char *real = link ? realpath(path, NULL) : NULL;
-    const char *target = real ? real : path;
-    char *copy = sl_copy_text(context, target, strlen(target));
-    free(real);
-    return copy;
+/// Where a link leads, one step: a path that the caller frees. A link is relative to its folder.
+static char *follow_link(sl_context *context, const char *path) {
+    char text[4096];
+    const ssize_t length = readlink(path, text, sizeof text - 1);
+    if (length < 0) return sl_copy_text(context, path, strlen(path));
+    text[length] = '\0';
+    const char *slash = text[0] == '/' ? NULL : strrchr(path, '/');
+    const size_t folder = slash ? (size_t)(slash + 1 - path) : 0;
+    char *target = sl_alloc(context, folder + (size_t)length + 1);
+    if (!target) return NULL;
+    memcpy(target, path, folder);
+    memcpy(target + folder, text, (size_t)length + 1);
+    return target;
 }
 
-static sl_status open_beside(sl_context *context, const char *path, sl_output *out) {
+/// The file that a path leads to, also where that file is not there yet; the path itself where it
+/// is no link. To be freed.
+static char *final_target(sl_context *context, const char *path) {
+    enum { MOST_LINKS = 40 };
+    struct stat here;
+    char *target = sl_copy_text(context, path, strlen(path));
+    for (int i = 0; target && i < MOST_LINKS; i++) {
+        if (lstat(target, &here) != 0 || !S_ISLNK(here.st_mode)) break;
+        char *next = follow_link(context, target);
+        sl_free(context, target);
+        target = next;
+    }
+    return target;
+}
+
+static sl_status open_beside(sl_context *context, const char *path, const struct stat *older,
+                             sl_output *out) {
+    // A file that the user may not write is not replaced either.
+    if (older && access(out->path, W_OK) != 0) return fail_write(context, path, errno);
     const size_t length = strlen(out->path);
     out->temporary = sl_alloc(context, length + 8);
     if (!out->temporary) return SL_NO_MEMORY;
@@ -101,7 +124,7 @@ static sl_status open_beside(sl_context *context, const char *path, sl_output *o
         out->temporary[0] = '\0';
         return fail_write(context, path, errno);
     }
-    set_usual_mode(descriptor);
+    set_mode(descriptor, older);
     out->stream = fdopen(descriptor, "wb");
     if (out->stream) return SL_OK;
     const int reason = errno;
@@ -118,24 +141,33 @@ static void abandon(sl_context *context, sl_output *output) {
     *output = (sl_output){0};
 }
 
+/// Whether a path is what stdout goes to, as /dev/stdout is: to replace it would lose its reader.
+static bool is_stdout(const struct stat *target) {
+    struct stat out;
+    return fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == target->st_dev &&
+           out.st_ino == target->st_ino;
+}
+
 sl_status sl_output_open(sl_context *context, const char *path, sl_output *out) {
     *out = (sl_output){0};
-    if (strcmp(path, "-") == 0) {
+    struct stat target;
+    const bool dash = strcmp(path, "-") == 0;
+    const bool exists = !dash && stat(path, &target) == 0;
+    if (dash || (exists && is_stdout(&target))) {
         out->stream = stdout;
         return SL_OK;
     }
-    struct stat target;
-    const bool exists = stat(path, &target) == 0;
     if (exists && S_ISDIR(target.st_mode))
         return sl_fail(context, SL_BAD_ARGUMENT, "%s: cannot write: is a directory", path);
+    if (!exists && errno == ELOOP) return fail_write(context, path, errno);
     out->path = final_target(context, path);
     sl_status status = out->path ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK && exists && !S_ISREG(target.st_mode)) {
         // A device or a pipe is written to, never replaced.
-        out->stream = fopen(out->path, "wb");
+        out->stream = fopen(path, "wb");
         if (!out->stream) status = fail_write(context, path, errno);
     } else if (status == SL_OK)
-        status = open_beside(context, path, out);
+        status = open_beside(context, path, exists ? &target : NULL, out);
     if (status != SL_OK) abandon(context, out);
     return status;
 }

@@ -30,7 +30,7 @@ static void set_light(cairo_t *cairo, const sl_palette *palette, double opacity)
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
 }
 
-/// What is seen past boxes, lighter than the rest.
+/// What is seen directly, lighter than the rest.
 static void draw_lit(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                      const sl_drawn_region *region) {
     if (region->count < 3) return;
@@ -84,7 +84,7 @@ typedef struct eye_picture {
     const sl_eye_layer *layers;
     size_t layer_count;
     const sl_drawn_region *parts;
-    size_t part_count;
+    size_t part_count, direct_count; ///< those seen directly come first
     uint32_t counts[SL_EYE_LAYERS_MOST];
     double shares[SL_EYE_LAYERS_MOST]; ///< of the area shown
 } eye_picture;
@@ -219,8 +219,10 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
 /// "exact: 12 cells, 1.8 % of the area", the last entry for the eye.
 static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT]) {
     if (entry == p->layer_count) {
-        snprintf(text, KEY_TEXT, "the eye%s%s", p->view->full ? "" : " and its cone",
-                 p->scene.options.box_count ? "; pale: what it sees past objects" : "");
+        const bool pale = p->direct_count;
+        snprintf(text, KEY_TEXT, "the eye%s%s%s", p->view->full ? "" : " and its cone",
+                 pale ? "; pale: what it sees" : "",
+                 pale && p->scene.options.box_count ? " past objects" : "");
         return;
     }
     char name[64], cells[SL_COUNT_TEXT], share[SL_COUNT_TEXT];
@@ -269,8 +271,10 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
     double y = page->key;
     y += draw_key(cairo, p, page->margin, y, page->inner, page->text, paint);
-    y += sli_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
-                           page->inner, page->text, paint);
+    // The key of layers has what is seen directly.
+    const size_t mirrored = p->part_count - p->direct_count;
+    y += sli_draw_seen_key(cairo, palette, mirrored ? p->parts + p->direct_count : NULL, mirrored,
+                           (sl_point){page->margin, y}, page->inner, page->text, paint);
     y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
     y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
@@ -282,8 +286,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     const sl_draw_options *options = &p->scene.options;
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, options->layers, frame));
     for (size_t i = 0; i < p->part_count; i++) {
-        const bool pale = options->box_count && !p->parts[i].depth;
-        (pale ? draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
+        (p->parts[i].depth ? sl_draw_seen : draw_lit)(cairo, &p->scene.palette, frame,
+                                                      &p->parts[i]);
     }
     if (p->part_count) SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
@@ -325,6 +329,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
                      .layer_count = layer_count,
                      .parts = parts,
                      .part_count = part_count};
+    while (p.direct_count < part_count && !parts[p.direct_count].depth) p.direct_count++;
     SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p.scene));
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);

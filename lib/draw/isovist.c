@@ -1,5 +1,13 @@
 /// Pictures of what is seen from places: regions over the plan, heat maps of their measures, and
 /// patches coloured by cost.
+///
+/// Colours have a scale: a ramp with numbers below. The numbers of its two ends come first, then
+/// round ones between them. A number that would touch another one is left out. Values beyond the
+/// ends have the colours of the ends, and a tip marks that there are some:
+///
+///     <||||||||||||||||||||||||>  area
+///     <= 0       200       >= 400
+#include "draw/chart.h"
 #include "draw/marks.h"
 #include "draw/page.h"
 #include "sightline/support.h"
@@ -7,7 +15,10 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { TICKS = 5, RAMP_STEPS = 64 };
+enum { RAMP_STEPS = 64 };
+
+/// The largest end of a scale.
+#define LARGEST 1e300
 
 /// What a picture shows: regions, or else a field, or else patches.
 typedef struct picture {
@@ -16,24 +27,30 @@ typedef struct picture {
     size_t region_count;
     const sl_field *field;
     const sl_patches *patches;
-    const char *caption, *scale; ///< `scale`: what the colours tell
-    const double *values;        ///< of the field or the patches
+    const char *caption, *scale, *unit; ///< `scale`: what the colours tell, in `unit` (or NULL)
+    const double *values;               ///< of the field or the patches
     size_t value_count;
-    double least, most; ///< of the values
+    double least, most; ///< the ends of the scale
+    bool under, over;   ///< some values are beyond them
 } picture;
 
-static void find_range(picture *p) {
-    p->least = INFINITY;
-    p->most = -INFINITY;
+/// The scale's ends are those of the values where `least` and `most` are equal.
+static void find_range(picture *p, double least, double most) {
+    double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < p->value_count; i++) {
         if (isnan(p->values[i])) continue;
-        p->least = fmin(p->least, p->values[i]);
-        p->most = fmax(p->most, p->values[i]);
+        low = fmin(low, p->values[i]);
+        high = fmax(high, p->values[i]);
     }
+    p->least = least < most ? least : low;
+    p->most = least < most ? most : high;
+    p->under = low < p->least;
+    p->over = high > p->most;
 }
 
 static double share_of(const picture *p, double value) {
-    return p->most > p->least ? (value - p->least) / (p->most - p->least) : 0;
+    if (!(p->most > p->least)) return 0;
+    return fmin(fmax((value - p->least) / (p->most - p->least), 0), 1);
 }
 
 static int step_of(const picture *p, double value) {
@@ -113,35 +130,127 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     return SL_OK;
 }
 
-/// The ramp with numbers under it. Returns its height.
-static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bool paint) {
-    const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
-    if (!paint || !(p->least <= p->most)) return 3.2 * g->text;
+// --- the scale
+
+/// A number under the ramp.
+typedef struct scale_label {
+    char text[SL_COUNT_TEXT + 8];
+    double share;       ///< its place along the ramp, 0 to 1
+    double left, right; ///< of its text, on the page
+} scale_label;
+
+/// The most labels: the two ends, and round numbers between them.
+enum { LABELS_MOST = 10 };
+
+/// The value with four digits, or more where the scale is short; large numbers in groups.
+static void write_value(double value, double span, char text[SL_COUNT_TEXT]) {
+    char plain[SL_NUMBER_TEXT], whole[SL_COUNT_TEXT];
+    const double more = value != 0 && span > 0 ? ceil(log10(fabs(value) / span)) + 3 : 0;
+    const int length = snprintf(plain, sizeof plain, "%.*g", (int)fmin(fmax(more, 4), 15), value);
+    double rounded = value;
+    sl_number_read(plain, (size_t)length, &rounded);
+    if (fabs(rounded) < 1e12 && rounded == trunc(rounded)) {
+        sl_text_count((uint64_t)fabs(rounded), "", whole);
+        snprintf(text, SL_COUNT_TEXT, "%s%.*s", rounded < 0 ? "-" : "", SL_COUNT_TEXT - 2, whole);
+    } else {
+        sl_number_write(rounded, text);
+    }
+}
+
+/// Adds the label if it keeps its distance from the others.
+static void add_label(cairo_t *cairo, const sli_page *g, double width, scale_label label,
+                      scale_label *labels, size_t *count) {
+    const double wide = sl_text_width(cairo, label.text), space = 0.6 * g->text;
+    const double last = g->margin + g->inner - wide;
+    label.left = fmax(fmin(g->margin + label.share * width - wide / 2, last), g->margin);
+    label.right = label.left + wide;
+    for (size_t i = 0; i < *count; i++)
+        if (label.left < labels[i].right + space && labels[i].left < label.right + space) return;
+    if (*count < LABELS_MOST) labels[(*count)++] = label;
+}
+
+/// Both ends, then round numbers.
+static size_t place_labels(cairo_t *cairo, const picture *p, const sli_page *g, double width,
+                           scale_label labels[LABELS_MOST]) {
+    const double span = p->most - p->least;
+    size_t count = 0;
+    char number[SL_COUNT_TEXT];
+    for (int end = 0; end < (span > 0 ? 2 : 1); end++) {
+        scale_label label = {.share = end};
+        write_value(end ? p->most : p->least, span, number);
+        const char *beyond = end && p->over     ? "\xe2\x89\xa5 "
+                             : !end && p->under ? "\xe2\x89\xa4 "
+                                                : "";
+        snprintf(label.text, sizeof label.text, "%s%s", beyond, number);
+        add_label(cairo, g, width, label, labels, &count);
+    }
+    if (!(span > 1e-300 && span < 1e300)) return count;
+    static const sl_chart_axis linear = {.scale = SL_CHART_LINEAR};
+    const sli_axis axis = {.what = &linear, .low = p->least, .high = p->most, .to = 1};
+    sli_tick ticks[SLI_TICKS_MOST];
+    const size_t tick_count = sli_axis_ticks(&axis, ticks);
+    for (size_t i = 0; i < tick_count; i++) {
+        scale_label label = {.share = sli_axis_place(&axis, ticks[i].value)};
+        write_value(ticks[i].value, span, label.text);
+        add_label(cairo, g, width, label, labels, &count);
+    }
+    return count;
+}
+
+/// The ramp. A tip at an end shows that some values are beyond it.
+static void draw_ramp(cairo_t *cairo, const picture *p, const sli_page *g, double width,
+                      double high) {
+    const double right = g->margin + width, tip = fmin(0.6 * high, 0.7 * g->margin);
     for (int i = 0; i < RAMP_STEPS; i++) {
         cairo_rectangle(cairo, g->margin + width * i / RAMP_STEPS, g->key,
                         width / RAMP_STEPS + (i + 1 < RAMP_STEPS ? 0.5 : 0), high);
+        if (i == 0 && p->under) {
+            cairo_move_to(cairo, g->margin, g->key);
+            cairo_line_to(cairo, g->margin - tip, g->key + high / 2);
+            cairo_line_to(cairo, g->margin, g->key + high);
+        } else if (i + 1 == RAMP_STEPS && p->over) {
+            cairo_move_to(cairo, right, g->key);
+            cairo_line_to(cairo, right + tip, g->key + high / 2);
+            cairo_line_to(cairo, right, g->key + high);
+        }
         sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (i + 0.5) / RAMP_STEPS));
         cairo_fill(cairo);
     }
+}
+
+/// The ramp with numbers under it, and what they are: beside the ramp, or below where there is no
+/// room. Returns its height.
+static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bool paint) {
+    const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
+    const sl_colour ink = p->scene.palette.ink;
+    char name[128];
+    snprintf(name, sizeof name, p->unit ? "%s (%s)" : "%s", p->scale, p->unit);
     sl_text_font(cairo, g->text, false);
-    const int ticks = p->most > p->least ? TICKS : 1;
-    for (int i = 0; i < ticks; i++) {
-        const double share = ticks > 1 ? (double)i / (ticks - 1) : 0;
-        char number[32];
-        snprintf(number, sizeof number, "%.4g", p->least + share * (p->most - p->least));
-        const double x = g->margin + share * width, wide = sl_text_width(cairo, number);
+    const bool beside = width + 1.6 * g->text + sl_text_width(cairo, name) <= g->inner;
+    const double height = (beside ? 3.2 : 4.8) * g->text;
+    if (!paint || !(p->least <= p->most)) return height;
+    draw_ramp(cairo, p, g, width, high);
+    sl_text_font(cairo, g->text, false);
+    scale_label labels[LABELS_MOST];
+    const size_t count = place_labels(cairo, p, g, width, labels);
+    for (size_t i = 0; i < count; i++) {
+        const double x = g->margin + labels[i].share * width;
         cairo_move_to(cairo, x, g->key + high);
         cairo_line_to(cairo, x, g->key + high + 0.35 * g->text);
-        sl_set_colour(cairo, p->scene.palette.ink);
+        sl_set_colour(cairo, ink);
         cairo_set_line_width(cairo, 0.09 * g->text);
         cairo_stroke(cairo);
-        sl_text_show(cairo, p->scene.palette.ink, fmax(x - wide / 2, g->margin),
-                     g->key + high + 1.5 * g->text, number);
+        sl_text_show(cairo, ink, labels[i].left, g->key + high + 1.5 * g->text, labels[i].text);
     }
-    sl_text_show(cairo, p->scene.palette.ink, g->margin + width + 1.6 * g->text,
-                 g->key + 0.95 * g->text, p->scale);
-    return 3.2 * g->text;
+    if (beside)
+        sl_text_show(cairo, ink, g->margin + width + 1.6 * g->text, g->key + 0.95 * g->text, name);
+    else
+        sl_text_show_within(cairo, ink, g->margin, g->key + high + 3.1 * g->text, g->inner, g->text,
+                            false, name);
+    return height;
 }
+
+// --- the page
 
 static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const picture *p = what;
@@ -190,11 +299,17 @@ sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
 
 sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
                              const sl_draw_options *options, const char *path) {
+    if (!(fabs(field->least) <= LARGEST && fabs(field->most) <= LARGEST &&
+          field->least <= field->most))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "a scale from %g to %g: expected two ascending numbers of at most %g",
+                       field->least, field->most, LARGEST);
     picture p = {.field = field,
                  .scale = field->name,
+                 .unit = field->unit,
                  .values = field->values,
                  .value_count = field->columns * field->rows};
-    find_range(&p);
+    find_range(&p, field->least, field->most);
     return draw_picture(context, baked, options, &p, path);
 }
 
@@ -206,6 +321,6 @@ sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
                  .scale = patches->name,
                  .values = patches->values,
                  .value_count = patches->count};
-    find_range(&p);
+    find_range(&p, 0, 0);
     return draw_picture(context, baked, options, &p, path);
 }

@@ -74,9 +74,9 @@ sli_affine sli_affine_after(sli_affine outer, sli_affine inner) {
                         .y0 = outer.yx * inner.x0 + outer.yy * inner.y0 + outer.y0};
 }
 
-static sl_point apply(const sli_affine *affine, sl_point point) {
-    return (sl_point){affine->xx * point.x + affine->xy * point.y + affine->x0,
-                      affine->yx * point.x + affine->yy * point.y + affine->y0};
+sl_point sli_affine_apply(sli_affine affine, sl_point point) {
+    return (sl_point){affine.xx * point.x + affine.xy * point.y + affine.x0,
+                      affine.yx * point.x + affine.yy * point.y + affine.y0};
 }
 
 sli_affine sli_affine_turn(double degrees) {
@@ -91,7 +91,7 @@ sli_affine sli_affine_turn(double degrees) {
 
 /// A place in the map; what is too small to be used is 0.
 static bool place(const sli_pen *pen, sl_point point, sl_point *out) {
-    const sl_point at = apply(&pen->affine, point);
+    const sl_point at = sli_affine_apply(pen->affine, point);
     out->x = fabs(at.x) < SL_COORDINATE_MIN ? 0 : at.x;
     out->y = fabs(at.y) < SL_COORDINATE_MIN ? 0 : at.y;
     return sl_coordinate_usable(out->x) && sl_coordinate_usable(out->y);
@@ -225,13 +225,18 @@ sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name,
     return SL_OK;
 }
 
+/// Rounding of offsets moves a block by less than this share of a tile.
+#define ON_GRID 1e-6
+
 /// Where a block lies on the grid of the first one, in tiles; false where it is on another.
 static bool place_on(const sli_tile_block *first, const sli_tile_block *block, double *column,
                      double *row) {
     if (block->step.x != first->step.x || block->step.y != first->step.y) return false;
-    *column = (block->corner.x - first->corner.x) / first->step.x;
-    *row = (block->corner.y - first->corner.y) / first->step.y;
-    return floor(*column) == *column && floor(*row) == *row && fabs(*column) < FARTHEST &&
+    const double x = (block->corner.x - first->corner.x) / first->step.x;
+    const double y = (block->corner.y - first->corner.y) / first->step.y;
+    *column = rint(x);
+    *row = rint(y);
+    return fabs(*column - x) < ON_GRID && fabs(*row - y) < ON_GRID && fabs(*column) < FARTHEST &&
            fabs(*row) < FARTHEST;
 }
 
@@ -262,7 +267,7 @@ static void put(const sli_tile_block *block, size_t column, size_t row, char kin
         const char *from = block->squares + y * block->columns;
         char *to = grid->squares + (row + y) * width + column;
         for (size_t x = 0; x < block->columns; x++)
-            if (kind == '.' || from[x] == kind) to[x] = kind;
+            if (from[x] == kind || (kind == '.' && from[x] != ' ')) to[x] = kind;
     }
 }
 
@@ -314,7 +319,9 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
     grid.sure = is_only_grid(tiles, all->first);
     sl_status status = SL_OK;
     if (options->things) status = sli_things_place(options->things, &grid);
-    if (status == SL_OK) status = sli_grid_add_walls(context, &grid, map);
+    if (status == SL_OK)
+        status = options->add_walls ? options->add_walls(options->user, &grid, map)
+                                    : sli_grid_add_walls(context, &grid, map);
     sli_grid_destroy(context, &grid);
     return status;
 }

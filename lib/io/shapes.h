@@ -20,6 +20,7 @@ typedef struct sli_affine {
 
 /// The map that does `inner` first, then `outer`.
 sli_affine sli_affine_after(sli_affine outer, sli_affine inner);
+sl_point sli_affine_apply(sli_affine affine, sl_point point);
 /// About the origin; multiples of a quarter turn are exact.
 sli_affine sli_affine_turn(double degrees);
 
@@ -66,7 +67,7 @@ typedef struct sli_tile_block {
     sl_point corner;      ///< the upper left one
     sl_point step;        ///< the size of a tile, over 0
     size_t columns, rows; ///< at least 1
-    char *squares;        ///< row after row, '#' solid, '.' open
+    char *squares;        ///< row after row, '#' solid, '.' open, ' ' not of the block
     bool done;            ///< its walls are made
 } sli_tile_block;
 
@@ -88,6 +89,9 @@ typedef struct sli_tiles_options {
     bool solid_between;        ///< what no block covers is solid; else it is open
     bool all_closed;           ///< beyond each grid all is solid; else only beyond the first one
     struct sli_things *things; ///< starts and doors, to be placed among the squares; NULL: none
+    /// Makes the walls of a grid, for tiles that are no boxes; NULL for boxes.
+    sl_status (*add_walls)(void *user, const sli_grid *grid, sl_map *map);
+    void *user;
 } sli_tiles_options;
 
 /// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then

@@ -1,11 +1,10 @@
-/// Maps that are JSON with a list of walls: Universal VTT (Dungeondraft, Arkenforge, DungeonFog),
-/// the scenes of Foundry Virtual Tabletop, and our own JSON export.
+/// Maps that are JSON with a list of walls: Universal VTT (Dungeondraft, Arkenforge, DungeonFog)
+/// and the scenes of Foundry Virtual Tabletop.
 #include "geometry/orient.h"
 #include "io/document.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "io/things.h"
-#include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 
@@ -418,91 +417,6 @@ sl_status sl_map_read_foundry(sl_context *context, const char *name, const char 
     foundry reader = {.context = context, .options = options, .map = &read};
     const sli_json root = sli_json_root(&file);
     const sl_status status = read_foundry(&reader, &root);
-    sli_json_close(&file);
-    if (status == SL_OK)
-        *map = read;
-    else
-        sl_map_destroy(context, &read);
-    return status;
-}
-
-// --- our export: its walls are a map; cells and what they see are made anew
-
-static sl_status read_export_wall(sl_context *context, const sli_json *wall, uint32_t item,
-                                  sl_map *map) {
-    size_t count;
-    double ends[4];
-    SL_TRY(sli_json_array(wall, &count));
-    if (count != 4)
-        return sli_json_fail(wall, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
-    for (size_t i = 0; i < 4; i++) {
-        const sli_json number = sli_json_item(wall, i);
-        SL_TRY(sli_json_number(&number, &ends[i]));
-    }
-    return sl_map_add_wall(context, map, (sl_point){ends[0], ends[1]}, (sl_point){ends[2], ends[3]},
-                           item);
-}
-
-/// A polygon of solid ground. Walls between two of them fall away when the map is cleaned.
-static sl_status read_export_solid(sl_context *context, const sli_json *polygon, sl_map *map) {
-    size_t count;
-    SL_TRY(sli_json_array(polygon, &count));
-    sl_point *corners = sl_alloc_array(context, count, sizeof *corners);
-    if (!corners) return SL_NO_MEMORY;
-    sl_status status = SL_OK;
-    for (size_t i = 0; i < count && status == SL_OK; i++) {
-        const sli_json corner = sli_json_item(polygon, i);
-        const sli_json x = sli_json_item(&corner, 0), y = sli_json_item(&corner, 1);
-        status = sli_json_number(&x, &corners[i].x);
-        if (status == SL_OK) status = sli_json_number(&y, &corners[i].y);
-    }
-    if (status == SL_OK && count < 3)
-        status = sli_json_fail(polygon, "expected at least 3 corners, found %zu", count);
-    if (status == SL_OK)
-        status = sli_map_add_ground(context, map, polygon->file->name, false, corners, count, 0);
-    sl_free(context, corners);
-    return status;
-}
-
-static sl_status read_export_solids(sl_context *context, const sli_json *root, sl_map *map) {
-    const sli_json solids = sli_json_member(root, "solids");
-    size_t count = 0;
-    if (solids.value) SL_TRY(sli_json_array(&solids, &count));
-    for (size_t i = 0; i < count; i++) {
-        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
-        const sli_json polygon = sli_json_item(&solids, i);
-        SL_TRY(read_export_solid(context, &polygon, map));
-    }
-    return SL_OK;
-}
-
-static sl_status read_export_walls(sl_context *context, const sli_json *root, sl_map *map) {
-    const sli_json walls = sli_json_member(root, "walls");
-    size_t count;
-    uint32_t item = 0;
-    SL_TRY(sli_json_object(root));
-    SL_TRY(sli_json_array(&walls, &count));
-    for (size_t i = 0; i < count; i++) {
-        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
-        const sli_json wall = sli_json_item(&walls, i);
-        SL_TRY(name_item(context, map, "walls", i, &item));
-        SL_TRY(read_export_wall(context, &wall, item, map));
-    }
-    sl_note(context,
-            "%s: an export: its %zu walls and its solid ground are taken; left out: cells, portals "
-            "and what they see",
-            root->file->name, count);
-    return read_export_solids(context, root, map);
-}
-
-sl_status sl_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
-                             const sl_import_options *options, sl_map *map) {
-    (void)options;
-    sli_json_file file;
-    SL_TRY(sli_json_open(context, name, text, size, &file));
-    sl_map read = {0};
-    const sli_json root = sli_json_root(&file);
-    const sl_status status = read_export_walls(context, &root, &read);
     sli_json_close(&file);
     if (status == SL_OK)
         *map = read;

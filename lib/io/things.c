@@ -241,8 +241,10 @@ static void tell_left_out(const sli_things *things, const sli_thing *thing, size
     if (++*count > MOST_NOTES) return;
     char where[32] = "", x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
     if (thing->line) snprintf(where, sizeof where, ":%lu", (unsigned long)thing->line);
-    sl_number_write(thing->middle.x, x);
-    sl_number_write(things->top - thing->middle.y, y);
+    const sli_affine down = {.xx = 1, .yy = -1, .y0 = things->top};
+    const sl_point at = sli_affine_apply(things->shown.xx ? things->shown : down, thing->middle);
+    sl_number_write(at.x, x);
+    sl_number_write(at.y, y);
     sl_note(things->context, "%s%s: %s '%s' at %s %s is %s: %s", things->file, where,
             thing->kind == SLI_THING_DOOR ? "door" : "start",
             sli_show((sli_word){thing->name, strlen(thing->name)}).text, x, y,

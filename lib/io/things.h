@@ -3,7 +3,7 @@
 #define SL_THINGS_H
 
 #include "io/names.h"
-#include "map/grid.h"
+#include "io/shapes.h"
 #include "sightline/import.h"
 
 typedef enum sli_thing_kind { SLI_THING_NONE, SLI_THING_START, SLI_THING_DOOR } sli_thing_kind;
@@ -62,7 +62,8 @@ typedef struct sli_things {
     sl_context *context;
     const char *file; ///< its name, for messages
     const sl_import_options *options;
-    double top; ///< the file's y that is 0 in the map, once the grids are made
+    double top;       ///< the file's y that is 0 in the map, once the grids are made
+    sli_affine shown; ///< for messages: from places to those of the map; zero: y is top - y
     SL_ARRAY(sli_thing) items;
     SL_ARRAY(sli_door_run) runs; ///< of the block at hand
     char *seen[SLI_NAMES_SHOWN]; ///< names of objects, each once, for the message

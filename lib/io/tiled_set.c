@@ -90,6 +90,21 @@ static sl_status read_tiles(const sli_json *json, sli_tiled_set *set) {
     return SL_OK;
 }
 
+/// Shapes of isometric sets are drawn in a diamond that stands on the tile's lower left corner.
+static sl_status read_grid(const sli_json *json, sli_tiled_set *set) {
+    const sli_json grid = sli_json_member(json, "grid");
+    const sli_json orientation = sli_json_member(&grid, "orientation");
+    const char *text = json_string_value(orientation.value);
+    if (!text || strcmp(text, "isometric") != 0) return SL_OK;
+    const sli_json width = sli_json_member(&grid, "width");
+    const sli_json height = sli_json_member(&grid, "height");
+    int64_t columns, rows;
+    SL_TRY(sli_json_whole(&width, 1, INT32_MAX, &columns));
+    SL_TRY(sli_json_whole(&height, 1, INT32_MAX, &rows));
+    set->diamond = (sl_point){(double)columns, (double)rows};
+    return SL_OK;
+}
+
 /// All but the first tile's number.
 static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
     const sli_json width = sli_json_member(json, "tilewidth");
@@ -101,6 +116,7 @@ static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
     SL_TRY(sli_json_number(&height, &set->height));
     SL_TRY(sli_json_number_if(&x, &set->x));
     SL_TRY(sli_json_number_if(&y, &set->y));
+    SL_TRY(read_grid(json, set));
     set->word = sli_tiled_word_of(json, "class");
     return read_tiles(json, set);
 }
@@ -214,6 +230,7 @@ sl_status sli_tiled_read_shape(const sli_json *object, sli_tiled_shape *shape) {
         const sli_json number = sli_json_member(object, numbers[i].key);
         SL_TRY(sli_json_number_if(&number, numbers[i].to));
     }
+    read.turn = sli_affine_turn(read.rotation);
     const sli_json gid = sli_json_member(object, "gid"),
                    line = sli_json_member(object, SLI_JSON_LINE);
     int64_t whole = 0;
@@ -321,7 +338,7 @@ static sl_status draw_ellipse(sli_pen *pen, double width, double height) {
 
 sl_status sli_tiled_draw_shape(sli_pen *pen, const sli_tiled_shape *shape) {
     const sli_affine outer = pen->affine;
-    sli_affine turn = sli_affine_turn(shape->rotation);
+    sli_affine turn = shape->turn;
     turn.x0 = shape->x;
     turn.y0 = shape->y;
     pen->affine = sli_affine_after(outer, turn);

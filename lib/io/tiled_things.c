@@ -128,17 +128,14 @@ sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *obj
 
 // --- objects
 
-static sl_point apply(sli_affine affine, double x, double y) {
-    return (sl_point){affine.xx * x + affine.xy * y + affine.x0,
-                      affine.yx * x + affine.yy * y + affine.y0};
-}
-
 /// Puts a box from the object's place on: its middle and its half sides.
-static void set_box(sli_thing *thing, const sli_tiled_shape *shape, sl_point offset, double top) {
-    sli_affine turn = sli_affine_turn(shape->rotation);
-    turn.x0 = offset.x + shape->x;
-    turn.y0 = offset.y + shape->y;
-    thing->middle = apply(turn, shape->width / 2, top + shape->height / 2);
+static void set_box(sli_thing *thing, const sli_tiled_shape *shape, sli_affine place, double top) {
+    sli_affine turn = shape->turn;
+    turn.x0 = shape->x;
+    turn.y0 = shape->y;
+    turn = sli_affine_after(place, turn);
+    const sl_point middle = {shape->width / 2, top + shape->height / 2};
+    thing->middle = sli_affine_apply(turn, middle);
     thing->u = (sl_point){turn.xx * shape->width / 2, turn.yx * shape->width / 2};
     thing->v = (sl_point){turn.xy * shape->height / 2, turn.yy * shape->height / 2};
 }
@@ -169,21 +166,19 @@ static sl_status add_drawn(sli_things *things, const sli_tiled_shape *shape, con
 }
 
 sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
-                               const sli_tiled_shape *shape, sl_point offset, bool is_wall) {
+                               const sli_tiled_shape *shape, sli_affine place, bool is_wall) {
     sli_thing thing = {.kind = says->kind,
                        .open = says->state != SLI_DOOR_SHUT,
                        .is_wall = is_wall,
                        .heading = sli_heading_of(shape->rotation),
                        .line = shape->line};
     if (shape->kind != SLI_TILED_POLYGON && shape->kind != SLI_TILED_POLYLINE) {
-        set_box(&thing, shape, offset, shape->kind == SLI_TILED_PICTURE ? -shape->height : 0);
+        set_box(&thing, shape, place, shape->kind == SLI_TILED_PICTURE ? -shape->height : 0);
         return sli_things_add(things, says->name, thing);
     }
     sl_map drawn = {0};
-    sli_pen pen = {.context = things->context,
-                   .name = things->file,
-                   .map = &drawn,
-                   .affine = {.xx = 1, .yy = 1, .x0 = offset.x, .y0 = offset.y}};
+    sli_pen pen = {
+        .context = things->context, .name = things->file, .map = &drawn, .affine = place};
     sl_status status = sli_tiled_draw_shape(&pen, shape);
     if (status == SL_OK) status = add_drawn(things, shape, says->name, thing, &drawn);
     sl_map_destroy(things->context, &drawn);

@@ -60,7 +60,7 @@ static bool has_ending(const sl_map_format *format, const char *path) {
 
 /// The format that the ending tells; where it tells several or none, the one that knows the bytes.
 static const sl_map_format *find_format(const sl_context *context, const char *path,
-                                        const sl_bytes *bytes) {
+                                        const char *text, size_t size) {
     const sl_map_format *by_ending = NULL, *by_bytes = NULL;
     size_t fitting = 0, count;
     const sl_map_format *known = sl_map_formats(context, &count);
@@ -72,7 +72,7 @@ static const sl_map_format *find_format(const sl_context *context, const char *p
     if (fitting == 1) return by_ending;
     for (size_t i = count; i-- > 0;) {
         if (fitting && !has_ending(&known[i], path)) continue;
-        if (known[i].knows && known[i].knows(bytes->data, bytes->size)) by_bytes = &known[i];
+        if (known[i].knows && known[i].knows(text, size)) by_bytes = &known[i];
     }
     return by_bytes ? by_bytes : by_ending ? by_ending : &known[0];
 }
@@ -157,17 +157,17 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
 }
 
 static sl_status read_format(sl_context *context, const char *path, const sl_map_format *format,
-                             const sl_bytes *bytes, const sl_import_options *given, sl_map *map) {
+                             const char *text, size_t size, const sl_import_options *given,
+                             sl_map *map) {
     SL_TRY(check_options(context, path, format, given));
     sl_import_options options = *given;
     sl_map_list list = {0};
     sl_status status = SL_OK;
     if (format->list) {
-        status = format->list(context, path, bytes->data, bytes->size, &list);
+        status = format->list(context, path, text, size, &list);
         if (status == SL_OK) status = choose_map(context, path, &list, &options);
     }
-    if (status == SL_OK)
-        status = format->read(context, path, bytes->data, bytes->size, &options, map);
+    if (status == SL_OK) status = format->read(context, path, text, size, &options, map);
     sl_map_list_destroy(context, &list);
     return status;
 }
@@ -186,27 +186,33 @@ static sl_status tell_of_formats(sl_context *context, const char *path, sl_statu
                    message);
 }
 
-sl_status sl_map_read(sl_context *context, const char *path, const sl_import_options *options,
-                      sl_map *map) {
-    sl_bytes bytes;
+sl_status sl_map_parse(sl_context *context, const char *path, const char *text, size_t size,
+                       const sl_import_options *options, sl_map *map) {
     const sl_import_options usual = sl_import_options_default();
     if (!options) options = &usual;
-    SL_TRY(sl_file_read(context, path, &bytes));
     sl_map read = {0};
     char *source = sl_copy_text(context, path, strlen(path));
     sl_status status = source ? SL_OK : SL_NO_MEMORY;
     if (source)
-        status =
-            read_format(context, path, find_format(context, path, &bytes), &bytes, options, &read);
-    sl_free(context, bytes.data);
+        status = read_format(context, path, find_format(context, path, text, size), text, size,
+                             options, &read);
     if (status != SL_OK) {
         sl_free(context, source);
         return tell_of_formats(context, path, status);
     }
     read.source = source;
     *map = read;
-    sl_report(context, "read", "bytes", bytes.size, bytes.size);
+    sl_report(context, "read", "bytes", size, size);
     return SL_OK;
+}
+
+sl_status sl_map_read(sl_context *context, const char *path, const sl_import_options *options,
+                      sl_map *map) {
+    sl_bytes bytes;
+    SL_TRY(sl_file_read(context, path, &bytes));
+    const sl_status status = sl_map_parse(context, path, bytes.data, bytes.size, options, map);
+    sl_free(context, bytes.data);
+    return status;
 }
 
 void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice) {
@@ -214,21 +220,26 @@ void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice) {
     *choice = (sl_map_choice){0};
 }
 
-sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choice *out) {
-    sl_bytes bytes;
-    SL_TRY(sl_file_read(context, path, &bytes));
-    sl_map_choice read = {.format = find_format(context, path, &bytes)};
+sl_status sl_map_choice_parse(sl_context *context, const char *path, const char *text, size_t size,
+                              sl_map_choice *out) {
+    sl_map_choice read = {.format = find_format(context, path, text, size)};
     const sl_map_format *format = read.format;
     sl_status status = SL_OK;
-    if (format->list) status = format->list(context, path, bytes.data, bytes.size, &read.maps);
+    if (format->list) status = format->list(context, path, text, size, &read.maps);
     if (status == SL_OK && format->heights)
-        status =
-            format->heights(context, path, bytes.data, bytes.size, &read.lowest, &read.highest);
-    sl_free(context, bytes.data);
+        status = format->heights(context, path, text, size, &read.lowest, &read.highest);
     if (status == SL_OK)
         *out = read;
     else
         sl_map_choice_destroy(context, &read);
+    return status;
+}
+
+sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choice *out) {
+    sl_bytes bytes;
+    SL_TRY(sl_file_read(context, path, &bytes));
+    const sl_status status = sl_map_choice_parse(context, path, bytes.data, bytes.size, out);
+    sl_free(context, bytes.data);
     return status;
 }
 

@@ -206,6 +206,7 @@ sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corn
 typedef struct side {
     sl_point from, to;
     size_t wall;
+    uint32_t line;
     bool open; ///< open ground is at its right
     bool used;
 } side;
@@ -274,19 +275,22 @@ static size_t next_side(const tracer *t, const side *last) {
 static sl_status give(tracer *t, bool closed) {
     const size_t count = t->way.count;
     bool open = true;
+    uint32_t line = UINT32_MAX;
     t->corners.count = 0;
     SL_TRY(SL_ARRAY_ROOM(t->context, &t->corners, count));
     for (size_t i = 0; i < count; i++) {
-        t->corners.items[t->corners.count++] = t->sides[t->way.items[i]].from;
-        open &= t->sides[t->way.items[i]].open;
+        const side *s = &t->sides[t->way.items[i]];
+        t->corners.items[t->corners.count++] = s->from;
+        open &= s->open;
+        if (s->line < line) line = s->line;
     }
     loop_kind kind = LOOP_FLAT;
     if (closed && count >= 3) SL_TRY(find_kind(t->context, t->corners.items, count, &kind));
     if (kind == LOOP_LEFT || (kind == LOOP_CLOCKWISE && open))
-        return t->user->polygon(t->user->user, t->corners.items, count, kind == LOOP_LEFT);
+        return t->user->polygon(t->user->user, t->corners.items, count, kind == LOOP_LEFT, line);
     for (size_t i = 0; i < count; i++) {
         const side *s = &t->sides[t->way.items[i]];
-        SL_TRY(t->user->wall(t->user->user, s->from, s->to));
+        SL_TRY(t->user->wall(t->user->user, s->from, s->to, s->line));
     }
     return SL_OK;
 }
@@ -327,9 +331,9 @@ static sl_status make_sides(tracer *t, const sl_wall *walls, size_t count) {
         const sl_wall *w = &walls[i];
         count_loops(w, &there, &back);
         for (size_t k = 0; k < there; k++)
-            t->sides[t->count++] = (side){w->a, w->b, i, w->ground & SL_OPEN_RIGHT, false};
+            t->sides[t->count++] = (side){w->a, w->b, i, w->line, w->ground & SL_OPEN_RIGHT, false};
         for (size_t k = 0; k < back; k++)
-            t->sides[t->count++] = (side){w->b, w->a, i, w->ground & SL_OPEN_LEFT, false};
+            t->sides[t->count++] = (side){w->b, w->a, i, w->line, w->ground & SL_OPEN_LEFT, false};
     }
     return SL_OK;
 }
@@ -346,7 +350,7 @@ static sl_status part_rooms(tracer *t) {
             back->used |= there->used;
         }
         if (there->used && t->user->plain)
-            SL_TRY(t->user->plain(t->user->user, there->from, there->to));
+            SL_TRY(t->user->plain(t->user->user, there->from, there->to, there->line));
     }
     return SL_OK;
 }

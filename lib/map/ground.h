@@ -46,11 +46,13 @@ typedef struct sli_loop_user {
     void *user;
     /// A polygon, counter-clockwise with `solid` ground inside, or clockwise with solid ground
     /// outside and open ground inside.
-    sl_status (*polygon)(void *user, const sl_point *corners, size_t count, bool solid);
+    /// `line` is the first of its walls' lines.
+    sl_status (*polygon)(void *user, const sl_point *corners, size_t count, bool solid,
+                         uint32_t line);
     /// A wall with solid ground at its left that is in no such polygon.
-    sl_status (*wall)(void *user, sl_point from, sl_point to);
+    sl_status (*wall)(void *user, sl_point from, sl_point to, uint32_t line);
     /// A wall between two open polygons.
-    sl_status (*plain)(void *user, sl_point from, sl_point to);
+    sl_status (*plain)(void *user, sl_point from, sl_point to, uint32_t line);
 } sli_loop_user;
 
 /// Traces all walls with solid ground beside them. A wall between two solid grounds is in two

@@ -63,6 +63,8 @@ void sl_map_destroy(sl_context *context, sl_map *map) {
     sl_free(context, map->objects);
     sl_free(context, map->labels);
     sl_free(context, map->label_text);
+    for (size_t i = 0; i < map->comment_count; i++) sl_free(context, map->comments[i].text);
+    sl_free(context, map->comments);
     sl_map_drop_cells(context, map);
     *map = (sl_map){0};
 }
@@ -205,6 +207,15 @@ sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corn
     map->cells[map->cell_count++] =
         (sl_map_cell){.first = map->corner_count, .count = (uint32_t)count, .line = line};
     map->corner_count = total;
+    return SL_OK;
+}
+
+sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
+                              uint32_t line, bool behind) {
+    SL_TRY(MAP_ROOM(context, map, comments, comment));
+    char *copy = sl_copy_text(context, text, length);
+    if (!copy) return SL_NO_MEMORY;
+    map->comments[map->comment_count++] = (sl_comment){copy, line, behind};
     return SL_OK;
 }
 
@@ -431,6 +442,14 @@ static sl_status copy_labels(sl_context *context, const sl_map *from, sl_map *to
     return SL_OK;
 }
 
+static sl_status copy_comments(sl_context *context, const sl_map *from, sl_map *to) {
+    for (size_t i = 0; i < from->comment_count; i++) {
+        const sl_comment *c = &from->comments[i];
+        SL_TRY(sli_map_add_comment(context, to, c->text, strlen(c->text), c->line, c->behind));
+    }
+    return SL_OK;
+}
+
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
                   .range = from->range,
@@ -442,6 +461,7 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     if (status == SL_OK) status = copy_cells(context, from, &map);
     if (status == SL_OK) status = copy_things(context, from, &map);
     if (status == SL_OK) status = copy_labels(context, from, &map);
+    if (status == SL_OK) status = copy_comments(context, from, &map);
     if (status == SL_OK && from->notes) {
         map.notes = sl_copy_text(context, from->notes, strlen(from->notes));
         if (!map.notes) status = SL_NO_MEMORY;

@@ -101,6 +101,10 @@ static inline sl_status sli_read_coordinate(sl_context *context, const char *nam
 /// space, control characters and '#'.
 bool sli_name_usable(const char *name, size_t length);
 
+/// Adds a comment, as sl_comment says; lines go up.
+sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
+                              uint32_t line, bool behind);
+
 // --- writers of maps, to a stream that is open; the caller asks the stream for errors
 
 sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *stream);

@@ -1,5 +1,10 @@
 /// The map text: one statement on each line, with a keyword first. One table has the form of every
-/// statement. Error messages name file and line.
+/// statement. Error messages name file and line. maps/FORMAT.md describes the format for users.
+///
+/// Comments stay with their statements. One on a line of its own belongs to the next statement, one
+/// behind a statement to that one. The writer prints them with the first thing that has this line;
+/// walls, doors and cells go by kinds, so comments move along with theirs. What is left (the
+/// statement is gone, as a wall that cleaning joined with another) stands at the end.
 #include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/support.h"
@@ -16,7 +21,9 @@ typedef struct text_reader {
     SL_ARRAY(sli_word) words;
     SL_ARRAY(double) numbers;
     SL_ARRAY(char) notes;
-    char *label; ///< the name of a door, path or object
+    char *label;      ///< the name of a door, path or object
+    sli_word comment; ///< of the current line; empty for none
+    size_t waiting;   ///< from this comment on they wait for their statement
 } text_reader;
 
 static sl_point point_of(const text_reader *reader, size_t i) {
@@ -202,8 +209,8 @@ static const statement statements[] = {
     {"walls", "walls x0 y0 x1 y1 ...", false, 4, ANY, ANY, read_walls},
     {"solid", "solid x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_solid},
     {"open", "open x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_open},
-    {"door", "door NAME x0 y0 x1 y1 open|shut", true, 4, 5, 4, read_door},
-    {"mirror", "mirror x0 y0 x1 y1 one|both", false, 4, 5, 4, read_mirror},
+    {"door", "door NAME x0 y0 x1 y1 [open|shut]", true, 4, 5, 4, read_door},
+    {"mirror", "mirror x0 y0 x1 y1 [one|both]", false, 4, 5, 4, read_mirror},
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
     {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
     {"range", "range r", false, 1, 1, 1, read_range},
@@ -220,8 +227,11 @@ static const statement *find_statement(sli_word word) {
     return NULL;
 }
 
-/// Splits a line into words, up to a '#'.
+/// Splits a line into words, up to a '#', where the comment begins.
 static sl_status split(text_reader *reader, sli_word line) {
+    const char *hash = line.length ? memchr(line.at, '#', line.length) : NULL;
+    reader->comment =
+        hash ? (sli_word){hash, (size_t)(line.at + line.length - hash)} : (sli_word){NULL, 0};
     reader->words.count = 0;
     for (size_t i = 0; i < line.length && line.at[i] != '#';) {
         if (line.at[i] == ' ' || line.at[i] == '\t') {
@@ -322,6 +332,27 @@ static bool is_note(sli_word line) {
            (line.length == 2 || line.at[2] == ' ');
 }
 
+/// Keeps the comment of a line without a statement, or the empty line below one.
+static sl_status keep_waiting(text_reader *reader) {
+    sl_map *map = reader->map;
+    const sli_word comment = reader->comment;
+    if (!comment.length && reader->waiting == map->comment_count) return SL_OK;
+    return sli_map_add_comment(reader->context, map, comment.length ? comment.at : "",
+                               comment.length, UINT32_MAX, false);
+}
+
+/// Gives the comments that waited to the statement on a line, and the one behind it.
+static sl_status give_comments(text_reader *reader, uint32_t line) {
+    sl_map *map = reader->map;
+    for (size_t i = reader->waiting; i < map->comment_count; i++) map->comments[i].line = line;
+    sl_status status = SL_OK;
+    if (reader->comment.length)
+        status = sli_map_add_comment(reader->context, map, reader->comment.at,
+                                     reader->comment.length, line, true);
+    reader->waiting = map->comment_count;
+    return status;
+}
+
 static sl_status read_lines(text_reader *reader, const char *text, size_t size) {
     SL_TRY(sli_refuse_nul(reader->context, reader->name, text, size));
     sli_lines lines = sli_lines_of(text, size);
@@ -334,7 +365,11 @@ static sl_status read_lines(text_reader *reader, const char *text, size_t size) 
             continue;
         }
         SL_TRY(split(reader, line));
-        if (reader->words.count == 0) continue;
+        if (reader->words.count == 0) {
+            SL_TRY(keep_waiting(reader));
+            continue;
+        }
+        SL_TRY(give_comments(reader, statements_read ? reader->line : 0));
         SL_TRY(statements_read++ ? read_statement(reader) : read_first(reader));
     }
     if (statements_read == 0)
@@ -358,6 +393,79 @@ sl_status sl_map_read_text(sl_context *context, const char *name, const char *te
     else
         sl_map_destroy(context, &read);
     return status;
+}
+
+// --- writing
+
+/// The writing of a map text. `done`: which of the map's comments are written.
+typedef struct text_writer {
+    sl_context *context;
+    const sl_map *map;
+    FILE *stream;
+    bool *done;
+    size_t walls; ///< written so far
+} text_writer;
+
+/// The first comment that belongs to a line, or to one below.
+static size_t find_comment(const sl_map *map, uint32_t line) {
+    size_t low = 0, high = map->comment_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (map->comments[middle].line < line)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// Among the first lines "#! " begins a note, which a comment must not become.
+static void print_comment(FILE *stream, const char *text) {
+    const bool like_note = strncmp(text, "#!", 2) == 0 && (text[2] == ' ' || !text[2]);
+    fprintf(stream, "%s%s", like_note ? "# " : "", text + like_note);
+}
+
+/// Prints the comments of a line that are not written yet: those before it, or that behind it.
+static void print_comments(text_writer *writer, uint32_t line, bool behind) {
+    const sl_map *map = writer->map;
+    for (size_t i = find_comment(map, line); i < map->comment_count; i++) {
+        const sl_comment *comment = &map->comments[i];
+        if (comment->line != line) return;
+        if (comment->behind != behind || writer->done[i]) continue;
+        writer->done[i] = true;
+        if (behind) putc(' ', writer->stream);
+        print_comment(writer->stream, comment->text);
+        if (!behind) putc('\n', writer->stream);
+    }
+}
+
+/// Begins a statement; things that are not from the file have line 0.
+static void begin(text_writer *writer, uint32_t line, const char *word) {
+    if (line && writer->map->comment_count) print_comments(writer, line, false);
+    fputs(word, writer->stream);
+}
+
+static void end(text_writer *writer, uint32_t line) {
+    if (line && writer->map->comment_count) print_comments(writer, line, true);
+    putc('\n', writer->stream);
+}
+
+/// Prints the comments that are left, at the end.
+static void print_rest(text_writer *writer) {
+    const sl_map *map = writer->map;
+    size_t strays = 0;
+    for (size_t i = 0; i < map->comment_count; i++) {
+        const sl_comment *comment = &map->comments[i];
+        if (writer->done[i] || (!comment->text[0] && comment->line != UINT32_MAX)) continue;
+        print_comment(writer->stream, comment->text);
+        putc('\n', writer->stream);
+        strays += comment->line != UINT32_MAX;
+    }
+    if (strays)
+        sl_note(writer->context,
+                "%zu comment%s at the end of the map text: what %s to is written in another form",
+                strays, strays == 1 ? " stands" : "s stand",
+                strays == 1 ? "it belongs" : "they belong");
 }
 
 static void print_number(FILE *stream, double value) {
@@ -386,111 +494,141 @@ static void print_notes(FILE *stream, const char *notes) {
 }
 
 /// All but walls.
-static void print_others(const sl_map *map, FILE *stream) {
+static void print_others(text_writer *writer) {
+    const sl_map *map = writer->map;
+    FILE *stream = writer->stream;
     for (size_t i = 0; i < map->door_count; i++) {
         const sl_door *door = &map->doors[i];
-        fprintf(stream, "door %s", door->name);
+        begin(writer, door->line, "door ");
+        fputs(door->name, stream);
         print_ends(stream, door->segment.a, door->segment.b);
-        fprintf(stream, door->open ? " open\n" : " shut\n");
+        fputs(door->open ? " open" : " shut", stream);
+        end(writer, door->line);
     }
     for (size_t i = 0; i < map->mirror_count; i++) {
-        fprintf(stream, "mirror");
+        begin(writer, map->mirrors[i].line, "mirror");
         print_ends(stream, map->mirrors[i].segment.a, map->mirrors[i].segment.b);
-        fprintf(stream, map->mirrors[i].one_sided ? " one\n" : "\n");
+        fputs(map->mirrors[i].one_sided ? " one" : "", stream);
+        end(writer, map->mirrors[i].line);
     }
     for (size_t i = 0; i < map->oneway_count; i++) {
-        fprintf(stream, "oneway");
+        begin(writer, map->oneways[i].line, "oneway");
         print_ends(stream, map->oneways[i].segment.a, map->oneways[i].segment.b);
-        fprintf(stream, "\n");
+        end(writer, map->oneways[i].line);
     }
     for (size_t i = 0; i < map->seam_count; i++) {
-        fprintf(stream, "seam");
+        begin(writer, map->seams[i].line, "seam");
         print_ends(stream, map->seams[i].segment.a, map->seams[i].segment.b);
-        fprintf(stream, "\n");
+        end(writer, map->seams[i].line);
     }
     for (size_t i = 0; i < map->start_count; i++) {
-        fprintf(stream, "start");
+        begin(writer, map->starts[i].line, "start");
         print_point(stream, map->starts[i].at);
         print_number(stream, map->starts[i].heading);
-        fprintf(stream, "\n");
+        end(writer, map->starts[i].line);
     }
     for (size_t i = 0; i < map->path_count; i++) {
-        fprintf(stream, "path %s", map->paths[i].name);
+        begin(writer, map->paths[i].line, "path ");
+        fputs(map->paths[i].name, stream);
         for (size_t k = 0; k < map->paths[i].count; k++)
             print_point(stream, map->paths[i].points[k]);
-        fprintf(stream, "\n");
+        end(writer, map->paths[i].line);
     }
     for (size_t i = 0; i < map->object_count; i++) {
-        fprintf(stream, "object %s", map->objects[i].name);
+        begin(writer, map->objects[i].line, "object ");
+        fputs(map->objects[i].name, stream);
         print_ends(stream, map->objects[i].box.min, map->objects[i].box.max);
-        fprintf(stream, "\n");
+        end(writer, map->objects[i].line);
     }
 }
 
-static void print_cells(const sl_map *map, FILE *stream) {
+static void print_cells(text_writer *writer) {
+    const sl_map *map = writer->map;
     if (map->snap > 0) {
-        fprintf(stream, "snap");
-        print_number(stream, map->snap);
-        fprintf(stream, "\n");
+        begin(writer, map->snap_line, "snap");
+        print_number(writer->stream, map->snap);
+        end(writer, map->snap_line);
     }
     for (size_t i = 0; i < map->cell_count; i++) {
-        fprintf(stream, "cell");
+        begin(writer, map->cells[i].line, "cell");
         for (uint32_t k = 0; k < map->cells[i].count; k++)
-            print_point(stream, map->corners[map->cells[i].first + k]);
-        fprintf(stream, "\n");
+            print_point(writer->stream, map->corners[map->cells[i].first + k]);
+        end(writer, map->cells[i].line);
     }
 }
 
-static sl_status print_polygon(void *user, const sl_point *corners, size_t count, bool solid) {
-    FILE *stream = user;
-    fprintf(stream, solid ? "solid" : "open");
-    for (size_t i = 0; i < count; i++) print_point(stream, corners[i]);
-    fprintf(stream, "\n");
-    return SL_OK;
+/// Asked at each wall or polygon, as a map may have very many.
+static sl_status check_cancelled(text_writer *writer) {
+    return ++writer->walls % 1024 ? SL_OK : sl_check_cancelled(writer->context);
 }
 
-static sl_status print_solid_wall(void *user, sl_point from, sl_point to) {
-    FILE *stream = user;
-    fprintf(stream, "wall");
-    print_ends(stream, from, to);
-    fprintf(stream, " solid\n");
-    return SL_OK;
+static sl_status print_polygon(void *user, const sl_point *corners, size_t count, bool solid,
+                               uint32_t line) {
+    text_writer *writer = user;
+    begin(writer, line, solid ? "solid" : "open");
+    for (size_t i = 0; i < count; i++) print_point(writer->stream, corners[i]);
+    end(writer, line);
+    return check_cancelled(writer);
 }
 
-static sl_status print_plain_wall(void *user, sl_point from, sl_point to) {
-    FILE *stream = user;
-    fprintf(stream, "wall");
-    print_ends(stream, from, to);
-    fprintf(stream, "\n");
-    return SL_OK;
+static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line) {
+    text_writer *writer = user;
+    begin(writer, line, "wall");
+    print_ends(writer->stream, from, to);
+    fputs(" solid", writer->stream);
+    end(writer, line);
+    return check_cancelled(writer);
+}
+
+static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32_t line) {
+    text_writer *writer = user;
+    begin(writer, line, "wall");
+    print_ends(writer->stream, from, to);
+    end(writer, line);
+    return check_cancelled(writer);
 }
 
 /// Walls without solid ground beside them; then solid ground, whose outline is wall.
-static sl_status print_walls(sl_context *context, const sl_map *map, FILE *stream) {
+static sl_status print_walls(text_writer *writer) {
+    const sl_map *map = writer->map;
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *wall = &map->walls[i];
         const bool solid = wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT);
         if (solid && !sli_ground_parts_rooms(wall->ground)) continue;
-        SL_TRY(print_plain_wall(stream, wall->a, wall->b));
+        SL_TRY(print_plain_wall(writer, wall->a, wall->b, wall->line));
     }
-    const sli_loop_user plain = {.user = stream, .plain = print_plain_wall};
-    const sli_loop_user user = {stream, print_polygon, print_solid_wall, NULL};
-    SL_TRY(sli_ground_trace(context, map->walls, map->wall_count, &plain));
-    return sli_ground_trace(context, map->walls, map->wall_count, &user);
+    const sli_loop_user plain = {.user = writer, .plain = print_plain_wall};
+    const sli_loop_user user = {writer, print_polygon, print_solid_wall, NULL};
+    SL_TRY(sli_ground_trace(writer->context, map->walls, map->wall_count, &plain));
+    return sli_ground_trace(writer->context, map->walls, map->wall_count, &user);
+}
+
+static sl_status print_map(text_writer *writer) {
+    const sl_map *map = writer->map;
+    print_comments(writer, 0, false);
+    fputs("sightline 1", writer->stream);
+    print_comments(writer, 0, true);
+    putc('\n', writer->stream);
+    if (map->notes) print_notes(writer->stream, map->notes);
+    if (map->range > 0) {
+        begin(writer, map->range_line, "range");
+        print_number(writer->stream, map->range);
+        end(writer, map->range_line);
+    }
+    SL_TRY(print_walls(writer));
+    print_others(writer);
+    print_cells(writer);
+    print_rest(writer);
+    return SL_OK;
 }
 
 sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *stream) {
-    fprintf(stream, "sightline 1\n");
-    if (map->notes) print_notes(stream, map->notes);
-    if (map->range > 0) {
-        fprintf(stream, "range");
-        print_number(stream, map->range);
-        fprintf(stream, "\n");
-    }
-    SL_TRY(print_walls(context, map, stream));
-    print_others(map, stream);
-    print_cells(map, stream);
-    return SL_OK;
+    text_writer writer = {.context = context, .map = map, .stream = stream};
+    writer.done = sl_alloc_array(context, map->comment_count, sizeof *writer.done);
+    if (!writer.done) return SL_NO_MEMORY;
+    const sl_status status = print_map(&writer);
+    sl_free(context, writer.done);
+    return status;
 }
 
 sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {

@@ -42,11 +42,14 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
-    SL_RUNTIME_SHARD       ///< one shard of a bake, which has no rows yet
+    SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
+    SL_RUNTIME_TEXT        ///< a door or start of the map text is damaged
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
+/// The number of a door that does not exist.
+#define SL_RUNTIME_NO_DOOR UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -68,7 +71,9 @@ typedef struct sl_runtime {
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *door_offsets, *door_bytes; ///< NULL if no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
-    uint32_t seam_portal_count;
+    uint32_t seam_count, seam_portal_count;
+    const unsigned char *text; ///< what the map holds beside walls, as map text
+    size_t text_bytes;
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -108,11 +113,56 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
+// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
+// starts read the map text in the file: call them once after opening.
+
+/// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
+typedef struct sl_runtime_name {
+    const char *text;
+    uint32_t length;
+} sl_runtime_name;
+
+/// A segment, in map units.
+typedef struct sl_runtime_segment {
+    double x0, y0, x1, y1;
+} sl_runtime_segment;
+
+/// A start: a viewpoint of the map. The heading is in degrees, counter-clockwise from +x.
+typedef struct sl_runtime_viewpoint {
+    double x, y, heading;
+} sl_runtime_viewpoint;
+
+/// The name of a door; of length 0 if the door does not exist. Several doors may have one name.
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door);
+
+/// The first door with a name that a 0 ends; SL_RUNTIME_NO_DOOR for none. To open all doors of a
+/// name, compare the names of the doors after it too.
+SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name);
+
+/// Whether the map has the door open at the start. False if the door does not exist. A game that
+/// begins with the doors of the map sets shut[i] = !sl_runtime_door_open(runtime, i).
+SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door);
+
+/// Finds the segments of a door: one, or more if walls cut it. Returns their number, and puts the
+/// first `room` of them into `segments`. Coordinates are exact.
+SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
+                                                 sl_runtime_segment *segments, uint32_t room);
+
+/// The number of starts.
+SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
+
+/// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
+SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
+                                     sl_runtime_viewpoint *out);
+
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
 
 /// Whether a cell is inside, if the map says what inside is.
 SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether a cell is solid ground, such as rock. Nobody looks from there, and it has no row.
+SL_RUNTIME_API bool sl_runtime_is_solid(const sl_runtime *runtime, uint32_t cell);
 
 /// A run of cells of a row: first .. end - 1.
 typedef struct sl_runtime_run {
@@ -171,7 +221,7 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
                                                       double direction_y, double tan_half);
 
-/// The size of the scratch memory for sl_runtime_look, in uint32_t.
+/// The size of the scratch memory for sl_runtime_look and sl_runtime_visible_polygon, in uint32_t.
 SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 
 /// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
@@ -200,6 +250,27 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
+
+/// Eye-to-region: the polygon that the eye sees inside the cone, for fog of war. Returns the number
+/// of its points, and puts the first `room` of them into `points`, as pairs x, y. If there are more
+/// than `room`, ask again with that much room. Returns 0 if nothing is seen: the eye is outside the
+/// map or in solid ground, or the cone is one direction. `shut` and `scratch` are as for
+/// sl_runtime_look_past.
+///
+/// Points go counter-clockwise about the eye, so the triangles (eye, point i, point i + 1) cover
+/// what is seen. With a cone, the eye is the first point. Shut doors, mirrors and one-way glass
+/// that the eye cannot look through count as walls. It has no range: clip the polygon by a circle
+/// when you draw it.
+///
+/// As sl_region_make of the library: no sign comes from a rounded number. Points are corners of the
+/// map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in a
+/// single direction only is not part of it. An eye on a wall sees the side of its cell, and is then
+/// a point of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
+/// sound file does not cause. Time: the sides and portals of the cells that are seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, uint32_t *scratch,
+                                                   double *points, uint32_t room);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
@@ -294,6 +365,7 @@ enum slrt_tag {
     SLRT_DORB,
     SLRT_BEYO,
     SLRT_SEPO,
+    SLRT_MAPT,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -365,6 +437,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"DORB", 1},
                           {"BEYO", 4},
                           {"SEPO", 12},
+                          {"MAPT", 1},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -692,7 +765,12 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
+    rt->seam_count = 0;
+    if (found[SLRT_SEAM].count > UINT32_MAX) return false;
+    if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
+    for (i = 0; i < rt->seam_count; i++)
+        if (!slrt_usable(rt->seams + i * 40, 4)) return false;
     rt->seam_portal_count = (uint32_t)count;
     for (i = 0; i < count; i++) {
         const unsigned char *on = rt->seam_portals + i * 12;
@@ -730,6 +808,222 @@ static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
     return true;
 }
 
+// --- the map text: statements in lines, words between blanks, comments after '#'
+
+/// A place in the map text: the rest of a line, or of the text.
+typedef struct slrt_text {
+    const unsigned char *at, *end;
+} slrt_text;
+
+/// Takes the next line off a text; false at its end.
+static bool slrt_take_line(slrt_text *text, slrt_text *line) {
+    if (text->at == text->end) return false;
+    line->at = line->end = text->at;
+    while (line->end < text->end && *line->end != '\n') line->end++;
+    text->at = line->end < text->end ? line->end + 1 : line->end;
+    if (line->end > line->at && line->end[-1] == '\r') line->end--;
+    return true;
+}
+
+/// Takes the next word off a line; it is empty at the line's end.
+static slrt_text slrt_take_word(slrt_text *line) {
+    slrt_text word;
+    while (line->at < line->end && (*line->at == ' ' || *line->at == '\t')) line->at++;
+    word.at = word.end = line->at;
+    while (word.end < line->end && *word.end != ' ' && *word.end != '\t' && *word.end != '#')
+        word.end++;
+    line->at = word.end < line->end && *word.end == '#' ? line->end : word.end;
+    return word;
+}
+
+static bool slrt_word_is(const slrt_text *word, const char *text) {
+    const unsigned char *at = word->at;
+    for (; at < word->end && *text && *at == (unsigned char)*text; at++) text++;
+    return at == word->end && !*text;
+}
+
+/// The `number`-th statement with this first word; what follows the word is put into `line`. Counts
+/// down `number`, so UINT32_MAX counts the statements.
+static bool slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t *number,
+                                slrt_text *line) {
+    slrt_text text;
+    text.at = rt->text;
+    text.end = rt->text + rt->text_bytes;
+    while (slrt_take_line(&text, line)) {
+        const slrt_text word = slrt_take_word(line);
+        if (slrt_word_is(&word, first) && !(*number)--) return true;
+    }
+    return false;
+}
+
+/// A decimal: digits, of which the last `fraction` are behind the point, and a power of ten.
+typedef struct slrt_decimal {
+    slrt_text digits; ///< among them the point
+    uint32_t digit_count, fraction;
+    int32_t exponent;
+    bool negative;
+} slrt_decimal;
+
+/// Reads digits, which may have a point among them. Returns how many there are.
+static uint32_t slrt_take_digits(slrt_text *word, uint32_t *fraction) {
+    uint32_t count = 0;
+    bool point = false;
+    *fraction = 0;
+    for (; word->at < word->end; word->at++) {
+        if (*word->at == '.' && !point) {
+            point = true;
+            continue;
+        }
+        if (*word->at < '0' || *word->at > '9') break;
+        count++;
+        if (point) ++*fraction;
+    }
+    return count;
+}
+
+/// Splits a word into the parts of a decimal; false if it is none, or has 512 characters or more.
+static bool slrt_parse_decimal(slrt_text word, slrt_decimal *out) {
+    int32_t exponent = 0;
+    bool down = false;
+    memset(out, 0, sizeof *out);
+    if (word.end - word.at >= 512) return false;
+    if (word.at < word.end && (*word.at == '-' || *word.at == '+'))
+        out->negative = *word.at++ == '-';
+    out->digits.at = word.at;
+    out->digit_count = slrt_take_digits(&word, &out->fraction);
+    out->digits.end = word.at;
+    if (!out->digit_count) return false;
+    if (word.at == word.end) return true;
+    if (*word.at != 'e' && *word.at != 'E') return false;
+    word.at++;
+    if (word.at < word.end && (*word.at == '-' || *word.at == '+')) down = *word.at++ == '-';
+    if (word.at == word.end) return false;
+    for (; word.at < word.end; word.at++) {
+        if (*word.at < '0' || *word.at > '9') return false;
+        if (exponent < 100000) exponent = 10 * exponent + (*word.at - '0');
+    }
+    out->exponent = down ? -exponent : exponent;
+    return true;
+}
+
+/// A fixed-point number in words of 32 bits, least first. Half of the words are behind the point,
+/// which is more than the smallest double needs.
+enum { SLRT_FIXED_WORDS = 128, SLRT_FIXED_POINT = 64 };
+
+/// Multiplies the words from `from` on by 10 and adds a digit there. False if the number becomes
+/// too large.
+static bool slrt_times_ten(uint32_t *fixed, uint32_t from, uint32_t digit) {
+    uint64_t carry = digit;
+    uint32_t i;
+    for (i = from; i < SLRT_FIXED_WORDS; i++) {
+        carry += (uint64_t)fixed[i] * 10;
+        fixed[i] = (uint32_t)(carry & UINT32_MAX);
+        carry >>= 32;
+    }
+    return !carry;
+}
+
+/// Divides by 10 to the `power`, at most 9, rounding down. Returns whether there was a remainder.
+static bool slrt_over_tens(uint32_t *fixed, int32_t power) {
+    uint64_t rest = 0, divisor = 1;
+    uint32_t i = SLRT_FIXED_WORDS;
+    for (; power; power--) divisor *= 10;
+    while (i && !fixed[i - 1]) i--;
+    while (i-- > 0) {
+        rest = rest << 32 | fixed[i];
+        fixed[i] = (uint32_t)(rest / divisor);
+        rest %= divisor;
+    }
+    return rest != 0;
+}
+
+static bool slrt_bit(const uint32_t *fixed, int bit) {
+    return fixed[bit / 32] >> bit % 32 & 1;
+}
+
+/// Rounds a fixed-point number to the nearest double, a tie to the even one. `rest`: a little is
+/// missing. As bits; all ones in the exponent if it is too large.
+static uint64_t slrt_round_fixed(const uint32_t *fixed, bool rest) {
+    const int lowest = 32 * SLRT_FIXED_POINT - 1074; // the bit of the smallest double
+    int top = 32 * SLRT_FIXED_WORDS - 1, low, i;
+    uint64_t bits = 0;
+    while (top >= 0 && !fixed[top / 32]) top -= 32;
+    while (top >= 0 && !slrt_bit(fixed, top)) top--;
+    low = top - 52 > lowest ? top - 52 : lowest;
+    for (i = top; i >= low; i--) bits = bits << 1 | slrt_bit(fixed, i);
+    for (i = 0; i < (low - 1) / 32 && !rest; i++) rest = fixed[i] != 0;
+    if (fixed[i] & ((UINT32_C(1) << (low - 1) % 32) - 1)) rest = true;
+    if (slrt_bit(fixed, low - 1) && (rest || (bits & 1))) bits++;
+    // The leading bit adds 1 to the exponent, also where rounding carries into it.
+    if (low - lowest > 2045) return UINT64_C(0x7ff) << 52;
+    return bits + ((uint64_t)(low - lowest) << 52);
+}
+
+/// The nearest double; false if it is not finite. In integers alone, so no option for arithmetic
+/// changes it. Below 1e-480 it is 0, as that is less than half the smallest double.
+static bool slrt_decimal_value(const slrt_decimal *decimal, double *out) {
+    uint32_t fixed[SLRT_FIXED_WORDS];
+    int32_t power = decimal->exponent - (int32_t)decimal->fraction;
+    const unsigned char *at;
+    uint64_t bits;
+    bool rest = false, any = false;
+    memset(fixed, 0, sizeof fixed);
+    for (at = decimal->digits.at; at < decimal->digits.end; at++) {
+        if (*at == '.') continue;
+        any = any || *at != '0';
+        if (!slrt_times_ten(fixed, SLRT_FIXED_POINT, (uint32_t)*at - '0')) return false;
+    }
+    if (!any || power < -1000) {
+        memset(fixed, 0, sizeof fixed);
+        power = 0;
+    }
+    for (; power > 0; power--)
+        if (!slrt_times_ten(fixed, SLRT_FIXED_POINT, 0)) return false;
+    for (; power < -9; power += 9) rest = slrt_over_tens(fixed, 9) || rest;
+    if (power < 0) rest = slrt_over_tens(fixed, -power) || rest;
+    bits = slrt_round_fixed(fixed, rest);
+    if (bits >> 52 == 0x7ff) return false;
+    bits |= (uint64_t)decimal->negative << 63;
+    memcpy(out, &bits, sizeof *out);
+    return true;
+}
+
+/// Reads the next word of a line as a number. Coordinates are in the range of slrt_usable.
+static bool slrt_take_number(slrt_text *line, bool coordinate, double *out) {
+    slrt_decimal decimal;
+    unsigned char bytes[sizeof *out];
+    if (!slrt_parse_decimal(slrt_take_word(line), &decimal) || !slrt_decimal_value(&decimal, out))
+        return false;
+    memcpy(bytes, out, sizeof bytes);
+    return !coordinate || slrt_usable(bytes, 1);
+}
+
+static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
+    return slrt_take_number(&line, true, &out->x) && slrt_take_number(&line, true, &out->y) &&
+           slrt_take_number(&line, false, &out->heading);
+}
+
+/// Each door that a seam is of has a name, and each start three numbers.
+static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
+    slrt_text text, line;
+    uint32_t doors = 0;
+    rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
+    rt->text_bytes = (size_t)found[SLRT_MAPT].count;
+    text.at = rt->text;
+    text.end = rt->text + rt->text_bytes;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text first = slrt_take_word(&line);
+        sl_runtime_viewpoint start;
+        if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
+        if (slrt_word_is(&first, "door")) {
+            const slrt_text name = slrt_take_word(&line);
+            if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
+            doors++;
+        }
+    }
+    return doors >= rt->door_count;
+}
+
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
     slrt_section found[SLRT_TAGS];
@@ -744,6 +1038,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
+    if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -773,6 +1068,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
         return "damaged: a row of the visible sets";
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
+    case SL_RUNTIME_TEXT:
+        return "damaged: a door or start of the map text";
     }
     return "unknown status";
 }
@@ -795,6 +1092,80 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
     const unsigned char *at = runtime->vertices + (size_t)vertex * SLRT_VERTEX_BYTES;
     *x = slrt_f64(at);
     *y = slrt_f64(at + 8);
+}
+
+// --- doors and starts
+
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+    sl_runtime_name name;
+    slrt_text line;
+    name.text = "";
+    name.length = 0;
+    if (door < runtime->door_count && slrt_find_statement(runtime, "door", &door, &line)) {
+        const slrt_text word = slrt_take_word(&line);
+        name.text = (const char *)word.at;
+        name.length = (uint32_t)(word.end - word.at);
+    }
+    return name;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
+    slrt_text text, line;
+    uint32_t door = 0;
+    text.at = runtime->text;
+    text.end = runtime->text + runtime->text_bytes;
+    while (door < runtime->door_count && slrt_take_line(&text, &line)) {
+        slrt_text word = slrt_take_word(&line);
+        if (!slrt_word_is(&word, "door")) continue;
+        word = slrt_take_word(&line);
+        if (slrt_word_is(&word, name)) return door;
+        door++;
+    }
+    return SL_RUNTIME_NO_DOOR;
+}
+
+SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door) {
+    slrt_text line, word;
+    int i;
+    if (door >= runtime->door_count || !slrt_find_statement(runtime, "door", &door, &line))
+        return false;
+    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // its name and four coordinates
+    word = slrt_take_word(&line);
+    return !slrt_word_is(&word, "shut");
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
+                                                 sl_runtime_segment *segments, uint32_t room) {
+    uint32_t i, count = 0;
+    for (i = 0; i < runtime->seam_count; i++) {
+        const unsigned char *seam = runtime->seams + (size_t)i * 40;
+        if (slrt_u32(seam + 32) != 1 || slrt_u32(seam + 36) != door) continue;
+        if (count < room) {
+            segments[count].x0 = slrt_f64(seam);
+            segments[count].y0 = slrt_f64(seam + 8);
+            segments[count].x1 = slrt_f64(seam + 16);
+            segments[count].y1 = slrt_f64(seam + 24);
+        }
+        count++;
+    }
+    return count;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
+    uint32_t left = UINT32_MAX;
+    slrt_text line;
+    slrt_find_statement(runtime, "start", &left, &line);
+    return UINT32_MAX - left;
+}
+
+SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
+                                     sl_runtime_viewpoint *out) {
+    sl_runtime_viewpoint found;
+    slrt_text line;
+    if (!slrt_find_statement(runtime, "start", &start, &line) || !slrt_read_start(line, &found))
+        return false;
+    *out = found;
+    return true;
 }
 
 // --- rows
@@ -873,9 +1244,9 @@ SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cel
            slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 16) != 0;
 }
 
-/// Whether a cell is solid ground, from where nobody looks.
-static bool slrt_is_solid(const sl_runtime *runtime, uint32_t cell) {
-    return slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 20) != 0;
+SL_RUNTIME_API bool sl_runtime_is_solid(const sl_runtime *runtime, uint32_t cell) {
+    return cell < runtime->cell_count &&
+           slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 20) != 0;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell) {
@@ -1257,10 +1628,8 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right
     return true;
 }
 
-/// Whether a directed portal is on a shut door.
-static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
-    const sl_runtime *rt = s->rt;
-    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
     uint32_t low = 0, high = rt->seam_portal_count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -1269,6 +1638,14 @@ static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
         else
             high = middle;
     }
+    return low;
+}
+
+/// Whether a directed portal is on a shut door.
+static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
+    const sl_runtime *rt = s->rt;
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    uint32_t low = slrt_first_seam(rt, portal);
     for (; low < rt->seam_portal_count; low++) {
         const unsigned char *on = rt->seam_portals + (size_t)low * 12, *seam;
         if (slrt_u32(on) != portal) return false;
@@ -1466,7 +1843,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     const size_t count = runtime->cell_count;
     sl_runtime_run run;
     slrt_search s;
-    if (cell == SL_RUNTIME_NO_CELL || slrt_is_solid(runtime, cell)) return 0;
+    if (cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell)) return 0;
     memset(&s, 0, sizeof s);
     s.rt = runtime;
     s.view = view;
@@ -1486,6 +1863,624 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     while (sl_runtime_next(&run)) memset(s.marks + run.first, SLRT_IN_ROW, run.end - run.first);
     slrt_search_cone(&s, cell);
     return s.count;
+}
+
+// --- the visible polygon
+//
+// The view spreads from the cells at the eye through open portals, as sectors between two borders:
+//
+//      +---------+--------.-+
+//      |         |    .  left     On the way around the next cell, counter-clockwise from the
+//      |         b .        |     portal ab, pieces of its boundary come that are right of the
+//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
+//      |         a .        |     added to the polygon; a portal is entered with the sector
+//      |         |    .  right    between its ends.
+//      +---------+--------.-+
+//
+// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
+// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// in one line join; where one ends is computed only when the next one is known not to join. Cost:
+// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
+// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+
+/// No directed portal: a wall, or the border of the map. Also: no border, but a piece's own end.
+#define SLRT_NONE UINT32_MAX
+
+/// A piece of a cell's boundary, counter-clockwise from a to b.
+typedef struct slrt_piece {
+    double a[2], b[2];
+    uint32_t directed; ///< the portal, if it is one
+} slrt_piece;
+
+/// A walk around a cell, counter-clockwise, some times from a portal's left end to there again.
+typedef struct slrt_walk {
+    sl_runtime_cell cell;
+    uint32_t stop;            ///< the portal at which a lap ends
+    uint32_t passed, side;    ///< the portal passed last, and the side on which `at` lies
+    uint32_t next, next_side; ///< the next portal, and its side
+    uint32_t corners;         ///< the number of corners before it
+    uint32_t laps;            ///< left to do
+    double at[2];
+} slrt_walk;
+
+/// A polygon as it grows, and the part of the view about the eye that is being looked at.
+typedef struct slrt_polygon {
+    slrt_search s;
+    uint32_t eye_cell;
+    bool broken; ///< the file is not sound, or the search takes too long
+    double *points;
+    uint32_t room, count;
+    double first[2], last[2]; ///< points
+    bool pending;             ///< the end of the last piece is not added yet
+    slrt_piece piece;         ///< that piece
+    uint32_t piece_left;      ///< the border where it ends, or SLRT_NONE
+    slrt_piece first_piece;   ///< that starts at the first point
+    bool first_is_short;      ///< it is shorter than a step of doubles
+    bool inside;              ///< the eye lies within its cell
+    uint32_t fan_first;       ///< the cell where the way around the eye starts
+    bool fan_is_closed;       ///< it leads back to that cell
+    bool gap;                 ///< the eye lies on a wall, which hides some directions
+    bool in_sector;           ///< only what is between these borders is looked at
+    uint32_t right, left;     ///< borders of the sector
+    bool second_lap, started, done;
+    uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
+} slrt_polygon;
+
+static void slrt_read_vertex(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t corner,
+                             double *out) {
+    sl_runtime_get_vertex(rt, cell->first_vertex + corner, &out[0], &out[1]);
+}
+
+/// Reads the left (0) or right (1) end of a directed portal.
+static void slrt_read_end(const sl_runtime *rt, uint32_t directed, int right, double *out) {
+    memcpy(out, rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8 + 16 * right, 16);
+}
+
+static bool slrt_same_place(const double *a, const double *b) {
+    return a[0] == b[0] && a[1] == b[1];
+}
+
+static bool slrt_is_between(double a, double value, double b) {
+    return (a <= value && value <= b) || (b <= value && value <= a);
+}
+
+static int slrt_turn(const double *a, const double *b, const double *c) {
+    const slrt_arm along = slrt_make_arm(a[0], a[1], b[0], b[1]);
+    const slrt_arm to = slrt_make_arm(a[0], a[1], c[0], c[1]);
+    return slrt_side(&along, &to);
+}
+
+/// Whether a point is on the segment from a to b. The box of an axial segment is the segment.
+static bool slrt_is_on(const double *a, const double *b, const double *point) {
+    return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]) &&
+           (a[0] == b[0] || a[1] == b[1] || slrt_same_place(a, point) ||
+            slrt_same_place(b, point) || !slrt_turn(a, b, point));
+}
+
+/// The side of a cell that a portal is on, looked for from one side on.
+static uint32_t slrt_side_of_portal(slrt_polygon *p, const sl_runtime_cell *cell, uint32_t directed,
+                                    uint32_t from) {
+    double left[2], right[2], a[2], b[2];
+    uint32_t i, side = from;
+    slrt_read_end(p->s.rt, directed, 0, left);
+    slrt_read_end(p->s.rt, directed, 1, right);
+    slrt_read_vertex(p->s.rt, cell, side, a);
+    for (i = 0; i < cell->vertex_count && p->s.patience; i++) {
+        const uint32_t next = side + 1 < cell->vertex_count ? side + 1 : 0;
+        slrt_read_vertex(p->s.rt, cell, next, b);
+        if (slrt_is_on(a, b, right) && slrt_is_on(a, b, left)) return side;
+        a[0] = b[0], a[1] = b[1];
+        side = next;
+        p->s.patience--;
+    }
+    p->broken = true;
+    return from;
+}
+
+/// Whether a point on a side comes before another one.
+static bool slrt_comes_before(slrt_polygon *p, const slrt_walk *w, const double *point,
+                              const double *other) {
+    double a[2], b[2];
+    int axis;
+    slrt_read_vertex(p->s.rt, &w->cell, w->side, a);
+    slrt_read_vertex(p->s.rt, &w->cell, w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0, b);
+    axis = a[0] == b[0];
+    return a[axis] < b[axis] ? point[axis] < other[axis] : point[axis] > other[axis];
+}
+
+/// Finds the next portal of a walk.
+static void slrt_walk_aim(slrt_polygon *p, slrt_walk *w) {
+    const uint32_t first = w->cell.first_directed, count = w->cell.directed_count;
+    double right[2];
+    w->next = w->passed + 1 < first + count ? w->passed + 1 : first;
+    w->next_side = slrt_side_of_portal(p, &w->cell, w->next, w->side);
+    w->corners = w->next_side >= w->side ? w->next_side - w->side
+                                         : w->cell.vertex_count - w->side + w->next_side;
+    slrt_read_end(p->s.rt, w->next, 1, right);
+    if (!w->corners && (w->next == w->passed || slrt_comes_before(p, w, right, w->at)))
+        w->corners = w->cell.vertex_count;
+}
+
+/// Goes on with a walk behind a portal on a known side.
+static void slrt_walk_behind(slrt_polygon *p, slrt_walk *w, uint32_t passed, uint32_t side) {
+    w->passed = passed;
+    w->side = side;
+    slrt_read_end(p->s.rt, passed, 0, w->at);
+    slrt_walk_aim(p, w);
+}
+
+/// Starts a walk behind a portal. In a cell without portals it starts at a corner.
+static void slrt_walk_start(slrt_polygon *p, slrt_walk *w, uint32_t cell, uint32_t stop,
+                            uint32_t laps) {
+    w->cell = sl_runtime_get_cell(p->s.rt, cell);
+    w->stop = w->cell.directed_count ? stop : SLRT_NONE;
+    w->laps = laps;
+    if (w->stop != SLRT_NONE) {
+        slrt_walk_behind(p, w, stop, slrt_side_of_portal(p, &w->cell, stop, 0));
+        return;
+    }
+    w->passed = w->next = SLRT_NONE;
+    w->side = w->next_side = 0;
+    w->corners = w->cell.vertex_count;
+    slrt_read_vertex(p->s.rt, &w->cell, 0, w->at);
+}
+
+static void slrt_end_piece_at(slrt_walk *w, const double *end, slrt_piece *piece) {
+    memcpy(piece->a, w->at, sizeof piece->a);
+    memcpy(piece->b, end, sizeof piece->b);
+    memcpy(w->at, end, sizeof w->at);
+    piece->directed = SLRT_NONE;
+}
+
+/// Takes the next piece of the boundary, to a corner, to a portal, or of a portal.
+static void slrt_walk_step(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
+    double end[2];
+    if (w->corners) {
+        w->side = w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0;
+        slrt_read_vertex(p->s.rt, &w->cell, w->side, end);
+        slrt_end_piece_at(w, end, piece);
+        w->corners--;
+        if (w->stop != SLRT_NONE || w->corners) return;
+        w->laps--;
+        w->corners = w->cell.vertex_count;
+        return;
+    }
+    slrt_read_end(p->s.rt, w->next, 1, end);
+    if (!slrt_same_place(w->at, end)) {
+        slrt_end_piece_at(w, end, piece);
+        return;
+    }
+    slrt_read_end(p->s.rt, w->next, 0, end);
+    slrt_end_piece_at(w, end, piece);
+    piece->directed = w->next;
+    if (w->next == w->stop) w->laps--;
+    if (w->laps) slrt_walk_behind(p, w, w->next, w->next_side);
+}
+
+/// Takes the next piece that is not just a point; false at the end.
+static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
+    do {
+        if (!p->s.patience) p->broken = true;
+        if (!w->laps || p->broken) return false;
+        p->s.patience--;
+        slrt_walk_step(p, w, piece);
+    } while (slrt_same_place(piece->a, piece->b));
+    return true;
+}
+
+static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
+    return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);
+}
+
+/// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
+/// right to the left. For an eye on its line, the eye's cell decides.
+static bool slrt_is_dark(const slrt_polygon *p, const unsigned char *glass) {
+    const sl_runtime *rt = p->s.rt;
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, p->eye_cell);
+    const int side = slrt_side_of_line(glass, glass + 16, p->s.x, p->s.y);
+    uint32_t i;
+    if (side) return side > 0;
+    for (i = 0; i < cell.vertex_count; i++) {
+        double corner[2];
+        slrt_read_vertex(rt, &cell, i, corner);
+        if (slrt_side_of_line(glass, glass + 16, corner[0], corner[1]) > 0) return true;
+    }
+    return false;
+}
+
+/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+static bool slrt_is_blocked(const slrt_polygon *p, uint32_t directed) {
+    const sl_runtime *rt = p->s.rt;
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    uint32_t i;
+    if (p->s.shut && slrt_is_shut(&p->s, directed)) return true;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(p, seam)) return true;
+    }
+    return false;
+}
+
+/// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
+static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
+    const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    const uint32_t portal = slrt_u32(at);
+    const sl_runtime_cell cell = sl_runtime_get_cell(p->s.rt, slrt_u32(at + 4));
+    uint32_t i;
+    for (i = cell.first_directed; i < cell.first_directed + cell.directed_count; i++)
+        if (i != directed &&
+            slrt_u32(p->s.rt->directed + (size_t)i * SLRT_DIRECTED_BYTES) == portal)
+            return i;
+    return SLRT_NONE;
+}
+
+// The points of the polygon.
+
+/// Adds a point, unless it is the last one.
+static void slrt_add_point(slrt_polygon *p, const double *point) {
+    if (p->count && slrt_same_place(p->last, point)) {
+        p->first_is_short = p->first_is_short || p->count == 1;
+        return;
+    }
+    memcpy(p->last, point, sizeof p->last);
+    if (!p->count) memcpy(p->first, point, sizeof p->first);
+    if (p->count < p->room) memcpy(p->points + 2 * (size_t)p->count, point, sizeof p->last);
+    p->count++;
+}
+
+/// The cross product u x v of arms, rounded once or twice: the sum of its exact parts.
+static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
+    double parts[16], sum = 0;
+    int i, count = 0;
+    count = slrt_add_product(parts, count, u->to_x, v->to_y);
+    count = slrt_add_product(parts, count, u->to_x, -v->from_y);
+    count = slrt_add_product(parts, count, -u->from_x, v->to_y);
+    count = slrt_add_product(parts, count, u->from_x, v->from_y);
+    count = slrt_add_product(parts, count, -u->to_y, v->to_x);
+    count = slrt_add_product(parts, count, u->to_y, v->from_x);
+    count = slrt_add_product(parts, count, u->from_y, v->to_x);
+    count = slrt_add_product(parts, count, -u->from_y, v->from_x);
+    for (i = 0; i < count; i++) sum += parts[i];
+    return sum;
+}
+
+/// Limits a number to those between a and b.
+static double slrt_limited(double a, double value, double b) {
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return !(value >= low) ? low : value > high ? high : value;
+}
+
+/// The end of a piece: its own, or where a border meets its line.
+static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own,
+                       const slrt_piece *piece, double *out) {
+    const double *a = piece->a, *b = piece->b;
+    slrt_arm ray, along, to;
+    double share;
+    if (border == SLRT_NONE) {
+        memcpy(out, own, 2 * sizeof *out);
+        return;
+    }
+    ray = slrt_border(&p->s, border);
+    if (a[0] == b[0]) {
+        share = (a[0] - p->s.x) / ray.x;
+    } else if (a[1] == b[1]) {
+        share = (a[1] - p->s.y) / ray.y;
+    } else {
+        along = slrt_make_arm(a[0], a[1], b[0], b[1]);
+        to = slrt_arm_to(p, a);
+        share = slrt_cross(&to, &along) / slrt_cross(&ray, &along);
+    }
+    out[0] = slrt_limited(a[0], p->s.x + ray.x * share, b[0]);
+    out[1] = slrt_limited(a[1], p->s.y + ray.y * share, b[1]);
+}
+
+/// Whether two pieces lie in one line.
+static bool slrt_in_line(const slrt_piece *piece, const slrt_piece *other) {
+    const double *a = piece->a, *b = piece->b;
+    if (a[0] == b[0]) return other->a[0] == a[0] && other->b[0] == a[0];
+    if (a[1] == b[1]) return other->a[1] == a[1] && other->b[1] == a[1];
+    return !slrt_turn(a, b, other->a) && !slrt_turn(a, b, other->b);
+}
+
+/// Adds the end of the pending piece.
+static void slrt_end_pending(slrt_polygon *p) {
+    double end[2];
+    if (!p->pending) return;
+    slrt_place(p, p->piece_left, p->piece.b, &p->piece, end);
+    slrt_add_point(p, end);
+    p->pending = false;
+}
+
+/// Adds a wall, from the border `right` to the border `left` or, for SLRT_NONE, its own ends.
+static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t right, uint32_t left) {
+    if (!p->pending || !slrt_in_line(&p->piece, piece)) {
+        double start[2];
+        slrt_place(p, right, piece->a, piece, start);
+        slrt_end_pending(p);
+        if (!p->count) p->first_piece = *piece;
+        slrt_add_point(p, start);
+    }
+    p->pending = true;
+    p->piece = *piece;
+    p->piece_left = left;
+}
+
+/// Adds the eye, where the polygon has it as a corner.
+static void slrt_add_eye(slrt_polygon *p) {
+    double eye[2];
+    eye[0] = p->s.x;
+    eye[1] = p->s.y;
+    slrt_end_pending(p);
+    slrt_add_point(p, eye);
+}
+
+/// Ends the polygon. All round, the last piece may go on as the first one. Then that one's start
+/// goes, unless rounding made it the end too.
+static void slrt_close(slrt_polygon *p, bool all_round) {
+    if (all_round && p->pending && p->count > 1 && !p->first_is_short &&
+        slrt_in_line(&p->first_piece, &p->piece)) {
+        if (p->room) memcpy(p->points, p->last, sizeof p->last);
+        p->count--;
+        return;
+    }
+    slrt_end_pending(p);
+    if (p->count > 1 && slrt_same_place(p->first, p->last)) p->count--;
+}
+
+// The search. The path is a stack of six numbers for each cell: the cell, the portal through which
+// it was entered, the portal passed last and its side, and the borders of the sector.
+
+enum { SLRT_FRAME = 6 };
+
+static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32_t left) {
+    uint32_t *top = p->s.path + (size_t)SLRT_FRAME * p->s.depth;
+    const uint32_t twin = slrt_twin(p, directed);
+    sl_runtime_cell cell;
+    if (twin == SLRT_NONE || p->s.depth == p->s.rt->cell_count) {
+        p->broken = true;
+        return;
+    }
+    top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    cell = sl_runtime_get_cell(p->s.rt, top[0]);
+    top[1] = top[2] = twin;
+    top[3] = slrt_side_of_portal(p, &cell, twin, 0);
+    top[4] = right;
+    top[5] = left;
+    p->s.depth++;
+}
+
+/// Goes on around the cell on top of the path: adds walls up to the next open portal and enters
+/// that, or leaves the cell.
+static void slrt_spread_on(slrt_polygon *p) {
+    uint32_t *top = p->s.path + (size_t)SLRT_FRAME * (p->s.depth - 1);
+    const slrt_arm a = slrt_border(&p->s, top[4]), b = slrt_border(&p->s, top[5]);
+    slrt_walk w;
+    slrt_piece piece;
+    w.cell = sl_runtime_get_cell(p->s.rt, top[0]);
+    w.stop = top[1];
+    w.laps = 1;
+    slrt_walk_behind(p, &w, top[2], top[3]);
+    while (slrt_walk_next(p, &w, &piece)) {
+        const uint32_t portal = piece.directed;
+        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        uint32_t right = SLRT_NONE, left = SLRT_NONE;
+        int end;
+        if (slrt_side(&from, &to) <= 0 || slrt_side(&a, &to) <= 0) continue;
+        if (slrt_side(&from, &b) <= 0) break;
+        end = slrt_side(&to, &b);
+        if (slrt_side(&from, &a) > 0) right = top[4];
+        if (end < 0) left = top[5];
+        if (portal != SLRT_NONE && !slrt_is_blocked(p, portal)) {
+            top[2] = portal;
+            top[3] = w.side;
+            if (end <= 0) p->s.depth--; // nothing is left to see of this cell
+            slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
+                      left == SLRT_NONE ? 2 * portal : left);
+            return;
+        }
+        slrt_add_wall(p, &piece, right, left);
+        if (end <= 0) break;
+    }
+    p->s.depth--;
+}
+
+/// Adds what is seen of a piece, or through it.
+static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t right,
+                           uint32_t left) {
+    const uint32_t portal = piece->directed;
+    if (portal == SLRT_NONE || slrt_is_blocked(p, portal)) {
+        slrt_add_wall(p, piece, right, left);
+        return;
+    }
+    slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
+              left == SLRT_NONE ? 2 * portal : left);
+    while (p->s.depth && !p->broken) slrt_spread_on(p);
+}
+
+// The fan: the pieces about the eye, of all cells that touch it.
+
+/// Sees a piece of the fan, as far as it is in the sector. The fan may start anywhere. So the first
+/// lap begins with the piece that the sector starts in, and the second lap ends before that piece.
+static void slrt_see_fan_piece(slrt_polygon *p, const slrt_piece *piece, const slrt_arm *from,
+                               const slrt_arm *to) {
+    uint32_t right = SLRT_NONE, left = SLRT_NONE;
+    if (p->in_sector) {
+        const slrt_arm a = slrt_border(&p->s, p->right), b = slrt_border(&p->s, p->left);
+        const int from_a = slrt_side(from, &a), a_to = slrt_side(&a, to);
+        const bool starts = from_a >= 0 && a_to > 0;
+        if (starts) p->done = p->second_lap && p->started;
+        if (starts && !p->second_lap) p->started = true;
+        if (p->done || (!p->second_lap && !p->started)) return;
+        if (!starts && (from_a > 0 || slrt_side(from, &b) <= 0)) return;
+        if (from_a > 0) right = p->right;
+        if (a_to <= 0 || slrt_side(to, &b) < 0) left = p->left;
+    }
+    // The fan starts behind the gap: who comes to an earlier piece has passed it.
+    if (p->gap && (p->fan_at < p->fan_last || (p->fan_at == p->fan_last && right == SLRT_NONE)))
+        slrt_add_eye(p);
+    p->fan_last = p->fan_at;
+    slrt_see_piece(p, piece, right, left);
+}
+
+/// Goes around a cell of the fan. On its border, the eye sees a run of pieces: it begins behind one
+/// that does not face the eye.
+static void slrt_see_fan_cell(slrt_polygon *p, uint32_t cell) {
+    bool run = p->inside, ready = p->inside;
+    slrt_walk w;
+    slrt_piece piece;
+    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed,
+                    p->inside ? 1 : 2);
+    while (slrt_walk_next(p, &w, &piece)) {
+        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        const bool faces = slrt_side(&from, &to) > 0;
+        if (faces && ready) {
+            run = true;
+            slrt_see_fan_piece(p, &piece, &from, &to);
+            p->fan_at++;
+        } else if (!faces && run && !p->inside) {
+            return;
+        }
+        ready = ready || !faces;
+    }
+}
+
+/// What of a cell's boundary is at the eye: counter-clockwise behind it and before it.
+typedef struct slrt_touch {
+    bool any;
+    uint32_t behind, before; ///< open portals, or SLRT_NONE
+    double behind_end[2], before_end[2];
+} slrt_touch;
+
+static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
+    slrt_touch touch;
+    slrt_walk w;
+    slrt_piece piece;
+    memset(&touch, 0, sizeof touch);
+    touch.behind = touch.before = SLRT_NONE;
+    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed, 1);
+    while (slrt_walk_next(p, &w, &piece)) {
+        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        uint32_t open;
+        if (slrt_side(&from, &to) || slrt_same_way(&from, &to)) continue;
+        open = piece.directed != SLRT_NONE && slrt_is_blocked(p, piece.directed) ? SLRT_NONE
+                                                                                 : piece.directed;
+        touch.any = true;
+        if (!slrt_is_zero(&to)) {
+            touch.behind = open;
+            memcpy(touch.behind_end, piece.b, sizeof piece.b);
+        }
+        if (!slrt_is_zero(&from)) {
+            touch.before = open;
+            memcpy(touch.before_end, piece.a, sizeof piece.a);
+        }
+    }
+    return touch;
+}
+
+static uint32_t slrt_cell_behind(const slrt_polygon *p, uint32_t directed) {
+    return slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// Finds where the way around the eye starts: clockwise as far as portals lead, or once around. A
+/// wall that ends at the eye is seen edge-on, and hides nothing.
+static void slrt_find_fan(slrt_polygon *p) {
+    slrt_touch touch = slrt_touch_of(p, p->eye_cell), last = touch;
+    p->fan_first = p->eye_cell;
+    p->inside = !touch.any;
+    p->fan_is_closed = p->inside;
+    if (p->inside) return;
+    while (touch.behind != SLRT_NONE && !p->broken) {
+        p->fan_first = slrt_cell_behind(p, touch.behind);
+        p->fan_is_closed = p->fan_first == p->eye_cell;
+        if (p->fan_is_closed) return;
+        touch = slrt_touch_of(p, p->fan_first);
+    }
+    while (last.before != SLRT_NONE && !p->broken)
+        last = slrt_touch_of(p, slrt_cell_behind(p, last.before));
+    {
+        const slrt_arm right = slrt_arm_to(p, touch.behind_end);
+        const slrt_arm left = slrt_arm_to(p, last.before_end);
+        p->gap = !slrt_same_ray(&right, &left);
+    }
+}
+
+/// Sees the whole fan, once around.
+static void slrt_see_fan(slrt_polygon *p) {
+    uint32_t cell = p->fan_first;
+    p->fan_at = 0;
+    slrt_see_fan_cell(p, cell);
+    while (!p->inside && !p->broken) {
+        const uint32_t before = slrt_touch_of(p, cell).before;
+        if (before == SLRT_NONE) return;
+        cell = slrt_cell_behind(p, before);
+        if (p->fan_is_closed && cell == p->fan_first) return;
+        slrt_see_fan_cell(p, cell);
+    }
+}
+
+/// Cuts the view cone into sectors of up to 180 degrees between the arms of `cone`, as
+/// slrt_search_cone does. 0 for a view all round; `last` is the arm where the last sector ends.
+static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
+    const double *right = s->view->right, *left = s->view->left;
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) return 0;
+    s->cone[0] = slrt_direction(right[0], right[1]);
+    s->cone[1] = slrt_direction(-right[1], right[0]);
+    s->cone[2] = slrt_direction(-right[0], -right[1]);
+    s->cone[3] = slrt_direction(left[0], left[1]);
+    *last = 3;
+    return slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]) ? 1
+                                                                                              : 3;
+}
+
+/// Sees what is in a sector of less than 180 degrees.
+static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
+    const slrt_arm a = slrt_border(&p->s, right), b = slrt_border(&p->s, left);
+    if (slrt_side(&a, &b) <= 0) return;
+    p->in_sector = true;
+    p->right = right;
+    p->left = left;
+    p->second_lap = p->started = p->done = false;
+    slrt_see_fan(p);
+    p->second_lap = true;
+    slrt_see_fan(p);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, uint32_t *scratch,
+                                                   double *points, uint32_t room) {
+    const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
+    const uint32_t cell = sl_runtime_locate(runtime, x, y);
+    uint32_t last, i, pieces;
+    slrt_polygon p;
+    if (runtime->loose || cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell))
+        return 0;
+    memset(&p, 0, sizeof p);
+    p.s.rt = runtime;
+    p.s.view = view;
+    p.s.shut = shut;
+    p.s.x = x;
+    p.s.y = y;
+    p.s.path = scratch;
+    p.s.patience = (uint64_t)SLRT_PATIENCE * 16 *
+                   ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
+    p.eye_cell = cell;
+    p.points = points;
+    p.room = room;
+    slrt_find_fan(&p);
+    pieces = slrt_cut_cone(&p.s, &last);
+    p.fan_last = UINT32_MAX;
+    if (!pieces) {
+        slrt_see_fan(&p);
+    } else {
+        slrt_add_eye(&p);
+        for (i = 0; i < pieces; i++)
+            slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    }
+    slrt_close(&p, !pieces && !p.gap);
+    return p.broken || p.count < 3 ? 0 : p.count;
 }
 
 #ifdef __cplusplus

@@ -84,7 +84,7 @@ static char *read_baked(const char *name, size_t *size) {
 
 // --- the questions: each asks for element i of the lists and adds the answer up
 
-enum { ASKED = 1 << 14, LOOKS = 1 << 10, ROUNDS = 15 };
+enum { ASKED = 1 << 14, LOOKS = 1 << 10, ROUNDS = 15, POINTS = 1 << 12 };
 
 typedef struct bench {
     sl_runtime runtime;
@@ -96,6 +96,7 @@ typedef struct bench {
     unsigned char *matrix, *bits;
     size_t stride;
     uint32_t *scratch, *cells;
+    double *points; ///< POINTS pairs
 } bench;
 
 typedef uint32_t question(const bench *b, uint32_t i);
@@ -163,6 +164,17 @@ static uint32_t ask_look_60(const bench *b, uint32_t i) {
     return sl_runtime_look(&b->runtime, &view, b->scratch, b->cells, b->runtime.cell_count);
 }
 
+static uint32_t ask_polygon(const bench *b, uint32_t i) {
+    const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
+    return sl_runtime_visible_polygon(&b->runtime, &view, NULL, b->scratch, b->points, POINTS);
+}
+
+static uint32_t ask_polygon_60(const bench *b, uint32_t i) {
+    const sl_runtime_view view = sl_runtime_view_toward(b->x[i], b->y[i], cos(b->angle[i]),
+                                                        sin(b->angle[i]), 0.57735026918962584);
+    return sl_runtime_visible_polygon(&b->runtime, &view, NULL, b->scratch, b->points, POINTS);
+}
+
 static uint32_t ask_open(const bench *b, uint32_t i) {
     sl_runtime runtime;
     (void)i;
@@ -225,6 +237,7 @@ static void prepare(bench *b) {
     b->bits = room(b->stride);
     b->scratch = room(sl_runtime_scratch_count(r) * sizeof *b->scratch);
     b->cells = room(r->cell_count * sizeof *b->cells);
+    b->points = room(2 * POINTS * sizeof *b->points);
     for (uint32_t i = 0; i < r->cell_count; i++) {
         sl_runtime_row_bits(r, i, b->matrix + i * b->stride);
         if (row_bytes(r, i) > row_bytes(r, b->longest)) b->longest = i;
@@ -258,6 +271,8 @@ static void print_table(const bench *b, const char *name) {
         {"unpack a row", ask_row_bits, ASKED, rows},
         {"look all round", ask_look, LOOKS, b->size},
         {"look in a cone of 60", ask_look_60, LOOKS, b->size},
+        {"visible polygon all round", ask_polygon, LOOKS, b->size},
+        {"visible polygon in a cone of 60", ask_polygon_60, LOOKS, b->size},
         {"open the file", ask_open, 1, b->size},
     };
     struct utsname machine;
@@ -292,6 +307,7 @@ int main(int argc, char **argv) {
     free(b->bits);
     free(b->scratch);
     free(b->cells);
+    free(b->points);
     free(b);
     free(bytes);
     sl_context_destroy(context);

@@ -177,7 +177,8 @@ class Hostile(unittest.TestCase):
         self.refused(["export", "flat.slv", "-o", "flat.slv"], 2, says="is the input itself")
         self.refused(["export", "flat.slv", "-o", "./flat.slv"], 2, says="is the input itself")
         before = self.done("convert", "flat.map").stdout
-        self.done("convert", "flat.map", "-o", "flat.map")
+        self.refused(["convert", "flat.map", "-o", "flat.map"], 2, says="--in-place")
+        self.done("convert", "flat.map", "-o", "flat.map", "--in-place")
         self.assertEqual(self.box.path("flat.map").read_text(), before)
 
     # --- options

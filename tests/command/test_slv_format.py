@@ -46,8 +46,7 @@ class SlvFormat(unittest.TestCase):
         self.assertEqual(sum(map(len, rows)), slv.info["pairs"])
         self.check_directed(slv)
         self.check_places(slv, polygons, vertices)
-        if "MIRO" not in slv.table:  # which export refuses
-            self.check_export(name, slv, polygons, rows)
+        self.check_export(name, slv, polygons, rows)
         return slv
 
     def check_export(self, name, slv, polygons, rows):

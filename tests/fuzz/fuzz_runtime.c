@@ -40,7 +40,8 @@ static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
 static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, slrt_no_dust(view->x), slrt_no_dust(view->y));
     const uint32_t count = sl_runtime_look(r, view, b->scratch, b->cells, r->cell_count);
-    FUZZ_CHECK((count > 0) == (cell != SL_RUNTIME_NO_CELL) && count <= r->cell_count);
+    const bool looks = cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(r, cell);
+    FUZZ_CHECK((count > 0) == looks && count <= r->cell_count);
     FUZZ_CHECK(!count || b->cells[0] == cell);
     memset(b->seen, 0, r->cell_count);
     for (uint32_t i = 0; i < count; i++) {
@@ -61,6 +62,20 @@ static void check_look_past(const sl_runtime *r, const sl_runtime_view *view, do
         FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]]);
 }
 
+/// The polygon has finite points, the same number of them for any room, and writes no more.
+static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
+    unsigned char shut[64];
+    for (size_t i = 0; i < sizeof shut; i++) shut[i] = i % 3 == 0;
+    const unsigned char *doors = r->door_count <= sizeof shut ? shut : NULL;
+    const uint32_t count = sl_runtime_visible_polygon(r, view, doors, b->scratch, NULL, 0);
+    FUZZ_CHECK(count == 0 || count >= 3);
+    if (count > 1 << 20) return;
+    double *points = room(2 * (size_t)count * sizeof *points);
+    FUZZ_CHECK(sl_runtime_visible_polygon(r, view, doors, b->scratch, points, count) == count);
+    for (uint32_t i = 0; i < 2 * count; i++) FUZZ_CHECK(isfinite(points[i]));
+    free(points);
+}
+
 static void check_place(const sl_runtime *r, double x, double y, sl_random *random,
                         const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, x, y);
@@ -70,6 +85,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     FUZZ_CHECK(within ? found || r->grid_cells || r->loose : !found);
     const sl_runtime_view round = sl_runtime_view_all_round(x, y);
     check_look(r, &round, b);
+    check_polygon(r, &round, b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
     sl_runtime_view cone = round;
     cone.all_round = false;
@@ -79,6 +95,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
             sl_random_below(random, 4) ? sl_random_unit(random) - 0.5 : odd_real(random);
     }
     check_look(r, &cone, b);
+    check_polygon(r, &cone, b);
 }
 
 static void check_places(const sl_runtime *r, sl_random *random, const buffers *b) {
@@ -97,6 +114,28 @@ static void check_places(const sl_runtime *r, sl_random *random, const buffers *
     check_place(r, odd_real(random), odd_real(random), random, b);
 }
 
+/// Doors and starts of the map text, whose bytes are in the block.
+static void check_text(const sl_runtime *r) {
+    const uint32_t doors = r->door_count < 64 ? r->door_count : 64;
+    const uint32_t starts = sl_runtime_start_count(r);
+    for (uint32_t i = 0; i < doors; i++) {
+        const sl_runtime_name name = sl_runtime_door_name(r, i);
+        char copy[256];
+        sl_runtime_segment at[2];
+        FUZZ_CHECK(name.length > 0);
+        sl_runtime_door_open(r, i);
+        sl_runtime_door_segments(r, i, at, 2);
+        if (name.length >= sizeof copy || memchr(name.text, 0, name.length)) continue;
+        memcpy(copy, name.text, name.length);
+        copy[name.length] = '\0';
+        FUZZ_CHECK(sl_runtime_find_door(r, copy) <= i);
+    }
+    for (uint32_t i = 0; i < starts && i < 64; i++) {
+        sl_runtime_viewpoint start;
+        FUZZ_CHECK(sl_runtime_start(r, i, &start) && isfinite(start.heading));
+    }
+}
+
 static void check_open(const sl_runtime *r, sl_random *random) {
     const buffers b = {.bits = room((r->cell_count + 7) / 8),
                        .seen = room(r->cell_count),
@@ -110,6 +149,7 @@ static void check_open(const sl_runtime *r, sl_random *random) {
     }
     FUZZ_CHECK(!sl_runtime_can_see(r, r->cell_count, 0) &&
                !sl_runtime_can_see(r, 0, r->cell_count));
+    check_text(r);
     check_places(r, random, &b);
     free(b.bits);
     free(b.seen);

@@ -2,7 +2,7 @@
 
 compile  it compiles without a warning as C99, C11, C++11 and C++17 by every compiler that is here, and
          needs nothing from outside but memcpy, memset and memcmp
-example  the program in its README compiles as it stands there, and runs
+example  the programs in its README compile as they stand there, and run
 sizes    no test: bytes of its compiled code, as CSV
 
 Exits 0 without faults, 1 with, 77 when it cannot tell.
@@ -24,6 +24,8 @@ LANGUAGES = [("c", "c99", ["gcc", "clang"]), ("c", "c11", ["gcc", "clang"]),
 WARNINGS = ["-pedantic-errors", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
             "-Wsign-conversion", "-Wdouble-promotion", "-Wcast-qual", "-Wundef", "-Wvla",
             "-Wpointer-arith", "-Wformat=2", "-Werror"]
+# What the programs in the README print, in their order: cells to draw, and a polygon of three points or more.
+EXAMPLES = [r"^[1-9]\d* cells to draw", r"<polygon .* points='(\S+,\S+ ){3,}'"]
 # What a compiler may call for copies in C without any library.
 FREE = {"memcpy", "memset", "memcmp", "memmove", "bcmp"}
 
@@ -59,25 +61,26 @@ def check_compile(root, scratch):
 def check_example(root, scratch, command):
     readme = (root / "lib/runtime/README.md").read_text(encoding="utf-8")
     programs = re.findall(r"^```c\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
-    if len(programs) != 1:
-        yield f"lib/runtime/README.md: {len(programs)} programs, where one is looked for"
+    if len(programs) != len(EXAMPLES):
+        yield f"lib/runtime/README.md: {len(programs)} programs, where {len(EXAMPLES)} are looked for"
         return
     bake = re.search(r"^sightline (bake .*)", readme, re.MULTILINE)[1].split()
     bake = [str(root / each) if each.startswith("maps/") else each for each in bake]
-    (scratch / "example.c").write_text(programs[0])
     shutil.copy(root / "lib/runtime/sightline_runtime.h", scratch)
     level = scratch / bake[-1]
     bake[-1] = str(level)
-    for line in ([command, *bake],
-                 ["cc", *WARNINGS, str(scratch / "example.c"), "-o", str(scratch / "example")],
-                 [str(scratch / "example"), str(level)]):
-        done = run(line)
-        if done.returncode:
-            yield f"{' '.join(line)}:\n{done.stdout}"
-            return
-    print(done.stdout)
-    if not re.search(r"^[1-9]\d* cells to draw", done.stdout, re.MULTILINE):
-        yield f"the example draws nothing:\n{done.stdout}"
+    for program, wanted in zip(programs, EXAMPLES):
+        (scratch / "example.c").write_text(program)
+        for line in ([command, *bake],
+                     ["cc", *WARNINGS, str(scratch / "example.c"), "-o", str(scratch / "example")],
+                     [str(scratch / "example"), str(level)]):
+            done = run(line)
+            if done.returncode:
+                yield f"{' '.join(line)}:\n{done.stdout}"
+                return
+        print(done.stdout)
+        if not re.search(wanted, done.stdout, re.MULTILINE):
+            yield f"the example does not print {wanted}:\n{done.stdout}"
 
 
 def print_sizes(root, scratch):

@@ -5,7 +5,9 @@
 
 #include "sightline/support.h"
 
+#include <cairo.h>
 #include <math.h>
+#include <stddef.h>
 #include <unistd.h>
 
 typedef struct bench {
@@ -81,6 +83,35 @@ static void views_look_different(void **state) {
     for (int i = 0; i < VIEWS; i++) sl_free(b->context, files[i].data);
 }
 
+/// What is seen directly is drawn over the cells.
+static void the_visible_region_is_drawn(void **state) {
+    bench *b = *state;
+    const sl_view view = sl_view_all_round((sl_point){5, 5});
+    const sl_point corners[4] = {{3, 3}, {7, 3}, {7, 7}, {3, 7}};
+    const sl_drawn_region region = {.eye = view.eye, .points = corners, .count = 4};
+    const sl_draw_options options = sl_draw_options_default();
+    cairo_surface_t *surfaces[2];
+    for (size_t i = 0; i < 2; i++) {
+        assert_ok(b->context, sl_draw_eye(b->context, &b->baked, &view, layers, 3, &region, i,
+                                          &options, path_of(b, "eye.png")));
+        surfaces[i] = cairo_image_surface_create_from_png(b->path);
+        unlink(b->path);
+    }
+    const int width = cairo_image_surface_get_width(surfaces[0]);
+    const int plan = 380; // the key is below, and longer for a region
+    size_t lighter = 0;
+    for (int y = 0; y < plan; y++) {
+        const unsigned char *rows[2];
+        for (int i = 0; i < 2; i++)
+            rows[i] = cairo_image_surface_get_data(surfaces[i]) +
+                      (ptrdiff_t)y * cairo_image_surface_get_stride(surfaces[i]);
+        for (int x = 0; x < width; x++) lighter += rows[1][4 * x + 1] > rows[0][4 * x + 1] + 20;
+    }
+    const double area = pow(4 * 0.92 * width / 40, 2);
+    assert_true((double)lighter > 0.95 * area && (double)lighter < 1.02 * area);
+    for (int i = 0; i < 2; i++) cairo_surface_destroy(surfaces[i]);
+}
+
 static void an_eye_outside_can_be_drawn(void **state) {
     bench *b = *state;
     const sl_view view = sl_view_cone((sl_point){-1e6, 5}, 0, 60, 40);
@@ -114,6 +145,7 @@ static void what_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(views_look_different, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_visible_region_is_drawn, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_eye_outside_can_be_drawn, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_refused, set_up, tear_down),
     };

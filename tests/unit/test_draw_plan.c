@@ -376,6 +376,118 @@ static void rock_is_over_heat_and_has_no_view(void **state) {
     sl_context_destroy(context);
 }
 
+static picture draw_field(const draw_map *map, const sl_field *field, double width) {
+    sl_context *context = testing_context(NULL);
+    char directory[32], path[48];
+    draw_directory(directory);
+    snprintf(path, sizeof path, "%s/a.png", directory);
+    sl_draw_options options = options_for(SL_LAYER_WALLS, SL_NO_CELL, false);
+    options.width = width;
+    assert_ok(context, sl_draw_field_file(context, &map->baked, field, &options, path));
+    cairo_surface_t *surface = cairo_image_surface_create_from_png(path);
+    unlink(path);
+    assert_int_equal(rmdir(directory), 0);
+    sl_context_destroy(context);
+    return (picture){surface, cairo_image_surface_get_width(surface),
+                     cairo_image_surface_get_height(surface)};
+}
+
+/// Two maps with different values are coloured alike on one scale. Values beyond it have the
+/// colours of its ends.
+static void a_scale_makes_heat_maps_comparable(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    // Squares of side 20 in two columns; 5,25 lies in the upper left one and so on.
+    const double few[4] = {0, 10, 20, 30}, many[4] = {-100, 10, 20, 900};
+    sl_field field = {.name = "area",
+                      .step = 20,
+                      .columns = 2,
+                      .rows = 2,
+                      .values = few,
+                      .least = 10,
+                      .most = 20};
+    const sl_colour low = sl_palette_ramp(false, 0.5 / 64),
+                    high = sl_palette_ramp(false, 63.5 / 64);
+    const picture a = draw_field(&map, &field, WIDTH);
+    field.values = many;
+    const picture b = draw_field(&map, &field, WIDTH);
+    assert_int_equal(a.height, b.height);
+    static const struct {
+        sl_point at;
+        bool high;
+    } places[] = {
+        {{5.5, 5.5}, false}, {{24.5, 5.5}, false}, {{5.5, 24.5}, true}, {{24.5, 24.5}, true}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const sl_point at = places[i].at;
+        const sl_colour wanted = places[i].high ? high : low;
+        assert_int_equal(count_on(&a, at.x, at.y, at.x + 1, at.y, wanted), 101);
+        assert_int_equal(count_on(&b, at.x, at.y, at.x + 1, at.y, wanted), 101);
+    }
+    // The tips reach beyond the ramp where values do.
+    field.least = -100;
+    field.most = 900;
+    const picture c = draw_field(&map, &field, WIDTH);
+    const int middle = a.height - 28 - 46 + 8;
+    assert_true(same(pixel_at(&a, MARGIN - 3, middle), low));
+    assert_true(same(pixel_at(&c, MARGIN - 3, middle), sl_palette_make(false).page));
+    cairo_surface_destroy(a.surface);
+    cairo_surface_destroy(b.surface);
+    cairo_surface_destroy(c.surface);
+    sl_draw_options options = options_for(SL_LAYER_WALLS, SL_NO_CELL, false);
+    const double wrong[][2] = {{2, 1}, {NAN, 1}, {0, INFINITY}, {0, 1e301}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        field.least = wrong[i][0];
+        field.most = wrong[i][1];
+        assert_int_equal(sl_draw_field_file(context, &map.baked, &field, &options, "never.png"),
+                         SL_BAD_ARGUMENT);
+    }
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// The longest piece of a band of rows without a gap of some pixels.
+static int longest_word(const picture *p, int top, int bottom, int gap) {
+    const sl_colour page = sl_palette_make(false).page;
+    int longest = 0, first = -1, last = -1;
+    for (int x = 0; x < p->width; x++) {
+        bool ink = false;
+        for (int y = top; y < bottom && !ink; y++) ink = !same(pixel_at(p, x, y), page);
+        if (!ink) continue;
+        if (first < 0 || x - last > gap) first = x;
+        last = x;
+        if (last - first + 1 > longest) longest = last - first + 1;
+    }
+    return longest;
+}
+
+/// Found on a level of a game: "5.436e+04" stood over "7.837e+05".
+static void numbers_of_a_scale_do_not_touch(void **state) {
+    (void)state;
+    static const double ends[][2] = {{54357.25, 2972123.5}, {0.000123, 0.000124}, {-3e7, 1e8},
+                                     {1e14, 3e15},          {-1e-9, 1e9},         {7, 7},
+                                     {1e-300, 1e300},       {1e15, 1e15 + 1}};
+    static const int widths[] = {WIDTH, 200, 64};
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
+            const sl_field field = {
+                .name = "area", .step = 20, .columns = 2, .rows = 1, .values = ends[i]};
+            const picture p = draw_field(&map, &field, widths[k]);
+            const double text = 16.5 * pow(widths[k] / 1200.0, 0.75);
+            const int end = (int)(p.height - 0.028 * widths[k]);
+            // The name stands beside the ramp, where it is wide enough.
+            const int longest = longest_word(&p, (int)(end - 1.3 * text), (int)(end - 0.4 * text),
+                                             (int)(0.35 * text));
+            if (k == 0 && !(longest > 2 && longest < 11 * text))
+                fail_msg("scale %zu: a word of %d pixels", i, longest);
+            cairo_surface_destroy(p.surface);
+        }
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
 /// Wherever the map stands and however large it is, the same picture comes out.
 static void place_and_size_do_not_matter(void **state) {
     (void)state;
@@ -495,6 +607,8 @@ int main(void) {
         cmocka_unit_test(solid_ground_is_filled_as_a_whole),
         cmocka_unit_test(outside_is_hatched_where_it_is_shown),
         cmocka_unit_test(rock_is_over_heat_and_has_no_view),
+        cmocka_unit_test(a_scale_makes_heat_maps_comparable),
+        cmocka_unit_test(numbers_of_a_scale_do_not_touch),
         cmocka_unit_test(place_and_size_do_not_matter),
         cmocka_unit_test(thin_maps_are_not_stretched),
         cmocka_unit_test(a_view_zoomed_in_shows_what_is_there),

@@ -54,7 +54,7 @@ static void test_table(void **state) {
     assert_ptr_equal(sl_map_formats(context, &again), formats);
     assert_int_equal(again, count);
     sl_export_formats(context, &again);
-    assert_int_equal(again, 5);
+    assert_int_equal(again, 6);
     sl_context_destroy(context);
     assert_false(sl_import_options_default().has_slice);
 }

@@ -191,6 +191,95 @@ static void test_export(void **state) {
                       "f: walls[0]: expected 4 numbers");
 }
 
+#define EXPORT(members)                                                                            \
+    "{\"format\": \"sightline\", \"version\": 2, \"walls\": [[0, 0, 8, 0], [8, 0, 8, 4]]" members  \
+    "}"
+#define DOOR(segments) ", \"doors\": [{\"name\": \"front\", \"segments\": [" segments "]}]"
+#define EVERYTHING                                                                                 \
+    EXPORT(", \"doors\": [{\"name\": \"d\", \"segments\": [[0, 1, 2, 1], [2, 1, 3, 1], [3, 1, 4, " \
+           "2]], "                                                                                 \
+           "\"open\": false}], \"mirrors\": [[1, 0, 2, 0], [3, 0, 4, 0]], \"one_sided_mirrors\": " \
+           "[1], "                                                                                 \
+           "\"oneways\": [[5, 0, 5, 4]], \"seams\": [[6, 0, 6, 4]], \"range\": 2.5, "              \
+           "\"starts\": [{\"at\": [1, 2], \"heading\": 1e-200}], "                                 \
+           "\"paths\": [{\"name\": \"tour\", \"points\": [[1, 2], [3, 4]]}], "                     \
+           "\"objects\": [{\"name\": \"box\", \"box\": [3, 2, 1, 4]}], \"later\": {}")
+
+static void assert_export(const char *text, const char *expected) {
+    assert_walls_of(sl_map_read_export, NULL, text, strlen(text), expected);
+}
+
+static void assert_export_refused(const char *text, const char *message) {
+    assert_refused_of(sl_map_read_export, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+/// Stretches of a door that go on in one line are one door again.
+static void test_export_all(void **state) {
+    (void)state;
+    assert_export(EVERYTHING, "range 2.5\nwall 0 0 8 0\nwall 8 0 8 4\n"
+                              "door d 0 1 3 1 shut\ndoor d 3 1 4 2 shut\n"
+                              "mirror 1 0 2 0\nmirror 3 0 4 0 one\noneway 5 0 5 4\nseam 6 0 6 4\n"
+                              "start 1 2 1e-200\npath tour 1 2 3 4\nobject box 1 2 3 4\n");
+    assert_export(EXPORT(DOOR("[0, 1, 2, 1]") ", \"range\": null, \"doubtful\": 1"),
+                  "wall 0 0 8 0\nwall 8 0 8 4\ndoor front 0 1 2 1 open\n");
+}
+
+/// Walls that say where solid ground is come before the polygons, which would add walls.
+static void test_export_ground(void **state) {
+    (void)state;
+#define SOLIDS ", \"solids\": [[[0, 0], [8, 0], [8, 4]]]"
+    assert_export(EXPORT(SOLIDS), "wall 0 0 8 0\nwall 8 0 8 4\nwall 0 0 8 0\nwall 8 0 8 4\n"
+                                  "wall 8 4 0 0\n");
+    const char *const text = EXPORT(SOLIDS ", \"solid_walls\": {\"left\": [0, 1], \"right\": [1]}");
+    assert_export(text, "wall 0 0 8 0\nwall 8 0 8 4\n");
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    assert_ok(context, sl_map_read_export(context, "f", text, strlen(text), NULL, &map));
+    assert_int_equal(map.walls[0].ground, SL_SOLID_LEFT);
+    assert_int_equal(map.walls[1].ground, SL_SOLID_LEFT | SL_SOLID_RIGHT);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_export_refused(void **state) {
+    (void)state;
+    assert_export_refused("{\"format\": \"sightline\"", "f:1: column ");
+    assert_export_refused("[1]", "f: expected an object, found an array");
+    assert_export_refused("{\"format\": \"other\", \"walls\": []}",
+                          "f: format: expected \"sightline\"");
+    assert_export_refused("{\"format\": \"sightline\", \"version\": 3, \"walls\": []}",
+                          "f: version: ");
+    assert_export_refused("{\"format\": \"sightline\", \"version\": 2}", "f: walls: ");
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {EXPORT(", \"doors\": [1]"), "f: doors[0]: expected an object"},
+        {EXPORT(", \"doors\": [{\"name\": \"a b\"}]"), "f: doors[0].name: expected one word"},
+        {EXPORT(DOOR("")), "f: doors[0].segments: expected at least 1 segment"},
+        {EXPORT(DOOR("[1, 2, 1, 2]")), "f: doors[0].segments[0]: expected two different ends"},
+        {EXPORT(", \"doors\": [{\"name\": \"d\", \"open\": \"yes\"}]"),
+         "f: doors[0].open: expected true or false"},
+        {EXPORT(", \"solid_walls\": {\"left\": [2], \"right\": []}"), "f: solid_walls.left[0]: "},
+        {EXPORT(", \"solid_walls\": {\"left\": []}"), "f: solid_walls.right: "},
+        {EXPORT(", \"solids\": [[[0, 0], [1, 1]]]"),
+         "f: solids[0]: expected at least 3 corners, found 2"},
+        {EXPORT(", \"solids\": [[[0, 0], [1, 1], 5]]"), "f: solids[0][2]: "},
+        {EXPORT(", \"mirrors\": [[0, 0, 0, 0]]"), "f: mirrors[0]: expected two different ends"},
+        {EXPORT(", \"one_sided_mirrors\": [0]"), "f: one_sided_mirrors[0]: "},
+        {EXPORT(", \"oneways\": [[0, 0, 1]]"), "f: oneways[0]: expected 4 numbers"},
+        {EXPORT(", \"range\": -1"), "f: range: expected a number greater than 0"},
+        {EXPORT(", \"range\": \"far\""), "f: range: "},
+        {EXPORT(", \"starts\": [{\"at\": [1]}]"), "f: starts[0].at: expected 2 numbers"},
+        {EXPORT(", \"starts\": [{\"at\": [1, 2], \"heading\": \"up\"}]"),
+         "f: starts[0].heading: expected a number of degrees"},
+        {EXPORT(", \"paths\": [{\"name\": \"p\", \"points\": []}]"),
+         "f: paths[0].points: expected at least 1 point, found 0"},
+        {EXPORT(", \"objects\": [{\"name\": \"o\"}]"), "f: objects[0].box: "},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_export_refused(cases[i].text, cases[i].message);
+}
+
 // --- memory
 
 static void assert_memory(import_reader *read, const char *text) {
@@ -215,6 +304,8 @@ static void test_memory(void **state) {
     (void)state;
     assert_memory(sl_map_read_uvtt, UVTT(LINES "," OBJECTS "," PORTALS));
     assert_memory(sl_map_read_foundry, DOORS);
+    assert_memory(sl_map_read_export, EVERYTHING);
+    assert_memory(sl_map_read_export, EXPORT(SOLIDS));
 }
 
 int main(void) {
@@ -222,7 +313,9 @@ int main(void) {
         cmocka_unit_test(test_uvtt),          cmocka_unit_test(test_uvtt_refused),
         cmocka_unit_test(test_foundry_walls), cmocka_unit_test(test_foundry_sides),
         cmocka_unit_test(test_foundry_doors), cmocka_unit_test(test_foundry_refused),
-        cmocka_unit_test(test_export),        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_export),        cmocka_unit_test(test_export_all),
+        cmocka_unit_test(test_export_ground), cmocka_unit_test(test_export_refused),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "import_check.h"
 #include "io/names.h"
 #include "sightline/io.h"
+#include "sightline/space.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -280,15 +281,295 @@ static void test_chunks(void **state) {
                    "f:3: layers[0].chunks[0].width: 0 is out of range");
 }
 
+// --- diamonds and hexagons
+
+#define LATTICE(how, size, body)                                                                   \
+    "<map orientation='" how "' " size "tilewidth='16' tileheight='8'>\n" body "</map>"
+#define THREE_BY_THREE  "width='3' height='3' "
+#define LATTICE_SET     "<tileset firstgid='1' tilewidth='16' tileheight='8'/>"
+#define RING            "<layer name='walls' " THREE_BY_THREE ">" CSV("1,1,1,1,0,1,1,1,1") "</layer>"
+#define RING_MAP(how)   LATTICE(how, THREE_BY_THREE, LATTICE_SET RING)
+#define STAGGERED(axis) "staggered' staggeraxis='" axis
+#define HEXAGONAL(axis) "hexagonal' hexsidelength='4' staggeraxis='" axis
+#define EVEN            "' staggerindex='even"
+
+static void assert_one_inside(const char *text) {
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    sl_space space = {0};
+    assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+    assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+    assert_int_equal(space.inside_count, 1);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+/// A ring of solid tiles about one open tile, which is where Tiled draws it.
+static void test_rings(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *corners;
+    } cases[] = {
+        {RING_MAP("isometric"), "16 12 24 16 32 12 24 8"},
+        {RING_MAP(STAGGERED("y")), "24 8 32 12 40 8 32 4"},
+        {RING_MAP(STAGGERED("y") EVEN), "16 8 24 12 32 8 24 4"},
+        {RING_MAP(STAGGERED("x")), "8 12 16 16 24 12 16 8"},
+        {RING_MAP(STAGGERED("x") EVEN), "8 16 16 20 24 16 16 12"},
+        {RING_MAP(HEXAGONAL("x")), "10 12 16 16 20 16 26 12 20 8 16 8"},
+        {RING_MAP(HEXAGONAL("x") EVEN), "10 16 16 20 20 20 26 16 20 12 16 12"},
+        {RING_MAP(HEXAGONAL("y")), "24 8 24 12 32 14 40 12 40 8 32 6"},
+        {RING_MAP(HEXAGONAL("y") EVEN), "16 8 16 12 24 14 32 12 32 8 24 6"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_context *context = testing_context(NULL);
+        const sl_import_options options = sl_import_options_default();
+        sl_map map = {0};
+        const char *text = cases[i].text;
+        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        char *whole = map_text(&map), expected[128];
+        snprintf(expected, sizeof expected, "sightline 1\nopen %s\n", cases[i].corners);
+        assert_string_equal(whole, expected);
+        free(whole);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_one_inside(text);
+    }
+}
+
+static void test_lattices_as_json(void **state) {
+    (void)state;
+    assert_walls_json("{\"orientation\": \"hexagonal\", \"hexsidelength\": 4, \"staggeraxis\": "
+                      "\"x\", \"staggerindex\": \"even\", \"width\": 1, \"height\": 1, "
+                      "\"tilewidth\": 16, \"tileheight\": 8, \"layers\": [{\"type\": "
+                      "\"tilelayer\", \"name\": \"walls\", \"width\": 1, \"height\": 1, "
+                      "\"data\": [0]}]}",
+                      "wall 0 0 6 4\nwall 6 -4 0 0\nwall 6 4 10 4\nwall 6 -4 10 -4\n"
+                      "wall 10 -4 16 0\nwall 16 0 10 4\n");
+}
+
+/// Twice the area of what is open, by the walls: each has solid ground at one hand.
+static double open_area_of(const sl_map *map) {
+    double area = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        const double cross = wall->a.x * wall->b.y - wall->a.y * wall->b.x;
+        assert_true(!(wall->ground & SL_SOLID_LEFT) != !(wall->ground & SL_SOLID_RIGHT));
+        area += wall->ground & SL_SOLID_RIGHT ? cross : -cross;
+    }
+    return area;
+}
+
+static char *add_random_tiles(char *end, uint32_t *seed, size_t count, size_t *open) {
+    for (size_t i = 0; i < count; i++) {
+        *seed = *seed * 1664525 + 1013904223;
+        const bool solid = *seed >> 31;
+        *open += !solid;
+        end += sprintf(end, "%s%d", i ? "," : "", solid);
+    }
+    return end;
+}
+
+/// The walls enclose as much as all open tiles have together: neighbours share their corners.
+static void test_random_lattices(void **state) {
+    (void)state;
+    static const struct {
+        const char *how;
+        int area; ///< twice that of a tile
+    } cases[] = {
+        {"isometric", 16 * 8},
+        {STAGGERED("y"), 16 * 8},
+        {STAGGERED("y") EVEN, 16 * 8},
+        {STAGGERED("x"), 16 * 8},
+        {STAGGERED("x") EVEN, 16 * 8},
+        {HEXAGONAL("x"), 2 * 10 * 8},
+        {HEXAGONAL("x") EVEN, 2 * 80},
+        {HEXAGONAL("y"), 2 * 6 * 16},
+        {HEXAGONAL("y") EVEN, 2 * 6 * 16},
+    };
+    uint32_t seed = 1;
+    for (size_t i = 0; i < 9 * 20; i++) {
+        char text[2048], *end = text;
+        size_t open = 0;
+        end += sprintf(end,
+                       "<map orientation='%s' width='7' height='6' tilewidth='16' "
+                       "tileheight='8' infinite='1'>" LATTICE_SET
+                       "<layer name='walls' width='7' height='6'><data encoding='csv'>"
+                       "<chunk x='-3' y='-3' width='7' height='3'>",
+                       cases[i % 9].how);
+        end = add_random_tiles(end, &seed, 21, &open);
+        end += sprintf(end, "</chunk><chunk x='-3' y='0' width='4' height='3'>");
+        end = add_random_tiles(end, &seed, 12, &open);
+        end += sprintf(end, "</chunk><chunk x='1' y='0' width='3' height='3'>");
+        end = add_random_tiles(end, &seed, 9, &open);
+        sprintf(end, "</chunk></data></layer></map>");
+        sl_context *context = testing_context(NULL);
+        const sl_import_options options = sl_import_options_default();
+        sl_map map = {0};
+        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        assert_true(open_area_of(&map) == (double)open * cases[i % 9].area);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// What the text gives, starts and doors too: these lines, in any order.
+static void assert_reads(const char *text, const char *expected) {
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+    char *whole = map_walls_text(&map);
+    bool same = strlen(whole) == strlen("sightline 1\n") + strlen(expected);
+    for (const char *at = expected; same && *at; at = strchr(at, '\n') + 1) {
+        char line[128];
+        snprintf(line, sizeof line, "\n%.*s", (int)(strchr(at, '\n') + 1 - at), at);
+        same = strstr(whole, line);
+    }
+    if (!same) fail_msg("%s is not\n%s", whole, expected);
+    free(whole);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+/// Long walls of diamonds are one wall each; a guess takes what is empty as solid.
+static void test_few_walls_of_diamonds(void **state) {
+    (void)state;
+    assert_reads(LATTICE("isometric", "width='4' height='3' ",
+                         LATTICE_SET "<layer name='walls' width='4' height='3'>" CSV(
+                             "1,1,1,1,1,0,0,1,1,1,1,1") "</layer>"),
+                 "wall 24 20 40 12\nwall 16 16 24 20\nwall 16 16 32 8\nwall 32 8 40 12\n");
+    assert_reads(LATTICE(STAGGERED("y"), THREE_BY_THREE,
+                         LATTICE_SET "<layer name='a' " THREE_BY_THREE
+                                     ">" CSV("0,0,0,0,2,0,0,2,0") "</layer>"),
+                 "wall 32 12 40 8\nwall 16 4 24 0\nwall 16 4 32 12\nwall 24 0 40 8\n");
+}
+
+#define WITH_OBJECTS(how, rows, body)                                                              \
+    LATTICE(how, "width='3' height='" rows "' ",                                                   \
+            LATTICE_SET "<layer name='walls' width='3' height='" rows                              \
+                        "'>" CSV("1,1,1,1,0,1,1,1,1") "</layer><objectgroup name='things'>" body   \
+                                                      "</objectgroup>")
+#define DIAMOND "wall 16 12 24 16\nwall 24 16 32 12\nwall 16 12 24 8\nwall 24 8 32 12\n"
+
+/// Objects in isometric maps are in units of the tile's height; turns are those of the screen.
+static void test_objects_on_lattices(void **state) {
+    (void)state;
+#define AS_WALL(how) "<object name='wall' " how "/>"
+    assert_reads(
+        WITH_OBJECTS("isometric", "3", AS_WALL("x='8' y='8' width='8' height='4'")),
+        "wall 24 16 32 12\nwall 32 12 28 10\nwall 28 10 20 14\nwall 20 14 24 16\n" DIAMOND);
+    assert_reads(
+        WITH_OBJECTS("isometric", "3", AS_WALL("x='8' y='8' width='8' height='4' rotation='180'")),
+        "wall 24 16 16 20\nwall 16 20 20 22\nwall 20 22 28 18\nwall 28 18 24 16\n" DIAMOND);
+    assert_reads(
+        WITH_OBJECTS("isometric", "3", AS_WALL("x='8' y='8' width='8' height='4' rotation='90'")),
+        "wall 24 16 20 8\nwall 20 8 18 12\nwall 18 12 22 20\nwall 22 20 24 16\n" DIAMOND);
+    // A tile as an object stands on the diamond behind its place.
+    assert_reads(WITH_OBJECTS("isometric", "3", AS_WALL("gid='1' x='16' y='16'")),
+                 "wall 24 16 32 12\nwall 32 12 24 8\nwall 24 8 16 12\nwall 16 12 24 16\n" DIAMOND);
+    // The others have them on the screen.
+    assert_reads(WITH_OBJECTS(STAGGERED("x"), "3", AS_WALL("x='12' y='14' width='6' height='3'")),
+                 "wall 12 14 18 14\nwall 18 14 18 11\nwall 18 11 12 11\nwall 12 11 12 14\n"
+                 "wall 8 12 16 16\nwall 16 16 24 12\nwall 8 12 16 8\nwall 16 8 24 12\n");
+}
+
+static void test_starts_and_doors_on_lattices(void **state) {
+    (void)state;
+#define START(x, y) "<object name='start' x='" x "' y='" y "'><point/></object>"
+    assert_reads(WITH_OBJECTS("isometric", "3", START("12", "10") START("4", "4")),
+                 DIAMOND "start 26 13 0\n");
+    assert_reads(WITH_OBJECTS(STAGGERED("x"), "3", START("12", "16") START("4", "4")),
+                 "wall 8 12 16 16\nwall 16 16 24 12\nwall 8 12 16 8\nwall 16 8 24 12\n"
+                 "start 12 12 0\n");
+    assert_reads(WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16") START("11", "13")),
+                 "wall 10 12 16 16\nwall 16 8 10 12\nwall 16 16 20 16\nwall 26 12 20 16\n"
+                 "wall 20 8 26 12\nwall 16 8 20 8\nstart 12 12 0\n");
+    // A door on a solid square between two open ones.
+    assert_reads(
+        LATTICE("isometric", "width='3' height='1' ",
+                LATTICE_SET "<layer name='walls' width='3' height='1'>" CSV(
+                    "0,1,0") "</layer><objectgroup name='things'><object name='door' x='8' "
+                             "y='0' width='8' height='8'/></objectgroup>"),
+        "wall 8 16 32 4\nwall 0 12 8 16\nwall 0 12 24 0\nwall 24 0 32 4\n"
+        "door door 12 6 20 10 open\n");
+    // Tiles that are doors; in hexagonal maps they are left out.
+#define TILE_DOOR(how, width, tiles)                                                               \
+    LATTICE(how, "width='" width "' height='3' ",                                                  \
+            "<tileset firstgid='1' tilewidth='16' tileheight='8'><tile id='1' type='door'/>"       \
+            "</tileset><layer name='walls' width='" width "' height='3'>" CSV(tiles) "</layer>")
+    assert_reads(TILE_DOOR("isometric", "1", "0,2,0"),
+                 "wall 24 16 32 12\nwall 0 4 24 16\nwall 0 4 8 0\nwall 8 0 32 12\n"
+                 "door door 12 10 20 6 open\n");
+    assert_reads(TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"),
+                 "wall 8 16 32 4\nwall 0 12 24 0\nwall 0 12 8 16\nwall 24 0 32 4\n"
+                 "door door 12 6 20 10 open\n");
+    assert_reads(
+        TILE_DOOR(HEXAGONAL("y"), "1", "1,2,0"),
+        "wall 8 8 0 6\nwall 16 6 8 8\nwall 0 6 0 2\nwall 16 6 16 2\nwall 16 2 8 0\nwall 8 0 0 2\n");
+    assert_reads(WITH_OBJECTS(HEXAGONAL("y"), "3",
+                              "<object name='door' x='24' y='10' width='16' height='1'/>"),
+                 "wall 32 14 24 12\nwall 40 12 32 14\nwall 24 12 24 8\nwall 40 12 40 8\nwall 40 8 "
+                 "32 6\nwall 32 6 24 8\ndoor door 24 9.5 40 9.5 open\n");
+}
+
+/// Shapes of tiles: those of isometric sets are drawn in a diamond, others in pixels; hexagons turn
+/// by 60 degrees.
+static void test_tile_shapes_on_lattices(void **state) {
+    (void)state;
+#define SHAPED_SET(more, shape)                                                                    \
+    "<tileset firstgid='1' tilewidth='16' tileheight='8'>" more "<tile id='0'><objectgroup>" shape \
+    "</objectgroup></tile></tileset><layer name='a' " THREE_BY_THREE ">"
+#define DIAMONDS "<grid orientation='isometric' width='16' height='8'/>"
+#define SHAPED_RING(how, more, shape)                                                              \
+    LATTICE(how, THREE_BY_THREE, SHAPED_SET(more, shape) CSV("1,1,1,1,0,1,1,1,1") "</layer>")
+    assert_reads(SHAPED_RING("isometric", DIAMONDS, BOX("0", "0", "8", "8")), DIAMOND);
+    assert_reads(SHAPED_RING(STAGGERED("x"), DIAMONDS, BOX("0", "0", "8", "8")),
+                 "wall 8 12 16 16\nwall 16 16 24 12\nwall 8 12 16 8\nwall 16 8 24 12\n");
+#define ONE_SHAPE(how, gid, more, shape)                                                           \
+    LATTICE(how, THREE_BY_THREE, SHAPED_SET(more, shape) CSV("0,0,0,0," gid ",0,0,0,0") "</layer>")
+#define LINE "<object><polyline points='0,0 16,8'/></object>"
+    static const struct {
+        const char *text, *wall;
+    } cases[] = {
+        {ONE_SHAPE("isometric", "1", DIAMONDS, "<object><polyline points='0,0 8,4'/></object>"),
+         "wall 24 16 28 10\n"},
+        {ONE_SHAPE("isometric", "1", "", LINE), "wall 16 16 32 8\n"},
+        {ONE_SHAPE("isometric", "2147483649", "", LINE), "wall 32 16 16 8\n"},
+        {ONE_SHAPE(STAGGERED("y"), "1", "", LINE), "wall 24 12 40 4\n"},
+        {ONE_SHAPE(HEXAGONAL("x"), "1", "", LINE), "wall 10 16 26 8\n"},
+        {ONE_SHAPE(HEXAGONAL("x"), "805306369", "", LINE), "wall 26 8 10 16\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_context *context = testing_context(NULL);
+        const sl_import_options options = sl_import_options_default();
+        const char *text = cases[i].text;
+        sl_map map = {0};
+        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        char *whole = map_walls_text(&map);
+        if (strncmp(whole + 12, cases[i].wall, strlen(cases[i].wall)) != 0)
+            fail_msg("%zu: %s", i, whole);
+        free(whole);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
 static void test_guess(void **state) {
     (void)state;
     // Nothing says what is solid: the empty squares of the lowest layer, else its most frequent
     // tile.
     assert_walls(MAP(SET LAYER("a", CSV("3,0,0,4,4,5")) LAYER("b", CSV("3,9,0,4,0,0"))), TWO_TILES);
     assert_walls(MAP(SET LAYER("a", CSV("2,1,1,3,4,5"))), TWO_TILES);
-    assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1"))),
-                   "f:1: nothing in it says what is solid");
-    assert_refused(MAP(""), "f:1: nothing in it says what is solid");
+    assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1")) "<group name='g'><objectgroup name='b'/>"
+                                                          "</group>"),
+                   "f:1: nothing in it says what is solid; --layers NAME chooses; layers: 'a', 'b' "
+                   "(objects)");
+    assert_refused(MAP(SET LAYER("walls", CSV("1,1,1,1,1,1"))),
+                   "f:1: what it says is solid gives no walls; --layers NAME chooses; layers: "
+                   "'walls'");
+    assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
 }
 
 static void test_damaged_data(void **state) {
@@ -336,8 +617,20 @@ static void test_refused(void **state) {
     assert_refused("", "f: the file is empty");
     assert_refused("<map>\n<layer></map>", "f:2: XML: ");
     assert_refused("\n<svg/>", "f:2: expected <map>, found <svg>");
-    assert_refused("<map orientation='isometric' " SIZE "/>",
-                   "f:1: orientation: 'isometric': only orthogonal maps are taken");
+    assert_refused("<map orientation='round' " SIZE "/>", "f:1: orientation: 'round' is unknown");
+    assert_refused("<map orientation='isometric'" SIZE "tilewidth='8' tileheight='1'/>",
+                   "f:1: tileheight: 1 is out of range");
+    assert_refused("<map orientation='hexagonal'" SIZE "tilewidth='8' tileheight='8' "
+                   "hexsidelength='9'/>",
+                   "f:1: hexsidelength: 9 is more than the size of a tile, 8");
+    assert_refused("<map orientation='staggered'" SIZE "tilewidth='8' tileheight='8' "
+                   "staggeraxis='z'/>",
+                   "f:1: staggeraxis: 'z' is unknown");
+    assert_refused("<map orientation='staggered'" SIZE
+                   "tilewidth='8' tileheight='8'>" LAYER("walls", TILES) "<layer name='walls' "
+                                                                         "offsetx='1'" SIZE
+                                                                         ">" TILES "</layer></map>",
+                   "f:2: layers[1]: layers of tiles that are moved differently");
     assert_refused("<map" SIZE "tilewidth='8'/>",
                    "f:1: tileheight: expected a number, found nothing");
     assert_refused("<map" SIZE "tilewidth='nan' tileheight='8'/>",
@@ -496,13 +789,7 @@ static void test_tilesets_beside(void **state) {
 }
 
 /// Each allocation of ours fails once.
-static void test_memory(void **state) {
-    (void)state;
-    const char *text =
-        MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
-                LAYER("a", DATA("encoding='base64' compression='zlib'",
-                                ZLIB)) "<objectgroup "
-                                       "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>");
+static void fail_each_allocation(const char *text) {
     const sl_import_options options = sl_import_options_default();
     sl_status status = SL_NO_MEMORY;
     for (long fail_at = 1; status != SL_OK; fail_at++) {
@@ -520,6 +807,18 @@ static void test_memory(void **state) {
     }
 }
 
+static void test_memory(void **state) {
+    (void)state;
+    fail_each_allocation(
+        MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
+                LAYER("a", DATA("encoding='base64' compression='zlib'",
+                                ZLIB)) "<objectgroup "
+                                       "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>"));
+    fail_each_allocation(WITH_OBJECTS("isometric", "3", START("12", "10")));
+    fail_each_allocation(TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"));
+    fail_each_allocation(WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16")));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_encodings),
@@ -532,6 +831,13 @@ int main(void) {
         cmocka_unit_test(test_objects),
         cmocka_unit_test(test_ellipses),
         cmocka_unit_test(test_chunks),
+        cmocka_unit_test(test_rings),
+        cmocka_unit_test(test_lattices_as_json),
+        cmocka_unit_test(test_random_lattices),
+        cmocka_unit_test(test_few_walls_of_diamonds),
+        cmocka_unit_test(test_objects_on_lattices),
+        cmocka_unit_test(test_starts_and_doors_on_lattices),
+        cmocka_unit_test(test_tile_shapes_on_lattices),
         cmocka_unit_test(test_guess),
         cmocka_unit_test(test_damaged_data),
         cmocka_unit_test(test_refused),

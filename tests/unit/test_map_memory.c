@@ -5,7 +5,7 @@
 #include "sightline/io.h"
 
 static const char text[] =
-    "sightline 1\n#! note\n#! and more\nwalls 0 0 9 0 9 9 0 9 0 0\n"
+    "sightline 1\n#! note\n#! and more\n# room\nwalls 0 0 9 0 9 9 0 9 0 0 # end\n"
     "wall 0 0 9 0\nwall 3 0 3 9\nwall 0 3 9 3\nwall 0 0 4 4\n"
     "wall 0 1 1 1\nwall 0 2 1 2\nwall 0 4 1 4\nwall 0 5 1 5\n"
     "door a 0 0 0 1 open\ndoor b 1 0 1 1 shut\nmirror 0 0 1 0\nmirror 2 0 3 0 one\n"

@@ -190,8 +190,10 @@ static void test_notes(void **state) {
                             &map));
     assert_string_equal(map.notes, "Copyright\n\n  indented # and more\n");
     char *text = map_text(&map);
-    assert_string_equal(text, "sightline 1\n#! Copyright\n#!\n#!   indented # and more\n"
-                              "wall 0 0 1 0\n");
+    assert_string_equal(text, "# ! not one: it leads the first statement\n"
+                              "sightline 1\n#! Copyright\n#!\n#!   indented # and more\n"
+                              "# not one\n#!not one\nwall 0 0 1 0\n"
+                              "# ! not one: it stands behind the second\n");
     free(text);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);

@@ -124,14 +124,19 @@ SL_API sl_status sl_baked_parse(sl_context *context, const char *name, const voi
 
 /// What an export needs beside the baked file. Zeroed: nothing.
 typedef struct sl_export_options {
-    const char *wad; ///< "reject": the WAD that holds the map that was baked
-    const char *map; ///< "reject": that map's name
+    const char *wad;       ///< "reject": the WAD that holds the map that was baked
+    const char *map;       ///< "reject": that map's name
+    uint32_t json_version; ///< "json": 1 or 2; 0: the newest
 } sl_export_options;
+
+/// The newest version of "json" (lib/bake/EXPORT.md).
+#define SL_JSON_VERSION 2
 
 /// An export for other programs.
 typedef struct sl_export_format {
     const char *name, *what;
-    bool takes_wad; ///< the options `wad` and `map` are for it
+    bool takes_wad;     ///< the options `wad` and `map` are for it
+    bool shows_mirrors; ///< it has a place for mirrors and what they show
     sl_status (*write)(sl_context *context, const sl_baked *baked, const sl_export_options *options,
                        const char *path);
 } sl_export_format;
@@ -145,9 +150,14 @@ SL_API const sl_export_format *sl_export_formats(const sl_context *context, size
 SL_API sl_status sl_export_formats_add(sl_context *context, const sl_export_format *more,
                                        size_t count);
 
-/// "json": one object with walls, cells, portals and visible sets.
+/// "json": one object with all that a baked file holds, but for stab trees and notes.
+/// SL_UNSUPPORTED for a map with mirrors in version 1.
 SL_API sl_status sl_export_json(sl_context *context, const sl_baked *baked,
                                 const sl_export_options *options, const char *path);
+/// "geojson": a FeatureCollection of cells, portals, walls, doors, mirrors, one-way glass and
+/// starts, in the map's own coordinates.
+SL_API sl_status sl_export_geojson(sl_context *context, const sl_baked *baked,
+                                   const sl_export_options *options, const char *path);
 /// "csv": a line "from,to" for each ordered pair seen.
 SL_API sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
                                const sl_export_options *options, const char *path);

@@ -91,8 +91,9 @@ typedef struct sl_eye_layer {
 
 /// Draws what an eye sees, likewise: the map, the eye and its cone, and each cell in the colour of
 /// the last layer that still keeps it; layers go from loose to tight, each within the one before.
-/// Over it `parts` of the region, usually what is seen by mirror. The options' width, title and
-/// dark count. SL_BAD_ARGUMENT on more layers than SL_EYE_LAYERS_MOST or a view that is not usable.
+/// Over it `parts` of the visible region: first those seen directly, which are pale, then those
+/// seen by mirror, in a colour of their own. The options' width, title and dark count.
+/// SL_BAD_ARGUMENT on more layers than SL_EYE_LAYERS_MOST or a view that is not usable.
 SL_API sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
                              const sl_eye_layer *layers, size_t layer_count,
                              const sl_drawn_region *parts, size_t part_count,
@@ -115,9 +116,14 @@ typedef struct sl_field {
     double step;          ///< side of a square
     size_t columns, rows; ///< at least 1
     const double *values; ///< NaN for none
+    const char *unit;     ///< of the values: "m2"; NULL for none
+    /// The ends of the colour scale, so that several pictures can be compared. Values beyond have
+    /// the colours of the ends. Equal, as in a zeroed field: the least and the largest value.
+    double least, most;
 } sl_field;
 
-/// Draws a heat map over the plan with its colour scale, likewise.
+/// Draws a heat map over the plan with its colour scale, likewise. SL_BAD_ARGUMENT also on a scale
+/// whose ends descend, or that are beyond 1e300.
 SL_API sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked,
                                     const sl_field *field, const sl_draw_options *options,
                                     const char *path);

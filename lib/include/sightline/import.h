@@ -99,6 +99,11 @@ SL_API sl_status sl_map_formats_add(sl_context *context, const sl_map_format *mo
 SL_API sl_status sl_map_read(sl_context *context, const char *path,
                              const sl_import_options *options, sl_map *map);
 
+/// The same from memory. The text or bytes are only read; a 0 stands behind them. `path` is for
+/// messages, for its ending, and for files beside it.
+SL_API sl_status sl_map_parse(sl_context *context, const char *path, const char *text, size_t size,
+                              const sl_import_options *options, sl_map *map);
+
 /// Lists the maps of a file into an empty list, which stays empty on failure and for a format of
 /// one map a file.
 SL_API sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list);
@@ -112,6 +117,8 @@ typedef struct sl_map_choice {
 
 /// Fails as sl_map_read does where the file is broken; `out` then stays as it was.
 SL_API sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choice *out);
+SL_API sl_status sl_map_choice_parse(sl_context *context, const char *path, const char *text,
+                                     size_t size, sl_map_choice *out);         ///< as sl_map_parse
 SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); ///< and zeroes it
 
 #ifdef __cplusplus

@@ -71,12 +71,12 @@ SL_API sl_status sl_map_read_image(sl_context *context, const char *name, const 
 SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
-/// A map of Tiled, as XML (.tmx) or JSON (.tmj): orthogonal, of either size, fixed or without
-/// bounds, with its tilesets, those in files beside it too. Solid is what the layers asked for
-/// hold; else what the layers, tiles and objects themselves say (lib/io/FORMATS.md). Objects named
-/// as starts or doors are taken as such; a door runs from solid square to solid square. Unit:
-/// pixels. What was taken is noted. SL_BAD_ARGUMENT where options->layers or options->start_names
-/// has a name that the map has not.
+/// A map of Tiled, as XML (.tmx) or JSON (.tmj): orthogonal, isometric, staggered or hexagonal,
+/// fixed or without bounds, with its tilesets, those in files beside it too. Solid is what the
+/// layers asked for hold; else what the layers, tiles and objects themselves say
+/// (lib/io/FORMATS.md). Objects named as starts or doors are taken as such; a door runs from solid
+/// square to solid square. Unit: pixels, as Tiled draws the map. What was taken is noted.
+/// SL_BAD_ARGUMENT where options->layers or options->start_names has a name that the map has not.
 SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 /// As sl_map_read_tmx, from JSON.
@@ -101,7 +101,8 @@ SL_API sl_status sl_map_read_uvtt(sl_context *context, const char *name, const c
 SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text,
                                      size_t size, const sl_import_options *options, sl_map *map);
 
-/// The walls of our own JSON export.
+/// The map in our own JSON export, version 1 or 2: walls, solid ground, doors, mirrors, one-way
+/// glass, seams, starts, paths, objects, range. SL_BAD_INPUT, naming the place, for other versions.
 SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
                                     size_t size, const sl_import_options *options, sl_map *map);
 

@@ -37,7 +37,8 @@ typedef struct sl_wall {
     uint32_t ground; ///< bits of SL_SOLID_LEFT ...; 0 for most maps
 } sl_wall;
 
-/// A door: a portal that can be shut.
+/// A door: a portal that can be shut. Doors of one name are parts of one door, which open and shut
+/// together.
 typedef struct sl_door {
     char *name;
     sl_segment segment;
@@ -90,6 +91,14 @@ typedef struct sl_label {
     uint32_t text; ///< where it begins in the map's label_text
 } sl_label;
 
+/// A comment of a map text, with its '#', or an empty line after one. It belongs to the statement
+/// on `line`; 0: to the first line, UINT32_MAX: to the end of the file.
+typedef struct sl_comment {
+    char *text;
+    uint32_t line;
+    bool behind; ///< on the same line as the statement; else on a line of its own before it
+} sl_comment;
+
 /// All arrays belong to the map. A zeroed map is empty.
 typedef struct sl_map {
     char *source; ///< the name of its file, for messages; NULL for none
@@ -124,6 +133,8 @@ typedef struct sl_map {
     sl_label *labels;
     char *label_text;
     size_t label_count, label_length, label_room, label_text_room;
+    sl_comment *comments; ///< of a map text, in its order; .slv files do not keep them
+    size_t comment_count, comment_room;
     bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
     bool ground_guessed;  ///< the reader found the walls' ground by rules of thumb: where they
                           ///< contradict each other, ground is open

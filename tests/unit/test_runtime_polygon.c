@@ -1,0 +1,359 @@
+// The runtime's visible polygon against the library's visible region: on every map, on turned maps,
+// and past shut doors and one-way glass against a space with walls there.
+//   test_runtime_polygon [EYES]    so many eyes instead of ten thousand
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "sightline/support.h"
+
+#include <math.h>
+
+enum { ROOM = 1 << 13 };
+
+static uint64_t eyes = 10000;
+
+typedef struct trial {
+    sl_context *context;
+    const baked_file *f;
+    sl_outline outline;
+    sl_region region;
+    uint32_t *scratch;
+    const unsigned char *shut;
+    sl_random random;
+    size_t asked, seen, exact;
+} trial;
+
+static trial trial_of(sl_context *context, const baked_file *f, const sl_space *space) {
+    trial t = {.context = context, .f = f, .random = {23}};
+    assert_ok(context, sl_outline_make(context, space, &t.outline));
+    t.scratch = malloc(sl_runtime_scratch_count(&f->runtime) * sizeof *t.scratch);
+    assert_non_null(t.scratch);
+    return t;
+}
+
+static void trial_end(trial *t) {
+    free(t->scratch);
+    sl_region_destroy(t->context, &t->region);
+    sl_outline_destroy(t->context, &t->outline);
+}
+
+static double distance_to(sl_point eye, sl_point a, sl_point b) {
+    const sl_point d = {b.x - a.x, b.y - a.y};
+    const double square = d.x * d.x + d.y * d.y;
+    double share = square > 0 ? ((eye.x - a.x) * d.x + (eye.y - a.y) * d.y) / square : 0;
+    share = fmin(fmax(share, 0), 1);
+    return hypot(a.x + share * d.x - eye.x, a.y + share * d.y - eye.y);
+}
+
+/// The largest distance of a corner of one polygon from the outline of another.
+static double farthest(const sl_point *from, size_t from_count, const sl_point *to,
+                       size_t to_count) {
+    double most = 0;
+    for (size_t i = 0; i < from_count; i++) {
+        double least = INFINITY;
+        for (size_t k = 0; k < to_count && least > most; k++)
+            least = fmin(least, distance_to(from[i], to[k], to[(k + 1) % to_count]));
+        most = fmax(most, least);
+    }
+    return most;
+}
+
+static double area_of(sl_point eye, const sl_point *p, size_t count) {
+    double area = 0;
+    for (size_t i = 0; i < count; i++) {
+        const sl_point a = p[i], b = p[(i + 1) % count];
+        area += ((a.x - eye.x) * (b.y - eye.y) - (a.y - eye.y) * (b.x - eye.x)) / 2;
+    }
+    return area;
+}
+
+static bool has(const sl_point *points, size_t count, sl_point at) {
+    for (size_t i = 0; i < count; i++)
+        if (points[i].x == at.x && points[i].y == at.y) return true;
+    return false;
+}
+
+/// Drops needles: if a shut door at the eye crosses a wall, the region has the door's far end too.
+static size_t without_needles(const trial *t, sl_point *points, bool *exact) {
+    const sl_region *region = &t->region;
+    size_t count = 0;
+    for (size_t i = 0; i < region->count; i++) {
+        const sl_point a = region->points[(i + region->count - 1) % region->count],
+                       at = region->points[i], b = region->points[(i + 1) % region->count];
+        const sl_point u = {a.x - at.x, a.y - at.y}, v = {b.x - at.x, b.y - at.y};
+        if (t->shut && u.x * v.y == u.y * v.x && u.x * v.x + u.y * v.y > 0) continue;
+        exact[count] = region->edges[i].exact;
+        points[count++] = at;
+    }
+    return count;
+}
+
+/// The corners of the map that the region has, but those in one line with their neighbours, are
+/// corners of the polygon to the last bit.
+static void has_corners(trial *t, const sl_point *is, const bool *exact, size_t is_count,
+                        const sl_point *points, size_t count) {
+    for (size_t i = 0; i < is_count; i++) {
+        const sl_point a = is[(i + is_count - 1) % is_count], b = is[(i + 1) % is_count];
+        if (!exact[i] || distance_to(is[i], a, b) < 1e-9 * hypot(b.x - a.x, b.y - a.y)) continue;
+        t->exact++;
+        if (!has(points, count, is[i]))
+            fail_msg("%s: (%.17g, %.17g) does not have the corner (%.17g, %.17g)", t->f->name,
+                     t->region.view.eye.x, t->region.view.eye.y, is[i].x, is[i].y);
+    }
+}
+
+static void compare(trial *t, const sl_view *view) {
+    static sl_point points[ROOM], few[ROOM], needless[ROOM];
+    static bool exact[ROOM];
+    const sl_runtime *r = &t->f->runtime;
+    const sl_point eye = view->eye;
+    // Directions may have any length but a very small one.
+    const double up = r->max_x - r->min_x < 1 ? 0x1p300 : 1;
+    const sl_runtime_view same = {eye.x,
+                                  eye.y,
+                                  view->full,
+                                  {up * (view->right.x - eye.x), up * (view->right.y - eye.y)},
+                                  {up * (view->left.x - eye.x), up * (view->left.y - eye.y)}};
+    const uint32_t count =
+        sl_runtime_visible_polygon(r, &same, t->shut, t->scratch, &points[0].x, ROOM);
+    assert_true(count <= ROOM);
+    assert_ok(t->context, sl_region_make(t->context, &t->outline, view, 0, &t->region));
+    const sl_region *is = &t->region;
+    t->asked++;
+    const double size = fmax(r->max_x - r->min_x, r->max_y - r->min_y);
+    const double largest =
+        fmax(fmax(fabs(r->min_x), fabs(r->max_x)), fmax(fabs(r->min_y), fabs(r->max_y)));
+    const double area = sl_region_area(is), error = 1e-14 * size + 4e-16 * largest;
+    if (count == 0 || is->count < 3) {
+        if (count || fabs(area) > error * size)
+            fail_msg("%s: (%.17g, %.17g)%s from (%g, %g) to (%g, %g): %u points for %zu",
+                     t->f->name, eye.x, eye.y, view->full ? "" : " with a cone", same.right[0],
+                     same.right[1], same.left[0], same.left[1], count, is->count);
+        return;
+    }
+    t->seen++;
+    const double said = area_of(eye, points, count);
+    assert_true(is->count <= ROOM);
+    const size_t is_count = without_needles(t, needless, exact);
+    const double off = farthest(points, count, needless, is_count);
+    const double missed = farthest(needless, is_count, points, count);
+    if (!(fabs(said - area) <= 8 * error * size && off <= 4 * error && missed <= 4 * error))
+        fail_msg("%s: (%.17g, %.17g)%s from (%g, %g) to (%g, %g): area %.17g for %.17g, off by "
+                 "%g and %g of %g",
+                 t->f->name, eye.x, eye.y, view->full ? "" : " with a cone", same.right[0],
+                 same.right[1], same.left[0], same.left[1], said, area, off, missed, size);
+    has_corners(t, needless, exact, is_count, points, count);
+    if (t->asked % 16) return;
+    // The same number for any room, and no more written than there is room for.
+    const uint32_t room = (uint32_t)sl_random_below(&t->random, count);
+    few[room] = (sl_point){-1, -2};
+    assert_int_equal(sl_runtime_visible_polygon(r, &same, t->shut, t->scratch, &few[0].x, room),
+                     count);
+    assert_memory_equal(few, points, room * sizeof *few);
+    assert_true(few[room].x == -1 && few[room].y == -2);
+    assert_int_equal(sl_runtime_visible_polygon(r, &same, t->shut, t->scratch, NULL, 0), count);
+}
+
+/// Whether a rounded sum is the sum (Knuth's two-sum leaves nothing over).
+static bool is_sum(double a, double b, double sum) {
+    return sum - a == b && sum - b == a;
+}
+
+/// A point of the cone's border, exact to subtract again; the eye itself where there is none such.
+static sl_point border(sl_random *random, sl_point eye, double reach) {
+    const double step = ldexp(1, ilogb(reach) - 4);
+    const sl_point by = {step * ((double)sl_random_below(random, 9) - 4),
+                         step * ((double)sl_random_below(random, 9) - 4)};
+    const sl_point at = {eye.x + by.x, eye.y + by.y};
+    return is_sum(eye.x, by.x, at.x) && is_sum(eye.y, by.y, at.y) ? at : eye;
+}
+
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static void look_from(trial *t, sl_point eye) {
+    const sl_runtime *r = &t->f->runtime;
+    const double reach = fmin(r->max_x - r->min_x, r->max_y - r->min_y);
+    if (sl_runtime_locate(r, eye.x, eye.y) == SL_RUNTIME_NO_CELL) return;
+    sl_view view = sl_view_all_round(eye);
+    compare(t, &view);
+    for (int i = 0; i < 2; i++) {
+        view =
+            (sl_view){eye, false, border(&t->random, eye, reach), border(&t->random, eye, reach)};
+        if (!same_point(view.right, eye) && !same_point(view.left, eye)) compare(t, &view);
+    }
+}
+
+static sl_point between(sl_point a, sl_point b, double part) {
+    return (sl_point){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+}
+
+/// Eyes within cells, on walls, on portals, on corners.
+static void look_from_many(trial *t, const sl_space *s, uint64_t count) {
+    for (uint64_t i = 0; i < count; i += 5) {
+        const sl_point v = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+        const sl_point w = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+        const sl_box *b = &s->bounds;
+        look_from(t, (sl_point){b->min.x + sl_random_unit(&t->random) * (b->max.x - b->min.x),
+                                b->min.y + sl_random_unit(&t->random) * (b->max.y - b->min.y)});
+        look_from(t, between(v, w, sl_random_unit(&t->random)));
+        look_from(t, v);
+        look_from(t, (sl_point){v.x, w.y});
+        if (!s->portal_count) continue;
+        const sl_portal *p = &s->portals[sl_random_below(&t->random, s->portal_count)];
+        look_from(t, between(p->left, p->right, sl_random_below(&t->random, 2) ? 0.5 : 0.25));
+    }
+}
+
+/// Looks past shut doors and dark glass, and in a space with walls there.
+static void look_past(sl_context *context, const baked_file *f, const unsigned char *shut,
+                      sl_point eye, uint64_t seed) {
+    bool is_shut[64] = {false};
+    sl_space walled = {0};
+    for (uint32_t i = 0; i < f->runtime.door_count; i++) is_shut[i] = shut[i];
+    const sl_filtered_space filtered = {.shut = is_shut, .eye = &eye};
+    assert_ok(context, sl_filtered_space_make(context, &f->baked.space, &filtered, NULL, &walled));
+    trial t = trial_of(context, f, &walled);
+    t.shut = shut;
+    t.random = (sl_random){seed};
+    look_from(&t, eye);
+    trial_end(&t);
+    sl_space_destroy(context, &walled);
+}
+
+static void look_past_glass(sl_context *context, const baked_file *f) {
+    static const unsigned char open[64];
+    const sl_box *b = &f->baked.space.bounds;
+    sl_random random = {29};
+    assert_true(f->runtime.door_count <= 64);
+    for (uint64_t i = 0; i < eyes / 100 + 1; i++)
+        look_past(context, f, open,
+                  (sl_point){b->min.x + sl_random_unit(&random) * (b->max.x - b->min.x),
+                             b->min.y + sl_random_unit(&random) * (b->max.y - b->min.y)},
+                  i);
+}
+
+static size_t asked, corners;
+
+static void polygons_are_the_same(const baked_file *f) {
+    sl_context *context = testing_context(NULL);
+    if (f->baked.map.oneway_count) {
+        look_past_glass(context, f);
+        sl_context_destroy(context);
+        return;
+    }
+    trial t = trial_of(context, f, &f->baked.space);
+    look_from_many(&t, &f->baked.space, eyes / 50 + 1);
+    asked += t.asked;
+    corners += t.exact;
+    trial_end(&t);
+    sl_context_destroy(context);
+}
+
+static void on_every_map(void **state) {
+    (void)state;
+    baked_file_each(polygons_are_the_same);
+    print_message("%zu views, %zu corners\n", asked, corners);
+}
+
+static void on_turned_maps(void **state) {
+    (void)state;
+    static const char *const names[] = {"office", "gallery", "oblique/chapel", "oblique/rotunda",
+                                        "oblique/star"};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 10; i++) {
+        baked_file f = baked_file_turned(context, names[i / 2], i % 2 ? 17.3 : 44.9, i % 2 * 1e4);
+        trial t = trial_of(context, &f, &f.baked.space);
+        look_from_many(&t, &f.baked.space, eyes / 20 + 1);
+        trial_end(&t);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
+// --- doors and glass
+
+enum { SIZE = 12, MAPS = 40, DOORS = 6 };
+
+static sl_segment random_segment(sl_random *random) {
+    const bool upright = sl_random_below(random, 2);
+    const double at = (double)sl_random_below(random, SIZE + 1);
+    const double from = (double)sl_random_below(random, SIZE);
+    const double to = fmin(from + 1 + (double)sl_random_below(random, 4), SIZE);
+    const bool turned = sl_random_below(random, 2);
+    const sl_segment s =
+        upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
+    return turned ? (sl_segment){s.b, s.a} : s;
+}
+
+static void random_map(sl_context *context, sl_random *random, bool glass, sl_map *map) {
+    const sl_point c[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(context, sl_map_add_wall(context, map, c[i], c[i + 1], 0));
+    for (int i = 0; i < 10; i++) {
+        const sl_segment at = random_segment(random);
+        assert_ok(context, sl_map_add_wall(context, map, at.a, at.b, 0));
+    }
+    for (int i = 0; i < DOORS; i++) {
+        const char name[2] = {(char)('a' + i), 0};
+        assert_ok(context, sl_map_add_door(context, map, name, random_segment(random), true, 0));
+        if (glass) assert_ok(context, sl_map_add_oneway(context, map, random_segment(random), 0));
+    }
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
+}
+
+static void past_doors_and_glass(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (uint64_t seed = 1; seed <= MAPS; seed++) {
+        sl_random random = {seed};
+        baked_file f = {.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
+        random_map(context, &random, seed % 2, &f.baked.map);
+        baked_file_make(context, &f, false);
+        for (uint64_t i = 0; i < eyes / 200 + 1; i++) {
+            unsigned char shut[DOORS];
+            for (int k = 0; k < DOORS; k++) shut[k] = sl_random_below(&random, 2);
+            const sl_point eye = {(double)sl_random_below(&random, 8 * SIZE) / 8,
+                                  (double)sl_random_below(&random, 8 * SIZE) / 8};
+            look_past(context, &f, shut, eye, seed + i);
+        }
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
+// --- by hand
+
+static void a_room_is_its_corners(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "walls 0 0 9 0 9 9 0 9 0 0\n");
+    uint32_t scratch[16];
+    double points[16];
+    assert_true(sl_runtime_scratch_count(&f.runtime) <= 16);
+    sl_runtime_view view = sl_runtime_view_all_round(3, 4);
+    assert_int_equal(sl_runtime_visible_polygon(&f.runtime, &view, NULL, scratch, points, 8), 4);
+    assert_int_equal(points[0] + points[2] + points[4] + points[6], 18);
+    view = sl_runtime_view_toward(3, 4, 1, 0, 0.5);
+    assert_int_equal(sl_runtime_visible_polygon(&f.runtime, &view, NULL, scratch, points, 8), 3);
+    const double cone[] = {3, 4, 9, 1, 9, 7};
+    assert_memory_equal(points, cone, sizeof cone);
+    view = sl_runtime_view_all_round(10, 4);
+    assert_int_equal(sl_runtime_visible_polygon(&f.runtime, &view, NULL, scratch, points, 8), 0);
+    view = sl_runtime_view_all_round(NAN, 4);
+    assert_int_equal(sl_runtime_visible_polygon(&f.runtime, &view, NULL, scratch, points, 8), 0);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_room_is_its_corners),
+        cmocka_unit_test(on_every_map),
+        cmocka_unit_test(on_turned_maps),
+        cmocka_unit_test(past_doors_and_glass),
+    };
+    if (argc == 2) eyes = strtoull(argv[1], NULL, 10);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
