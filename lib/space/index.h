@@ -136,6 +136,9 @@ static inline bool sli_cell_grid_next(const sl_cell_grid *g, sli_cell_grid_range
     return false;
 }
 
+/// Whether a point is in a cell or on its border. Exact.
+bool sli_cell_holds(const sl_space *space, uint32_t cell, sl_point point);
+
 /// The cell that an eye looks from: as sl_space_locate, but SL_NO_CELL in solid ground.
 static inline uint32_t sli_eye_cell(const sl_space *space, sl_point eye) {
     const uint32_t cell = sl_space_locate(space, eye);

@@ -22,6 +22,7 @@
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <string.h>
@@ -259,22 +260,12 @@ static sl_status settle_doors(inside *m, size_t *reopened) {
 
 // --- starts
 
-/// Whether a point is in a cell or on its border.
-static bool holds(const sl_space *space, uint32_t number, sl_point point) {
-    const sl_cell *cell = &space->cells[number];
-    const sl_point *corners = space->vertices + cell->first_vertex;
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sli_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
-            return false;
-    return true;
-}
-
 /// The cell of a start; one that is not solid where the start is on the border of several.
 static uint32_t cell_of_start(const inside *m, sl_point at) {
     const uint32_t cell = sl_space_locate(m->space, at);
     if (cell == SL_NO_CELL || !m->solid_by[cell]) return cell;
     for (uint32_t i = 0; i < m->space->cell_count; i++)
-        if (!m->solid_by[i] && holds(m->space, i, at)) return i;
+        if (!m->solid_by[i] && sli_cell_holds(m->space, i, at)) return i;
     return cell;
 }
 

@@ -130,8 +130,7 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     return status;
 }
 
-/// Whether a point is in a cell or on its border.
-static bool holds(const sl_space *space, uint32_t number, sl_point point) {
+bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
@@ -146,7 +145,8 @@ static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sli_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
     for (uint32_t i = space->grid.first[bucket]; i < end; i++)
-        if ((i + 1 == end && !space->loose) || holds(space, cells[i], point)) return cells[i];
+        if ((i + 1 == end && !space->loose) || sli_cell_holds(space, cells[i], point))
+            return cells[i];
     return SL_NO_CELL;
 }
 
