@@ -411,16 +411,17 @@ sl_status cmd_info(command_console *console, int argc, char **argv) {
     const option_table input = input_option_table(&request.input);
     const option_spec options[] = {
         {"json", 0, NULL, "print one JSON object", .flag = &request.json},
-        {"shut", 0, "NAME,...", "of a baked file: with these doors shut", .text = &request.shut},
+        {"shut", 0, "NAME,...", "shut these doors of a baked file (it counts what is still seen)",
+         .text = &request.shut},
         {.group = &input},
     };
     const command_usage usage = {
         .name = "info",
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Prints what a map holds, what cleaning its walls would do and which effects it\n"
-                "calls for; of a baked file (by its ending, .slv) its parts, how it was baked and\n"
-                "how much a cell sees.",
+        .what = "Shows what a map holds: walls, doors, starts, effects, and what cleaning would "
+                "change. Of a baked file it shows the parts, how it was baked, and how much a cell "
+                "sees.",
         .tables = input_print_formats,
         .examples = "  sightline info office.map\n"
                     "  sightline info office.slv --json",
