@@ -93,3 +93,10 @@ write_basic_package_version_file("${out}/sightline-config-version.cmake"
 install(FILES "${out}/sightline-config.cmake" "${out}/sightline-config-version.cmake"
   DESTINATION "${package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# `cpack --config build/release/CPackConfig.cmake`: an archive that can be unpacked anywhere.
+set(CPACK_GENERATOR TGZ)
+set(CPACK_PACKAGE_VENDOR "Sightline contributors")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_STRIP_FILES TRUE)
+include(CPack)
