@@ -146,19 +146,28 @@ static void print_parts(const bake_report *report) {
 static void print_effect_work(const sl_visibility *visibility) {
     const sl_see_account *account = &visibility->account;
     const sl_door_sets *doors = &visibility->doors;
-    if (visibility->mirrored.cell_count)
-        printf("  mirrored  %" PRIu64 " pairs seen by mirror; %" PRIu64 " places rounded\n",
-               account->mirrored_pairs, account->rounded_places);
-    if (doors->cell_count)
-        printf("  doors     %" PRIu64 " bytes of door sets, %.2f a pair; %" PRIu64
-               " pairs with more than kept: they count as seen\n",
-               sl_door_sets_bytes(doors),
-               account->pairs ? (double)sl_door_sets_bytes(doors) / (double)account->pairs : 0,
-               account->door_fallbacks);
-    if (account->range_tests)
-        printf("  in range  %" PRIu64 " sequences measured, %" PRIu64
-               " within rounding of the range: they count as seen\n",
-               account->range_tests, account->close_calls);
+    if (visibility->mirrored.cell_count) {
+        printf("  mirrored  %" PRIu64 " pairs seen by mirror", account->mirrored_pairs);
+        if (account->rounded_places)
+            printf("; %" PRIu64 " places were rounded", account->rounded_places);
+        putchar('\n');
+    }
+    if (doors->cell_count) {
+        char size[SIZE_TEXT];
+        size_write(sl_door_sets_bytes(doors), size);
+        printf("  doors     %s of door sets", size);
+        if (account->door_fallbacks)
+            printf("; %" PRIu64 " pairs have too many sets and count as seen (--door-sets)",
+                   account->door_fallbacks);
+        putchar('\n');
+    }
+    if (account->range_tests) {
+        printf("  in range  %" PRIu64 " sequences measured", account->range_tests);
+        if (account->close_calls)
+            printf("; %" PRIu64 " end within rounding of the range and count as seen",
+                   account->close_calls);
+        putchar('\n');
+    }
 }
 
 static void print_visibility(const sl_baked *baked) {
@@ -168,7 +177,7 @@ static void print_visibility(const sl_baked *baked) {
            sight_name(visibility->sight), baked->method, baked->solver[0] ? " with " : "",
            baked->solver, sl_guarantee_name(visibility->guarantee));
     if (account->doubtful_pairs)
-        printf("  doubtful  %" PRIu64 " of them, of which rounding decided\n",
+        printf("  doubtful  %" PRIu64 " of them were decided by rounding\n",
                account->doubtful_pairs);
     if (account->tests)
         printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
@@ -179,10 +188,13 @@ static void print_visibility(const sl_baked *baked) {
                account->pieces, account->deepest);
     print_effect_work(visibility);
     const sl_stab_trees *trees = &visibility->trees;
-    if (trees->cell_count)
-        printf("  trees     %" PRIu64 " nodes kept, %" PRIu32 " of %" PRIu32
-               " trees left out by --tree-memory\n",
-               trees->offsets[trees->cell_count], trees->left_out, trees->cell_count);
+    if (trees->cell_count) {
+        printf("  trees     %" PRIu64 " nodes kept", trees->offsets[trees->cell_count]);
+        if (trees->left_out)
+            printf("; %" PRIu32 " of %" PRIu32 " trees are left out (--tree-memory)",
+                   trees->left_out, trees->cell_count);
+        putchar('\n');
+    }
 }
 
 static void print_seconds(const bake_report *report) {
@@ -203,8 +215,9 @@ sl_status bake_report_print(sl_context *context, const bake_report *report) {
     printf("%s: %s, baked from %s\n", report->output, file, report->input);
     printf("  walls     %" PRIu32, space->wall_count);
     cleaning_print(&report->account.cleaning);
-    printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside", space->cell_count,
-           space->inside_count);
+    printf("  cells     %" PRIu32, space->cell_count);
+    if (space->inside_count < space->cell_count)
+        printf(", %" PRIu32 " inside", space->inside_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');
     ground_print(space);
