@@ -272,7 +272,7 @@ static sl_status compare_eye_and_report(command_console *console, const compare_
 static void print_tables(void) {
     compare_print_columns();
     compare_eye_print_columns();
-    pipeline_print_methods("", "");
+    pipeline_print_methods();
     pipeline_print_subdivisions();
     pipeline_print_effects();
     input_print_formats();

@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include "help.h"
 #include "outputs.h"
 #include "sightline/support.h"
 
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 64, HELP_COLUMN = 26 };
+enum { MAX_OPTIONS = 64 };
 
 /// All options of a command, with those of its groups, and the argument of each: NULL where the
 /// option is not given, "" for a flag. Arguments are gathered first and read afterwards, so that
@@ -22,6 +23,10 @@ typedef struct parsing {
 } parsing;
 
 // --- tables
+
+void option_table_topic(option_table *table, const char *topic) {
+    for (size_t i = 0; i < table->count; i++) table->items[i].topic = topic;
+}
 
 void option_table_add(option_table *table, const option_spec *items, size_t count) {
     assert(table->count + count <= sizeof table->items / sizeof *table->items);
@@ -38,35 +43,6 @@ static void add_options(parsing *p, const option_spec *options, size_t count) {
         assert(p->count < MAX_OPTIONS);
         p->options[p->count++] = options[i];
     }
-}
-
-// --- help
-
-static void print_option(const option_spec *option) {
-    char head[64], letter[8] = "";
-    if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    const int width =
-        snprintf(head, sizeof head, "  %s--%s%s%s", letter, option->name,
-                 option->argument ? " " : "", option->argument ? option->argument : "");
-    if (width < HELP_COLUMN)
-        printf("%-*s", HELP_COLUMN, head);
-    else
-        printf("%s\n%*s", head, HELP_COLUMN, "");
-    for (const char *line = option->help;;) {
-        const size_t length = strcspn(line, "\n");
-        printf("%.*s\n", (int)length, line);
-        if (!line[length]) return;
-        line += length + 1;
-        printf("%*s", HELP_COLUMN, "");
-    }
-}
-
-static void print_help(const parsing *p) {
-    const command_usage *usage = p->usage;
-    printf("usage: sightline %s %s\n\n%s\n\noptions:\n", usage->name, usage->synopsis, usage->what);
-    for (size_t i = 0; i < p->count; i++) print_option(&p->options[i]);
-    if (usage->tables) usage->tables();
-    printf("\nexamples:\n%s\n", usage->examples);
 }
 
 // --- parsing
@@ -423,9 +399,8 @@ static sl_status check_outputs(const parsing *p, const char *input) {
 sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
                         const char **operands, bool *helped) {
     const option_spec common[] = {
-        {"quiet", 'q', NULL, "no notes, no progress, no report of what is written",
-         .flag = &console->quiet},
-        {"help", 'h', NULL, "this text", .flag = helped},
+        {"quiet", 'q', NULL, "print errors and asked-for data only", .flag = &console->quiet},
+        {"help", 'h', NULL, "show this text; '--help all' shows everything", .flag = helped},
     };
     parsing p = {.context = console->context, .usage = usage};
     *helped = false;
@@ -433,7 +408,9 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
     add_options(&p, common, sizeof common / sizeof *common);
     SL_TRY(take_arguments(&p, argc, argv));
     if (*helped) {
-        print_help(&p);
+        help_form form;
+        SL_TRY(help_form_read(p.context, optind < argc ? argv[optind] : NULL, &form));
+        help_print(usage, p.options, p.count, form);
         return SL_OK;
     }
     SL_TRY(take_operands(&p, argc, argv, operands));

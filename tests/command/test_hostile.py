@@ -78,10 +78,8 @@ class Hostile(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         with sandbox.Sandbox(PROGRAM) as box:
-            text = box.run(["--help"]).stdout
-            listed = text.split("commands:\n")[1].split("\n\n")[0]
-            names = [line.split()[0] for line in listed.splitlines()]
-            cls.commands = [Command(name, box.run([name, "--help"]).stdout) for name in names]
+            names = [line.split("\t")[0] for line in box.run(["--help", "words"]).stdout.splitlines()]
+            cls.commands = [Command(name, box.run([name, "--help", "all"]).stdout) for name in names]
 
     def setUp(self):
         box = sandbox.Sandbox(PROGRAM)
