@@ -54,6 +54,7 @@ typedef enum sl_runtime_status {
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
+    double range; ///< the map's view range; 0 for no limit. All calls about eyes keep to it
     uint32_t cell_count;
     uint32_t portal_count;   ///< portals have numbers too
     uint32_t directed_count; ///< two for each portal
@@ -231,15 +232,20 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 /// each thread needs its own.
 ///
 /// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
-/// walls. No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of
-/// the eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of
-/// the row are returned. A search that takes very long, which a sound file does not cause, returns
-/// this whole row, or all cells if there is none.
+/// walls. A line may run along portals and cross them to its left or to its right, but not some to
+/// the left and others to the right. One-way glass is a wall for an eye on its dark side. For an
+/// eye on its line, the eye's cell is the side. All this is as in the library's exact method.
+///
+/// No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of the
+/// eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of the
+/// row are returned. Nothing beyond the map's own range is, as sl_runtime_look_past explains. A
+/// search that takes very long, which a sound file does not cause, returns this whole row, or all
+/// cells if there is none.
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room);
 
 /// As sl_runtime_look, with shut doors and a view range. `shut` is as for sl_runtime_can_see_past,
-/// or NULL for none. `range` is above 0, or 0 for no limit.
+/// or NULL for none. `range` is above 0, or 0 for the map's own. The smaller one of both holds.
 ///
 /// Doors are exact: a line must reach a cell through portals that are on no shut door. For the
 /// range, the distance to the nearest place that the eye sees of a cell counts. No cell within the
@@ -1003,10 +1009,11 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
            slrt_take_number(&line, false, &out->heading);
 }
 
-/// Each door that a seam is of has a name, and each start three numbers.
+/// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
     slrt_text text, line;
     uint32_t doors = 0;
+    rt->range = 0;
     rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
     rt->text_bytes = (size_t)found[SLRT_MAPT].count;
     text.at = rt->text;
@@ -1015,6 +1022,9 @@ static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
         const slrt_text first = slrt_take_word(&line);
         sl_runtime_viewpoint start;
         if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
+        if (slrt_word_is(&first, "range") &&
+            (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
+            return false;
         if (slrt_word_is(&first, "door")) {
             const slrt_text name = slrt_take_word(&line);
             if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
@@ -1555,7 +1565,17 @@ enum { SLRT_MOST_ARMS = 4 };
 #define SLRT_PATIENCE 256
 #endif
 
-enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
+enum {
+    SLRT_SEEN = 1,
+    SLRT_ENTERED = 2,
+    SLRT_ON_PATH = 4,
+    SLRT_IN_ROW = 8,
+    // Of the last visit: which borders of the sector run along a portal that was crossed. A line on
+    // the right border has crossed it to the left, one on the left border to the right.
+    SLRT_ALONG_RIGHT = 16,
+    SLRT_ALONG_LEFT = 32,
+    SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT
+};
 
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
 /// its directed portals that are done, and the right and left border of the sector through which
@@ -1566,6 +1586,7 @@ typedef struct slrt_search {
     const unsigned char *shut; ///< NULL for none
     double range;              ///< 0 for no limit
     double x, y;               ///< the eye
+    uint32_t eye_cell;
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
@@ -1597,18 +1618,55 @@ static bool slrt_within(const slrt_arm *v, const slrt_arm *a, const slrt_arm *b,
     return (from_a && to_b) || slrt_same_way(a, v) || slrt_same_way(b, v);
 }
 
+static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
+    return !slrt_side(u, v) && slrt_same_way(u, v);
+}
+
+/// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
+/// its borders run along portals (of SLRT_ALONG).
+typedef struct slrt_sector {
+    uint32_t right, left;
+    unsigned along;
+} slrt_sector;
+
+static bool slrt_is_ray(const slrt_search *s, const slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    return slrt_same_ray(&a, &b);
+}
+
+/// Adds what a portal in line with the eye says about the borders. `p` and `q` lead to its right
+/// and left end. False if only a line is left that crosses portals along it both ways: no line
+/// beside it passes them all.
+static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                           slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    const slrt_arm to_left = slrt_make_arm(p->to_x, p->to_y, q->to_x, q->to_y);
+    if (!slrt_same_way(p, q)) { // the eye is on it
+        if (!slrt_side(&to_left, &a) && !slrt_same_way(&to_left, &a))
+            sector->along |= SLRT_ALONG_RIGHT;
+        if (!slrt_side(&to_left, &b) && slrt_same_way(&to_left, &b))
+            sector->along |= SLRT_ALONG_LEFT;
+    } else if (slrt_same_ray(&a, &b)) {
+        // Who goes from its right end to its left end crosses it to the right.
+        sector->along |= slrt_same_way(&to_left, &a) ? SLRT_ALONG_LEFT : SLRT_ALONG_RIGHT;
+    }
+    return sector->along != SLRT_ALONG || !slrt_same_ray(&a, &b);
+}
+
 /// Narrows a sector of less than 180 degrees to its part that leaves through a directed portal;
 /// false for none. From an eye on the directed portal, everything in front of it leaves.
-static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right, uint32_t *left) {
+static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *sector) {
     uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
-    slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left), a, b;
-    int a_p, a_q;
+    const slrt_arm right = slrt_border(s, portal_right), left = slrt_border(s, portal_left);
+    slrt_arm p = right, q = left, a, b;
+    int a_p, a_q, p_b, q_b;
     bool right_within;
-    if (slrt_side(&p, &q) < 0) return false;
-    if (*right == SLRT_ALL_ROUND) {
-        *right = portal_right;
-        *left = portal_left;
-        return true;
+    const int facing = slrt_side(&p, &q);
+    if (facing < 0) return false;
+    if (sector->right == SLRT_ALL_ROUND) {
+        sector->right = portal_right;
+        sector->left = portal_left;
+        return facing || slrt_run_along(s, &right, &left, sector);
     }
     if (slrt_is_zero(&p)) {
         portal_right = portal_left | SLRT_REVERSED;
@@ -1617,15 +1675,24 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right
         portal_left = portal_right | SLRT_REVERSED;
         q = slrt_border(s, portal_left);
     }
-    a = slrt_border(s, *right);
-    b = slrt_border(s, *left);
+    a = slrt_border(s, sector->right);
+    b = slrt_border(s, sector->left);
     a_p = slrt_side(&a, &p);
     a_q = slrt_side(&a, &q);
-    right_within = slrt_within(&p, &a, &b, a_p, slrt_side(&p, &b));
+    p_b = slrt_side(&p, &b);
+    q_b = slrt_side(&q, &b);
+    right_within = slrt_within(&p, &a, &b, a_p, p_b);
     if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
-    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = portal_left;
-    if (right_within) *right = portal_right;
-    return true;
+    if (slrt_within(&q, &a, &b, a_q, q_b)) {
+        if (q_b || !slrt_same_way(&q, &b)) sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
+        sector->left = portal_left;
+    }
+    if (right_within) {
+        if (a_p || !slrt_same_way(&a, &p)) sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
+        sector->right = portal_right;
+    }
+    return facing ? sector->along != SLRT_ALONG || !slrt_is_ray(s, sector)
+                  : slrt_run_along(s, &right, &left, sector);
 }
 
 /// The first entry of a portal among the portals on seams, or where it would be.
@@ -1641,16 +1708,32 @@ static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
     return low;
 }
 
-/// Whether a directed portal is on a shut door.
-static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
+/// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
+/// right to the left. For an eye on its line, the eye's cell decides.
+static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(s->rt, s->eye_cell);
+    const unsigned char *corner = s->rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const int side = slrt_side_of_line(glass, glass + 16, s->x, s->y);
+    uint32_t i;
+    if (side) return side > 0;
+    for (i = 0; i < cell.vertex_count; i++, corner += SLRT_VERTEX_BYTES)
+        if (slrt_side_of_line(glass, glass + 16, slrt_f64(corner), slrt_f64(corner + 8)) > 0)
+            return true;
+    return false;
+}
+
+/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
     const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
-    uint32_t low = slrt_first_seam(rt, portal);
-    for (; low < rt->seam_portal_count; low++) {
-        const unsigned char *on = rt->seam_portals + (size_t)low * 12, *seam;
+    uint32_t i;
+    if (!rt->seam_portal_count) return false;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
-        if (slrt_u32(seam + 32) == 1 && s->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(s, seam)) return true;
     }
     return false;
 }
@@ -1698,18 +1781,23 @@ static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t righ
     return !(near_x * near_x + near_y * near_y > limit * limit);
 }
 
-/// Whether the sector of a cell's last visit contains another one.
-static bool slrt_covered(const slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+/// Whether a cell's last visit has seen all that a visit through another sector would.
+static bool slrt_covered(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
     const uint32_t was_right = s->sectors[2 * (size_t)cell];
     const uint32_t was_left = s->sectors[2 * (size_t)cell + 1];
+    const unsigned more = s->marks[cell] & SLRT_ALONG & ~sector->along;
     slrt_arm a, b, v, w;
-    if (was_right == right && was_left == left) return true;
+    int a_v, w_b;
+    if (was_right == sector->right && was_left == sector->left) return !more;
     a = slrt_border(s, was_right);
     b = slrt_border(s, was_left);
-    v = slrt_border(s, right);
-    w = slrt_border(s, left);
-    return slrt_within(&v, &a, &b, slrt_side(&a, &v), slrt_side(&v, &b)) &&
-           slrt_within(&w, &a, &b, slrt_side(&a, &w), slrt_side(&w, &b));
+    v = slrt_border(s, sector->right);
+    w = slrt_border(s, sector->left);
+    a_v = slrt_side(&a, &v);
+    w_b = slrt_side(&w, &b);
+    if ((!a_v && more & SLRT_ALONG_RIGHT) || (!w_b && more & SLRT_ALONG_LEFT)) return false;
+    return slrt_within(&v, &a, &b, a_v, slrt_side(&v, &b)) &&
+           slrt_within(&w, &a, &b, slrt_side(&a, &w), w_b);
 }
 
 static void slrt_see(slrt_search *s, uint32_t cell) {
@@ -1722,19 +1810,21 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
 /// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
 /// path was seen through a wider sector, and a cell that was entered with a wider one needs no
 /// second visit.
-static void slrt_enter(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
     uint32_t *top = s->path + 4 * (size_t)s->depth;
-    if (s->has_row && !(s->marks[cell] & SLRT_IN_ROW)) return;
-    if (s->marks[cell] & SLRT_ON_PATH) return;
-    if (s->marks[cell] & SLRT_ENTERED && slrt_covered(s, cell, right, left)) return;
+    unsigned char *marks = s->marks + cell;
+    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
+    if (*marks & SLRT_ON_PATH) return;
+    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    s->marks[cell] |= SLRT_ENTERED | SLRT_ON_PATH;
-    s->sectors[2 * (size_t)cell] = right;
-    s->sectors[2 * (size_t)cell + 1] = left;
+    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
+                             sector->along);
+    s->sectors[2 * (size_t)cell] = sector->right;
+    s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
     top[1] = 0;
-    top[2] = right;
-    top[3] = left;
+    top[2] = sector->right;
+    top[3] = sector->left;
     s->depth++;
 }
 
@@ -1744,8 +1834,23 @@ static void slrt_see_row(slrt_search *s) {
         if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
 }
 
+/// Takes the next directed portal of the cell on top of the path.
+static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
+    slrt_sector sector;
+    sector.right = top[2];
+    sector.left = top[3];
+    sector.along = s->marks[top[0]] & SLRT_ALONG;
+    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
+    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
+    slrt_enter(s, slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4), &sector);
+}
+
 static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_enter(s, cell, right, left);
+    slrt_sector sector;
+    sector.right = right;
+    sector.left = left;
+    sector.along = 0;
+    slrt_enter(s, cell, &sector);
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -1756,16 +1861,8 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
             slrt_see_row(s);
             s->depth = 0;
         } else {
-            const uint32_t directed = c.first_directed + top[1]++;
             s->patience--;
-            right = top[2];
-            left = top[3];
-            if (s->shut && slrt_is_shut(s, directed)) continue;
-            if (slrt_narrow(s, directed, &right, &left) &&
-                (!(s->range > 0) || slrt_in_range(s, directed, right, left)))
-                slrt_enter(s,
-                           slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4),
-                           right, left);
+            slrt_search_on(s, top, c.first_directed + top[1]++);
         }
     }
 }
@@ -1799,10 +1896,6 @@ static bool slrt_is_on_portal(const slrt_search *s, uint32_t cell) {
     return false;
 }
 
-static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
-    return !slrt_side(u, v) && slrt_same_way(u, v);
-}
-
 /// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
 /// through a directed portal is one sector. All round from within a cell, each directed portal is
 /// such a piece.
@@ -1830,6 +1923,11 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
         slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
 }
 
+/// The smaller one of a caller's range and the map's own; 0 for no limit.
+static double slrt_range(const sl_runtime *rt, double range) {
+    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room) {
     return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
@@ -1848,9 +1946,10 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     s.rt = runtime;
     s.view = view;
     s.shut = shut;
-    s.range = range;
+    s.range = slrt_range(runtime, range);
     s.x = x;
     s.y = y;
+    s.eye_cell = cell;
     s.path = scratch;
     s.sectors = scratch + 4 * count;
     s.marks = (unsigned char *)(scratch + 6 * count);
@@ -1906,7 +2005,6 @@ typedef struct slrt_walk {
 /// A polygon as it grows, and the part of the view about the eye that is being looked at.
 typedef struct slrt_polygon {
     slrt_search s;
-    uint32_t eye_cell;
     bool broken; ///< the file is not sound, or the search takes too long
     double *points;
     uint32_t room, count;
@@ -2070,37 +2168,6 @@ static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
 
 static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
     return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);
-}
-
-/// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
-/// right to the left. For an eye on its line, the eye's cell decides.
-static bool slrt_is_dark(const slrt_polygon *p, const unsigned char *glass) {
-    const sl_runtime *rt = p->s.rt;
-    const sl_runtime_cell cell = sl_runtime_get_cell(rt, p->eye_cell);
-    const int side = slrt_side_of_line(glass, glass + 16, p->s.x, p->s.y);
-    uint32_t i;
-    if (side) return side > 0;
-    for (i = 0; i < cell.vertex_count; i++) {
-        double corner[2];
-        slrt_read_vertex(rt, &cell, i, corner);
-        if (slrt_side_of_line(glass, glass + 16, corner[0], corner[1]) > 0) return true;
-    }
-    return false;
-}
-
-/// Whether a directed portal is on a shut door or dark glass, and so a wall.
-static bool slrt_is_blocked(const slrt_polygon *p, uint32_t directed) {
-    const sl_runtime *rt = p->s.rt;
-    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
-    uint32_t i;
-    if (p->s.shut && slrt_is_shut(&p->s, directed)) return true;
-    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
-        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
-        if (slrt_u32(on) != portal) return false;
-        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
-        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(p, seam)) return true;
-    }
-    return false;
 }
 
 /// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
@@ -2272,7 +2339,7 @@ static void slrt_spread_on(slrt_polygon *p) {
         end = slrt_side(&to, &b);
         if (slrt_side(&from, &a) > 0) right = top[4];
         if (end < 0) left = top[5];
-        if (portal != SLRT_NONE && !slrt_is_blocked(p, portal)) {
+        if (portal != SLRT_NONE && !slrt_is_blocked(&p->s, portal)) {
             top[2] = portal;
             top[3] = w.side;
             if (end <= 0) p->s.depth--; // nothing is left to see of this cell
@@ -2290,7 +2357,7 @@ static void slrt_spread_on(slrt_polygon *p) {
 static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t right,
                            uint32_t left) {
     const uint32_t portal = piece->directed;
-    if (portal == SLRT_NONE || slrt_is_blocked(p, portal)) {
+    if (portal == SLRT_NONE || slrt_is_blocked(&p->s, portal)) {
         slrt_add_wall(p, piece, right, left);
         return;
     }
@@ -2364,8 +2431,9 @@ static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
         uint32_t open;
         if (slrt_side(&from, &to) || slrt_same_way(&from, &to)) continue;
-        open = piece.directed != SLRT_NONE && slrt_is_blocked(p, piece.directed) ? SLRT_NONE
-                                                                                 : piece.directed;
+        open = piece.directed != SLRT_NONE && slrt_is_blocked(&p->s, piece.directed)
+                   ? SLRT_NONE
+                   : piece.directed;
         touch.any = true;
         if (!slrt_is_zero(&to)) {
             touch.behind = open;
@@ -2386,14 +2454,14 @@ static uint32_t slrt_cell_behind(const slrt_polygon *p, uint32_t directed) {
 /// Finds where the way around the eye starts: clockwise as far as portals lead, or once around. A
 /// wall that ends at the eye is seen edge-on, and hides nothing.
 static void slrt_find_fan(slrt_polygon *p) {
-    slrt_touch touch = slrt_touch_of(p, p->eye_cell), last = touch;
-    p->fan_first = p->eye_cell;
+    slrt_touch touch = slrt_touch_of(p, p->s.eye_cell), last = touch;
+    p->fan_first = p->s.eye_cell;
     p->inside = !touch.any;
     p->fan_is_closed = p->inside;
     if (p->inside) return;
     while (touch.behind != SLRT_NONE && !p->broken) {
         p->fan_first = slrt_cell_behind(p, touch.behind);
-        p->fan_is_closed = p->fan_first == p->eye_cell;
+        p->fan_is_closed = p->fan_first == p->s.eye_cell;
         if (p->fan_is_closed) return;
         touch = slrt_touch_of(p, p->fan_first);
     }
@@ -2466,7 +2534,7 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
     p.s.path = scratch;
     p.s.patience = (uint64_t)SLRT_PATIENCE * 16 *
                    ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
-    p.eye_cell = cell;
+    p.s.eye_cell = cell;
     p.points = points;
     p.room = room;
     slrt_find_fan(&p);
