@@ -70,6 +70,7 @@ typedef struct sl_runtime {
     uint32_t door_count;      ///< doors are numbered in the order of the map
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
+    const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
     const unsigned char *door_offsets, *door_bytes; ///< NULL if no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
     uint32_t seam_count, seam_portal_count;
@@ -558,9 +559,10 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
     rt->grid_offsets = found[SLRT_GRIO].items;
     rt->grid_cells = found[SLRT_GRIC].items;
     buckets = (uint64_t)rt->grid_columns * rt->grid_rows;
-    if (!found[SLRT_BEYO].items || !rt->grid_offsets || !rt->grid_cells || !buckets ||
-        found[SLRT_GRIO].count != buckets + 1 || entries > UINT32_MAX ||
-        slrt_u32(rt->grid_offsets) != 0)
+    rt->neighbours = found[SLRT_BEYO].items;
+    if (!rt->neighbours || found[SLRT_BEYO].count != rt->vertex_count || !rt->grid_offsets ||
+        !rt->grid_cells || !buckets || found[SLRT_GRIO].count != buckets + 1 ||
+        entries > UINT32_MAX || slrt_u32(rt->grid_offsets) != 0)
         return false;
     for (i = 1; i <= buckets; i++) {
         const uint32_t end = slrt_u32(rt->grid_offsets + (size_t)i * 4);
@@ -575,7 +577,7 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
     rt->root = 0;
     rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = NULL;
+    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
@@ -1384,7 +1386,10 @@ static void slrt_scaled(const slrt_arm *arm, double *to_x, double *to_y, double 
 static int slrt_side_exact(const slrt_arm *u, const slrt_arm *v) {
     double a_x, a_y, b_x, b_y, c_x, c_y, d_x, d_y, parts[16], sum;
     int count = 0;
-    // Frequent: points on one axial line.
+    // Frequent: one point, and points on one axial line.
+    if (u->to_x == v->to_x && u->to_y == v->to_y && u->from_x == v->from_x &&
+        u->from_y == v->from_y)
+        return 0;
     if (u->to_x == u->from_x && v->to_x == v->from_x) return 0;
     if (u->to_y == u->from_y && v->to_y == v->from_y) return 0;
     slrt_scaled(u, &a_x, &a_y, &b_x, &b_y);
@@ -1994,12 +1999,12 @@ typedef struct slrt_piece {
 /// A walk around a cell, counter-clockwise, some times from a portal's left end to there again.
 typedef struct slrt_walk {
     sl_runtime_cell cell;
-    uint32_t stop;            ///< the portal at which a lap ends
-    uint32_t passed, side;    ///< the portal passed last, and the side on which `at` lies
-    uint32_t next, next_side; ///< the next portal, and its side
-    uint32_t corners;         ///< the number of corners before it
-    uint32_t laps;            ///< left to do
-    double at[2];
+    uint32_t stop;       ///< the portal at which a lap ends; SLRT_NONE in a cell without portals
+    uint32_t next;       ///< the next portal
+    bool is_here;        ///< it is on this side, ahead
+    uint32_t side, laps; ///< the side that `at` lies on, and the laps to do
+    uint32_t corners;    ///< to pass at most: a bound for files that are not sound
+    double at[2], a[2], b[2]; ///< the side goes from a to b
 } slrt_walk;
 
 /// A polygon as it grows, and the part of the view about the eye that is being looked at.
@@ -2048,79 +2053,102 @@ static int slrt_turn(const double *a, const double *b, const double *c) {
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is on the segment from a to b. The box of an axial segment is the segment.
+/// Whether a point is in the box of the segment from a to b: on it, if that is axial.
 static bool slrt_is_on(const double *a, const double *b, const double *point) {
-    return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]) &&
-           (a[0] == b[0] || a[1] == b[1] || slrt_same_place(a, point) ||
-            slrt_same_place(b, point) || !slrt_turn(a, b, point));
+    return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]);
 }
 
-/// The side of a cell that a portal is on, looked for from one side on.
-static uint32_t slrt_side_of_portal(slrt_polygon *p, const sl_runtime_cell *cell, uint32_t directed,
-                                    uint32_t from) {
+static uint32_t slrt_next_corner(const sl_runtime_cell *cell, uint32_t corner) {
+    return corner + 1 < cell->vertex_count ? corner + 1 : 0;
+}
+
+/// Whether a side of a cell is a portal, in a file with a grid: a portal is a whole side there.
+static bool slrt_is_portal_side(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t side) {
+    return slrt_u32(rt->neighbours + ((size_t)cell->first_vertex + side) * 4) == UINT32_MAX;
+}
+
+/// The side of a cell that a portal is on. Without a grid, all walls are axial.
+static uint32_t slrt_side_of_portal(slrt_polygon *p, const sl_runtime_cell *cell,
+                                    uint32_t directed) {
+    const sl_runtime *rt = p->s.rt;
+    uint32_t before = directed - cell->first_directed, side;
     double left[2], right[2], a[2], b[2];
-    uint32_t i, side = from;
-    slrt_read_end(p->s.rt, directed, 0, left);
-    slrt_read_end(p->s.rt, directed, 1, right);
-    slrt_read_vertex(p->s.rt, cell, side, a);
-    for (i = 0; i < cell->vertex_count && p->s.patience; i++) {
-        const uint32_t next = side + 1 < cell->vertex_count ? side + 1 : 0;
-        slrt_read_vertex(p->s.rt, cell, next, b);
+    slrt_read_end(rt, directed, 0, left);
+    slrt_read_end(rt, directed, 1, right);
+    for (side = 0; side < cell->vertex_count; side++) {
+        if (rt->neighbours) {
+            if (slrt_is_portal_side(rt, cell, side) && !before--) return side;
+            continue;
+        }
+        slrt_read_vertex(rt, cell, side, a);
+        slrt_read_vertex(rt, cell, slrt_next_corner(cell, side), b);
         if (slrt_is_on(a, b, right) && slrt_is_on(a, b, left)) return side;
-        a[0] = b[0], a[1] = b[1];
-        side = next;
-        p->s.patience--;
     }
     p->broken = true;
-    return from;
+    return 0;
 }
 
-/// Whether a point on a side comes before another one.
-static bool slrt_comes_before(slrt_polygon *p, const slrt_walk *w, const double *point,
-                              const double *other) {
-    double a[2], b[2];
-    int axis;
-    slrt_read_vertex(p->s.rt, &w->cell, w->side, a);
-    slrt_read_vertex(p->s.rt, &w->cell, w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0, b);
-    axis = a[0] == b[0];
-    return a[axis] < b[axis] ? point[axis] < other[axis] : point[axis] > other[axis];
-}
-
-/// Finds the next portal of a walk.
-static void slrt_walk_aim(slrt_polygon *p, slrt_walk *w) {
-    const uint32_t first = w->cell.first_directed, count = w->cell.directed_count;
-    double right[2];
-    w->next = w->passed + 1 < first + count ? w->passed + 1 : first;
-    w->next_side = slrt_side_of_portal(p, &w->cell, w->next, w->side);
-    w->corners = w->next_side >= w->side ? w->next_side - w->side
-                                         : w->cell.vertex_count - w->side + w->next_side;
+/// Whether the next portal of a walk is on this side, and not before its place.
+static bool slrt_walk_is_at_portal(const slrt_polygon *p, const slrt_walk *w) {
+    const int axis = w->a[0] == w->b[0];
+    double left[2], right[2];
+    if (w->stop == SLRT_NONE) return false;
+    if (p->s.rt->neighbours)
+        return slrt_same_place(w->at, w->a) && slrt_is_portal_side(p->s.rt, &w->cell, w->side);
     slrt_read_end(p->s.rt, w->next, 1, right);
-    if (!w->corners && (w->next == w->passed || slrt_comes_before(p, w, right, w->at)))
-        w->corners = w->cell.vertex_count;
+    if (w->a[axis] < w->b[axis] ? right[axis] < w->at[axis] : right[axis] > w->at[axis])
+        return false;
+    slrt_read_end(p->s.rt, w->next, 0, left);
+    return slrt_is_on(w->a, w->b, right) && slrt_is_on(w->a, w->b, left);
 }
 
-/// Goes on with a walk behind a portal on a known side.
-static void slrt_walk_behind(slrt_polygon *p, slrt_walk *w, uint32_t passed, uint32_t side) {
-    w->passed = passed;
+/// Goes on to the next side.
+static void slrt_walk_turn(slrt_polygon *p, slrt_walk *w) {
+    if (!w->corners) p->broken = true;
+    w->corners--;
+    w->side = slrt_next_corner(&w->cell, w->side);
+    memcpy(w->a, w->b, sizeof w->a);
+    slrt_read_vertex(p->s.rt, &w->cell, slrt_next_corner(&w->cell, w->side), w->b);
+    w->is_here = slrt_walk_is_at_portal(p, w);
+}
+
+/// Goes on with a walk behind a portal.
+static void slrt_walk_pass(slrt_polygon *p, slrt_walk *w, uint32_t portal) {
+    const uint32_t first = w->cell.first_directed;
+    w->next = portal + 1 < first + w->cell.directed_count ? portal + 1 : first;
+    slrt_read_end(p->s.rt, portal, 0, w->at);
+    if (slrt_same_place(w->at, w->b))
+        slrt_walk_turn(p, w);
+    else
+        w->is_here = slrt_walk_is_at_portal(p, w);
+}
+
+/// Starts a walk behind a portal on a known side. In a cell without portals it starts at a corner.
+static void slrt_walk_start(slrt_polygon *p, slrt_walk *w, uint32_t stop, uint32_t passed,
+                            uint32_t side, uint32_t laps) {
+    w->stop = stop;
     w->side = side;
-    slrt_read_end(p->s.rt, passed, 0, w->at);
-    slrt_walk_aim(p, w);
-}
-
-/// Starts a walk behind a portal. In a cell without portals it starts at a corner.
-static void slrt_walk_start(slrt_polygon *p, slrt_walk *w, uint32_t cell, uint32_t stop,
-                            uint32_t laps) {
-    w->cell = sl_runtime_get_cell(p->s.rt, cell);
-    w->stop = w->cell.directed_count ? stop : SLRT_NONE;
     w->laps = laps;
-    if (w->stop != SLRT_NONE) {
-        slrt_walk_behind(p, w, stop, slrt_side_of_portal(p, &w->cell, stop, 0));
+    w->corners = (laps + 1) * w->cell.vertex_count;
+    slrt_read_vertex(p->s.rt, &w->cell, side, w->a);
+    slrt_read_vertex(p->s.rt, &w->cell, slrt_next_corner(&w->cell, side), w->b);
+    if (stop != SLRT_NONE) {
+        slrt_walk_pass(p, w, passed);
         return;
     }
-    w->passed = w->next = SLRT_NONE;
-    w->side = w->next_side = 0;
-    w->corners = w->cell.vertex_count;
-    slrt_read_vertex(p->s.rt, &w->cell, 0, w->at);
+    memcpy(w->at, w->a, sizeof w->at);
+    w->is_here = false;
+}
+
+/// Starts a walk all around a cell, from its first portal on.
+static void slrt_walk_around(slrt_polygon *p, slrt_walk *w, uint32_t cell, uint32_t laps) {
+    w->cell = sl_runtime_get_cell(p->s.rt, cell);
+    if (w->cell.directed_count) {
+        const uint32_t first = w->cell.first_directed;
+        slrt_walk_start(p, w, first, first, slrt_side_of_portal(p, &w->cell, first), laps);
+    } else {
+        slrt_walk_start(p, w, SLRT_NONE, SLRT_NONE, 0, laps);
+    }
 }
 
 static void slrt_end_piece_at(slrt_walk *w, const double *end, slrt_piece *piece) {
@@ -2133,14 +2161,10 @@ static void slrt_end_piece_at(slrt_walk *w, const double *end, slrt_piece *piece
 /// Takes the next piece of the boundary, to a corner, to a portal, or of a portal.
 static void slrt_walk_step(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     double end[2];
-    if (w->corners) {
-        w->side = w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0;
-        slrt_read_vertex(p->s.rt, &w->cell, w->side, end);
-        slrt_end_piece_at(w, end, piece);
-        w->corners--;
-        if (w->stop != SLRT_NONE || w->corners) return;
-        w->laps--;
-        w->corners = w->cell.vertex_count;
+    if (!w->is_here) {
+        slrt_end_piece_at(w, w->b, piece);
+        slrt_walk_turn(p, w);
+        if (w->stop == SLRT_NONE && !w->side) w->laps--;
         return;
     }
     slrt_read_end(p->s.rt, w->next, 1, end);
@@ -2152,7 +2176,7 @@ static void slrt_walk_step(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     slrt_end_piece_at(w, end, piece);
     piece->directed = w->next;
     if (w->next == w->stop) w->laps--;
-    if (w->laps) slrt_walk_behind(p, w, w->next, w->next_side);
+    if (w->laps) slrt_walk_pass(p, w, w->next);
 }
 
 /// Takes the next piece that is not just a point; false at the end.
@@ -2312,7 +2336,7 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
     cell = sl_runtime_get_cell(p->s.rt, top[0]);
     top[1] = top[2] = twin;
-    top[3] = slrt_side_of_portal(p, &cell, twin, 0);
+    top[3] = slrt_side_of_portal(p, &cell, twin);
     top[4] = right;
     top[5] = left;
     p->s.depth++;
@@ -2323,21 +2347,23 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
 static void slrt_spread_on(slrt_polygon *p) {
     uint32_t *top = p->s.path + (size_t)SLRT_FRAME * (p->s.depth - 1);
     const slrt_arm a = slrt_border(&p->s, top[4]), b = slrt_border(&p->s, top[5]);
+    bool within = top[2] != top[1]; // what is right of the sector is passed
     slrt_walk w;
     slrt_piece piece;
     w.cell = sl_runtime_get_cell(p->s.rt, top[0]);
-    w.stop = top[1];
-    w.laps = 1;
-    slrt_walk_behind(p, &w, top[2], top[3]);
+    slrt_walk_start(p, &w, top[1], top[2], top[3], 1);
     while (slrt_walk_next(p, &w, &piece)) {
         const uint32_t portal = piece.directed;
-        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        const slrt_arm to = slrt_arm_to(p, piece.b);
         uint32_t right = SLRT_NONE, left = SLRT_NONE;
         int end;
-        if (slrt_side(&from, &to) <= 0 || slrt_side(&a, &to) <= 0) continue;
-        if (slrt_side(&from, &b) <= 0) break;
+        if (!within) {
+            const slrt_arm from = slrt_arm_to(p, piece.a);
+            if (slrt_side(&a, &to) <= 0) continue;
+            if (slrt_side(&from, &a) > 0) right = top[4];
+            within = true;
+        }
         end = slrt_side(&to, &b);
-        if (slrt_side(&from, &a) > 0) right = top[4];
         if (end < 0) left = top[5];
         if (portal != SLRT_NONE && !slrt_is_blocked(&p->s, portal)) {
             top[2] = portal;
@@ -2397,8 +2423,7 @@ static void slrt_see_fan_cell(slrt_polygon *p, uint32_t cell) {
     bool run = p->inside, ready = p->inside;
     slrt_walk w;
     slrt_piece piece;
-    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed,
-                    p->inside ? 1 : 2);
+    slrt_walk_around(p, &w, cell, p->inside ? 1 : 2);
     while (slrt_walk_next(p, &w, &piece)) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
         const bool faces = slrt_side(&from, &to) > 0;
@@ -2426,7 +2451,7 @@ static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
     slrt_piece piece;
     memset(&touch, 0, sizeof touch);
     touch.behind = touch.before = SLRT_NONE;
-    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed, 1);
+    slrt_walk_around(p, &w, cell, 1);
     while (slrt_walk_next(p, &w, &piece)) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
         uint32_t open;
