@@ -11,7 +11,8 @@ static inline double polygon_distance(sl_point at, sl_point a, sl_point b) {
     const double square = d.x * d.x + d.y * d.y;
     double share = square > 0 ? ((at.x - a.x) * d.x + (at.y - a.y) * d.y) / square : 0;
     share = fmin(fmax(share, 0), 1);
-    return hypot(a.x + share * d.x - at.x, a.y + share * d.y - at.y);
+    const sl_point off = {a.x + share * d.x - at.x, a.y + share * d.y - at.y};
+    return sqrt(off.x * off.x + off.y * off.y);
 }
 
 /// The largest distance of a corner of one polygon from the outline of another.

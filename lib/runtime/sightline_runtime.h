@@ -43,7 +43,7 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door or start of the map text is damaged
+    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
@@ -190,6 +190,21 @@ SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits);
 
+/// What can be seen from anywhere in some cells: the cells that at least one of them sees. As bits,
+/// as sl_runtime_row_bits does for one cell; returns how many there are. `shut` is as for
+/// sl_runtime_can_see_past, or NULL for none. Numbers that are no cells are left out.
+///
+/// Ask it with what an eye sees (sl_runtime_look) to find what to wake up: all that anything in
+/// view could see. The set is conservative if the bake is: nothing outside of it is seen from any
+/// place in any of these cells, so not from any place in view. It may hold more than what is seen
+/// from the places in view, as it counts whole cells. Time: the rows.
+///
+///     uint32_t count = sl_runtime_look(&runtime, &view, scratch, cells, runtime.cell_count);
+///     sl_runtime_seen_from(&runtime, cells, count, shut, bits);
+SL_RUNTIME_API uint32_t sl_runtime_seen_from(const sl_runtime *runtime, const uint32_t *cells,
+                                             uint32_t count, const unsigned char *shut,
+                                             unsigned char *bits);
+
 // A view cell is a group of cells with one visible set. A game that keeps its draw list from frame
 // to frame changes it only when the eye enters another view cell.
 
@@ -266,8 +281,12 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 ///
 /// Points go counter-clockwise about the eye, so the triangles (eye, point i, point i + 1) cover
 /// what is seen. With a cone, the eye is the first point. Shut doors, mirrors and one-way glass
-/// that the eye cannot look through count as walls. It has no range: clip the polygon by a circle
-/// when you draw it.
+/// that the eye cannot look through count as walls.
+///
+/// `range` is as for sl_runtime_look_past. It cuts the polygon by a circle about the eye. An arc
+/// becomes chords of equal length, of at most 1/128 of the circle. So they lie inside it, by at
+/// most 1/3000 of the range. Between arcs, points are where the circle meets a wall or a line of
+/// sight.
 ///
 /// As sl_region_make of the library: no sign comes from a rounded number. Points are corners of the
 /// map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in a
@@ -276,8 +295,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// sound file does not cause. Time: the sides and portals of the cells that are seen.
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
-                                                   const unsigned char *shut, uint32_t *scratch,
-                                                   double *points, uint32_t room);
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, double *points,
+                                                   uint32_t room);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
@@ -1081,7 +1101,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
     case SL_RUNTIME_TEXT:
-        return "damaged: a door or start of the map text";
+        return "damaged: a door, a start or the range of the map text";
     }
     return "unknown status";
 }
@@ -1228,22 +1248,40 @@ static bool slrt_is_open(const unsigned char **next, const unsigned char *shut) 
     return any;
 }
 
+/// The pairs of a cell that depend on doors, by the second cell, ascending.
+typedef struct slrt_door_pairs {
+    const unsigned char *next, *stop;
+    uint32_t cell; ///< of the last pair that was read
+    bool open;     ///< whether that pair is seen
+} slrt_door_pairs;
+
+static slrt_door_pairs slrt_door_pairs_of(const sl_runtime *rt, uint32_t from) {
+    slrt_door_pairs pairs;
+    pairs.next = pairs.stop = NULL;
+    pairs.cell = UINT32_MAX;
+    pairs.open = true;
+    if (rt->door_offsets) {
+        pairs.next = rt->door_bytes + slrt_u64(rt->door_offsets + (size_t)from * 8);
+        pairs.stop = rt->door_bytes + slrt_u64(rt->door_offsets + (size_t)from * 8 + 8);
+    }
+    return pairs;
+}
+
+/// Whether a pair of the row is seen. The second cell never goes down from one call to the next.
+static bool slrt_pair_is_open(slrt_door_pairs *pairs, uint32_t to, const unsigned char *shut) {
+    while ((pairs->cell == UINT32_MAX || pairs->cell < to) && pairs->next != pairs->stop) {
+        pairs->cell += 1 + slrt_number(&pairs->next);
+        pairs->open = slrt_is_open(&pairs->next, shut);
+    }
+    return pairs->cell != to || pairs->open;
+}
+
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut) {
-    const unsigned char *next, *stop;
-    uint32_t cell = UINT32_MAX;
+    slrt_door_pairs pairs;
     if (!sl_runtime_can_see(runtime, from, to)) return false;
-    if (!runtime->door_offsets) return true;
-    next = runtime->door_bytes + slrt_u64(runtime->door_offsets + (size_t)from * 8);
-    stop = runtime->door_bytes + slrt_u64(runtime->door_offsets + (size_t)from * 8 + 8);
-    while (next < stop) {
-        bool open;
-        cell += 1 + slrt_number(&next);
-        if (cell > to) return true;
-        open = slrt_is_open(&next, shut);
-        if (cell == to) return open;
-    }
-    return true;
+    pairs = slrt_door_pairs_of(runtime, from);
+    return slrt_pair_is_open(&pairs, to, shut);
 }
 
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell) {
@@ -1276,6 +1314,33 @@ SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell
         uint32_t i;
         for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
     }
+}
+
+/// Adds the row of a cell. Returns how many cells are new.
+static uint32_t slrt_add_row(const sl_runtime *rt, uint32_t from, const unsigned char *shut,
+                             unsigned char *bits) {
+    sl_runtime_run run = sl_runtime_row(rt, from);
+    slrt_door_pairs pairs;
+    uint32_t added = 0, i;
+    if (run.next == run.stop) return 0;
+    pairs = slrt_door_pairs_of(rt, from);
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) {
+            if (bits[i / 8] >> i % 8 & 1) continue;
+            if (shut && !slrt_pair_is_open(&pairs, i, shut)) continue;
+            bits[i / 8] |= (unsigned char)(1 << i % 8);
+            added++;
+        }
+    return added;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_seen_from(const sl_runtime *runtime, const uint32_t *cells,
+                                             uint32_t count, const unsigned char *shut,
+                                             unsigned char *bits) {
+    uint32_t i, seen = 0;
+    memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
+    for (i = 0; i < count; i++) seen += slrt_add_row(runtime, cells[i], shut, bits);
+    return seen;
 }
 
 // --- view cells
@@ -1653,7 +1718,8 @@ static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_a
             sector->along |= SLRT_ALONG_LEFT;
     } else if (slrt_same_ray(&a, &b)) {
         // Who goes from its right end to its left end crosses it to the right.
-        sector->along |= slrt_same_way(&to_left, &a) ? SLRT_ALONG_LEFT : SLRT_ALONG_RIGHT;
+        sector->along |=
+            slrt_same_way(&to_left, &a) ? (unsigned)SLRT_ALONG_LEFT : (unsigned)SLRT_ALONG_RIGHT;
     }
     return sector->along != SLRT_ALONG || !slrt_same_ray(&a, &b);
 }
@@ -2012,19 +2078,24 @@ typedef struct slrt_polygon {
     slrt_search s;
     bool broken; ///< the file is not sound, or the search takes too long
     double *points;
-    uint32_t room, count;
-    double first[2], last[2]; ///< points
-    bool pending;             ///< the end of the last piece is not added yet
-    slrt_piece piece;         ///< that piece
-    uint32_t piece_left;      ///< the border where it ends, or SLRT_NONE
-    slrt_piece first_piece;   ///< that starts at the first point
-    bool first_is_short;      ///< it is shorter than a step of doubles
-    bool inside;              ///< the eye lies within its cell
-    uint32_t fan_first;       ///< the cell where the way around the eye starts
-    bool fan_is_closed;       ///< it leads back to that cell
-    bool gap;                 ///< the eye lies on a wall, which hides some directions
-    bool in_sector;           ///< only what is between these borders is looked at
-    uint32_t right, left;     ///< borders of the sector
+    uint32_t room, written;
+    uint32_t count;           ///< of points, before a range cuts the polygon
+    double first[2], last[2]; ///< of these
+    double second[2];         ///< with a range: the edge to it waits until the polygon closes
+    bool second_is_radial, waits;
+    bool has_arc; ///< an arc is begun, from `arc` to `arc_end`
+    double arc[2], arc_end[2];
+    bool pending;           ///< the end of the last piece is not added yet
+    slrt_piece piece;       ///< that piece
+    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE
+    slrt_piece first_piece; ///< that starts at the first point
+    bool first_is_short;    ///< it is shorter than a step of doubles
+    bool inside;            ///< the eye lies within its cell
+    uint32_t fan_first;     ///< the cell where the way around the eye starts
+    bool fan_is_closed;     ///< it leads back to that cell
+    bool gap;               ///< the eye lies on a wall, which hides some directions
+    bool in_sector;         ///< only what is between these borders is looked at
+    uint32_t right, left;   ///< borders of the sector
     bool second_lap, started, done;
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
 } slrt_polygon;
@@ -2207,17 +2278,184 @@ static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
     return SLRT_NONE;
 }
 
+static void slrt_put(slrt_polygon *p, const double *point) {
+    if (p->written < p->room) memcpy(p->points + 2 * (size_t)p->written, point, 2 * sizeof *point);
+    p->written++;
+}
+
+/// Limits a number to those between a and b.
+static double slrt_limited(double a, double value, double b) {
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return !(value >= low) ? low : value > high ? high : value;
+}
+
+// The range cuts the polygon, edge by edge, by a circle about the eye:
+//
+//          q____
+//     p'  /      An edge on a wall, from p to q, keeps what is inside. Before and after it stand
+//      .-+--.    arcs between the directions of its ends. Radial edges end at the circle. Arcs in a
+//     (  |   )   row join, and become chords. All that is in doubles, in units of the range and
+//      `-*--'    relative to the eye. Every edge and arc adds the point where it starts.
+
+static double slrt_dot(const double *u, const double *v) {
+    return u[0] * v[0] + u[1] * v[1];
+}
+
+static double slrt_turned(const double *u, const double *v) {
+    return u[0] * v[1] - u[1] * v[0];
+}
+
+/// The square root, by Newton's steps; 0 for what has none.
+static double slrt_root(double square) {
+    uint64_t bits;
+    double root;
+    int i;
+    if (!(square > 0)) return 0;
+    memcpy(&bits, &square, sizeof bits);
+    bits = (bits >> 1) + (UINT64_C(1023) << 51); // halves the exponent
+    memcpy(&root, &bits, sizeof root);
+    for (i = 0; i < 5; i++) root = (root + square / root) / 2;
+    return root;
+}
+
+/// Makes a vector's length 1.
+static void slrt_make_unit(double *u) {
+    const double larger = slrt_larger(u[0], u[1]);
+    double length;
+    u[0] /= larger;
+    u[1] /= larger;
+    length = slrt_root(slrt_dot(u, u));
+    u[0] /= length;
+    u[1] /= length;
+}
+
+/// Adds a point that is given in units of the range.
+static void slrt_put_unit(slrt_polygon *p, const double *u) {
+    double point[2];
+    point[0] = p->s.x + u[0] * p->s.range;
+    point[1] = p->s.y + u[1] * p->s.range;
+    slrt_put(p, point);
+}
+
+/// Adds the chords of an arc that is begun: it is halved until a part is at most 1/128 of the
+/// circle.
+static void slrt_end_arc(slrt_polygon *p) {
+    const double most = 0.0024090935; // the square of such a chord
+    double part[2], at[2];
+    int i, count = 1;
+    if (!p->has_arc) return;
+    p->has_arc = false;
+    slrt_put_unit(p, p->arc);
+    memcpy(part, p->arc_end, sizeof part);
+    for (; count < 256; count *= 2) {
+        const double x = part[0] - p->arc[0], y = part[1] - p->arc[1];
+        if (!(x * x + y * y > most)) break;
+        part[0] = y, part[1] = -x; // the direction of the middle
+        slrt_make_unit(part);
+    }
+    memcpy(at, p->arc, sizeof at);
+    for (i = 1; i < count; i++) {
+        const double cosine = slrt_dot(p->arc, part), sine = slrt_turned(p->arc, part);
+        const double x = at[0];
+        at[0] = cosine * x - sine * at[1];
+        at[1] = cosine * at[1] + sine * x;
+        slrt_put_unit(p, at);
+    }
+}
+
+/// Goes on with the arc, or begins one. One that is shorter than rounding is left out.
+static void slrt_add_arc(slrt_polygon *p, const double *from, const double *to) {
+    if (!(slrt_turned(from, to) > 1e-15) && slrt_dot(from, to) > 0) return;
+    if (!p->has_arc || slrt_turned(p->arc, to) <= 0) {
+        slrt_end_arc(p);
+        memcpy(p->arc, from, sizeof p->arc);
+    }
+    memcpy(p->arc_end, to, sizeof p->arc_end);
+    p->has_arc = true;
+}
+
+/// An edge in units of the range: its ends, the directions to them, and what of it, in shares from
+/// 0 to 1, is inside.
+typedef struct slrt_chord {
+    double a[2], along[2], from[2], to[2];
+    bool a_inside, b_inside;
+    double enter, leave;
+} slrt_chord;
+
+static slrt_chord slrt_chord_of(const slrt_polygon *p, const double *a, const double *b) {
+    slrt_chord c;
+    double length, distance, foot, half;
+    c.a[0] = c.from[0] = (a[0] - p->s.x) / p->s.range;
+    c.a[1] = c.from[1] = (a[1] - p->s.y) / p->s.range;
+    c.to[0] = (b[0] - p->s.x) / p->s.range;
+    c.to[1] = (b[1] - p->s.y) / p->s.range;
+    c.along[0] = c.to[0] - c.a[0];
+    c.along[1] = c.to[1] - c.a[1];
+    c.a_inside = slrt_dot(c.from, c.from) <= 1;
+    c.b_inside = slrt_dot(c.to, c.to) <= 1;
+    if (!c.a_inside) slrt_make_unit(c.from);
+    if (!c.b_inside) slrt_make_unit(c.to);
+    length = slrt_root(slrt_dot(c.along, c.along));
+    distance = slrt_turned(c.a, c.along) / length;
+    foot = -slrt_dot(c.a, c.along) / length;
+    half = slrt_root((1 - distance) * (1 + distance));
+    c.enter = (foot - half) / length;
+    c.leave = (foot + half) / length;
+    return c;
+}
+
+/// Where an edge crosses the circle: as a point, and in units of the range.
+static void slrt_cross_circle(const slrt_polygon *p, const slrt_chord *c, double share,
+                              const double *a, const double *b, double *point, double *unit) {
+    unit[0] = c->a[0] + share * c->along[0];
+    unit[1] = c->a[1] + share * c->along[1];
+    point[0] = slrt_limited(a[0], p->s.x + unit[0] * p->s.range, b[0]);
+    point[1] = slrt_limited(a[1], p->s.y + unit[1] * p->s.range, b[1]);
+}
+
+/// Adds what a range leaves of an edge.
+static void slrt_cut_edge(slrt_polygon *p, const double *a, const double *b, bool radial) {
+    const slrt_chord c = slrt_chord_of(p, a, b);
+    double point[2], unit[2];
+    if (c.a_inside) {
+        slrt_end_arc(p);
+        slrt_put(p, a);
+    } else if (radial) {
+        if (!c.b_inside) return;
+        slrt_end_arc(p);
+        slrt_put_unit(p, c.from);
+    } else if (c.b_inside || (c.enter < c.leave && c.enter < 1 && c.leave > 0)) {
+        slrt_cross_circle(p, &c, c.enter, a, b, point, unit);
+        slrt_add_arc(p, c.from, unit);
+        slrt_end_arc(p);
+        slrt_put(p, point);
+    } else {
+        slrt_add_arc(p, c.from, c.to);
+        return;
+    }
+    if (c.b_inside || radial) return;
+    slrt_cross_circle(p, &c, c.leave, a, b, point, unit);
+    slrt_add_arc(p, unit, c.to);
+}
+
 // The points of the polygon.
 
-/// Adds a point, unless it is the last one.
-static void slrt_add_point(slrt_polygon *p, const double *point) {
+/// Adds a point, unless it is the last one. `radial`: the edge to it leads from or to the eye.
+static void slrt_add_point(slrt_polygon *p, const double *point, bool radial) {
     if (p->count && slrt_same_place(p->last, point)) {
         p->first_is_short = p->first_is_short || p->count == 1;
         return;
     }
+    if (!(p->s.range > 0)) {
+        slrt_put(p, point);
+    } else if (p->count == 1 && p->waits) {
+        memcpy(p->second, point, sizeof p->second);
+        p->second_is_radial = radial;
+    } else if (p->count) {
+        slrt_cut_edge(p, p->last, point, radial);
+    }
     memcpy(p->last, point, sizeof p->last);
     if (!p->count) memcpy(p->first, point, sizeof p->first);
-    if (p->count < p->room) memcpy(p->points + 2 * (size_t)p->count, point, sizeof p->last);
     p->count++;
 }
 
@@ -2235,12 +2473,6 @@ static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
     count = slrt_add_product(parts, count, -u->from_y, v->from_x);
     for (i = 0; i < count; i++) sum += parts[i];
     return sum;
-}
-
-/// Limits a number to those between a and b.
-static double slrt_limited(double a, double value, double b) {
-    const double low = a < b ? a : b, high = a < b ? b : a;
-    return !(value >= low) ? low : value > high ? high : value;
 }
 
 /// The end of a piece: its own, or where a border meets its line.
@@ -2280,7 +2512,7 @@ static void slrt_end_pending(slrt_polygon *p) {
     double end[2];
     if (!p->pending) return;
     slrt_place(p, p->piece_left, p->piece.b, &p->piece, end);
-    slrt_add_point(p, end);
+    slrt_add_point(p, end, false);
     p->pending = false;
 }
 
@@ -2291,7 +2523,7 @@ static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t rig
         slrt_place(p, right, piece->a, piece, start);
         slrt_end_pending(p);
         if (!p->count) p->first_piece = *piece;
-        slrt_add_point(p, start);
+        slrt_add_point(p, start, true);
     }
     p->pending = true;
     p->piece = *piece;
@@ -2304,20 +2536,40 @@ static void slrt_add_eye(slrt_polygon *p) {
     eye[0] = p->s.x;
     eye[1] = p->s.y;
     slrt_end_pending(p);
-    slrt_add_point(p, eye);
+    slrt_add_point(p, eye, true);
 }
 
 /// Ends the polygon. All round, the last piece may go on as the first one. Then that one's start
 /// goes, unless rounding made it the end too.
 static void slrt_close(slrt_polygon *p, bool all_round) {
-    if (all_round && p->pending && p->count > 1 && !p->first_is_short &&
-        slrt_in_line(&p->first_piece, &p->piece)) {
-        if (p->room) memcpy(p->points, p->last, sizeof p->last);
-        p->count--;
+    const bool goes_on = all_round && p->pending && p->count > 1 && !p->first_is_short &&
+                         slrt_in_line(&p->first_piece, &p->piece);
+    bool meets;
+    if (!goes_on) slrt_end_pending(p);
+    meets = p->count > 1 && slrt_same_place(p->first, p->last);
+    if (goes_on || meets) p->count--;
+    if (!(p->s.range > 0)) {
+        if (goes_on && p->room) memcpy(p->points, p->last, sizeof p->last);
+        p->written = p->count;
         return;
     }
-    slrt_end_pending(p);
-    if (p->count > 1 && slrt_same_place(p->first, p->last)) p->count--;
+    if (p->count < 2) return;
+    if (goes_on) {
+        slrt_cut_edge(p, p->last, p->second, false);
+    } else {
+        if (!meets) slrt_cut_edge(p, p->last, p->first, true);
+        if (p->waits) slrt_cut_edge(p, p->first, p->second, p->second_is_radial);
+    }
+    slrt_end_arc(p);
+}
+
+/// The borders of what is seen through a portal: those given, or its own ends for SLRT_NONE. False
+/// if it is blocked or out of range, and for no portal.
+static bool slrt_pass(const slrt_polygon *p, uint32_t portal, uint32_t *right, uint32_t *left) {
+    if (portal == SLRT_NONE || slrt_is_blocked(&p->s, portal)) return false;
+    if (*right == SLRT_NONE) *right = 2 * portal + 1;
+    if (*left == SLRT_NONE) *left = 2 * portal;
+    return !(p->s.range > 0) || slrt_in_range(&p->s, portal, *right, *left);
 }
 
 // The search. The path is a stack of six numbers for each cell: the cell, the portal through which
@@ -2365,12 +2617,11 @@ static void slrt_spread_on(slrt_polygon *p) {
         }
         end = slrt_side(&to, &b);
         if (end < 0) left = top[5];
-        if (portal != SLRT_NONE && !slrt_is_blocked(&p->s, portal)) {
+        if (slrt_pass(p, portal, &right, &left)) {
             top[2] = portal;
             top[3] = w.side;
             if (end <= 0) p->s.depth--; // nothing is left to see of this cell
-            slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
-                      left == SLRT_NONE ? 2 * portal : left);
+            slrt_push(p, portal, right, left);
             return;
         }
         slrt_add_wall(p, &piece, right, left);
@@ -2383,12 +2634,11 @@ static void slrt_spread_on(slrt_polygon *p) {
 static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t right,
                            uint32_t left) {
     const uint32_t portal = piece->directed;
-    if (portal == SLRT_NONE || slrt_is_blocked(&p->s, portal)) {
+    if (!slrt_pass(p, portal, &right, &left)) {
         slrt_add_wall(p, piece, right, left);
         return;
     }
-    slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
-              left == SLRT_NONE ? 2 * portal : left);
+    slrt_push(p, portal, right, left);
     while (p->s.depth && !p->broken) slrt_spread_on(p);
 }
 
@@ -2542,10 +2792,14 @@ static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
 
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
-                                                   const unsigned char *shut, uint32_t *scratch,
-                                                   double *points, uint32_t room) {
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, double *points,
+                                                   uint32_t room) {
     const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
     const uint32_t cell = sl_runtime_locate(runtime, x, y);
+    // So that no number in units of the range overflows.
+    const double least =
+        1e-100 * (runtime->max_x - runtime->min_x) + 1e-100 * (runtime->max_y - runtime->min_y);
     uint32_t last, i, pieces;
     slrt_polygon p;
     if (runtime->loose || cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell))
@@ -2554,6 +2808,8 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
     p.s.rt = runtime;
     p.s.view = view;
     p.s.shut = shut;
+    p.s.range = slrt_range(runtime, range);
+    if (p.s.range > 0 && p.s.range < least) p.s.range = least;
     p.s.x = x;
     p.s.y = y;
     p.s.path = scratch;
@@ -2565,6 +2821,7 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
     slrt_find_fan(&p);
     pieces = slrt_cut_cone(&p.s, &last);
     p.fan_last = UINT32_MAX;
+    p.waits = !pieces && !p.gap;
     if (!pieces) {
         slrt_see_fan(&p);
     } else {
@@ -2573,7 +2830,7 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
             slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
     }
     slrt_close(&p, !pieces && !p.gap);
-    return p.broken || p.count < 3 ? 0 : p.count;
+    return p.broken || p.count < 3 ? 0 : p.written;
 }
 
 #ifdef __cplusplus

@@ -104,7 +104,7 @@ static void ask_library(bench *b, sl_point eye) {
 
 static uint32_t ask_header(bench *b, sl_point eye) {
     const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
-    return sl_runtime_visible_polygon(&b->runtime, &view, b->shut, b->scratch, &b->points[0].x,
+    return sl_runtime_visible_polygon(&b->runtime, &view, b->shut, 0, b->scratch, &b->points[0].x,
                                       ROOM);
 }
 

@@ -139,6 +139,61 @@ static sl_point special_point(trial *t) {
     }
 }
 
+/// Eyes in the middle of cells in view see nothing that is not in the set.
+static void look_from_within(trial *t, const unsigned char *shut, uint32_t count,
+                             const unsigned char *bits) {
+    const sl_runtime *r = &t->f->runtime;
+    uint32_t *seen = malloc(r->cell_count * sizeof *seen);
+    assert_non_null(seen);
+    for (uint32_t i = 0; i < count && i < 20; i++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(r, t->cells[i]);
+        sl_runtime_view view = sl_runtime_view_all_round(0, 0);
+        for (uint32_t k = 0; k < c.vertex_count; k++) {
+            double x, y;
+            sl_runtime_get_vertex(r, c.first_vertex + k, &x, &y);
+            view.x += x / c.vertex_count;
+            view.y += y / c.vertex_count;
+        }
+        // Far from the origin, rounding may leave the cell.
+        if (sl_runtime_locate(r, view.x, view.y) != t->cells[i]) continue;
+        const uint32_t more =
+            sl_runtime_look_past(r, &view, shut, 0, t->scratch, seen, r->cell_count);
+        for (uint32_t k = 0; k < more; k++) assert_true(bits[seen[k] / 8] >> seen[k] % 8 & 1);
+    }
+    free(seen);
+}
+
+/// What the cells in view see, against the pairs one by one.
+static void seen_from_is_the_union(trial *t, sl_point eye) {
+    const sl_runtime *r = &t->f->runtime;
+    const size_t bytes = (r->cell_count + 7) / 8;
+    unsigned char *bits = malloc(bytes + 1);
+    assert_non_null(bits);
+    const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
+    const unsigned char *shut = sl_random_below(&t->random, 4) ? t->shut : NULL;
+    const uint32_t count =
+        sl_runtime_look_past(r, &view, shut, 0, t->scratch, t->cells, r->cell_count);
+    memset(bits, 0xa5, bytes + 1);
+    uint32_t seen = sl_runtime_seen_from(r, t->cells, count, shut, bits);
+    assert_int_equal(bits[bytes], 0xa5);
+    for (uint32_t to = 0; to < r->cell_count; to++) {
+        bool is = false;
+        for (uint32_t i = 0; i < count && !is; i++)
+            is = shut ? sl_runtime_can_see_past(r, t->cells[i], to, shut)
+                      : sl_runtime_can_see(r, t->cells[i], to);
+        if (is != (bits[to / 8] >> to % 8 & 1))
+            fail_msg("%s: (%.17g, %.17g): cell %u is %s", t->f->name, eye.x, eye.y, to,
+                     is ? "missed" : "added");
+        seen -= is;
+    }
+    assert_int_equal(seen, 0);
+    look_from_within(t, shut, count, bits);
+    for (size_t i = r->cell_count; i < 8 * bytes; i++) assert_false(bits[i / 8] >> i % 8 & 1);
+    const uint32_t none[2] = {r->cell_count, SL_RUNTIME_NO_CELL};
+    assert_int_equal(sl_runtime_seen_from(r, none, 2, shut, bits), 0);
+    free(bits);
+}
+
 static size_t asked;
 
 static void looks_are_the_same(const baked_file *f) {
@@ -148,6 +203,8 @@ static void looks_are_the_same(const baked_file *f) {
         trial t = trial_of(context, f);
         for (uint64_t i = 0; i < eyes; i++) {
             if (i % 50 == 0) set_doors(&t);
+            if (i % 10 == 0)
+                seen_from_is_the_union(&t, point_within(&t.random, &f->baked.space.bounds));
             look_from(&t,
                       i % 4 ? special_point(&t) : point_within(&t.random, &f->baked.space.bounds));
         }
