@@ -2830,7 +2830,7 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
             slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
     }
     slrt_close(&p, !pieces && !p.gap);
-    return p.broken || p.count < 3 ? 0 : p.written;
+    return p.broken || p.count < 3 || p.written < 3 ? 0 : p.written;
 }
 
 #ifdef __cplusplus
