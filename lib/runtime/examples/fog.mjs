@@ -24,10 +24,11 @@ const isOn = (a, b, point) =>
 function boundary(corners, portals) {
   return corners.flatMap((a, i) => {
     const b = corners[(i + 1) % corners.length], pieces = [];
-    const along = (p) => dot(to(a, b), to(a, p.a));
-    const here = portals.filter((p) => isOn(a, b, p.a) && isOn(a, b, p.b) && dot(to(a, b), to(p.a, p.b)) > 0);
+    const middle = (p) => [(p.a[0] + p.b[0]) / 2, (p.a[1] + p.b[1]) / 2];
+    const place = (p) => dot(to(a, b), to(a, middle(p))) / dot(to(a, b), to(a, b));
+    const here = portals.filter((p) => isOn(a, b, p.a) && isOn(a, b, p.b) && place(p) > 0 && place(p) < 1);
     let at = a;
-    for (const p of here.sort((p, q) => along(p) - along(q))) {
+    for (const p of here.sort((p, q) => place(p) - place(q))) {
       pieces.push({ a: at, b: p.a }, p);
       at = p.b;
     }

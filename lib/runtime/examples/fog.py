@@ -36,10 +36,12 @@ def boundary(corners, portals):
     """The boundary of a cell, counter-clockwise: walls (a, b, None) and portals (a, b, portal)."""
     pieces = []
     for a, b in zip(corners, corners[1:] + corners[:1]):
-        here = [p for p in portals if is_on(a, b, p[0]) and is_on(a, b, p[1]) and
-                dot(to(a, b), to(p[0], p[1])) > 0]
+        def place(p):
+            middle = ((p[0][0] + p[1][0]) / 2, (p[0][1] + p[1][1]) / 2)
+            return dot(to(a, b), to(a, middle)) / dot(to(a, b), to(a, b))
+        here = [p for p in portals if is_on(a, b, p[0]) and is_on(a, b, p[1]) and 0 < place(p) < 1]
         at = a
-        for p in sorted(here, key=lambda p: dot(to(a, b), to(a, p[0]))):
+        for p in sorted(here, key=place):
             pieces += [(at, p[0], None), p]
             at = p[1]
         pieces.append((at, b, None))
