@@ -23,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "lib/runtime/examples"
 WARNINGS = ["-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Wshadow", "-Wconversion",
             "-Wsign-conversion", "-Werror"]
-EYES = 40
+EYES = 24
 # Maps, degrees to turn them by, and doors for them: name, place, state.
 LEVELS = {
     "doors": ("maps/effects/doors.map", 0, []),
@@ -60,6 +60,12 @@ def turned(line, degrees):
     points = [turn(x, y, degrees) for x, y in zip(numbers[::2], numbers[1::2])]
     words[first:last] = [repr(number) for point in points for number in point]
     return " ".join(words)
+
+
+def bounds_of(text):
+    numbers = [float(word) for line in re.findall(r"^walls? ([^#\n]*)", text, re.MULTILINE)
+               for word in line.split()]
+    return min(numbers[::2]), min(numbers[1::2]), max(numbers[::2]), max(numbers[1::2])
 
 
 class Answer:
@@ -147,32 +153,33 @@ class Fog(unittest.TestCase):
             self.assertLessEqual(set(answer.seen), set(answer.row), where)
         return of_c
 
-    def eyes(self, bounds, places, degrees):
+    def eyes(self, text, places):
         """Within the map, half of them near doors."""
         chance = random.Random(3)
-        for i in range(EYES):
-            if i % 2 and places:
-                x0, y0, x1, y1 = places[i // 2 % len(places)]
+        low_x, low_y, high_x, high_y = bounds_of(text)
+        count = 0
+        while count < EYES:
+            x, y = chance.uniform(low_x, high_x), chance.uniform(low_y, high_y)
+            if count % 2 and places:
+                x0, y0, x1, y1 = places[count // 2 % len(places)]
                 x, y = (x0 + x1) / 2 + chance.uniform(-4, 4), (y0 + y1) / 2 + chance.uniform(-4, 4)
-            else:
-                x, y = chance.uniform(bounds[0], bounds[2]), chance.uniform(bounds[1], bounds[3])
-            x, y = min(max(x, bounds[0] + 0.01), bounds[2]), min(max(y, bounds[1] + 0.01), bounds[3])
-            yield turn(x, y, degrees)
+            if low_x < x < high_x and low_y < y < high_y:
+                count += 1
+                yield x, y
 
     def check_level(self, name):
         path, degrees, doors = LEVELS[name]
         text = (ROOT / path).read_text(encoding="utf-8")
         text += "".join(f"door {door} {' '.join(map(str, at))} {state}\n" for door, at, state in doors)
+        text = "\n".join(turned(line, degrees) for line in text.splitlines()) + "\n"
         found = re.findall(r"^door (\S+) (.*) (?:open|shut)$", text, re.MULTILINE)
         places = [tuple(map(float, at.split())) for _, at in found]
-        numbers = [float(n) for n in re.findall(r"^walls? ([^#\n]*)", text, re.MULTILINE)
-                   for n in n.split()]
-        bounds = (min(numbers[::2]), min(numbers[1::2]), max(numbers[::2]), max(numbers[1::2]))
-        level = self.bake(name, "\n".join(turned(line, degrees) for line in text.splitlines()) + "\n")
+        level = self.bake(name, text)
         names = sorted({door for door, _ in found})
-        limit = 1e-9 * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
+        low_x, low_y, high_x, high_y = bounds_of(text)
+        limit = 1e-9 * max(high_x - low_x, high_y - low_y)
         differ = 0
-        for i, eye in enumerate(self.eyes(bounds, places, degrees)):
+        for i, eye in enumerate(self.eyes(text, places)):
             states = [self.ask(level, eye, [word for n in names for word in (state, n)], limit)
                       for state in ("open", "shut")]
             self.assertLessEqual(set(states[1].row), set(states[0].row))
