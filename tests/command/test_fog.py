@@ -23,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "lib/runtime/examples"
 WARNINGS = ["-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Wshadow", "-Wconversion",
             "-Wsign-conversion", "-Werror"]
-EYES = 6
+EYES = 4
 # Maps, degrees to turn them by, and doors for them: name, place, state.
 LEVELS = {
     "doors": ("maps/effects/doors.map", 0, []),
