@@ -60,6 +60,12 @@ static void check_look_past(const sl_runtime *r, const sl_runtime_view *view, do
                                                 b->cells, r->cell_count);
     for (uint32_t i = 0; i < count; i++)
         FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]]);
+    // Whoever has a row sees at least itself.
+    const uint32_t seen = sl_runtime_seen_from(r, b->cells, count, few ? shut : NULL, b->bits);
+    FUZZ_CHECK(seen <= r->cell_count);
+    for (uint32_t i = 0; i < count && !r->door_count; i++)
+        FUZZ_CHECK(!sl_runtime_can_see(r, b->cells[i], b->cells[i]) ||
+                   b->bits[b->cells[i] / 8] >> b->cells[i] % 8 & 1);
 }
 
 /// The polygon has finite points, the same number of them for any room, and writes no more.
