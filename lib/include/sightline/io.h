@@ -119,6 +119,26 @@ SL_API sl_status sl_map_read_wad(sl_context *context, const char *name, const ch
 SL_API sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text,
                                  size_t size, sl_map_list *list);
 
+// --- writers of maps, as sl_map_format has them; sl_map_write() in sightline/import.h calls them.
+// --- Numbers read back to the same doubles, y too: each writer finds a place where turning y
+// --- rounds nothing. Notes say what another program may do to the file; sl_map_write() notes what
+// --- the format has no place for. SL_NO_MEMORY, SL_CANCELLED.
+
+/// Writes a DXF drawing of release 12. Layers named "sightline-..." say what is what.
+SL_API sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes an SVG drawing. Layers as in DXF drawings.
+SL_API sl_status sl_map_print_svg(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes an orthogonal map of Tiled, of object layers. Layers as in DXF drawings.
+SL_API sl_status sl_map_print_tmx(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes a Universal VTT file: walls and portals; a map unit is a square of its grid.
+SL_API sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes a scene of Foundry VTT; a map unit is a pixel.
+SL_API sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream);
+
 // --- pictures by their pixels
 
 /// Rows from the top down, a byte a pixel: 0 black, 255 white. Zeroed, there is none.

@@ -126,6 +126,11 @@ typedef struct sl_map {
     /// units; 0 for a map whose numbers are exact. Readers of drawings set it, cleaning sets it
     /// back to 0.
     double precision;
+    /// How a file with y down lays the map out: its y that is 0 in the map, and its page in the
+    /// map's places. Readers of such files set both, so that a writer can put all back in its
+    /// place. An empty box stands for none. Map text and .slv files do not keep them.
+    double top;
+    sl_box page;
     double range; ///< the view range; 0 for no limit
     uint32_t range_line;
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
