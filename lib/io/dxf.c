@@ -721,6 +721,7 @@ static const char *unit_name(int unit) {
 /// Has the pen draw in the unit that is asked for.
 static sl_status take_unit(drawing *dxf) {
     const char *word = dxf->options->unit;
+    dxf->pen.map->drawing_unit = dxf->unit >= 0 && dxf->unit < UNITS ? dxf->unit : 0;
     if (!word) return SL_OK;
     size_t to = 0;
     while (to < UNITS && !(units[to].word && strcmp(units[to].word, word) == 0)) to++;
@@ -732,6 +733,7 @@ static sl_status take_unit(drawing *dxf) {
                        "%s: the drawing's own unit is %s, so it cannot be turned into %s",
                        dxf->name, unit_name(dxf->unit), units[to].name);
     if ((size_t)dxf->unit == to) return SL_OK;
+    dxf->pen.map->drawing_unit = (int)to;
     const double scale = units[dxf->unit].metres / units[to].metres;
     dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
     return SL_OK;

@@ -131,13 +131,13 @@ sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream)
     dxf_writer writer = {.stream = stream, .map = map};
     const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
     char mark[SLI_MARK_TEXT];
-    fputs(
-        "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n"
-        "0\nSECTION\n2\nTABLES\n"
-        "0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n72\n65\n73\n0\n"
-        "40\n0\n0\nENDTAB\n"
-        "0\nTABLE\n2\nLAYER\n70\n1\n",
-        stream);
+    fputs("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n", stream);
+    if (map->drawing_unit) fprintf(stream, "9\n$INSUNITS\n70\n%d\n", map->drawing_unit);
+    fputs("0\nENDSEC\n0\nSECTION\n2\nTABLES\n"
+          "0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n"
+          "72\n65\n73\n0\n40\n0\n0\nENDTAB\n"
+          "0\nTABLE\n2\nLAYER\n70\n1\n",
+          stream);
     SL_TRY(write_layers(context, &writer));
     fputs("0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n", stream);
     SL_TRY(sli_layers_write(context, map, &sink));

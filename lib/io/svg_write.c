@@ -34,8 +34,8 @@ static void put_other(const svg_writer *writer, const char *key, double value) {
 static void begin_layer(void *user, sli_layer layer) {
     static const char *const styles[SLI_LAYER_COUNT] = {
         [SLI_LAYER_WALL] = "stroke=\"#000000\" fill=\"none\"",
-        [SLI_LAYER_SOLID] = "stroke=\"#000000\" fill=\"#b0b0b0\"",
-        [SLI_LAYER_OPEN] = "stroke=\"#000000\" fill=\"#ffffff\"",
+        [SLI_LAYER_SOLID] = "stroke=\"#000000\" fill=\"#808080\" fill-opacity=\"0.5\"",
+        [SLI_LAYER_OPEN] = "stroke=\"#000000\" fill=\"none\"",
         [SLI_LAYER_WALL_SOLID] = "stroke=\"#505050\" fill=\"none\"",
         [SLI_LAYER_DOOR] = "stroke=\"#b06000\" fill=\"none\"",
         [SLI_LAYER_MIRROR] = "stroke=\"#0060c0\" fill=\"none\"",
@@ -79,7 +79,7 @@ static void write_item(void *user, const sli_layer_item *item) {
         put(writer, "<circle cx=\"", p->x);
         put(writer, "\" cy=\"", sli_turned_y(writer->top, p->y));
         fputs("\"", writer->stream);
-        put_other(writer, "r", 4 * writer->thin);
+        put_other(writer, "r", 2 * writer->thin);
     } else if (item->count == 2 && !item->closed) {
         put(writer, "<line x1=\"", p[0].x);
         put(writer, "\" y1=\"", sli_turned_y(writer->top, p[0].y));

@@ -131,7 +131,8 @@ typedef struct sl_map {
     /// place. An empty box stands for none. Map text and .slv files do not keep them.
     double top;
     sl_box page;
-    double range; ///< the view range; 0 for no limit
+    int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
+    double range;     ///< the view range; 0 for no limit
     uint32_t range_line;
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
     /// files do not keep them. Equal texts that follow each other stand in label_text once.
