@@ -271,7 +271,7 @@ static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, cons
                                                   &item, &drawn, reader->pen.item)
                                  : drawing;
     sl_map_destroy(reader->context, &drawn);
-    reader->objects += map->wall_count > 0;
+    reader->objects += item.layer >= SLI_LAYER_WALL && item.layer <= SLI_LAYER_WALL_SOLID;
     return status;
 }
 

@@ -288,24 +288,25 @@ static sl_status fail_name(sl_context *context, const char *name) {
 /// Fails with the endings of all formats that are written, or of the one given.
 static sl_status fail_ending(sl_context *context, const char *option, const char *path,
                              const sl_map_format *only) {
+    enum { MOST = 64 };
+    sli_word endings[MOST];
     char list[256] = "";
-    const char *last = NULL;
-    size_t count;
+    size_t count, found = 0;
     const sl_map_format *known = sl_map_formats(context, &count);
-    for (size_t i = 0; i < count; i++)
-        if (known[i].write && (!only || only == &known[i])) last = strrchr(known[i].endings, '.');
     for (size_t i = 0; i < count; i++) {
         if (!known[i].write || (only && only != &known[i])) continue;
-        for (const char *at = known[i].endings; *at;) {
+        for (const char *at = known[i].endings; *at && found < MOST;) {
             const size_t length = strcspn(at, " ");
-            // One ending may belong to several formats.
-            char word[34];
-            snprintf(word, sizeof word, "%.*s", (int)length, at);
-            if (at == last || !strstr(list, word))
-                add_choice(list, sizeof list, at, length, at == last);
+            size_t same = 0; // one ending may belong to several formats
+            while (same < found &&
+                   (endings[same].length != length || memcmp(endings[same].at, at, length) != 0))
+                same++;
+            if (same == found) endings[found++] = (sli_word){at, length};
             at += length + strspn(at + length, " ");
         }
     }
+    for (size_t i = 0; i < found; i++)
+        add_choice(list, sizeof list, endings[i].at, endings[i].length, i + 1 == found);
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in %s", option, path, list);
 }
 
