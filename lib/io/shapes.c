@@ -45,7 +45,7 @@ void sli_keep_finest(double *finest, double unit) {
 /// within half of the tolerance: that makes 4. One more is for what transforms add.
 #define UNITS 5
 
-double sli_precision_of(const sl_map *map, double finest) {
+static double precision_of(const sl_map *map, double finest) {
     const sl_box b = sl_map_bounds(map);
     const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     const double largest =
@@ -77,7 +77,7 @@ double sli_marked_precision(const sl_map *map, double finest, const char *mark, 
         sl_number_read(mark + 17, strlen(mark + 17), &precision) && precision >= 0 &&
         precision <= SL_COORDINATE_MAX)
         return precision;
-    return sli_precision_of(map, finest);
+    return precision_of(map, finest);
 }
 
 // --- the pen

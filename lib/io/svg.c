@@ -811,6 +811,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
         s->pen.map->page =
             (sl_box){{box[0], height - (box[1] + box[3])}, {box[0] + box[2], height - box[1]}};
     s->pen.map->top = height;
+    s->pen.map->pixels = 1;
     SL_TRY(name_walls(s, root));
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));

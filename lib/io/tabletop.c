@@ -197,6 +197,8 @@ static sl_status read_size(uvtt *reader, const sli_json *root) {
     const sli_json height = sli_json_member(&size, "y"), y = sli_json_member(&origin, "y");
     double first = 0, rows;
     SL_TRY(sli_json_number_if(&y, &first));
+    const sli_json pixels = sli_json_member(&resolution, "pixels_per_grid");
+    SL_TRY(sli_json_number_if(&pixels, &reader->map->pixels));
     const sli_json left = sli_json_member(&origin, "x"), width = sli_json_member(&size, "x");
     double x = 0, columns = 0;
     SL_TRY(sli_json_number_if(&left, &x));
@@ -316,6 +318,7 @@ typedef struct foundry {
     double top;    ///< the file's y that is 0 in the map, which has y up: the largest of any wall
     double finest; ///< the finest unit of the coordinates
     uint64_t sum;  ///< of their digits
+    double pixels; ///< in a unit of the map: 1, but in a file of our own
     bool top_told; ///< the file says its top
     size_t walls, oneways, open, shut, secret;
     size_t mirrors, seams; ///< of a file of our own
@@ -341,8 +344,10 @@ static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at
     for (size_t i = 0; i < 4; i++) {
         const sli_json number = sli_json_item(&c, i);
         SL_TRY(sli_json_number(&number, &values[i]));
-        sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]));
+        sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]) / reader->pixels);
         reader->sum += sli_digits_of_number(values[i]);
+        values[i] /= reader->pixels;
+        if (!sl_coordinate_usable(values[i])) return sli_json_fail(&number, "out of range");
     }
     *at = (sl_segment){{values[0], reader->top - values[1]}, {values[2], reader->top - values[3]}};
     if (!sl_coordinate_usable(at->a.y) || !sl_coordinate_usable(at->b.y))
@@ -477,16 +482,18 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
         SL_TRY(name_wall(reader, &wall, &read));
         SL_TRY(take(reader, walls, &wall, &read));
     }
-    char top[SL_NUMBER_TEXT];
+    char top[SL_NUMBER_TEXT], unit[SL_NUMBER_TEXT + 16] = "pixels", pixels[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
+    sl_number_write(reader->pixels, pixels);
+    if (reader->pixels != 1) snprintf(unit, sizeof unit, "%s pixels", pixels);
     sl_note(reader->context,
             "%s: %zu walls, %zu one-way; doors: %zu shut, taken as %s, %zu open, %s (%zu of all "
             "secret); left out: %zu that do not stop sight, %zu that stop it only behind another, "
-            "%zu that stop it by distance, %zu of no length; unit: pixels, y = %s - the file's y",
+            "%zu that stop it by distance, %zu of no length; unit: %s, y = %s - the file's y",
             walls->file->name, reader->walls, reader->oneways, reader->shut,
             reader->options->doors ? "doors" : "walls", reader->open,
             reader->options->doors ? "taken as doors" : "left out", reader->secret, reader->unseen,
-            reader->limited, reader->near, reader->points, top);
+            reader->limited, reader->near, reader->points, unit, top);
     if (reader->mirrors || reader->seams)
         sl_note(reader->context, "%s: taken by their flags: %zu mirror%s, %zu seam%s",
                 walls->file->name, reader->mirrors, reader->mirrors == 1 ? "" : "s", reader->seams,
@@ -496,7 +503,8 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
 
 /// A token stands on squares of the scene's grid, `square` pixels wide. Friendly ones are starts.
 /// Turned by 0 degrees it faces down.
-static sl_status read_token(sli_things *things, const sli_json *token, double square) {
+static sl_status read_token(sli_things *things, const sli_json *token, double square,
+                            double pixels) {
     enum { FRIENDLY = 1 };
     const sli_json disposition = sli_json_member(token, "disposition");
     const sli_json name = sli_json_member(token, "name");
@@ -517,9 +525,10 @@ static sl_status read_token(sli_things *things, const sli_json *token, double sq
     SL_TRY(sli_json_number_if(&width, &size.x));
     SL_TRY(sli_json_number_if(&height, &size.y));
     SL_TRY(sli_json_number_if(&turn, &degrees));
-    const sli_thing start = {.kind = SLI_THING_START,
-                             .middle = {at.x + size.x * square / 2, at.y + size.y * square / 2},
-                             .heading = sli_heading_of(degrees + 90)};
+    const sli_thing start = {
+        .kind = SLI_THING_START,
+        .middle = {(at.x + size.x * square / 2) / pixels, (at.y + size.y * square / 2) / pixels},
+        .heading = sli_heading_of(degrees + 90)};
     return sli_things_add(things, says.name, start);
 }
 
@@ -537,7 +546,7 @@ static sl_status read_tokens(foundry *reader, const sli_json *root) {
         status = sli_json_number(size.value ? &size : &grid, &square);
     for (size_t i = 0; status == SL_OK && i < json_array_size(tokens.value); i++) {
         const sli_json token = sli_json_item(&tokens, i);
-        status = read_token(&things, &token, square);
+        status = read_token(&things, &token, square, reader->pixels);
     }
     if (status == SL_OK) status = sli_things_finish(&things, reader->map);
     sli_things_destroy(&things);
@@ -550,7 +559,8 @@ static sl_status read_page(foundry *reader, const sli_json *root) {
     sl_point size = {0, 0};
     SL_TRY(sli_json_number_if(&width, &size.x));
     SL_TRY(sli_json_number_if(&height, &size.y));
-    reader->map->page = (sl_box){{0, -size.y}, {size.x, 0}};
+    reader->map->page = (sl_box){{0, -size.y / reader->pixels}, {size.x / reader->pixels, 0}};
+    reader->map->pixels = reader->pixels;
     return SL_OK;
 }
 
@@ -561,7 +571,10 @@ static sl_status read_foundry(foundry *reader, const sli_json *root) {
     const sli_json walls = sli_json_member(root, "walls");
     const sli_json flags = sli_json_member(root, "flags");
     const sli_json own = sli_json_member(&flags, "sightline"), y0 = sli_json_member(&own, "y0");
+    const sli_json pixels = sli_json_member(&own, "pixels");
     reader->top_told = y0.value != NULL;
+    SL_TRY(sli_json_number_if(&pixels, &reader->pixels));
+    if (!(reader->pixels > 0)) return sli_json_fail(&pixels, "expected a number greater than 0");
     SL_TRY(read_own(&own, &reader->top, reader->map));
     SL_TRY(read_page(reader, root));
     SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
@@ -577,7 +590,7 @@ sl_status sl_map_read_foundry(sl_context *context, const char *name, const char 
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};
-    foundry reader = {.context = context, .options = options, .map = &read};
+    foundry reader = {.context = context, .options = options, .map = &read, .pixels = 1};
     const sli_json root = sli_json_root(&file);
     const sl_status status = read_foundry(&reader, &root);
     sli_json_close(&file);

@@ -16,6 +16,7 @@ typedef struct tabletop_writer {
     const sl_map *map;
     sl_json_writer json;
     double top;
+    double pixels; ///< of a scene in a unit of the map
     uint64_t sum;
     size_t written; ///< walls, doors and glass
     size_t between; ///< of these, with ends between pixels
@@ -107,7 +108,8 @@ static void put_resolution(tabletop_writer *writer) {
     put_real(writer, "x", sizes[0]);
     put_real(writer, "y", sizes[1]);
     end(writer, '}');
-    put_whole(writer, "pixels_per_grid", 64);
+    const double pixels = rint(writer->map->pixels);
+    put_whole(writer, "pixels_per_grid", pixels > 1 && pixels <= 65536 ? (int64_t)pixels : 64);
     end(writer, '}');
 }
 
@@ -175,7 +177,8 @@ sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream
         "sTj2FAAAAABJRU5ErkJggg==";
     tabletop_writer writer = writer_of(context, map, stream);
     begin(&writer, NULL, '{');
-    put_real(&writer, "format", 0.3);
+    sl_json_put_key(&writer.json, "format");
+    sl_json_put_written(&writer.json, "0.3", 3);
     put_resolution(&writer);
     SL_TRY(put_lines(&writer));
     SL_TRY(put_portals(&writer));
@@ -199,7 +202,23 @@ sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream
 // --- Foundry
 
 enum { SIGHT_NONE = 0, SIGHT_NORMAL = 20, LEFT_ONLY = 1, DOOR_PLAIN = 1 };
-enum { SQUARE = 128 }; ///< pixels of a square of the scene's grid
+/// Pixels in a unit of the map, a power of two, so that nothing is rounded: as many as the file had
+/// that the map is from; else so many that the scene is 1024 pixels wide or high at least. Foundry
+/// itself keeps whole pixels.
+static double pixels_of(const sl_map *map) {
+    const sl_box page = sli_page_of(map);
+    const double size = fmax(page.max.x - page.min.x, page.max.y - page.min.y);
+    double pixels = 1;
+    while (pixels < 65536 && (map->pixels > 0 ? pixels * 1.5 < map->pixels : pixels * size < 1024))
+        pixels *= 2;
+    return pixels;
+}
+
+/// The side of a square of the scene's grid, in pixels: a unit of the map, or where that is too
+/// small for Foundry the usual size.
+static double square_of(double pixels) {
+    return pixels < 64 ? 128 : pixels;
+}
 
 /// What is special about a wall; zeroed for a plain one.
 typedef struct foundry_wall {
@@ -226,7 +245,9 @@ static void put_id(tabletop_writer *writer, const char *kind, size_t number) {
 }
 
 static sl_status put_wall(tabletop_writer *writer, sl_point a, sl_point b, foundry_wall wall) {
-    const double c[4] = {a.x, sli_turned_y(writer->top, a.y), b.x, sli_turned_y(writer->top, b.y)};
+    const double y[2] = {sli_turned_y(writer->top, a.y), sli_turned_y(writer->top, b.y)};
+    const double c[4] = {a.x * writer->pixels, y[0] * writer->pixels, b.x * writer->pixels,
+                         y[1] * writer->pixels};
     const int64_t stops = wall.seam ? SIGHT_NONE : SIGHT_NORMAL;
     bool whole = true;
     begin(writer, NULL, '{');
@@ -274,23 +295,24 @@ static sl_status put_walls(tabletop_writer *writer) {
 /// The size of a token, in squares, with which the reader finds its middle again: 1 or a smaller
 /// power of two. 0 where there is none.
 static double size_of_token(const tabletop_writer *writer, sl_point at) {
-    const double y = sli_turned_y(writer->top, at.y);
     for (double size = 1; size > 0x1p-60; size /= 2) {
-        const double half = size * SQUARE / 2;
-        if (at.x - half + half == at.x && y - half + half == y) return size;
+        const double half = size * square_of(writer->pixels) / 2;
+        if (at.x - half + half == at.x && at.y - half + half == at.y) return size;
     }
     return 0;
 }
 
 static void put_token(tabletop_writer *writer, const sl_start *start, size_t number) {
-    const double exact = size_of_token(writer, start->at), size = exact > 0 ? exact : 1;
-    const double half = size * SQUARE / 2;
+    const sl_point at = {start->at.x * writer->pixels,
+                         sli_turned_y(writer->top, start->at.y) * writer->pixels};
+    const double exact = size_of_token(writer, at), size = exact > 0 ? exact : 1;
+    const double half = size * square_of(writer->pixels) / 2;
     writer->rounded += exact == 0;
     begin(writer, NULL, '{');
     put_id(writer, "start", number);
     put_text(writer, "name", "start");
-    put_real(writer, "x", start->at.x - half);
-    put_real(writer, "y", sli_turned_y(writer->top, start->at.y) - half);
+    put_real(writer, "x", at.x - half);
+    put_real(writer, "y", at.y - half);
     put_real(writer, "width", size);
     put_real(writer, "height", size);
     // Turned by 0 degrees a token faces down; it turns clockwise.
@@ -313,14 +335,15 @@ static void tell_rounding(const tabletop_writer *writer) {
 sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream) {
     const sl_box page = sli_page_of(map);
     tabletop_writer writer = writer_of(context, map, stream);
+    writer.pixels = pixels_of(map);
     begin(&writer, NULL, '{');
     put_text(&writer, "name", "Sightline");
-    put_real(&writer, "width", fmax(ceil(page.max.x), 1));
-    put_real(&writer, "height", fmax(ceil(writer.top - page.min.y), 1));
+    put_real(&writer, "width", fmax(ceil(page.max.x * writer.pixels), 1));
+    put_real(&writer, "height", fmax(ceil((writer.top - page.min.y) * writer.pixels), 1));
     put_whole(&writer, "padding", 0);
     begin(&writer, "grid", '{');
     put_whole(&writer, "type", 1);
-    put_whole(&writer, "size", SQUARE);
+    put_real(&writer, "size", square_of(writer.pixels));
     end(&writer, '}');
     SL_TRY(put_walls(&writer));
     begin(&writer, "tokens", '[');
@@ -328,6 +351,7 @@ sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *str
     end(&writer, ']');
     begin(&writer, "flags", '{');
     begin(&writer, "sightline", '{');
+    if (writer.pixels != 1) put_real(&writer, "pixels", writer.pixels);
     put_marks(&writer);
     end(&writer, '}');
     end(&writer, '}');

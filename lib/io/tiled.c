@@ -395,6 +395,7 @@ static sl_status read_head(sli_tiled_reader *reader) {
         reader->pen.map->page =
             (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
         reader->pen.map->top = lattice->height;
+        reader->pen.map->pixels = 1;
     }
     const bool plan = sli_tiled_has_plan(lattice);
     reader->to_plan = sli_tiled_to_plan(lattice);

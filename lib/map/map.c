@@ -454,6 +454,7 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
                   .top = from->top,
                   .page = from->page,
+                  .pixels = from->pixels,
                   .drawing_unit = from->drawing_unit,
                   .range = from->range,
                   .range_line = from->range_line,

@@ -136,7 +136,7 @@ SL_API sl_status sl_map_print_tmx(sl_context *context, const sl_map *map, FILE *
 /// Writes a Universal VTT file: walls and portals; a map unit is a square of its grid.
 SL_API sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream);
 
-/// Writes a scene of Foundry VTT; a map unit is a pixel.
+/// Writes a scene of Foundry VTT; a unit of the map is a power of two pixels.
 SL_API sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream);
 
 // --- pictures by their pixels

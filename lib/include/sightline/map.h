@@ -131,6 +131,7 @@ typedef struct sl_map {
     /// place. An empty box stands for none. Map text and .slv files do not keep them.
     double top;
     sl_box page;
+    double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
     int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
     double range;     ///< the view range; 0 for no limit
     uint32_t range_line;
