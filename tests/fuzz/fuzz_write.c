@@ -1,0 +1,53 @@
+// Writers: whatever map text is read is written in every format of other programs, and read back.
+// What the format has a place for is there again, at the same places.
+#include "fuzz.h"
+
+/// Whether the things are there again that drawings always keep. Walls of no length are not.
+static bool has_all(const sl_map *map, const sl_map *back, unsigned keeps) {
+    const struct {
+        unsigned keeps;
+        size_t count, again;
+    } things[] = {
+        {SL_KEEPS_DOORS, map->door_count, back->door_count},
+        {SL_KEEPS_MIRRORS, map->mirror_count, back->mirror_count},
+        {SL_KEEPS_ONEWAYS, map->oneway_count, back->oneway_count},
+        {SL_KEEPS_SEAMS, map->seam_count, back->seam_count},
+    };
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++)
+        if (keeps & things[i].keeps && things[i].count != things[i].again) return false;
+    if (keeps & SL_KEEPS_DOORS && !same_doors(map->doors, back->doors, map->door_count))
+        return false;
+    return map->precision == back->precision;
+}
+
+static void trip(sl_context *context, const sl_map *map, const sl_map_format *format) {
+    char *text = NULL;
+    size_t size;
+    FILE *stream = open_memstream(&text, &size);
+    FUZZ_CHECK(stream && format->write(context, map, stream) == SL_OK);
+    FUZZ_CHECK(fclose(stream) == 0);
+    sl_import_options options = sl_import_options_default();
+    options.doors = true;
+    sl_map back = {0};
+    const sl_status status = format->read(context, "back", text, size, &options, &back);
+    // Tiled maps without walls are refused.
+    if (status != SL_OK) FUZZ_CHECK(strcmp(format->name, "tmx") == 0);
+    if (status == SL_OK) FUZZ_CHECK(has_all(map, &back, format->keeps));
+    sl_map_destroy(context, &back);
+    free(text);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    sl_context *context = fuzz_context();
+    sl_map map = {0};
+    FUZZ_CHECK(sl_io_use(context) == SL_OK);
+    if (sl_map_read_text(context, "input", (const char *)data, size, &map) == SL_OK) {
+        size_t count;
+        const sl_map_format *formats = sl_map_formats(context, &count);
+        for (size_t i = 2; i < count; i++)
+            if (formats[i].write) trip(context, &map, &formats[i]);
+    }
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+    return 0;
+}
