@@ -1,5 +1,6 @@
 /// Maps that are JSON with a list of walls: Universal VTT (Dungeondraft, Arkenforge, DungeonFog)
-/// and the scenes of Foundry Virtual Tabletop.
+/// and the scenes of Foundry Virtual Tabletop. Files of our own have members of their own, as
+/// tabletop_write.c says.
 #include "geometry/orient.h"
 #include "io/document.h"
 #include "io/names.h"
@@ -198,11 +199,9 @@ static sl_status read_size(uvtt *reader, const sli_json *root) {
     double first = 0, rows;
     SL_TRY(sli_json_number_if(&y, &first));
     const sli_json pixels = sli_json_member(&resolution, "pixels_per_grid");
-    SL_TRY(sli_json_number_if(&pixels, &reader->map->pixels));
     const sli_json left = sli_json_member(&origin, "x"), width = sli_json_member(&size, "x");
-    double x = 0, columns = 0;
-    SL_TRY(sli_json_number_if(&left, &x));
-    SL_TRY(sli_json_number_if(&width, &columns));
+    const double x = sli_json_number_or_0(&left), columns = sli_json_number_or_0(&width);
+    reader->map->pixels = sli_json_number_or_0(&pixels);
     SL_TRY(sli_json_number(&height, &rows));
     reader->top = first + rows;
     SL_TRY(read_marks(root, &reader->top, reader->map));
@@ -554,14 +553,11 @@ static sl_status read_tokens(foundry *reader, const sli_json *root) {
 }
 
 /// The scene's own size, from y 0 of the file down; the caller adds the top.
-static sl_status read_page(foundry *reader, const sli_json *root) {
+static void read_page(foundry *reader, const sli_json *root) {
     const sli_json width = sli_json_member(root, "width"), height = sli_json_member(root, "height");
-    sl_point size = {0, 0};
-    SL_TRY(sli_json_number_if(&width, &size.x));
-    SL_TRY(sli_json_number_if(&height, &size.y));
+    const sl_point size = {sli_json_number_or_0(&width), sli_json_number_or_0(&height)};
     reader->map->page = (sl_box){{0, -size.y / reader->pixels}, {size.x / reader->pixels, 0}};
     reader->map->pixels = reader->pixels;
-    return SL_OK;
 }
 
 /// A scene, or a list of walls alone.
@@ -576,7 +572,7 @@ static sl_status read_foundry(foundry *reader, const sli_json *root) {
     SL_TRY(sli_json_number_if(&pixels, &reader->pixels));
     if (!(reader->pixels > 0)) return sli_json_fail(&pixels, "expected a number greater than 0");
     SL_TRY(read_own(&own, &reader->top, reader->map));
-    SL_TRY(read_page(reader, root));
+    read_page(reader, root);
     SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
     reader->map->page.min.y += reader->top;
     reader->map->page.max.y += reader->top;

@@ -389,8 +389,7 @@ static sl_status read_head(sli_tiled_reader *reader) {
     const double height = lattice->height;
     if (lattice->orientation == SLI_TILED_ORTHOGONAL) {
         const sli_json columns = sli_json_member(reader->map, "width");
-        double width = 0;
-        SL_TRY(sli_json_number_if(&columns, &width));
+        const double width = sli_json_number_or_0(&columns);
         SL_TRY(read_marks(reader));
         reader->pen.map->page =
             (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
