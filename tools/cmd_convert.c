@@ -56,9 +56,8 @@ static sl_status choose_output(sl_context *context, const char *input, bool in_p
     SL_TRY(output_check_file(context, option, *output, NULL));
     if (in_place || output_check_apart(context, input, option, *output) == SL_OK) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
-                   "-o %s: is the input itself, which would be lost; give another name, or "
-                   "--in-place",
-                   *output);
+                   "-o %s: is the input itself, which would be lost; give another name%s", *output,
+                   output_has_ending(*output, ".map .txt") ? ", or --in-place" : "");
 }
 
 sl_status cmd_convert(command_console *console, int argc, char **argv) {

@@ -63,7 +63,8 @@ typedef struct uvtt {
     sl_map *map;
     double top;    ///< the file's y that is 0 in the map, which has y up
     double finest; ///< the finest unit of the coordinates
-    uint64_t sum;  ///< of their digits
+    uint64_t sum;  ///< of their digits, where the file has a mark
+    const char *mark;
     size_t walls, points;
     size_t open, closed;
     door_names names;
@@ -81,7 +82,7 @@ static sl_status read_point(uvtt *reader, const sli_json *at, sl_point *point) {
     SL_TRY(sli_json_number(&y, &read.y));
     sli_keep_finest(&reader->finest, sli_shortest_unit(read.x));
     sli_keep_finest(&reader->finest, sli_shortest_unit(read.y));
-    reader->sum += sli_digits_of_number(read.x) + sli_digits_of_number(read.y);
+    if (reader->mark) reader->sum += sli_digits_of_number(read.x) + sli_digits_of_number(read.y);
     read.y = reader->top - read.y;
     if (!sl_coordinate_usable(read.y)) return sli_json_fail(&y, "out of range once y points up");
     *point = read;
@@ -169,24 +170,16 @@ static sl_status read_portals(uvtt *reader, const sli_json *portals) {
     return SL_OK;
 }
 
-/// What a file of our own says of the whole map, in `own`: the y that is 0, the view range.
-static sl_status read_own(const sli_json *own, double *top, sl_map *map) {
+/// What a file of our own says of the whole map, in `own`: the y that is 0, the view range, the sum
+/// of its digits (NULL for none).
+static sl_status read_own(const sli_json *own, double *top, const char **mark, sl_map *map) {
+    const sli_json digits = sli_json_member(own, "digits");
+    *mark = json_string_value(digits.value);
     const sli_json y0 = sli_json_member(own, "y0"), range = sli_json_member(own, "range");
     SL_TRY(sli_json_number_if(&y0, top));
     SL_TRY(sli_json_number_if(&range, &map->range));
     return range.value && !(map->range > 0) ? sli_json_fail(&range, "a range is greater than 0")
                                             : SL_OK;
-}
-
-static sl_status read_marks(const sli_json *root, double *top, sl_map *map) {
-    const sli_json own = sli_json_member(root, "sightline");
-    return read_own(&own, top, map);
-}
-
-/// The sum of the digits that the file's writer knew; NULL for none.
-static const char *mark_of(const sli_json *own) {
-    const sli_json digits = sli_json_member(own, "digits");
-    return json_string_value(digits.value);
 }
 
 /// The lower edge of the map is y 0: its origin and its size say where that is.
@@ -204,7 +197,8 @@ static sl_status read_size(uvtt *reader, const sli_json *root) {
     reader->map->pixels = sli_json_number_or_0(&pixels);
     SL_TRY(sli_json_number(&height, &rows));
     reader->top = first + rows;
-    SL_TRY(read_marks(root, &reader->top, reader->map));
+    const sli_json own = sli_json_member(root, "sightline");
+    SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
     reader->map->top = reader->top;
     reader->map->page =
         (sl_box){{x, reader->top - (first + rows)}, {x + columns, reader->top - first}};
@@ -264,10 +258,9 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     if (takes(reader, layer_names[1]) && objects.value)
         SL_TRY(read_polylines(reader, layer_names[1], &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
-    const sli_json own = sli_json_member(root, "sightline");
     SL_TRY(read_starts(reader, root));
     reader->map->precision =
-        sli_marked_precision(reader->map, reader->finest, mark_of(&own), reader->sum);
+        sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);
     const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
@@ -316,7 +309,8 @@ typedef struct foundry {
     sl_map *map;
     double top;    ///< the file's y that is 0 in the map, which has y up: the largest of any wall
     double finest; ///< the finest unit of the coordinates
-    uint64_t sum;  ///< of their digits
+    uint64_t sum;  ///< of their digits, where the file has a mark
+    const char *mark;
     double pixels; ///< in a unit of the map: 1, but in a file of our own
     bool top_told; ///< the file says its top
     size_t walls, oneways, open, shut, secret;
@@ -344,7 +338,7 @@ static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at
         const sli_json number = sli_json_item(&c, i);
         SL_TRY(sli_json_number(&number, &values[i]));
         sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]) / reader->pixels);
-        reader->sum += sli_digits_of_number(values[i]);
+        if (reader->mark) reader->sum += sli_digits_of_number(values[i]);
         values[i] /= reader->pixels;
         if (!sl_coordinate_usable(values[i])) return sli_json_fail(&number, "out of range");
     }
@@ -571,13 +565,13 @@ static sl_status read_foundry(foundry *reader, const sli_json *root) {
     reader->top_told = y0.value != NULL;
     SL_TRY(sli_json_number_if(&pixels, &reader->pixels));
     if (!(reader->pixels > 0)) return sli_json_fail(&pixels, "expected a number greater than 0");
-    SL_TRY(read_own(&own, &reader->top, reader->map));
+    SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
     read_page(reader, root);
     SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
     reader->map->page.min.y += reader->top;
     reader->map->page.max.y += reader->top;
     reader->map->precision =
-        sli_marked_precision(reader->map, reader->finest, mark_of(&own), reader->sum);
+        sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);
     return read_tokens(reader, root);
 }
 

@@ -397,6 +397,11 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
                 format->what);
     if (!(format->keeps & SL_KEEPS_NOTES) && map->notes)
         sl_note(context, "%s: %s has no place for notes, which are left out", path, format->what);
+    if (!(format->keeps & SL_KEEPS_NOTES) && map->label_count)
+        sl_note(
+            context,
+            "%s: %s has no place for the names that walls have in their file, which are left out",
+            path, format->what);
     if (!(format->keeps & SL_KEEPS_COMMENTS) && map->comment_count)
         sl_note(context, "%s: %s has no place for comments, which are left out", path,
                 format->what);
