@@ -44,7 +44,8 @@ sli_layer sli_layer_of(sli_word name, sli_word *rest) {
     size_t longest = 0;
     for (int i = SLI_LAYER_NONE + 1; i < SLI_LAYER_COUNT; i++) {
         const size_t length = strlen(names[i]);
-        if (length <= longest || name.length < length || strncasecmp(name.at, names[i], length))
+        if (length <= longest || name.length < length ||
+            strncasecmp(name.at, names[i], length) != 0)
             continue;
         if (name.length > length && (!rest || name.at[length] != '-')) continue;
         found = (sli_layer)i;
