@@ -438,6 +438,24 @@ void sli_write_mark(const sl_map *map, uint64_t sum, char text[SLI_MARK_TEXT]) {
     snprintf(text, SLI_MARK_TEXT, "%016llx %s", (unsigned long long)sum, precision);
 }
 
+/// Of the characters that names may have XML forbids two (XML 1.0, 2.2): U+FFFE and U+FFFF.
+static sl_status check_xml_name(sl_context *context, const sl_map *map, const char *name,
+                                uint32_t line) {
+    if (!strstr(name, "\xef\xbf\xbe") && !strstr(name, "\xef\xbf\xbf")) return SL_OK;
+    return sl_map_fail(context, map, SL_UNSUPPORTED, line,
+                       "a name has the character U+FFFE or U+FFFF, which XML files cannot have");
+}
+
+sl_status sli_check_xml_names(sl_context *context, const sl_map *map) {
+    for (size_t i = 0; i < map->door_count; i++)
+        SL_TRY(check_xml_name(context, map, map->doors[i].name, map->doors[i].line));
+    for (size_t i = 0; i < map->path_count; i++)
+        SL_TRY(check_xml_name(context, map, map->paths[i].name, map->paths[i].line));
+    for (size_t i = 0; i < map->object_count; i++)
+        SL_TRY(check_xml_name(context, map, map->objects[i].name, map->objects[i].line));
+    return SL_OK;
+}
+
 void sli_put_escaped(FILE *stream, const char *text) {
     for (; *text; text++) {
         const char *const entity = *text == '&'   ? "&amp;"

@@ -85,6 +85,9 @@ sl_box sli_page_of(const sl_map *map);
 /// Writes a number to a stream, and adds it to the sum of its digits.
 void sli_put_number(FILE *stream, double value, uint64_t *sum);
 
+/// SL_UNSUPPORTED, naming the line, where a name has a character that XML files cannot have.
+sl_status sli_check_xml_names(sl_context *context, const sl_map *map);
+
 /// Writes a text as the value of an XML attribute.
 void sli_put_escaped(FILE *stream, const char *text);
 

@@ -122,6 +122,7 @@ sl_status sl_map_print_svg(sl_context *context, const sl_map *map, FILE *stream)
                          .thin = hypot(page.max.x - page.min.x, page.max.y - page.min.y) / 500};
     const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
     char mark[SLI_MARK_TEXT];
+    SL_TRY(sli_check_xml_names(context, map));
     write_head(&writer, map);
     SL_TRY(sli_layers_write(context, map, &sink));
     sli_write_mark(map, writer.sum, mark);

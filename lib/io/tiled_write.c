@@ -116,6 +116,7 @@ static void write_head(const tiled_writer *writer, const sl_map *map) {
 sl_status sl_map_print_tmx(sl_context *context, const sl_map *map, FILE *stream) {
     tiled_writer writer = {.stream = stream, .top = sli_choose_top(map)};
     const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
+    SL_TRY(sli_check_xml_names(context, map));
     write_head(&writer, map);
     SL_TRY(sli_layers_write(context, map, &sink));
     fputs("</map>\n", stream);

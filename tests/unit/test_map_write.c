@@ -603,6 +603,38 @@ static void test_choice(void **state) {
     sl_context_destroy(context);
 }
 
+/// A name that a file could not hold is refused, and an older file stays as it is.
+static void test_names_refused(void **state) {
+    (void)state;
+    static const char *const names[] = {"svg", "tmx"};
+    static const char *const things[] = {"door \xef\xbf\xbf 0 0 1 0", "path a\xef\xbf\xbe 0 0 1 0",
+                                         "object \xef\xbf\xbf 0 0 1 1"};
+    sl_context *context = noting_context(&(notes){{0}});
+    char *folder = make_folder(), path[128];
+    for (size_t i = 0; i < 6; i++) {
+        const sl_map_format *format = NULL;
+        sl_map map = {0};
+        sl_bytes bytes;
+        snprintf(path, sizeof path, "%s/a.%s", folder, names[i % 2]);
+        FILE *older = fopen(path, "w");
+        assert_non_null(older);
+        assert_true(fputs("older", older) >= 0);
+        assert_int_equal(fclose(older), 0);
+        read_statements(context, things[i / 2], &map);
+        assert_ok(context, sl_map_format_to_write(context, "-o", path, NULL, &format));
+        assert_int_equal(sl_map_write(context, &map, format, path), SL_UNSUPPORTED);
+        assert_non_null(strstr(sl_context_message(context), "2: a name has the character U+FFF"));
+        assert_ok(context, sl_file_read(context, path, &bytes));
+        assert_string_equal(bytes.data, "older");
+        sl_free(context, bytes.data);
+        sl_map_destroy(context, &map);
+        remove(path);
+    }
+    assert_int_equal(rmdir(folder), 0);
+    free(folder);
+    sl_context_destroy(context);
+}
+
 /// Lack of memory, wherever it strikes, leaves no file and no memory behind.
 static void test_memory(void **state) {
     (void)state;
@@ -711,11 +743,12 @@ static int print_table(int count, char **paths) {
 int main(int argc, char **argv) {
     if (argc > 1 && strcmp(argv[1], "--table") == 0) return print_table(argc - 2, argv + 2);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_files),      cmocka_unit_test(test_turned),
-        cmocka_unit_test(test_everything), cmocka_unit_test(test_digits),
-        cmocka_unit_test(test_places),     cmocka_unit_test(test_unit),
-        cmocka_unit_test(test_by_hand),    cmocka_unit_test(test_added_doors),
-        cmocka_unit_test(test_choice),     cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_files),         cmocka_unit_test(test_turned),
+        cmocka_unit_test(test_everything),    cmocka_unit_test(test_digits),
+        cmocka_unit_test(test_places),        cmocka_unit_test(test_unit),
+        cmocka_unit_test(test_by_hand),       cmocka_unit_test(test_added_doors),
+        cmocka_unit_test(test_names_refused), cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
