@@ -97,6 +97,9 @@ static void write_item(void *user, const sli_layer_item *item) {
     put_names(writer, item);
 }
 
+/// The longer side of the picture, in pixels of a viewer. The reader takes the viewBox alone.
+#define SHOWN 1000
+
 static void write_head(const svg_writer *writer, const sl_map *map) {
     const sl_box page = sli_page_of(map);
     const double box[4] = {page.min.x, writer->top - page.max.y, page.max.x - page.min.x,
@@ -109,6 +112,9 @@ static void write_head(const svg_writer *writer, const sl_map *map) {
             "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
             "viewBox=\"%s %s %s %s\"",
             texts[0], texts[1], texts[2], texts[3]);
+    const double scale = SHOWN / fmax(box[2], box[3]);
+    put_other(writer, "width", fmax(rint(box[2] * scale), 1));
+    put_other(writer, "height", fmax(rint(box[3] * scale), 1));
     put_other(writer, "data-sightline-y0", writer->top);
     if (map->range > 0) put_other(writer, "data-sightline-range", map->range);
     if (map->snap > 0) put_other(writer, "data-sightline-snap", map->snap);
