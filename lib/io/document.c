@@ -170,6 +170,14 @@ sl_status sli_json_text(const sli_json *at, const char **text) {
     return SL_OK;
 }
 
+double sli_json_number_or_0(const sli_json *at) {
+    double number = 0;
+    const char *text = at->file->numbers_as_text ? json_string_value(at->value) : NULL;
+    if (text && !sl_number_read(text, strlen(text), &number)) number = 0;
+    if (json_is_number(at->value)) number = json_number_value(at->value);
+    return sl_coordinate_usable(number) ? number : 0;
+}
+
 sl_status sli_json_number_if(const sli_json *at, double *number) {
     return at->value ? sli_json_number(at, number) : SL_OK;
 }

@@ -452,6 +452,10 @@ static sl_status copy_comments(sl_context *context, const sl_map *from, sl_map *
 
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
+                  .top = from->top,
+                  .page = from->page,
+                  .pixels = from->pixels,
+                  .drawing_unit = from->drawing_unit,
                   .range = from->range,
                   .range_line = from->range_line,
                   .ground_guessed = from->ground_guessed,

@@ -20,7 +20,7 @@ from wad import make_wad, rooms
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
           "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels",
           "IN.wad": "rooms.wad"}
-OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT.map|OUT.txt": "out.map",
+OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT": "out.map",
            "OUT.map": "out.map", "OUT.wad": "out.wad",
            "FILE": "out.json", "FILE.csv": "out.csv", "DIR": "out"}
 # What makes a command that computes for long short, where nothing else is said.
