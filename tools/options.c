@@ -390,9 +390,9 @@ static sl_status check_output(sl_context *context, const option_spec *option, co
     case CHECK_FILE:
         return output_check_file(context, label, text, option->endings);
     case CHECK_TABLE:
-        return output_check_table(context, label, text);
+        return output_check_table(context, label, text, option->endings);
     case CHECK_PICTURE:
-        return output_check_picture(context, label, text);
+        return output_check_picture(context, label, text, option->endings);
     case CHECK_BAKED:
         return output_check_baked(context, label, text);
     }
