@@ -164,12 +164,14 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     for (size_t i = 0; i < count; i++) values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count; i++)
         values[eyes->squares.items[i]] = isovist_value(&w->isovists[i], plan->measure);
-    char measure[64], title[512];
+    char measure[64], title[512], unit[ISOVIST_UNIT];
     write_measure(plan->measure, measure, sizeof measure);
     write_title(plan, measure, title, sizeof title);
+    isovist_unit(plan->measure, w->baked.map.unit, unit);
     sl_draw_options drawing = plan->drawing;
     if (!drawing.title) drawing.title = title;
     const sl_field field = {.name = measure,
+                            .unit = *unit ? unit : NULL,
                             .corner = eyes->corner,
                             .step = eyes->step,
                             .columns = eyes->columns,

@@ -147,27 +147,40 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
 typedef struct measure {
     const char *name;
     size_t offset; ///< in sl_region_measures
+    int power;     ///< of the map's unit; ANGLE for degrees
 } measure;
 
-#define MEASURE(name)                                                                              \
-    { #name, offsetof(sl_region_measures, name) }
+enum { ANGLE = -1 };
+
+#define MEASURE(name, power)                                                                       \
+    { #name, offsetof(sl_region_measures, name), power }
 static const measure measures[] = {
-    MEASURE(area),
-    MEASURE(perimeter),
-    MEASURE(compactness),
-    MEASURE(occlusivity),
-    MEASURE(drift_magnitude),
-    MEASURE(drift_angle),
-    MEASURE(min_radial),
-    MEASURE(max_radial),
-    MEASURE(mean_radial),
-    MEASURE(radial_variance),
-    MEASURE(radial_skewness),
+    MEASURE(area, 2),
+    MEASURE(perimeter, 1),
+    MEASURE(compactness, 0),
+    MEASURE(occlusivity, 1),
+    MEASURE(drift_magnitude, 1),
+    MEASURE(drift_angle, ANGLE),
+    MEASURE(min_radial, 1),
+    MEASURE(max_radial, 1),
+    MEASURE(mean_radial, 1),
+    MEASURE(radial_variance, 2),
+    MEASURE(radial_skewness, 3),
 };
 enum { MEASURES = sizeof measures / sizeof *measures, EYES_A_BUNDLE = 64 };
 
 name_table isovist_measures(void) {
     return (name_table){"measure", measures, sizeof *measures, MEASURES, NULL};
+}
+
+void isovist_unit(size_t which, const char *unit, char text[ISOVIST_UNIT]) {
+    static const char *const powers[] = {"", "", "\xc2\xb2", "\xc2\xb3"};
+    const int power = measures[which].power;
+    text[0] = '\0';
+    if (power == ANGLE)
+        snprintf(text, ISOVIST_UNIT, "\xc2\xb0");
+    else if (power && *unit)
+        snprintf(text, ISOVIST_UNIT, "%s%s", unit, powers[power]);
 }
 
 static double value_of(const sl_region_measures *all, size_t which) {

@@ -164,6 +164,7 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
         SL_TRY(read_polylines(reader, layer_names[1], &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
     reader->map->precision = sli_precision_of(reader->map, reader->finest);
+    strcpy(reader->map->unit, "grid units");
     const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
@@ -337,6 +338,7 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
         SL_TRY(take(reader, &read));
     }
     reader->map->precision = sli_precision_of(reader->map, reader->finest);
+    strcpy(reader->map->unit, "px");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
     sl_note(reader->context,

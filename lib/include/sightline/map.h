@@ -126,6 +126,9 @@ typedef struct sl_map {
     /// units; 0 for a map whose numbers are exact. Readers of drawings set it, cleaning sets it
     /// back to 0.
     double precision;
+    /// What the file says its coordinates are in: "m", "mm", "ft", "px" ...; "" where it does not
+    /// say. For people: nothing depends on it. Map text and .slv files do not keep it.
+    char unit[16];
     double range; ///< the view range; 0 for no limit
     uint32_t range_line;
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
