@@ -191,11 +191,12 @@ static sl_status members_find(sl_context *context, const view_run *run, members 
     if (!of->first || !of->list || !of->largest) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < all; i++) of->first[run->view_cells[i] + 2]++;
     for (uint32_t i = 0; i < count; i++) of->first[i + 2] += of->first[i + 1];
-    for (uint32_t i = 0; i < all; i++) {
-        const uint32_t cell = run->view_cells[i], place = of->first[cell + 1]++;
-        of->list[place] = i;
-        if (place == of->first[cell] || run->tree.mass[i] > run->tree.mass[of->largest[cell]])
-            of->largest[cell] = i;
+    for (uint32_t i = 0; i < all; i++) of->list[of->first[run->view_cells[i] + 1]++] = i;
+    for (uint32_t cell = 0; cell < count; cell++) {
+        of->largest[cell] = of->list[of->first[cell]];
+        for (uint32_t i = of->first[cell]; i < of->first[cell + 1]; i++)
+            if (run->tree.mass[of->list[i]] > run->tree.mass[of->largest[cell]])
+                of->largest[cell] = of->list[i];
     }
     return SL_OK;
 }
