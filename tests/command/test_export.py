@@ -287,12 +287,22 @@ ENTRY {
             for count in ("CELLS", "SEES", "PORTALS", "DOORS", "STARTS"):
                 program = program.replace(f"{name}_{count}", f"{name.upper()}_{count}")
             self.box.path(name + ".c").write_text(program, encoding="utf-8")
+        (example,) = re.findall(r"```c\n(.*?)```",
+                                (BAKE / "EXPORT.md").read_text(encoding="utf-8"), re.DOTALL)
+        self.box.path("example.c").write_text(example, encoding="utf-8")
+        self.bake(BOX)
+        self.run_well("export", "m.slv", "--prefix", "office", "-o", "office.h", "-q")
         for compiler in compilers:
             warnings_too = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
             # A header that is compiled by itself uses none of its tables.
             for what in (["-fsyntax-only", "-x", "c", "Main_2.h"],
                          ["-o", "two", "second.c", "Main_2.c"]):
                 subprocess.run([compiler, *warnings_too, *what], cwd=self.box.folder, check=True)
+            subprocess.run([compiler, *warnings_too, "-o", "example", "example.c"],
+                           cwd=self.box.folder, check=True)
+            done = subprocess.run(["./example"], cwd=self.box.folder, check=True,
+                                  stdout=subprocess.PIPE)
+            self.assertEqual(done.stdout, b"cell 0 has 4 corners\ncell 1 has 4 corners\n")
             done = subprocess.run(["./two"], cwd=self.box.folder, check=True,
                                   stdout=subprocess.PIPE)
             lines = done.stdout.decode("utf-8").splitlines()
