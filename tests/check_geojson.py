@@ -2,6 +2,7 @@
 shares nothing with the library.
 
 check_geojson.py FILE.geojson ...
+check_geojson.py --self-test
 
 Checks: a FeatureCollection of Features (RFC 7946), each with a geometry, or null, and properties with
 a `kind`; two finite coordinates; closed rings; outer rings counter-clockwise, holes clockwise and
@@ -38,8 +39,9 @@ def on(a, b, p):
     return min(a[0], b[0]) <= p[0] <= max(a[0], b[0]) and min(a[1], b[1]) <= p[1] <= max(a[1], b[1])
 
 
-def clash(a, b, c, d):
-    """Whether two segments cross, or share more than an end of both."""
+def clash(a, b, c, d, apart):
+    """Whether two segments cross or overlap. Those of one ring may share an end only; of two rings
+    (`apart`) any one point."""
     if min(a[0], b[0]) > max(c[0], d[0]) or min(c[0], d[0]) > max(a[0], b[0]) or \
             min(a[1], b[1]) > max(c[1], d[1]) or min(c[1], d[1]) > max(a[1], b[1]):
         return False
@@ -50,12 +52,14 @@ def clash(a, b, c, d):
     touching = [p for sign, ends, p in ((first, (a, b), c), (second, (a, b), d),
                                         (third, (c, d), a), (fourth, (c, d), b))
                 if sign == 0 and on(*ends, p)]
-    # A common end only: two of the four, which are one point.
-    return bool(touching) and not (len(touching) == 2 and touching[0] == touching[1])
+    if len(set(map(tuple, touching))) != 1:
+        return bool(touching)
+    # A common end counts twice: as an end of each.
+    return not apart and len(touching) != 2
 
 
 def edges_of(rings):
-    return [(a, b) for ring in rings for a, b in zip(ring, ring[1:])]
+    return [(a, b, number) for number, ring in enumerate(rings) for a, b in zip(ring, ring[1:])]
 
 
 def crossings(rings):
@@ -65,7 +69,8 @@ def crossings(rings):
     for edge in edges:
         left = min(edge[0][0], edge[1][0])
         active = [other for other in active if max(other[0][0], other[1][0]) >= left]
-        found += [(edge, other) for other in active if clash(*edge, *other)]
+        found += [(edge[:2], other[:2]) for other in active
+                  if clash(*edge[:2], *other[:2], edge[2] != other[2])]
         active.append(edge)
     return found
 
@@ -147,7 +152,50 @@ def refuse(name):
     raise ValueError(f"{name} is no number of JSON")
 
 
+def self_test():
+    """Each fault is found; what only looks like one is not."""
+    def polygon(*rings):
+        return {"type": "Polygon", "coordinates": [list(map(list, ring)) for ring in rings]}
+
+    def several(*polygons):
+        return {"type": "MultiPolygon", "coordinates": [p["coordinates"] for p in polygons]}
+
+    square = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0)]
+    hole = [(1, 1), (1, 2), (2, 2), (1, 1)]
+    touching = [(0, 2), (1, 3), (1, 1), (0, 2)]
+    corner = [(4, 4), (5, 4), (5, 5), (4, 4)]
+    good = [None, polygon(square), polygon(square, hole), polygon(square, touching),
+            polygon([(0, 0), (2, 0), (4, 0), (4, 4), (0, 0)]),
+            several(polygon(square, hole), polygon(corner)),
+            {"type": "Point", "coordinates": [1, -2.5]},
+            {"type": "LineString", "coordinates": [[0, 0], [1, 1]]}]
+    bad = [polygon(square[:-1]), polygon(square[::-1]), polygon(square, hole[::-1]),
+           polygon(square, [(8, 8), (8, 9), (9, 9), (8, 8)]),
+           polygon(square, [(3, 3), (3, 3.5), (5, 3), (3, 3)]),
+           polygon([(0, 0), (4, 4), (4, 0), (0, 3), (0, 0)]),
+           polygon([(0, 0), (4, 0), (2, 0), (4, 4), (0, 0)]),
+           polygon([(0, 0), (2, 1), (4, 0), (4, 4), (2, 1), (0, 4), (0, 0)]),
+           polygon([(0, 0), (4, 0), (2, 1e-300), (4, -1), (4, 4), (0, 0)]),
+           polygon([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 0, 0)]), polygon(),
+           several(polygon(square)), several(polygon(square), polygon([(3, 3), *corner[1:3], (3, 3)])),
+           several(polygon(square), polygon([(4, 1), (5, 1), (5, 2), (4, 2), (4, 1)])),
+           {"type": "Point", "coordinates": [1, float("inf")]},
+           {"type": "LineString", "coordinates": [[0, 0]]}, {"type": "Circle", "coordinates": []}]
+    for geometry in good:
+        assert not check_geometry(geometry), geometry
+    for geometry in bad:
+        assert check_geometry(geometry), geometry
+    feature = {"type": "Feature", "geometry": None, "properties": {"kind": "a"}}
+    assert not faults({"type": "FeatureCollection", "features": [feature]})
+    for wrong in {"type": "Feature"}, {"type": "Feature", "geometry": None, "properties": {}}:
+        assert faults({"type": "FeatureCollection", "features": [wrong]})
+    assert faults({"type": "FeatureCollection"})
+
+
 def main():
+    if sys.argv[1:] == ["--self-test"]:
+        self_test()
+        return
     count = 0
     for path in sys.argv[1:]:
         with open(path, encoding="utf-8") as file:

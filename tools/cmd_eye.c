@@ -314,7 +314,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
         {"fov", 0, "DEG", "how wide, 0 to 360 degrees in all; without --look\nand --fov all round",
          .number = &plan.fov, .most = 360, .needs = "degrees from 0 to 360 are needed",
          .given = &plan.fov_given},
-        {"output", 'o', "FILE",
+        {"output", 'o', "PICTURE|TABLE",
          "write it too, by the ending: a picture (.png, .svg,\n.pdf), or regions and cells "
          "(.geojson, .csv)",
          .text = &plan.output, .check = CHECK_PICTURE, .endings = EYE_FILES},

@@ -283,7 +283,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .count32 = &plan.mirror_depth, .most = 16},
         {"range", 0, "R", "see no farther; without it the map's range, if any",
          .number = &plan.range, .over_0 = true, .given = &plan.range_given},
-        {"output", 'o', "FILE",
+        {"output", 'o', "TABLE",
          "where the table goes: .csv, or .geojson for the\nregions with their measures (default: "
          "stdout, as CSV;\nnowhere with --picture)",
          .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},

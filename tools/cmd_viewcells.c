@@ -513,7 +513,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
         {"seed", 0, "N", "of what is drawn at random, 1 without it", .count = &run->sampling.seed},
         {"threads", 0, "N", "0, as without it: one a core", .count32 = &run->sampling.threads,
          .most = 1024},
-        {"output", 'o', "FILE",
+        {"output", 'o', "TABLE",
          "a table of the view cells: .csv, or .geojson with\ntheir shapes; - for stdout, as CSV",
          .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
         {"picture", 0, "PICTURE", "draw the cells by their cost: .png, .svg or .pdf",
