@@ -35,6 +35,9 @@ static sl_status check_options(sl_context *context, const sl_export_format *form
     if (given->json_version && format->write != sl_export_json)
         return sl_fail(context, SL_BAD_ARGUMENT, "--json-version: the format %s has no use for it",
                        format->name);
+    if (given->prefix && format->write != sl_export_c)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--prefix: the format %s has no use for it",
+                       format->name);
     return SL_OK;
 }
 
@@ -62,6 +65,10 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
         {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
         {"json-version", 0, "N", "json: the version to write, 1 or 2 (default: 2)",
          .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
+        {"prefix", 0, "NAME",
+         "c: what all names begin with, so that a program can\nhold several maps "
+         "(default: " SL_PREFIX_DEFAULT ")",
+         .text = &given.prefix},
     };
     const command_usage usage = {
         .name = "export",
@@ -71,6 +78,7 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
         .tables = print_formats,
         .examples =
             "  sightline export office.slv --format json -o office.json\n"
+            "  sightline export office.slv --prefix office -o office.h\n"
             "  sightline export e1m1.slv --format reject --wad doom.wad --map E1M1 -o new.wad",
         .options = options,
         .option_count = sizeof options / sizeof *options,

@@ -1,10 +1,12 @@
 /// `sightline viewcells`: view cells that adapt to what is seen (Mattausch et al. 2006).
 #include "commands.h"
+#include "inputs.h"
 #include "json_print.h"
 #include "outputs.h"
 #include "pipeline.h"
 #include "report.h"
 #include "sightline/draw.h"
+#include "sightline/geojson.h"
 #include "sightline/support.h"
 #include "view_run.h"
 
@@ -168,40 +170,107 @@ static sl_point middle_of(const sl_view_tree *tree, uint32_t leaf) {
     return sum;
 }
 
-/// The elementary cells of a view cell: their number, and the one with the largest mass.
+/// The elementary cells of view cells.
 typedef struct members {
-    uint32_t count, largest;
+    uint32_t *first;   ///< by view cell, and one more: list[first[i] .. first[i + 1])
+    uint32_t *list;    ///< elementary cells, ascending for each view cell
+    uint32_t *largest; ///< by view cell: the one with the largest mass
 } members;
 
-static sl_status write_rows(sl_context *context, const view_run *run, FILE *out) {
-    const sl_view_hierarchy *h = view_run_told(run);
-    members *of = sl_alloc_array(context, run->cell_count, sizeof *of);
-    if (!of) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < h->cell_count; i++) {
-        members *m = &of[run->view_cells[i]];
-        if (!m->count++ || run->tree.mass[i] > run->tree.mass[m->largest]) m->largest = i;
+static void members_destroy(sl_context *context, members *of) {
+    sl_free(context, of->first);
+    sl_free(context, of->list);
+    sl_free(context, of->largest);
+}
+
+static sl_status members_find(sl_context *context, const view_run *run, members *of) {
+    const uint32_t all = view_run_told(run)->cell_count, count = run->cell_count;
+    *of = (members){sl_alloc_array(context, (size_t)count + 2, sizeof *of->first),
+                    sl_alloc_array(context, all, sizeof *of->list),
+                    sl_alloc_array(context, count, sizeof *of->largest)};
+    if (!of->first || !of->list || !of->largest) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < all; i++) of->first[run->view_cells[i] + 2]++;
+    for (uint32_t i = 0; i < count; i++) of->first[i + 2] += of->first[i + 1];
+    for (uint32_t i = 0; i < all; i++) of->list[of->first[run->view_cells[i] + 1]++] = i;
+    for (uint32_t cell = 0; cell < count; cell++) {
+        of->largest[cell] = of->list[of->first[cell]];
+        for (uint32_t i = of->first[cell]; i < of->first[cell + 1]; i++)
+            if (run->tree.mass[of->list[i]] > run->tree.mass[of->largest[cell]])
+                of->largest[cell] = of->list[i];
     }
-    fputs("view_cell,probability,cost,objects,bytes,elementary_cells,x,y\n", out);
-    for (uint32_t i = 0; i < run->cell_count; i++) {
-        const uint32_t number = run->numbers[i];
-        const sl_point at = middle_of(&run->tree, of[i].largest);
-        fprintf(out, "%u,", i);
-        put(out, h->mass[number], ',');
-        put(out, h->cost[number], ',');
-        fprintf(out, "%u,%" PRIu64 ",%u,", h->objects[number], h->bytes[number], of[i].count);
-        put(out, at.x, ',');
-        put(out, at.y, '\n');
-    }
-    sl_free(context, of);
     return SL_OK;
 }
 
-/// Writes one row for each view cell: number, probability, cost, objects, bytes, number of
-/// elementary cells, and a point in the largest of them.
-static sl_status view_report_write_csv(sl_context *context, const view_run *run, const char *path) {
+static uint32_t members_count(const members *of, uint32_t view_cell) {
+    return of->first[view_cell + 1] - of->first[view_cell];
+}
+
+static sl_status write_rows(const view_run *run, const members *of, FILE *out) {
+    const sl_view_hierarchy *h = view_run_told(run);
+    fputs("view_cell,probability,cost,objects,bytes,elementary_cells,x,y\n", out);
+    for (uint32_t i = 0; i < run->cell_count; i++) {
+        const uint32_t number = run->numbers[i];
+        const sl_point at = middle_of(&run->tree, of->largest[i]);
+        fprintf(out, "%u,", i);
+        put(out, h->mass[number], ',');
+        put(out, h->cost[number], ',');
+        fprintf(out, "%u,%" PRIu64 ",%u,", h->objects[number], h->bytes[number],
+                members_count(of, i));
+        put(out, at.x, ',');
+        put(out, at.y, '\n');
+    }
+    return SL_OK;
+}
+
+static void put_members(sl_json_writer *json, const members *of, uint32_t view_cell) {
+    sl_json_put_key(json, "members");
+    sl_json_put_list(json);
+    for (uint32_t i = of->first[view_cell]; i < of->first[view_cell + 1]; i++)
+        sl_json_put_integer(json, of->list[i]);
+    sl_json_put_end(json, ']');
+}
+
+/// Each view cell as its shape, with the columns of its line in the table and its members.
+static sl_status write_places(sl_context *context, const view_run *run, const members *of,
+                              FILE *file) {
+    const sl_view_hierarchy *h = view_run_told(run);
+    sl_shapes shapes;
+    SL_TRY(sl_view_shapes(context, &run->tree, run->view_cells, run->cell_count, &shapes));
+    sl_geojson_writer out = sl_geojson_begin(file);
+    for (uint32_t i = 0; i < run->cell_count && !ferror(file); i++) {
+        const uint32_t number = run->numbers[i];
+        const sl_point at = middle_of(&run->tree, of->largest[i]);
+        sl_geojson_put_shape(&out, "view_cell", &shapes, i);
+        sl_geojson_add_count(&out, "view_cell", i);
+        sl_geojson_add_real(&out, "probability", h->mass[number]);
+        sl_geojson_add_real(&out, "cost", h->cost[number]);
+        sl_geojson_add_count(&out, "objects", h->objects[number]);
+        sl_geojson_add_count(&out, "bytes", h->bytes[number]);
+        sl_geojson_add_count(&out, "elementary_cells", members_count(of, i));
+        sl_geojson_add_real(&out, "x", at.x);
+        sl_geojson_add_real(&out, "y", at.y);
+        put_members(&out.json, of, i);
+        sl_geojson_end_feature(&out);
+    }
+    sl_geojson_end(&out);
+    sl_view_shapes_free(context, &shapes);
+    return SL_OK;
+}
+
+/// Writes a row or a feature for each view cell: number, probability, cost, objects, bytes, number
+/// of elementary cells, and a point in the largest of them.
+static sl_status view_report_write(sl_context *context, const view_run *run, const char *path) {
+    members of;
     sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, write_rows(context, run, output.stream));
+    sl_status status = members_find(context, run, &of);
+    if (status == SL_OK) status = sl_output_open(context, path, &output);
+    if (status == SL_OK)
+        status = sl_output_close(context, &output,
+                                 input_ends_with(path, ".geojson")
+                                     ? write_places(context, run, &of, output.stream)
+                                     : write_rows(run, &of, output.stream));
+    members_destroy(context, &of);
+    return status;
 }
 
 /// Draws the view cells, coloured by cost.
@@ -360,7 +429,7 @@ static sl_status work(command_console *console, viewcells_plan *plan, view_run *
     const sl_subdivision *way = asked ? asked : sl_subdivision_for(&run->baked.map);
     const view_report report = {
         .input = plan->input, .subdivide = way->name, .options = &plan->run, .run = run};
-    if (plan->output) SL_TRY(view_report_write_csv(context, run, plan->output));
+    if (plan->output) SL_TRY(view_report_write(context, run, plan->output));
     if (plan->picture) SL_TRY(view_report_draw(context, &report, &plan->drawing, plan->picture));
     if (plan->slv) {
         SL_TRY(view_run_see(context, &plan->run,
@@ -444,8 +513,9 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
         {"seed", 0, "N", "of what is drawn at random, 1 without it", .count = &run->sampling.seed},
         {"threads", 0, "N", "0, as without it: one a core", .count32 = &run->sampling.threads,
          .most = 1024},
-        {"output", 'o', "FILE.csv", "a table of the view cells; - for stdout", .text = &plan.output,
-         .check = CHECK_TABLE},
+        {"output", 'o', "TABLE",
+         "a table of the view cells: .csv, or .geojson with\ntheir shapes; - for stdout, as CSV",
+         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
         {"picture", 0, "PICTURE", "draw the cells by their cost: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"slv", 0, "FILE.slv",

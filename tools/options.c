@@ -294,12 +294,25 @@ static sl_status read_choices(sl_context *context, const char *label, const char
 
 // --- from arguments to targets
 
+/// SL_BAD_ARGUMENT: "1 or 2 is needed", "a whole number from 1 to 8 is needed".
+static sl_status fail_count(sl_context *context, const char *label, const char *text,
+                            uint64_t least, uint64_t most) {
+    const unsigned long long low = least, high = most;
+    if (high - low == 1)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: %llu or %llu is needed", label, text, low,
+                       high);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a whole number from %llu to %llu is needed",
+                   label, text, low, high);
+}
+
 static sl_status set_count(sl_context *context, const char *label, const char *text,
                            const option_spec *option) {
     const uint64_t any = option->count ? UINT64_MAX : UINT32_MAX;
+    const uint64_t most = option->most > 0 ? (uint64_t)option->most : any;
+    const uint64_t least = (uint64_t)option->least;
     uint64_t count;
-    SL_TRY(
-        read_count(context, label, text, option->most > 0 ? (uint64_t)option->most : any, &count));
+    if (!parse_count(text, strlen(text), most, &count) || (count < least && most - least == 1))
+        return fail_count(context, label, text, least, most);
     SL_TRY(check_range(context, label, text, option, (double)count));
     if (option->count)
         *option->count = count;
@@ -353,9 +366,9 @@ static sl_status check_output(sl_context *context, const option_spec *option, co
     case CHECK_FILE:
         return output_check_file(context, label, text, option->endings);
     case CHECK_TABLE:
-        return output_check_table(context, label, text);
+        return output_check_table(context, label, text, option->endings);
     case CHECK_PICTURE:
-        return output_check_picture(context, label, text);
+        return output_check_picture(context, label, text, option->endings);
     case CHECK_BAKED:
         return output_check_baked(context, label, text);
     }

@@ -19,8 +19,8 @@ typedef struct option_list {
 typedef enum output_check {
     CHECK_NONE,
     CHECK_FILE,    ///< any name, or one with one of the option's `endings`
-    CHECK_TABLE,   ///< .csv, .txt, or no ending
-    CHECK_PICTURE, ///< .png, .svg or .pdf
+    CHECK_TABLE,   ///< .csv, .txt, no ending, or one of the option's `endings`
+    CHECK_PICTURE, ///< .png, .svg or .pdf, or one of the option's `endings`
     CHECK_BAKED,   ///< .slv
 } output_check;
 
@@ -56,7 +56,7 @@ typedef struct option_spec {
     bool over_0;        ///< a number must be over 0
     const char *needs;  ///< says what is needed; NULL: as least, most and over_0 say
     output_check check;
-    const char *endings; ///< for CHECK_FILE: ".map", ".map .txt"; NULL for any
+    const char *endings; ///< ".map", ".map .txt"; for CHECK_FILE, NULL: any
     bool is_input;       ///< it names a file to read, which no output may replace
 
     const option_table *group; ///< instead of all this: a group's options stand here

@@ -703,14 +703,25 @@ static sl_status check_layers(const drawing *dxf) {
 
 /// By $INSUNITS: what a drawing's coordinates are in, and how long that is in metres.
 static const struct {
-    const char *name, *word; ///< the word that asks for it, NULL for none
+    const char *name, *sign; ///< the sign for it
+    bool known;              ///< the sign asks for it
     double metres;
 } units[] = {
-    {"not told", NULL, 0},      {"inches", "in", 0.0254},    {"feet", "ft", 0.3048},
-    {"miles", NULL, 1609.344},  {"millimetres", "mm", 1e-3}, {"centimetres", "cm", 1e-2},
-    {"metres", "m", 1},         {"kilometres", "km", 1e3},   {"microinches", NULL, 2.54e-8},
-    {"mils", NULL, 2.54e-5},    {"yards", "yd", 0.9144},     {"angstroms", NULL, 1e-10},
-    {"nanometres", NULL, 1e-9}, {"microns", NULL, 1e-6},     {"decimetres", NULL, 0.1},
+    {"not told", "", false, 0},
+    {"inches", "in", true, 0.0254},
+    {"feet", "ft", true, 0.3048},
+    {"miles", "mi", false, 1609.344},
+    {"millimetres", "mm", true, 1e-3},
+    {"centimetres", "cm", true, 1e-2},
+    {"metres", "m", true, 1},
+    {"kilometres", "km", true, 1e3},
+    {"microinches", "\xc2\xb5in", false, 2.54e-8},
+    {"mils", "mil", false, 2.54e-5},
+    {"yards", "yd", true, 0.9144},
+    {"angstroms", "\xc3\x85", false, 1e-10},
+    {"nanometres", "nm", false, 1e-9},
+    {"microns", "\xc2\xb5m", false, 1e-6},
+    {"decimetres", "dm", false, 0.1},
 };
 enum { UNITS = sizeof units / sizeof *units };
 
@@ -718,13 +729,20 @@ static const char *unit_name(int unit) {
     return unit >= 0 && unit < UNITS ? units[unit].name : "unusual";
 }
 
+static void set_unit(const drawing *dxf, const char *sign) {
+    snprintf(dxf->pen.map->unit, sizeof dxf->pen.map->unit, "%s", sign);
+}
+
 /// Has the pen draw in the unit that is asked for.
 static sl_status take_unit(drawing *dxf) {
     const char *word = dxf->options->unit;
     dxf->pen.map->drawing_unit = dxf->unit >= 0 && dxf->unit < UNITS ? dxf->unit : 0;
-    if (!word) return SL_OK;
+    if (!word) {
+        if (dxf->unit > 0 && dxf->unit < UNITS) set_unit(dxf, units[dxf->unit].sign);
+        return SL_OK;
+    }
     size_t to = 0;
-    while (to < UNITS && !(units[to].word && strcmp(units[to].word, word) == 0)) to++;
+    while (to < UNITS && !(units[to].known && strcmp(units[to].sign, word) == 0)) to++;
     if (to == UNITS)
         return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                        "there is no unit '%s'; choose from mm, cm, m, km, in, ft, yd", word);
@@ -732,6 +750,7 @@ static sl_status take_unit(drawing *dxf) {
         return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                        "%s: the drawing's own unit is %s, so it cannot be turned into %s",
                        dxf->name, unit_name(dxf->unit), units[to].name);
+    set_unit(dxf, word);
     if ((size_t)dxf->unit == to) return SL_OK;
     dxf->pen.map->drawing_unit = (int)to;
     const double scale = units[dxf->unit].metres / units[to].metres;

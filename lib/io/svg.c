@@ -794,6 +794,23 @@ static sl_status read_marks(svg *s, xmlNode *root) {
     return SL_OK;
 }
 
+/// A user unit is a pixel, unless the width is written in another unit and the box is as wide:
+/// width="210mm" viewBox="0 0 210 297".
+static void find_unit(svg *s, xmlNode *root, double box_width) {
+    static const char *const units[] = {"px", "in", "cm", "mm", "pt", "pc"};
+    char *text = sli_xml_attribute(root, "width"), *unit = s->pen.map->unit;
+    const size_t length = text ? sl_number_length(text, strlen(text)) : 0;
+    double width = 0;
+    if (!box_width) strcpy(unit, units[0]);
+    if (box_width && length && sl_number_read(text, length, &width) && width == box_width) {
+        const sli_word rest = {text + length, strcspn(text + length, " \t\r\n")};
+        if (!rest.length) strcpy(unit, units[0]);
+        for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+            if (sli_word_is(rest, units[i])) strcpy(unit, units[i]);
+    }
+    sli_xml_free(text);
+}
+
 /// The map's unit is the drawing's own, y turned up: the lower edge of its box, where it has one,
 /// is at y 0, unless the drawing says where y is 0.
 static sl_status draw_root(svg *s, xmlNode *root) {
@@ -813,6 +830,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     s->pen.map->top = height;
     s->pen.map->pixels = 1;
     SL_TRY(name_walls(s, root));
+    find_unit(s, root, box[2]);
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);

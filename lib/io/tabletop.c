@@ -261,6 +261,7 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     SL_TRY(read_starts(reader, root));
     reader->map->precision =
         sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);
+    strcpy(reader->map->unit, "grid units");
     const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
@@ -476,6 +477,7 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
         SL_TRY(take(reader, walls, &wall, &read));
     }
     char top[SL_NUMBER_TEXT], unit[SL_NUMBER_TEXT + 16] = "pixels", pixels[SL_NUMBER_TEXT];
+    if (reader->pixels == 1) strcpy(reader->map->unit, "px");
     sl_number_write(reader->top, top);
     sl_number_write(reader->pixels, pixels);
     if (reader->pixels != 1) snprintf(unit, sizeof unit, "%s pixels", pixels);

@@ -529,6 +529,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_add_tile_walls(reader, &grids));
     if (!reader->pen.map->wall_count) return fail_no_walls(reader);
     check_guess(reader);
+    strcpy(reader->pen.map->unit, "px");
     give_account(reader, grids);
     sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));

@@ -22,7 +22,8 @@ VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE
           "IN.wad": "rooms.wad"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT": "out.map",
            "OUT.map": "out.map", "OUT.wad": "out.wad",
-           "FILE": "out.json", "FILE.csv": "out.csv", "DIR": "out"}
+           "FILE": "out.json", "TABLE": "out.geojson", "PICTURE|TABLE": "out.geojson",
+           "FILE.csv": "out.csv", "DIR": "out"}
 # What makes a command that computes for long short, where nothing else is said.
 SHORT = {"viewcells": {"--samples": "1000", "--evaluate": "1000"}, "walk": {"--steps": "20"}}
 # What no number, point, size or share is; each option is given some of them, the next the next.

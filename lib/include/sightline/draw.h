@@ -116,7 +116,7 @@ typedef struct sl_field {
     double step;          ///< side of a square
     size_t columns, rows; ///< at least 1
     const double *values; ///< NaN for none
-    const char *unit;     ///< of the values: "m2"; NULL for none
+    const char *unit;     ///< of the values: "m²"; NULL for none
     /// The ends of the colour scale, so that several pictures can be compared. Values beyond have
     /// the colours of the ends. Equal, as in a zeroed field: the least and the largest value.
     double least, most;

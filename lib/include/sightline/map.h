@@ -133,7 +133,10 @@ typedef struct sl_map {
     sl_box page;
     double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
     int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
-    double range;     ///< the view range; 0 for no limit
+    /// What the file says its coordinates are in: "m", "mm", "ft", "px" ...; "" where it does not
+    /// say. For people: nothing depends on it. Map text and .slv files do not keep it.
+    char unit[16];
+    double range; ///< the view range; 0 for no limit
     uint32_t range_line;
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
     /// files do not keep them. Equal texts that follow each other stand in label_text once.
