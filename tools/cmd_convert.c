@@ -68,27 +68,20 @@ sl_status cmd_convert(command_console *console, int argc, char **argv) {
     const option_table reading_table = input_option_table(&reading);
     const option_spec options[] = {
         {"output", 'o', "OUT",
-         "where to write; the ending says the format (below);\nwithout it, or for -, map text on "
-         "stdout",
+         "the file; its ending chooses the format (default: map text to standard output)",
          .text = &output},
-        {"format", 0, "NAME",
-         "what to write, where the ending fits several formats,\nas .json does, or for stdout",
-         .text = &name},
-        {"in-place", 0, NULL, "replace IN itself, which is then named .map or .txt",
-         .flag = &in_place},
-        {.group = &reading_table},
-        {"clean", 0, NULL,
-         "weld, merge and split walls as bake does before it\nsubdivides (default: they stay as "
-         "read)",
+        {"format", 0, "NAME", "the format, where the ending fits several (.json)", .text = &name},
+        {"in-place", 0, NULL, "replace IN itself, a .map or .txt file", .flag = &in_place},
+        {"clean", 0, NULL, "weld, merge and split walls, as 'bake' does (default: as read)",
          .flag = &clean},
+        {.group = &reading_table},
     };
     const command_usage usage = {
         .name = "convert",
         .synopsis = "IN [-o OUT] [options]",
         .operands = {"IN"},
-        .what =
-            "Writes any map that can be read, or the map of a baked file (by its ending, .slv),\n"
-            "in any format that can be written. Reports what that format has no place for.",
+        .what = "Writes a map, or the map of a baked file, in another format. Reports what that "
+                "format cannot hold.",
         .tables = print_formats,
         .examples = "  sightline convert plan.txt -o plan.map\n"
                     "  sightline convert tower.ug --slice 1040 -o floor.map\n"

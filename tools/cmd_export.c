@@ -56,19 +56,19 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     size_t chosen = 0, count;
     sl_export_options given = {0};
     const option_spec options[] = {
-        {"output", 'o', "FILE", "where to write; stdout, or -, without it", .text = &output,
+        {"output", 'o', "FILE", "the file (default: standard output)", .text = &output,
          .check = CHECK_FILE},
-        {"format", 0, "NAME", "what to write (default: by the ending of FILE, else json)",
+        {"format", 0, "NAME", "the format (default: by the ending of FILE, else json)",
          .choice = &chosen, .names = format_table(console->context), .given = &format_given},
+        {"prefix", 0, "NAME",
+         "c: the beginning of all names (default: " SL_PREFIX_DEFAULT
+         "), so that a program can hold several maps",
+         .text = &given.prefix},
+        {"json-version", 0, "N", "json: the version of the format, 1 or 2 (default 2)",
+         .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
         {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad,
          .is_input = true},
         {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
-        {"json-version", 0, "N", "json: the version to write, 1 or 2 (default: 2)",
-         .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
-        {"prefix", 0, "NAME",
-         "c: what all names begin with, so that a program can\nhold several maps "
-         "(default: " SL_PREFIX_DEFAULT ")",
-         .text = &given.prefix},
     };
     const command_usage usage = {
         .name = "export",

@@ -126,7 +126,7 @@ static sl_status take_arguments(parsing *p, int argc, char **argv) {
         i = find_option(p, optopt);
         if (code == ':')
             return sl_fail(p->context, SL_BAD_ARGUMENT,
-                           "--%s needs an argument: %s; 'sightline %s --help' tells more",
+                           "--%s needs an argument: %s; 'sightline %s --help' shows how",
                            p->options[i].name, p->options[i].argument, p->usage->name);
         if (i < p->count)
             return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s takes no argument",
@@ -143,17 +143,17 @@ static sl_status take_operands(const parsing *p, int argc, char **argv, const ch
     const size_t given = (size_t)(argc - optind);
     if (given < wanted)
         return sl_fail(p->context, SL_BAD_ARGUMENT,
-                       "%s is missing; 'sightline %s --help' tells more", usage->operands[given],
+                       "%s is missing; 'sightline %s --help' shows how", usage->operands[given],
                        usage->name);
     if (given > wanted && !usage->more)
         return sl_fail(p->context, SL_BAD_ARGUMENT,
-                       "'%s' is one argument too many; 'sightline %s --help' tells more",
+                       "'%s' is one argument too many; 'sightline %s --help' shows how",
                        argv[optind + (int)wanted], usage->name);
     for (size_t i = 0; i < wanted; i++) {
         operands[i] = argv[optind + (int)i];
         if (!operands[i][0])
             return sl_fail(p->context, SL_BAD_ARGUMENT,
-                           "%s is empty; 'sightline %s --help' tells more", usage->operands[i],
+                           "%s is empty; 'sightline %s --help' shows how", usage->operands[i],
                            usage->name);
     }
     for (size_t i = wanted; i < given; i++) {

@@ -112,7 +112,7 @@ static sl_status add_start(sl_context *context, const map_pipeline *pipeline, sl
     const sl_box b = sl_map_bounds(map);
     if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--start %s: outside the map; sightline info %s tells its bounds",
+                       "--start %s: outside the map; sightline info %s shows its bounds",
                        pipeline->start_text, pipeline->path);
     return sl_map_add_start(context, map, at, 0, 0);
 }
