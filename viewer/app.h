@@ -170,7 +170,7 @@ bool app_is_solid(const app_state *app, sl_point at);
 uint32_t app_eye_cell(const app_state *app);
 
 /// The panes below the plan, side by side: rows of the table in modes.c.
-enum { PANE_DUAL, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
+enum { PANE_DUAL, PANE_PROGRAM, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
 
 /// Where things are on the page.
 typedef struct window_layout {

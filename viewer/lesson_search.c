@@ -125,6 +125,19 @@ static uint32_t sequence(const lesson_state *lesson, const sl_space *space, sl_p
     return count;
 }
 
+static uint32_t cell_of(const lesson_state *lesson, size_t step) {
+    return lesson->steps.steps[step].cell;
+}
+
+static bool finds(const lesson_state *lesson, size_t step) {
+    return lesson->steps.steps[step].kind == SL_STEP_ENTER && lesson->steps.steps[step].first;
+}
+
+static bool rejects(const lesson_state *lesson, size_t step) {
+    const sl_step_kind kind = lesson->steps.steps[step].kind;
+    return kind == SL_STEP_HIDDEN || kind == SL_STEP_BACKWARDS;
+}
+
 // --- drawing
 
 /// Draws the cells that the search has entered, and the way between their portals.
@@ -204,6 +217,11 @@ const subject_row lesson_search = {
     .code = code,
     .account = account,
     .sequence = sequence,
+    .cell = cell_of,
+    .finds = finds,
+    .rejects = rejects,
+    .found = "New cell",
+    .rejected = "Rejection",
     .below = below,
     .above = above,
 };

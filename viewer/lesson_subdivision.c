@@ -232,6 +232,20 @@ static void above(app_state *app, const sl_frame *frame) {
                              lesson->at - FIRST_SIDE);
 }
 
+/// A side that is taken out: two cells become one.
+static bool finds(const lesson_state *lesson, size_t step) {
+    const size_t place = step - FIRST_SIDE;
+    return lesson->mesh.sides.count && step >= FIRST_SIDE && place < lesson->mesh.sides.count &&
+           lesson->mesh.sides.items[place].stuck == SLI_OUTSIDE;
+}
+
+/// A side that stays.
+static bool rejects(const lesson_state *lesson, size_t step) {
+    const size_t place = step - FIRST_SIDE;
+    return lesson->mesh.sides.count && step >= FIRST_SIDE && place < lesson->mesh.sides.count &&
+           lesson->mesh.sides.items[place].stuck != SLI_OUTSIDE;
+}
+
 const subject_row lesson_subdivision = {
     .title = "Subdivision",
     .fits = fits,
@@ -239,6 +253,10 @@ const subject_row lesson_subdivision = {
     .length = length,
     .sentence = say,
     .code = code,
+    .finds = finds,
+    .rejects = rejects,
+    .found = "Taken out",
+    .rejected = "Stays",
     .below = below,
     .above = above,
 };
