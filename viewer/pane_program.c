@@ -59,7 +59,7 @@ static void draw_row(const table *at, double y, const sl_program *program,
     write_number(row->value, text);
     cell(at, 6, y, held, palette->ink, text);
     write_number(row->price, text);
-    cell(at, 7, y, held, held ? palette->ink : palette->faint, held ? text : "in the basis");
+    cell(at, 7, y, held, held ? palette->ink : palette->faint, held ? text : "basis");
 }
 
 /// "maximise d; d = 0.12, margin 1.5; the basis holds ux, uy, c, d".

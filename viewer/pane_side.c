@@ -551,7 +551,7 @@ void pane_quiz(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const quiz_state *q = &app->tool.quiz;
     const double t = ui->text;
-    char text[512];
+    char text[1024];
     snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
     heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
     if (!q->asked) {
@@ -569,5 +569,6 @@ void pane_quiz(app_state *app, sl_box box) {
     }
     quiz_words(app, text, sizeof text);
     c.y = ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1, ui->palette.ink, text) + t;
-    ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, action_find("next_question"));
+    x = ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, action_find("next_question"));
+    ui_button(ui, x + 0.6 * t, c.y, 2 * t, "Show the step", false, action_find("why_step"));
 }
