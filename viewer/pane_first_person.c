@@ -53,6 +53,7 @@ typedef struct viewer {
     double c, s;  ///< of the heading
     double focal; ///< columns for a slope of 1
     double near;  ///< what is nearer is cut off
+    double range; ///< what is on walls and in portals is shown up to there; 0: no limit
     int columns;
     column *levels[LEVELS]; ///< by the number of reflections
     int level_count;
@@ -103,8 +104,11 @@ static double nearness_at(const span *s, double x) {
     return s->na + (s->nb - s->na) * share;
 }
 
-/// Whether a column of a level belongs to a part, and a depth is behind the mirror that shows it.
-static bool is_behind(const viewer *v, int level, uint32_t part, int x, float nearness) {
+/// Whether a thing in a column is within the view range, and in a level of reflections belongs to
+/// the part there and is behind the mirror that shows it.
+static bool can_show(const viewer *v, int level, uint32_t part, int x, float nearness) {
+    const double slope = (x + 0.5 - v->columns / 2.0) / v->focal;
+    if (v->range > 0 && hypot(1, slope) > v->range * nearness) return false;
     if (!level) return true;
     const column *at = &v->levels[level][x];
     return at->nearness > 0 && at->part == part && nearness < v->levels[level - 1][x].nearness;
@@ -119,9 +123,9 @@ static void add_surface(viewer *v, int level, sl_point from, sl_point to, column
     for (int x = s.first; x <= s.last; x++) {
         column *at = &v->levels[level][x];
         what.nearness = (float)nearness_at(&s, x + 0.5) * bias;
-        // A wall of a part claims its columns; what lies on walls only takes them.
-        const bool claims = level && what.surface == SURFACE_WALL;
-        if (!claims && !is_behind(v, level, what.part, x, what.nearness)) continue;
+        // A wall claims its columns; what lies on walls has to be seen there.
+        const bool claims = what.surface == SURFACE_WALL;
+        if (!claims && !can_show(v, level, what.part, x, what.nearness)) continue;
         if (what.nearness > at->nearness) *at = what;
     }
 }
@@ -371,7 +375,7 @@ static uint32_t draw_overlay(const page *p, const viewer *v, const overlay *o) {
     for (int x = s.first, first = s.first; x <= s.last + 1; x++) {
         const float nearness = (float)nearness_at(&s, x + 0.5) * BEFORE;
         const bool visible = x <= s.last && nearness > v->levels[o->level][x].nearness &&
-                             is_behind(v, o->level, o->part, x, nearness);
+                             can_show(v, o->level, o->part, x, nearness);
         if (visible) {
             shown++;
             continue;
@@ -447,6 +451,7 @@ static void draw_view(app_state *app, sl_box box, viewer *v) {
     const page p = {app, box, 0.22 * size * v->focal, box_width(box) / v->columns};
     const look straight = {sli_mirror_frame_of_map(), v->eye, SL_NO_PART, 0};
     v->near = 1e-3 * size;
+    v->range = app->document.map.range;
     if (!make_levels(v, &app->view)) return;
     add_cells(&app->view, v);
     add_effects(v, &app->document.map, &straight);
