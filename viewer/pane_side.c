@@ -509,6 +509,7 @@ static void draw_account(app_state *app, column *c) {
 
 void pane_learn(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
+    draw_why(app, &c);
     draw_subjects(app, &c);
     heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
     draw_code(app, &c);
