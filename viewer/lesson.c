@@ -46,6 +46,16 @@ bool lesson_fits(size_t subject, const document_state *document) {
     return !subjects[subject]->fits || subjects[subject]->fits(document);
 }
 
+/// Notes whether there are steps to be sought.
+static void find_kinds(lesson_state *lesson) {
+    const subject_row *subject = lesson_subject(lesson);
+    lesson->finds = lesson->rejects = false;
+    for (size_t i = 0; i < lesson_length(lesson); i++) {
+        lesson->finds |= subject->finds && subject->finds(lesson, i);
+        lesson->rejects |= subject->rejects && subject->rejects(lesson, i);
+    }
+}
+
 sl_status lesson_update(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source) {
     if (!lesson_fits(lesson->subject, document)) lesson_next_subject(context, lesson, document);
@@ -57,6 +67,7 @@ sl_status lesson_update(sl_context *context, lesson_state *lesson, const documen
     lesson_forget(context, lesson);
     SL_TRY(subject->record(context, lesson, document, source));
     lesson->made = true;
+    find_kinds(lesson);
     lesson->version = document->version;
     lesson->source = source;
     lesson->plays = false;

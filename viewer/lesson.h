@@ -96,7 +96,8 @@ struct lesson_state {
     sli_mesh_steps mesh;     ///< of the subdivision, where it is a mesh
     sli_pass passes[PASSES]; ///< of multipass, by quadrant
     uint32_t pass_cells;
-    size_t at; ///< the step shown
+    bool finds, rejects; ///< some step does
+    size_t at;           ///< the step shown
     bool plays;
     int speed; ///< powers of two: 0 is two steps a second
     double waited;

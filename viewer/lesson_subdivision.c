@@ -111,7 +111,7 @@ static void say_side(const sli_mesh_steps *mesh, size_t place, char text[SENTENC
     const sli_triangulation *t = &mesh->triangles;
     const sl_point a = t->points.items[t->halves.items[side->half].from];
     const sl_point b = t->points.items[sli_half_end(t, side->half)];
-    const int length = snprintf(text, SENTENCE, "Side %zu of %zu, %.3g long", place + 1,
+    const int length = snprintf(text, SENTENCE, "Side %zu of %zu, %.5g long", place + 1,
                                 mesh->sides.count, hypot(b.x - a.x, b.y - a.y));
     if (side->stuck == SLI_OUTSIDE) {
         snprintf(text + length, SENTENCE - (size_t)length,

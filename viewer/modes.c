@@ -12,6 +12,18 @@
 
 // --- modes
 
+/// Outlines the cells that a method keeps, while the pointer is over its row of the table.
+static void draw_kept(app_state *app, const sl_frame *frame) {
+    const hit_area *over = &app->ui.over;
+    const sl_space *space = &app->document.baked->space;
+    if (over->kind != HIT_METHOD || !app->view.seen.valid) return;
+    const seen_method *method = &app->view.seen.methods[over->value];
+    for (uint32_t cell = 0; method->known && cell < space->cell_count; cell++)
+        if (sl_eye_sees(method->cells, cell))
+            sl_draw_cell(app->ui.cairo, space, frame, cell, app->ui.palette.ink, 0,
+                         2.2 * frame->unit);
+}
+
 static void lesson_below(app_state *app, const sl_frame *frame) {
     const subject_row *subject = lesson_subject(&app->tool.lesson);
     if (subject->below && lesson_shows(&app->tool.lesson, &app->document))
@@ -86,6 +98,7 @@ void modes_draw_above(app_state *app, const sl_frame *frame) {
     const mode_row *mode = &modes[app->tool.mode];
     const sl_palette *palette = &app->ui.palette;
     if (mode->above) mode->above(app, frame);
+    draw_kept(app, frame);
     if (mode->cone)
         sl_draw_cone(app->ui.cairo, frame, app->view.eye.at, app->view.eye.heading,
                      app->view.eye.fov, 6 * app->ui.text, palette->start);

@@ -336,7 +336,7 @@ static void draw_level(const page *p, const viewer *v, int level) {
         set_faded(cairo,
                   framed && seen[first].surface != SURFACE_LEAF ? palette->glass : palette->wall,
                   framed ? 0.9 : 0.35);
-        cairo_set_line_width(cairo, framed ? 2 : 0.8);
+        cairo_set_line_width(cairo, framed ? fmin(2, 0.5 + 0.05 * (end - first)) : 0.8);
         cairo_stroke(cairo);
         if (seen[first].surface == SURFACE_LEAF) draw_panels(p, first, end, a, b);
     }

@@ -15,7 +15,11 @@
 
 static unsigned scene_layers(const app_state *app) {
     const view_state *view = &app->view;
-    const bool numbers = layers_shows(app, LAYER_NUMBERS) || layers_shows(app, LAYER_NAMES);
+    // A subdivision in the making has no cells to be named yet.
+    const bool named =
+        layers_shows(app, LAYER_NAMES) &&
+        !(app->tool.mode == MODE_LEARN && lesson_subject(&app->tool.lesson) == &lesson_subdivision);
+    const bool numbers = layers_shows(app, LAYER_NUMBERS) || named;
     return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
            (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
            (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);

@@ -123,6 +123,7 @@ typedef struct method_row {
     const char *name;
     sl_colour colour;
     bool known, chosen, other;
+    bool keeps; ///< the cell under the pointer
     uint32_t cells;
     double area, seconds;
     uint64_t tests;
@@ -139,6 +140,12 @@ static void draw_method(app_state *app, column *c, const method_row *row, int nu
                                     row->chosen ? 0.2 : 0.08));
     ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
                   0.15 * t, row->colour);
+    if (row->keeps) {
+        cairo_rectangle(ui->cairo, c->left, c->y + 0.35 * t, 0.9 * t, 0.9 * t);
+        sl_set_colour(ui->cairo, ui->palette.ink);
+        cairo_set_line_width(ui->cairo, 0.18 * t);
+        cairo_stroke(ui->cairo);
+    }
     char words[64], text[SL_COUNT_TEXT];
     snprintf(words, sizeof words, "%s", row->name);
     for (char *at = words; *at; at++)
@@ -159,11 +166,20 @@ static void draw_method(app_state *app, column *c, const method_row *row, int nu
     c->y += height;
 }
 
+/// The cell of the plan under the pointer; SL_NO_CELL for none.
+static uint32_t cell_under_pointer(const app_state *app) {
+    const sl_box plan = app_layout(app).plan[0];
+    if (!app->document.baked || app->ui.over.kind != HIT_PLAN) return SL_NO_CELL;
+    return sl_space_locate(&app->document.baked->space,
+                           camera_point(&app->view.camera, plan, app->tool.pointer));
+}
+
 static void draw_methods(app_state *app, column *c) {
     ui_state *ui = &app->ui;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const double unit = (c->right - c->left) / 22, t = ui->text, size = figure_size(ui, unit);
+    const uint32_t cell = cell_under_pointer(app);
     heading(&app->ui, c, "What is kept", NULL);
     c->y -= 0.55 * t;
     ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.9 * size, ui->palette.faint, "cells");
@@ -178,6 +194,8 @@ static void draw_methods(app_state *app, column *c) {
                                 .known = app->view.seen.valid && m->known,
                                 .chosen = i == app->view.method,
                                 .other = app->view.compare && i == app->view.other,
+                                .keeps = app->view.seen.valid && m->known && cell != SL_NO_CELL &&
+                                         sl_eye_sees(m->cells, cell),
                                 .cells = m->count,
                                 .area = m->area,
                                 .seconds = m->seconds,
@@ -428,14 +446,14 @@ static void draw_steps(app_state *app, column *c) {
     double x = c->left;
     c->y += 0.4 * t;
     snprintf(text, sizeof text, "\xe2\x97\x80 %s", subject->found ? subject->found : "");
-    if (subject->finds) x = ui_button(ui, x, c->y, 1.6 * t, text, false, action_find("found_back"));
+    if (lesson->finds) x = ui_button(ui, x, c->y, 1.6 * t, text, false, action_find("found_back"));
     snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->found ? subject->found : "");
-    if (subject->finds)
+    if (lesson->finds)
         x = ui_button(ui, x + 0.4 * t, c->y, 1.6 * t, text, false, action_find("found_next"));
     snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->rejected ? subject->rejected : "");
-    if (subject->rejects)
+    if (lesson->rejects)
         ui_button(ui, x + 0.4 * t, c->y, 1.6 * t, text, false, action_find("rejected_next"));
-    if (subject->finds) c->y += 2 * t;
+    if (lesson->finds || lesson->rejects) c->y += 2 * t;
     x = ui_button(ui, c->left, c->y, 1.6 * t, "Slower", false, action_find("slower"));
     x = ui_button(ui, x + 0.4 * t, c->y, 1.6 * t, "Faster", false, action_find("faster"));
     snprintf(text, sizeof text, "%g steps a second", ldexp(2, lesson->speed));
@@ -511,7 +529,7 @@ void pane_learn(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
     draw_why(app, &c);
     draw_subjects(app, &c);
-    heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
+    c.y += 0.7 * app->ui.text;
     draw_code(app, &c);
     draw_steps(app, &c);
     draw_account(app, &c);

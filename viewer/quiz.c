@@ -98,7 +98,7 @@ static const char *words_of_effects(const app_state *app) {
 static const char *judgement(const app_state *app) {
     const quiz_state *q = &app->tool.quiz;
     if (!q->judged) return "";
-    if (q->right) return q->said ? "Right: it is seen. " : "Right: it is not seen. ";
+    if (q->right) return "Right. ";
     return q->said ? "Wrong: you said that it is seen, but no line gets there. "
                    : "Wrong: you said that it is not seen, but a line gets there. ";
 }
