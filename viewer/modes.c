@@ -20,7 +20,7 @@ static void draw_kept(app_state *app, const sl_frame *frame) {
     const seen_method *method = &app->view.seen.methods[over->value];
     for (uint32_t cell = 0; method->known && cell < space->cell_count; cell++)
         if (sl_eye_sees(method->cells, cell))
-            sl_draw_cell(app->ui.cairo, space, frame, cell, app->ui.palette.ink, 0,
+            sl_draw_cell(app->ui.cairo, space, frame, cell, app->ui.palette.start, 0,
                          2.2 * frame->unit);
 }
 
