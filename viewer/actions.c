@@ -253,12 +253,11 @@ static void faster(app_state *app) {
 
 SWITCH(program, ui.program)
 
-/// Tab is the panel's key where there is nothing to choose.
 static void choose_end(app_state *app, bool back) {
     lesson_state *lesson = &app->tool.lesson;
     char name[48] = "the line";
     if (!lesson->end_count) {
-        side_panel(app);
+        ui_say(&app->ui, false, "this step has no portals to choose from");
         return;
     }
     lesson_choose(lesson, back);
@@ -476,8 +475,8 @@ static const action_row actions[] = {
     HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, HOLD_TURN_RIGHT),
     {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
-    {"narrower", ",", NULL, "narrower view cone", 0, 0, narrower, NULL},
-    {"wider", ".", NULL, "wider view cone", 0, 0, wider, NULL},
+    {"narrower", ",", NULL, "narrower view cone", NOT_LEARN, 0, narrower, NULL},
+    {"wider", ".", NULL, "wider view cone", NOT_LEARN, 0, wider, NULL},
     {"range", "Ctrl+R", "Range", "set a view range, or lift it", 0, 0, range, is_range},
     {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
 
@@ -509,15 +508,15 @@ static const action_row actions[] = {
     {"rejected_next", "R", "Rejection", "learn: the next rejection", LEARN, 0, rejected_next, NULL},
     {"slower", "-", "Slower", "learn: play slower", LEARN, 0, slower, NULL},
     {"faster", "=", "Faster", "learn: play faster", LEARN, 0, faster, NULL},
-    {"choose_next", "Tab", NULL, "learn: choose the line, or a portal end", LEARN, 0, choose_next,
+    {"choose_next", ".", NULL, "learn: choose the line, or a portal end", LEARN, 0, choose_next,
      NULL},
-    {"choose_back", "Shift+Tab", NULL, "learn: the one before", LEARN, 0, choose_back, NULL},
+    {"choose_back", ",", NULL, "learn: the one before", LEARN, 0, choose_back, NULL},
     {"reset_ends", "Delete", "Reset", "learn: ends and line as they were", LEARN, 0, reset_ends,
      NULL},
     {"program", "Ctrl+L", "Linear program", "learn: the linear program", LEARN, 0, program,
      is_program},
     {"subject", "U", "Another subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
-    {"why_step", "Ctrl+E", "Show the step", "why: the step of the search that decides", 0, 0,
+    {"why_step", "Ctrl+T", "Show the step", "why: the step of the search that decides", 0, 0,
      why_step, NULL},
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
@@ -549,8 +548,7 @@ static const action_row actions[] = {
     {"dark", "T", "Dark", "light or dark", 0, 0, dark, is_dark},
     {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
-    {"side_panel", "Tab", "Panel", "the panel at the right", NOT_LEARN, 0, side_panel,
-     is_side_panel},
+    {"side_panel", "Tab", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
     {"help", "?", "?", "this help", 0, 0, help, is_help},
     {"escape", "Escape", "Stop", "stop, close", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},

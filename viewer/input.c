@@ -160,7 +160,7 @@ static void explain_to(app_state *app, sl_point at) {
     quiz_explain(app, from, to);
     if (!app->tool.quiz.answered) return;
     app->ui.side_panel = true;
-    ui_say(&app->ui, false, "why: see the panel; Ctrl+E shows the step that decides");
+    ui_say(&app->ui, false, "why: see the panel; Ctrl+T shows the step that decides");
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {

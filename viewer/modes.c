@@ -62,7 +62,7 @@ static void lesson_above(app_state *app, const sl_frame *frame) {
 static const mode_row modes[] = {
     [MODE_EXPLORE] = {"W A S D and arrows walk, a click puts the eye, the wheel zooms", pane_side,
                       quiz_draw_below, quiz_draw_above, true, true},
-    [MODE_LEARN] = {"Left and Right step, Space plays, Tab chooses the line or an end", pane_learn,
+    [MODE_LEARN] = {"Left and Right step, Space plays, . chooses the line or an end", pane_learn,
                     lesson_below, lesson_above, true, false},
     [MODE_DRAW] = {"Drag to draw a wall or to move one; Ctrl+Z undoes", pane_draw, NULL, edit_draw,
                    true, false},

@@ -121,7 +121,10 @@ void pane_time(app_state *app, sl_box box) {
     ui_hit(ui, HIT_PANEL, 0, box);
     char text[SENTENCE];
     lesson_sentence(lesson, &app->document, text);
-    ui_paragraph(ui, box.min.x + 0.9 * t, box.min.y + 1.55 * t, box_width(box) - 1.8 * t, 1.08,
+    // A long sentence in a narrow window takes three smaller lines.
+    const double wide = box_width(box) - 1.8 * t;
+    const double lines = 1.15 * ui_text_width(ui, 1.08, false, text) / wide;
+    ui_paragraph(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, wide, lines > 2 ? 0.86 : 1.08,
                  ui->palette.ink, text);
     const double y = box.max.y - 2.2 * t;
     static const char *const buttons[] = {"step_first", "step_back", "play_steps", "step_next",

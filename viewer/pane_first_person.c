@@ -186,9 +186,19 @@ static double side_of(sl_segment s, sl_point p) {
     return (s.b.x - s.a.x) * (p.y - s.a.y) - (s.b.y - s.a.y) * (p.x - s.a.x);
 }
 
+/// Whether nothing nearer hides what is seen through.
+static bool is_open_to(const viewer *v, int level, uint32_t part, int x, float nearness) {
+    return nearness > v->levels[level][x].nearness && can_show(v, level, part, x, nearness);
+}
+
 static void add_overlay(viewer *v, const look *l, sl_segment at, bool glass) {
     const sl_point middle = {(at.a.x + at.b.x) / 2, (at.a.y + at.b.y) / 2};
-    if (v->overlay_count == OVERLAYS_MOST) return;
+    bool shown = false;
+    span s;
+    if (v->overlay_count == OVERLAYS_MOST || !find_span(v, at.a, at.b, &s)) return;
+    for (int x = s.first; x <= s.last && !shown; x++)
+        shown = is_open_to(v, l->level, l->part, x, (float)nearness_at(&s, x + 0.5) * BEFORE);
+    if (!shown) return;
     v->overlays[v->overlay_count++] = (overlay){.from = at.a,
                                                 .to = at.b,
                                                 .part = l->part,
@@ -374,8 +384,7 @@ static uint32_t draw_overlay(const page *p, const viewer *v, const overlay *o) {
     if (!find_span(v, o->from, o->to, &s)) return 0;
     for (int x = s.first, first = s.first; x <= s.last + 1; x++) {
         const float nearness = (float)nearness_at(&s, x + 0.5) * BEFORE;
-        const bool visible = x <= s.last && nearness > v->levels[o->level][x].nearness &&
-                             can_show(v, o->level, o->part, x, nearness);
+        const bool visible = x <= s.last && is_open_to(v, o->level, o->part, x, nearness);
         if (visible) {
             shown++;
             continue;

@@ -519,7 +519,7 @@ static void draw_account(app_state *app, column *c) {
     if (*text)
         c->y = ui_paragraph(&app->ui, c->left, c->y, wide, 0.95, app->ui.palette.start, text);
     c->y = ui_paragraph(&app->ui, c->left, c->y, wide, 0.95, app->ui.palette.faint,
-                        "Drag it or portal ends, or choose by Tab and move by arrows.") -
+                        "Drag it or portal ends, or choose by . and move by arrows.") -
            0.9 * t;
     static const char *const change[] = {"undo", "reset_ends", "program", NULL};
     button_row(app, c, change);

@@ -119,7 +119,6 @@ static void key_name(const SDL_Keysym *sym, char name[48]) {
     const char *plain = SDL_GetKeyName(sym->sym);
     if (shift && sym->sym == SDLK_SLASH) plain = "?";
     if (sym->sym == SDLK_QUESTION) plain = "?";
-    if (shift && sym->sym == SDLK_TAB) plain = "Shift+Tab";
     if (sym->sym == SDLK_PLUS || sym->sym == SDLK_KP_PLUS) plain = "=";
     if (sym->sym == SDLK_KP_MINUS) plain = "-";
     if (sym->sym == SDLK_BACKSPACE) plain = "Delete";

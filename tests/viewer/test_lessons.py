@@ -64,7 +64,7 @@ def check_speed(v):
 
 def check_changes(v):
     """Ends and the line are moved by keys, undone one by one, and reset."""
-    moves = "key Tab\nkey Right\nprint lesson\nkey Tab\nkey Up\nprint lesson\nkey Tab\nkey Left\nprint lesson\n"
+    moves = "key .\nkey Right\nprint lesson\nkey .\nkey Up\nprint lesson\nkey .\nkey Left\nprint lesson\n"
     script = EYE + "key F2\n" + "key Right\n" * 3 + "print lesson\n" + moves
     back = script + "key Ctrl+Z\nprint lesson\n" * 3
     lines = v.say("office.map", back)
@@ -95,9 +95,9 @@ def check_changes(v):
     reset = v.say("office.map", script + "key Delete\nprint lesson\n")
     end = reset[len(reset) - reset[::-1].index("lesson: Depth-first search") - 1:]
     v.check([each for each in end if re.match("portal|line|dragged", each)] == places(begin), "reset")
-    # Shift+Tab goes the other way round; Escape chooses nothing.
+    # A comma goes the other way round; Escape chooses nothing.
     script = EYE + "key F2\n" + "key Right\n" * 3
-    chosen = v.facts("office.map", script + "key Shift+Tab\nprint lesson\nkey Escape\nprint lesson\n", "chosen")
+    chosen = v.facts("office.map", script + "key ,\nprint lesson\nkey Escape\nprint lesson\n", "chosen")
     v.check(chosen[0].startswith("right end") and chosen[1] == "nothing", f"{chosen}")
 
 
@@ -111,7 +111,7 @@ def check_why(v):
             ("office.map", EYE, [(300, 300), (100, 600), (740, 560), (860, 170), (420, 480)]),
             ("oblique/chapel.map", "", [(250, 300), (850, 480), (740, 280)]),
             ("effects/doors.map", "key F8\n", [(100, 200), (800, 200), (500, 300)])]:
-        script = eye + "".join(f"key F1\nright {x} {y}\nprint why\nkey Ctrl+E\nprint lesson\n" for x, y in places)
+        script = eye + "".join(f"key F1\nright {x} {y}\nprint why\nkey Ctrl+T\nprint lesson\n" for x, y in places)
         lines = v.say(map_name, script)
         text = "\n".join(lines)
         parts = text.split("why: ")[1:]
@@ -223,7 +223,7 @@ def check_first_person(v):
 
 def check_numbers(v):
     """The layer changes the saved plan, and only where it is switched on."""
-    v.script(v.folder, "office.map", SIZE + "save off.svg\nkey Ctrl+N\nsave on.svg\nkey Ctrl+N\nsave again.svg\n")
+    v.script(v.folder, "office.map", SIZE + "save off.svg\nkey F7\nsave on.svg\nkey F7\nsave again.svg\n")
     off, on, again = ((v.folder / f"{name}.svg").read_bytes() for name in ("off", "on", "again"))
     v.check(off == again and len(on) > len(off) + 5000, "numbers are not drawn into saved plans")
 
