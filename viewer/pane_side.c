@@ -359,9 +359,10 @@ static void draw_why(app_state *app, column *c) {
     const quiz_state *q = &app->tool.quiz;
     char text[1024];
     if (!q->answered) return;
-    snprintf(text, sizeof text, "Why cell %u %s cell %u", q->from,
-             q->explanation.verdict == SL_HIDDEN ? "does not see" : "sees", q->to);
-    heading(&app->ui, c, text, "Esc");
+    snprintf(text, sizeof text, "Why cell %u %s cell %u%s", q->from,
+             q->explanation.verdict == SL_HIDDEN && !quiz_is_bent(q) ? "does not see" : "sees",
+             q->to, quiz_is_bent(q) ? " by mirror" : "");
+    heading(&app->ui, c, text, NULL);
     quiz_words(app, text, sizeof text);
     c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
                         app->ui.palette.ink, text) -

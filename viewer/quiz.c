@@ -16,6 +16,17 @@ void quiz_forget(app_state *app) {
     sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
 }
 
+/// Whether the sightline by mirror is looked for. Past one-way glass it depends on the way there.
+static bool explains_mirrors(const app_state *app, const sl_explanation *e) {
+    const sl_map *map = &app->document.baked->map;
+    return e->verdict == SL_HIDDEN && e->complete && map->mirror_count && !map->oneway_count;
+}
+
+/// The explained line is bent by mirrors.
+bool quiz_is_bent(const quiz_state *q) {
+    return q->answered && q->explanation.bent.bends && q->explanation.bent.verdict != SL_HIDDEN;
+}
+
 void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
     quiz_forget(app);
     const document_state *d = &app->document;
@@ -28,8 +39,11 @@ void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
     app->tool.quiz.from = from;
     app->tool.quiz.to = to;
     app->tool.quiz.asked = true;
-    const sl_status status = sl_explain(app->context, app->view.present.space, &options, from, to,
-                                        &app->tool.quiz.explanation);
+    sl_explanation *e = &app->tool.quiz.explanation;
+    sl_status status = sl_explain(app->context, app->view.present.space, &options, from, to, e);
+    if (status == SL_OK && explains_mirrors(app, e))
+        status = sl_explain_by_mirror(app->context, app->view.present.space, &d->baked->map,
+                                      &options, d->mirror_depth, e);
     app->tool.quiz.answered = status == SL_OK;
     app_check(app, status);
 }
@@ -87,6 +101,9 @@ static const char *words_of_effects(const app_state *app) {
     const document_state *d = &app->document;
     const sl_visibility *v = &d->baked->visibility;
     if (!document_has_rows(d) || !sl_plan_make(&d->map).effects || !e->complete) return "";
+    if (quiz_is_bent(&app->tool.quiz))
+        return e->bent.rounded ? " It is seen by mirror: the purple line (its places are rounded)."
+                               : " It is seen by mirror: the purple line.";
     if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, e->from, e->to))
         return " It is seen by mirror.";
     const bool sees = present_sees(&app->view.present, d, e->from, e->to);
@@ -173,6 +190,12 @@ void quiz_draw_above(app_state *app, const sl_frame *frame) {
                                 .end_count = sequence->end_count};
         memcpy(conflict.ends, sequence->ends, sizeof conflict.ends);
         sl_draw_conflict(app->ui.cairo, &app->ui.palette, frame, ends, &conflict);
+    }
+    if (quiz_is_bent(q)) {
+        const sl_bent_sightline *bent = &q->explanation.bent;
+        for (uint32_t i = 0; i <= bent->mirrors; i++)
+            sl_draw_line(app->ui.cairo, frame, bent->bends[i], bent->bends[i + 1],
+                         app->ui.palette.mirrored, 3 * frame->unit);
     }
     if (seen)
         sl_draw_line(app->ui.cairo, frame, q->explanation.shown.a, q->explanation.shown.b,

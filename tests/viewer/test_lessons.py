@@ -132,6 +132,14 @@ def check_why(v):
                 v.check(found == ["stabbed"], f"{map_name}: {found}")
 
 
+def check_mirrors(v):
+    """What only a mirror shows is explained by a bent line; what glass may bar is not."""
+    words = v.facts("effects/mirrors.map", "key F8\nright 400 600\nprint why\n", "words")
+    v.check(words[0].startswith("Not seen.") and "by mirror: the purple line" in words[0], f"{words}")
+    words = v.facts("effects/mirrors.map", "key F8\nright 600 200\nprint why\n", "words")
+    v.check(words[0].startswith("Seen: ") and "purple" not in words[0], f"{words}")
+
+
 def check_twins(v):
     """An end under the pointer in the plan; its border in the dual plane; its row in the table."""
     script = EYE + "key F2\n" + "key R\n" + "key Ctrl+L\nmove 600 540\nprint lesson\n"
@@ -237,7 +245,7 @@ def check_numbers(v):
 def main():
     with tempfile.TemporaryDirectory() as name:
         v = Lessons(sys.argv, pathlib.Path(name))
-        for check in (check_seeking, check_speed, check_changes, check_why, check_twins, check_program,
+        for check in (check_seeking, check_speed, check_changes, check_why, check_mirrors, check_twins, check_program,
                       check_quiz, check_doors, check_first_person, check_numbers):
             check(v)
         path = v.folder / "bad.txt"
