@@ -244,40 +244,62 @@ static void show_on_plate(const figure *g, sl_colour colour, double x, double y,
     sl_text_show(g->cairo, colour, x, y, text);
 }
 
-enum { NAMES_MOST = 64 };
+enum { NAMES_MOST = 64, PLACES = 20 };
 
-/// Names at the right edge: "L3" for the left end of portal 3, with the equation of the one marked.
-/// Names that find no room are left out, those of a conflict last.
+/// Names that have a place.
+typedef struct names {
+    sl_box taken[NAMES_MOST];
+    int count;
+} names;
+
+static bool is_free(const names *n, sl_box box) {
+    for (int i = 0; i < n->count; i++) {
+        const sl_box t = n->taken[i];
+        if (box.min.x < t.max.x && t.min.x < box.max.x && box.min.y < t.max.y &&
+            t.min.y < box.max.y)
+            return false;
+    }
+    return n->count < NAMES_MOST;
+}
+
+/// Writes the name of an end at its border, as far right as there is room.
+static void draw_name(const figure *g, names *n, sl_stab_end end, bool marked, bool strong) {
+    const sl_dual_frame *f = g->frame;
+    const double size = g->marks->text;
+    const sl_point at = end_at(g->dual, g->portals, end);
+    const sl_portal_ends *ends = &g->portals[end.portal];
+    char text[SL_EQUATION_TEXT + 40], equation[SL_EQUATION_TEXT] = "";
+    if (marked) sl_dual_equation(g->dual, end.left ? ends->left : ends->right, end.left, equation);
+    snprintf(text, sizeof text, "%c%u%s%s", end.left ? 'L' : 'R', end.portal + 1,
+             marked ? ":  " : "", equation);
+    sl_text_font(g->cairo, size, strong);
+    const double wide = sl_text_width(g->cairo, text);
+    // Only those that matter follow their border to where it enters the frame.
+    for (int place = 0; place < (strong ? PLACES : 1); place++) {
+        const double slope =
+            f->high.slope - (f->high.slope - f->low.slope) * place / (double)PLACES;
+        const sl_point on = sl_dual_frame_point(f, (sl_dual_line){slope, border(at, slope)});
+        const double x = on.x - wide - 0.5 * size, y = on.y + 0.35 * size;
+        const sl_box box = {{x, y - size}, {x + wide, y + 0.15 * size}};
+        if (box.min.y < f->top || box.max.y > f->top + f->height || x < f->left) continue;
+        if (!is_free(n, box)) continue;
+        n->taken[n->count++] = box;
+        show_on_plate(g, end.left ? g->palette->glass : g->palette->start, x, y, strong, text);
+        return;
+    }
+}
+
+/// Names "L3" for the left end of portal 3, with the equation of the one marked. First that, then
+/// those of a conflict, then all others that find room.
 static void draw_names(const figure *g) {
-    const double size = g->marks->text, right = g->frame->left + g->frame->width;
-    double taken[NAMES_MOST];
-    int count = 0;
-    if (!(size > 0)) return;
+    names n = {.count = 0};
+    if (!(g->marks->text > 0)) return;
     for (int pass = 0; pass < 3; pass++)
-        for (uint32_t i = 0; i < 2 * g->count && count < NAMES_MOST; i++) {
+        for (uint32_t i = 0; i < 2 * g->count; i++) {
             const sl_stab_end end = {i / 2, i % 2 == 0};
             const bool marked = g->marks->end && is_end(g->marks->end, 1, end);
-            if (pass != (marked ? 0 : in_conflict(g, end) ? 1 : 2)) continue;
-            const sl_point at = end_at(g->dual, g->portals, end);
-            const double high = border(at, g->frame->high.slope);
-            const double y =
-                sl_dual_frame_point(g->frame, (sl_dual_line){g->frame->high.slope, high}).y +
-                0.35 * size;
-            bool free = y > g->frame->top + size && y < g->frame->top + g->frame->height;
-            for (int k = 0; k < count; k++) free &= fabs(taken[k] - y) > 1.15 * size;
-            if (!free) continue;
-            taken[count++] = y;
-            char text[SL_EQUATION_TEXT + 40], equation[SL_EQUATION_TEXT] = "";
-            if (marked)
-                sl_dual_equation(g->dual,
-                                 end.left ? g->portals[i / 2].left : g->portals[i / 2].right,
-                                 end.left, equation);
-            snprintf(text, sizeof text, "%c%u%s%s", end.left ? 'L' : 'R', end.portal + 1,
-                     marked ? ":  " : "", equation);
-            sl_text_font(g->cairo, size, marked || pass == 1);
-            const double x = right - sl_text_width(g->cairo, text) - 0.5 * size;
-            show_on_plate(g, end.left ? g->palette->glass : g->palette->start, x, y,
-                          marked || pass == 1, text);
+            if (pass == (marked ? 0 : in_conflict(g, end) ? 1 : 2))
+                draw_name(g, &n, end, marked, pass < 2);
         }
 }
 

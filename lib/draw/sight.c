@@ -194,6 +194,39 @@ static void draw_crossing(cairo_t *cairo, const sl_palette *palette, const sl_fr
     cairo_stroke(cairo);
 }
 
+static double within(double value, double low, double high) {
+    return fmin(fmax(value, low), fmax(low, high));
+}
+
+/// Writes names beyond the ends of their portals: "L3" for the left end of portal 3.
+static void draw_end_names(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                           const sl_portal_ends *portals, const sl_conflict *conflict) {
+    const double size = 12 * frame->unit, away = 1.3 * size;
+    sl_text_font(cairo, size, true);
+    for (uint32_t i = 0; i < conflict->end_count; i++) {
+        const sl_stab_end end = conflict->ends[i];
+        const sl_portal_ends *at = &portals[end.portal];
+        const sl_point from = sl_frame_point(frame, end.left ? at->right : at->left);
+        sl_point to;
+        if (!sl_frame_holds(frame, end.left ? at->left : at->right, &to)) continue;
+        const double dx = to.x - from.x, dy = to.y - from.y, length = fmax(hypot(dx, dy), 1e-9);
+        char text[16];
+        snprintf(text, sizeof text, "%c%u", end.left ? 'L' : 'R', end.portal + 1);
+        const double wide = sl_text_width(cairo, text);
+        const double x = within(to.x + dx / length * away - wide / 2, frame->left + 0.3 * size,
+                                frame->left + frame->width - wide - 0.3 * size);
+        const double y = within(to.y + dy / length * away + 0.36 * size, frame->top + size,
+                                frame->top + frame->height - 0.3 * size);
+        cairo_move_to(cairo, x, y);
+        cairo_text_path(cairo, text);
+        set_faded(cairo, palette->page, 0.85);
+        cairo_set_line_width(cairo, 0.35 * size);
+        cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+        cairo_stroke(cairo);
+        sl_text_show(cairo, end.left ? palette->glass : palette->start, x, y, text);
+    }
+}
+
 void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                       const sl_portal_ends *portals, const sl_conflict *conflict) {
     if (!conflict->turns) {
@@ -213,6 +246,7 @@ void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame 
         sl_set_colour(cairo, end.left ? palette->glass : palette->start);
         cairo_fill(cairo);
     }
+    draw_end_names(cairo, palette, frame, portals, conflict);
 }
 
 // --- regions by the number of mirrors

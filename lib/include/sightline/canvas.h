@@ -183,7 +183,8 @@ SL_API void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const
                                 const sl_portal_ends *portals, uint32_t count, bool last_stops);
 
 /// Draws what keeps lines from portals: the ends of a conflict, large, and between those of either
-/// side a segment or triangle. Portals that turn get an arrow each way that they are crossed.
+/// side a segment or triangle. Portals that turn get an arrow each way that they are crossed. "L3"
+/// is the left end of portal 3, counted from 1.
 SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                              const sl_portal_ends *portals, const sl_conflict *conflict);
 
