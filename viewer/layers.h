@@ -42,9 +42,9 @@ typedef struct app_state app_state;
           0, NULL)                                                                                 \
     LAYER(WATCH, "watch", "Y", "Who sees the eye", "through one-way glass: who sees the eye",      \
           IN_EXPLORE, SL_EFFECT_ONEWAY, layer_watch)                                               \
-    LAYER(NUMBERS, "numbers", "F7", "Numbers", "numbers of cells, and of portals with a p",        \
+    LAYER(NUMBERS, "numbers", "0", "Numbers", "numbers of cells, and of portals with a p",         \
           IN_EXPLORE | IN_DRAW, 0, NULL)                                                           \
-    LAYER(NAMES, "numbers_too", "F7", "Numbers", "numbers, as sentences name cells",               \
+    LAYER(NAMES, "numbers_too", "0", "Numbers", "numbers, as sentences name cells",                \
           IN_LEARN | IN_QUIZ, 0, NULL)
 
 #define LAYER_NUMBER(NAME, ...) LAYER_##NAME,
