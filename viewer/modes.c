@@ -39,7 +39,9 @@ static void draw_lesson_marks(app_state *app, const sl_frame *frame) {
     sl_stab_end end;
     const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
     app_check(app, status);
-    if (conflict->verdict == SL_HIDDEN)
+    // With open sight a line that only grazes is no sightline.
+    const bool rejected = subject->rejects && subject->rejects(lesson, lesson->at);
+    if (conflict->verdict == SL_HIDDEN || (conflict->verdict == SL_GRAZING && rejected))
         sl_draw_conflict(app->ui.cairo, &app->ui.palette, frame, lesson->ends, conflict);
     if (lesson_marked(lesson, &end)) {
         const sl_portal_ends *at = &lesson->ends[end.portal];
