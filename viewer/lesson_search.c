@@ -96,9 +96,15 @@ static void say(const lesson_state *lesson, const document_state *document, char
                  here, s->cell);
         return;
     case SL_STEP_HIDDEN:
-        snprintf(text, SENTENCE,
-                 "No line stabs the %u portal%s to cell %u: its half-planes leave nothing.",
-                 s->depth, plural, s->cell);
+        if (s->grazing)
+            snprintf(text, SENTENCE,
+                     "Lines only touch ends of the %u portal%s to cell %u: with open sight they do "
+                     "not count.",
+                     s->depth, plural, s->cell);
+        else
+            snprintf(text, SENTENCE,
+                     "No line stabs the %u portal%s to cell %u: its half-planes leave nothing.",
+                     s->depth, plural, s->cell);
         return;
     case SL_STEP_LEAVE:
         if (s->depth)
