@@ -22,6 +22,7 @@ static const layer layers[] = {
     {"stab-tree", "the chosen cell's stab tree, from portal to portal", SL_LAYER_STAB_TREE},
     {"starts", "starts with their heading, and paths", SL_LAYER_STARTS},
     {"legend", "what the colours mean, and the counts", SL_LAYER_LEGEND},
+    {"numbers", "the numbers of cells and portals, where they have room", SL_LAYER_NUMBERS},
 };
 enum { LAYER_COUNT = sizeof layers / sizeof *layers };
 static const name_table layer_names = {"layer", layers, sizeof *layers, LAYER_COUNT, NULL};

@@ -19,7 +19,8 @@ void app_init(app_state *app, sl_context *context) {
         .document = {.mirror_depth = 1},
         .view = {.fitted = true,
                  .eye = {.fov = 90},
-                 .show = SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS,
+                 .show =
+                     SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
@@ -228,7 +229,7 @@ window_layout app_layout(const app_state *app) {
     const double right = w - side;
     double bottom = h - status;
     if (app->tool.mode == MODE_LEARN) {
-        l.time = box(0, bottom - 4.7 * t, right, bottom);
+        l.time = box(0, bottom - (right < 80 * t ? 6.3 : 4.7) * t, right, bottom);
         bottom = l.time.min.y;
     }
     int shown = 0, before = 0;
@@ -270,8 +271,10 @@ void app_draw(app_state *app, cairo_t *cairo) {
     app->ui.palette = sl_palette_make(app->ui.dark);
     app->ui.text = ui_text_size(&app->ui);
     app->ui.pointer = app->tool.pointer;
+    app->ui.over = ui_find(&app->ui, app->tool.pointer);
     app->ui.hit_count = 0;
     app_fit(app, l.plan[0]);
+    pane_dual_hover(app);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
         if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);

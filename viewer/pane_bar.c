@@ -93,6 +93,25 @@ void pane_status(app_state *app, sl_box box) {
                         0.95 * t, false, app->ui.message);
 }
 
+/// Marks the steps about the cell under the pointer, if not too many are.
+static void draw_ticks(app_state *app, sl_box line) {
+    enum { TICKS_MOST = 400 };
+    const lesson_state *lesson = &app->tool.lesson;
+    const subject_row *subject = lesson_subject(lesson);
+    const size_t length = lesson_length(lesson);
+    if (!subject->cell || length < 2 || app->ui.over.kind != HIT_PLAN) return;
+    const sl_point at = camera_point(&app->view.camera, app_layout(app).plan[0], app->tool.pointer);
+    const uint32_t cell = sl_space_locate(&app->document.baked->space, at);
+    int ticks = 0;
+    for (size_t i = 0; i < length && cell != SL_NO_CELL && ticks < TICKS_MOST; i++) {
+        if (subject->cell(lesson, i) != cell) continue;
+        const double x = line.min.x + (double)i / (double)(length - 1) * (line.max.x - line.min.x);
+        ui_fill(&app->ui, (sl_box){{x - 1, line.min.y + 1}, {x + 1, line.max.y - 1}},
+                app->ui.palette.start);
+        ticks++;
+    }
+}
+
 void pane_time(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const double t = ui->text;
@@ -102,9 +121,12 @@ void pane_time(app_state *app, sl_box box) {
     ui_hit(ui, HIT_PANEL, 0, box);
     char text[SENTENCE];
     lesson_sentence(lesson, &app->document, text);
-    sl_text_show_within(ui->cairo, ui->palette.ink, box.min.x + 0.9 * t, box.min.y + 1.55 * t,
-                        box_width(box) - 1.8 * t, 1.12 * t, false, text);
-    const double y = box.min.y + 2.5 * t;
+    // A long sentence in a narrow window takes three smaller lines.
+    const double wide = box_width(box) - 1.8 * t;
+    const double lines = 1.15 * ui_text_width(ui, 1.08, false, text) / wide;
+    ui_paragraph(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, wide, lines > 2 ? 0.86 : 1.08,
+                 ui->palette.ink, text);
+    const double y = box.max.y - 2.2 * t;
     static const char *const buttons[] = {"step_first", "step_back", "play_steps", "step_next",
                                           "step_last"};
     double x = box.min.x + 0.7 * t;
@@ -122,6 +144,7 @@ void pane_time(app_state *app, sl_box box) {
     ui_text_right(ui, box.max.x - 0.9 * t, y + 1.15 * t, 0.95, ui->palette.faint, text);
     const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
     if (box_width(line) < 3 * t) return;
+    draw_ticks(app, line);
     ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME, 0);
 }
 

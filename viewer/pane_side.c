@@ -1,6 +1,5 @@
-/// The panel at the right: layers, what each method keeps, what the pointer is over. Other modes
-/// show pseudo-code, the question, or walls there. And lines as points: the dual plane of the
-/// portal sequence of the lesson.
+/// The panel at the right: layers, what each method keeps, what the pointer is over, and why a cell
+/// is seen or not. Other modes show pseudo-code, the question, or walls there.
 #include "actions.h"
 #include "effects.h"
 #include "modes.h"
@@ -124,6 +123,7 @@ typedef struct method_row {
     const char *name;
     sl_colour colour;
     bool known, chosen, other;
+    bool keeps; ///< the cell under the pointer
     uint32_t cells;
     double area, seconds;
     uint64_t tests;
@@ -140,6 +140,12 @@ static void draw_method(app_state *app, column *c, const method_row *row, int nu
                                     row->chosen ? 0.2 : 0.08));
     ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
                   0.15 * t, row->colour);
+    if (row->keeps) {
+        cairo_rectangle(ui->cairo, c->left, c->y + 0.35 * t, 0.9 * t, 0.9 * t);
+        sl_set_colour(ui->cairo, ui->palette.ink);
+        cairo_set_line_width(ui->cairo, 0.18 * t);
+        cairo_stroke(ui->cairo);
+    }
     char words[64], text[SL_COUNT_TEXT];
     snprintf(words, sizeof words, "%s", row->name);
     for (char *at = words; *at; at++)
@@ -160,11 +166,20 @@ static void draw_method(app_state *app, column *c, const method_row *row, int nu
     c->y += height;
 }
 
+/// The cell of the plan under the pointer; SL_NO_CELL for none.
+static uint32_t cell_under_pointer(const app_state *app) {
+    const sl_box plan = app_layout(app).plan[0];
+    if (!app->document.baked || app->ui.over.kind != HIT_PLAN) return SL_NO_CELL;
+    return sl_space_locate(&app->document.baked->space,
+                           camera_point(&app->view.camera, plan, app->tool.pointer));
+}
+
 static void draw_methods(app_state *app, column *c) {
     ui_state *ui = &app->ui;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const double unit = (c->right - c->left) / 22, t = ui->text, size = figure_size(ui, unit);
+    const uint32_t cell = cell_under_pointer(app);
     heading(&app->ui, c, "What is kept", NULL);
     c->y -= 0.55 * t;
     ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.9 * size, ui->palette.faint, "cells");
@@ -179,6 +194,8 @@ static void draw_methods(app_state *app, column *c) {
                                 .known = app->view.seen.valid && m->known,
                                 .chosen = i == app->view.method,
                                 .other = app->view.compare && i == app->view.other,
+                                .keeps = app->view.seen.valid && m->known && cell != SL_NO_CELL &&
+                                         sl_eye_sees(m->cells, cell),
                                 .cells = m->count,
                                 .area = m->area,
                                 .seconds = m->seconds,
@@ -337,8 +354,27 @@ static void draw_words(app_state *app, column *c) {
                         app->ui.palette.ink, text);
 }
 
+/// Why the cell that was asked about is seen or not.
+static void draw_why(app_state *app, column *c) {
+    const quiz_state *q = &app->tool.quiz;
+    char text[1024];
+    if (!q->answered) return;
+    snprintf(text, sizeof text, "Why cell %u %s cell %u%s", q->from,
+             q->explanation.verdict == SL_HIDDEN && !quiz_is_bent(q) ? "does not see" : "sees",
+             q->to, quiz_is_bent(q) ? " by mirror" : "");
+    heading(&app->ui, c, text, NULL);
+    quiz_words(app, text, sizeof text);
+    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
+                        app->ui.palette.ink, text) -
+           0.9 * app->ui.text;
+    static const char *const step[] = {"why_step", NULL};
+    button_row(app, c, step);
+    c->y += 0.4 * app->ui.text;
+}
+
 void pane_side(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
+    draw_why(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
@@ -381,38 +417,122 @@ static void draw_code(app_state *app, column *c) {
     }
 }
 
-static void draw_account(app_state *app, column *c) {
+/// The subjects to choose from: those that the map allows.
+static void draw_subjects(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    size_t count;
+    const subject_row *const *subjects = subject_table(&count);
+    heading(ui, c, "Lessons", "U");
+    for (size_t i = 0; i < count; i++) {
+        if (!lesson_fits(i, &app->document)) continue;
+        const bool on = i == app->tool.lesson.subject;
+        const sl_box row = {{c->left - 0.4 * t, c->y}, {c->right + 0.4 * t, c->y + 1.5 * t}};
+        if (on || box_has(row, ui->pointer))
+            ui_fill_round(ui, row, 0.25 * t,
+                          sl_colour_mix(ui->palette.page, ui->palette.glass, on ? 0.22 : 0.1));
+        ui_text(ui, c->left, c->y + 1.08 * t, 1, on, ui->palette.ink, subjects[i]->title);
+        ui_hit(ui, HIT_SUBJECT, (int)i, row);
+        c->y += 1.5 * t;
+    }
+}
+
+/// Buttons to the next step of a kind, named by the subject, and the speed.
+static void draw_steps(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
     const lesson_state *lesson = &app->tool.lesson;
     const subject_row *subject = lesson_subject(lesson);
+    const double t = ui->text;
+    char text[64];
+    double x = c->left;
+    c->y += 0.4 * t;
+    snprintf(text, sizeof text, "\xe2\x97\x80 %s", subject->found ? subject->found : "");
+    if (lesson->finds) x = ui_button(ui, x, c->y, 1.6 * t, text, false, action_find("found_back"));
+    snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->found ? subject->found : "");
+    if (lesson->finds)
+        x = ui_button(ui, x + 0.4 * t, c->y, 1.6 * t, text, false, action_find("found_next"));
+    snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->rejected ? subject->rejected : "");
+    if (lesson->rejects)
+        ui_button(ui, x + 0.4 * t, c->y, 1.6 * t, text, false, action_find("rejected_next"));
+    if (lesson->finds || lesson->rejects) c->y += 2 * t;
+    x = ui_button(ui, c->left, c->y, 1.6 * t, "Slower", false, action_find("slower"));
+    x = ui_button(ui, x + 0.4 * t, c->y, 1.6 * t, "Faster", false, action_find("faster"));
+    snprintf(text, sizeof text, "%g steps a second", ldexp(2, lesson->speed));
+    ui_text(ui, x + 0.7 * t, c->y + 1.12 * t, 0.95, false, ui->palette.faint, text);
+    c->y += 1.6 * t;
+}
+
+/// "L1 and L4 against R2 and R3".
+static void list_ends(const sl_conflict *conflict, char *text, size_t room) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int side = 0; side < 2; side++) {
+        bool first = true;
+        for (uint32_t i = 0; i < conflict->end_count && used < room; i++) {
+            if (conflict->ends[i].left != (side == 0)) continue;
+            used += (size_t)snprintf(text + used, room - used, "%s%c%u",
+                                     !first      ? " and "
+                                     : side == 1 ? " against "
+                                                 : "",
+                                     side ? 'R' : 'L', conflict->ends[i].portal + 1);
+            first = false;
+        }
+    }
+}
+
+/// What the ends that leave no line are to each other.
+static void write_conflict(app_state *app, char *text, size_t room) {
+    lesson_state *lesson = &app->tool.lesson;
+    char ends[128];
+    sl_status status;
+    const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
+    app_check(app, status);
+    text[0] = '\0';
+    if (conflict->verdict == SL_STABBED || !conflict->end_count) return;
+    list_ends(conflict, ends, sizeof ends);
+    snprintf(text, room, "%s: %s. They are marked: %s.",
+             conflict->verdict == SL_GRAZING ? "The line only grazes"
+             : conflict->turns               ? "No line: the portals turn back"
+                                             : "No line is left",
+             ends, sl_conflict_reason(lesson->ends, conflict));
+}
+
+static void draw_account(app_state *app, column *c) {
+    lesson_state *lesson = &app->tool.lesson;
+    const subject_row *subject = lesson_subject(lesson);
     char text[SENTENCE];
+    const double t = app->ui.text, wide = c->right - c->left;
     if (!lesson_shows(lesson, &app->document)) return;
     if (subject->account) {
         subject->account(lesson, text);
         heading(&app->ui, c, "So far", NULL);
-        c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
-                            app->ui.palette.ink, text) -
-               0.9 * app->ui.text;
+        c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * t, wide, 1, app->ui.palette.ink, text) -
+               0.9 * t;
     }
     if (!lesson->end_count) return;
-    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     const double margin =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
-    snprintf(text, sizeof text,
-             "Its margin is %.3g, the best is %.3g. %s Drag it in the plan or as a point in the "
-             "dual plane; drag portal ends too.",
-             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale,
-             lesson->dual.corner_count ? "" : "No line is left.");
-    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
-                        app->ui.palette.ink, text) -
-           0.9 * app->ui.text;
+    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    snprintf(text, sizeof text, "Its margin is %.3g, the best is %.3g.",
+             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale);
+    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * t, wide, 0.95, app->ui.palette.ink, text);
+    write_conflict(app, text, sizeof text);
+    if (*text)
+        c->y = ui_paragraph(&app->ui, c->left, c->y, wide, 0.95, app->ui.palette.start, text);
+    c->y = ui_paragraph(&app->ui, c->left, c->y, wide, 0.95, app->ui.palette.faint,
+                        "Drag it or portal ends, or choose by . and move by arrows.") -
+           0.9 * t;
+    static const char *const change[] = {"undo", "reset_ends", "program", NULL};
+    button_row(app, c, change);
 }
 
 void pane_learn(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
-    heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
+    draw_why(app, &c);
+    draw_subjects(app, &c);
+    c.y += 0.7 * app->ui.text;
     draw_code(app, &c);
-    static const char *const other[] = {"subject", NULL};
-    button_row(app, &c, other);
+    draw_steps(app, &c);
     draw_account(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
@@ -451,7 +571,7 @@ void pane_quiz(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const quiz_state *q = &app->tool.quiz;
     const double t = ui->text;
-    char text[512];
+    char text[1024];
     snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
     heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
     if (!q->asked) {
@@ -469,69 +589,6 @@ void pane_quiz(app_state *app, sl_box box) {
     }
     quiz_words(app, text, sizeof text);
     c.y = ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1, ui->palette.ink, text) + t;
-    ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, action_find("next_question"));
-}
-
-// --- the dual plane
-
-static sl_dual_frame frame_of(const app_state *app, sl_box box) {
-    const double t = ui_text_size(&app->ui);
-    return sl_dual_frame_fit(&app->tool.lesson.before, box.min.x + 0.9 * t, box.min.y + 2.2 * t,
-                             fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
-                             ui_scale(&app->ui));
-}
-
-void pane_dual(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    const lesson_state *lesson = &app->tool.lesson;
-    ui_fill(ui, box, ui->palette.page);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    const double x = ui_text(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, 1, true, ui->palette.ink,
-                             "Lines as points");
-    char text[160];
-    if (lesson->end_count)
-        snprintf(text, sizeof text, "%u half-planes: %s", 2 * lesson->end_count,
-                 lesson->dual.corner_count ? "what all leave is green" : "nothing is left");
-    else
-        snprintf(text, sizeof text, "no portal is crossed yet: every line counts");
-    ui_text(ui, box.min.x + 1.7 * t + x, box.min.y + 1.5 * t, 0.95, false, ui->palette.faint, text);
-    if (!lesson->end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
-                 lesson->line);
-    const double base = frame.top + frame.height + 1.2 * t;
-    sl_text_show_within(
-        ui->cairo, ui->palette.faint, frame.left, base, frame.width, 0.85 * t, false,
-        "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
-        "right ends, from below   bar: the best line and its margin");
-    ui_hit(ui, HIT_DUAL, 0,
-           (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
-}
-
-void pane_dual_drag(app_state *app, sl_box box, sl_point to) {
-    if (!app->tool.lesson.end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    const sl_dual_line line = sl_dual_frame_line(&frame, to);
-    app->tool.lesson.line.slope = fmin(fmax(line.slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
-    app->tool.lesson.line.height = fmin(fmax(line.height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
-}
-
-/// Near an end of the shown line it turns about the other end; between the ends it is shifted.
-void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
-    lesson_state *lesson = &app->tool.lesson;
-    if (!lesson->end_count) return;
-    const sl_point a = sl_dual_point(&lesson->dual, from), b = sl_dual_point(&lesson->dual, to);
-    sl_dual_line *line = &lesson->line;
-    const double pivot = a.x > 0.35 ? -1 : a.x < -0.35 ? 1 : 0;
-    if (pivot == 0) {
-        line->height += (b.y - line->slope * b.x) - line->height;
-    } else if (fabs(b.x - pivot) > 0.05) {
-        const double at = line->slope * pivot + line->height;
-        const double slope = (b.y - at) / (b.x - pivot);
-        line->slope = fmin(fmax(slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
-        line->height = at - line->slope * pivot;
-    }
-    line->height = fmin(fmax(line->height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
+    x = ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, action_find("next_question"));
+    ui_button(ui, x + 0.6 * t, c.y, 2 * t, "Show the step", false, action_find("why_step"));
 }

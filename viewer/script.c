@@ -4,6 +4,7 @@
 #include "actions.h"
 #include "files.h"
 #include "input.h"
+#include "print.h"
 #include "save.h"
 #include "sightline/support.h"
 
@@ -176,17 +177,30 @@ static sl_status do_export(reader *r, const words *w) {
     return save_series(r->app, w->rest, 2);
 }
 
+/// Prints what the frame shows now. The frame is drawn twice: what the pointer is over is that of
+/// the frame before.
+static sl_status do_print(reader *r, const words *w) {
+    frame(r, 0);
+    frame(r, 0);
+    if (!print_state(r->app, w->rest, stdout))
+        return sl_fail_at(r->app->context, r->file, r->line,
+                          "no state is called '%s': " PRINT_NAMES, w->rest);
+    fflush(stdout);
+    return SL_OK;
+}
+
 static const struct command {
     const char *name;
     int numbers; ///< that must follow; -1: text, -2: any numbers
     sl_status (*run)(reader *r, const words *w);
 } commands[] = {
-    {"open", -1, do_open},  {"key", -1, do_key},       {"down", -1, do_down},
-    {"up", -1, do_up},      {"action", -1, do_action}, {"move", 2, do_move},
-    {"click", 2, do_click}, {"right", 2, do_right},    {"drag", 4, do_drag},
-    {"wheel", 1, do_wheel}, {"wait", 1, do_wait},      {"size", 2, do_size},
-    {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
-    {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
+    {"open", -1, do_open},   {"key", -1, do_key},       {"down", -1, do_down},
+    {"up", -1, do_up},       {"action", -1, do_action}, {"move", 2, do_move},
+    {"click", 2, do_click},  {"right", 2, do_right},    {"drag", 4, do_drag},
+    {"wheel", 1, do_wheel},  {"wait", 1, do_wait},      {"size", 2, do_size},
+    {"eye", -2, do_eye},     {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
+    {"save", -1, do_save},   {"export", -1, do_export}, {"account", -1, do_account},
+    {"print", -1, do_print},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

@@ -15,9 +15,11 @@ typedef enum hit_kind {
     HIT_METHOD, ///< value: of the culling methods
     HIT_PLAN,   ///< value: which of the plans, from 0
     HIT_DUAL,
-    HIT_TIME,   ///< the time line
-    HIT_SLIDER, ///< value: of the table of sliders
-    HIT_MAP,    ///< value: row of the list that is open
+    HIT_TIME,    ///< the time line
+    HIT_SLIDER,  ///< value: of the table of sliders
+    HIT_MAP,     ///< value: row of the list that is open
+    HIT_SUBJECT, ///< value: of the lesson's subjects
+    HIT_END,     ///< value: a portal end of the lesson
 } hit_kind;
 
 typedef struct hit_area {
@@ -35,6 +37,7 @@ typedef struct ui_state {
     sl_palette palette;
     double text; ///< size of plain text, pixels
     sl_point pointer;
+    hit_area over; ///< under the pointer, in the frame before
     hit_area hits[HITS_MOST];
     int hit_count;
 
@@ -42,8 +45,8 @@ typedef struct ui_state {
     double text_scale; ///< chosen by the user
     double density;    ///< of the screen: pixels where a common one has 1
     bool dark;
-    bool side_panel, first_person, accounts, effects, help, maps_open; ///< panels shown
-    char message[512];                                                 ///< the last thing to say
+    bool side_panel, first_person, accounts, effects, program, help, maps_open; ///< panels shown
+    char message[512]; ///< the last thing to say
     bool message_is_error;
     double frame_seconds; ///< smoothed; shown in the corner unless steady
 } ui_state;

@@ -19,7 +19,7 @@ PATIENCE = 30
 DROP = pathlib.Path(sys.argv[2]).with_name("drop_file")
 
 # Where the cone's slider stands in a window of 1200 x 760: its knob at 90 degrees, and farther on.
-CONE, WIDER = (1045, 290), (1090, 290)
+CONE, WIDER = (1045, 329), (1090, 329)
 
 # name, what is done in the window (a list of acts), and the same for the script.
 # Acts: a key by its name for X; ("drag", X, Y, X2, Y2); ("wheel", X, Y, TURNS); ("drop", MAP).
@@ -36,6 +36,12 @@ STEPS = [
     ("fit", ["f"], "key F\n"),
     ("learn", ["F2", "Right", "Right", "Right"], "key F2\n" + "key Right\n" * 3),
     ("back", ["Left"], "key Left\n"),
+    ("moved", ["period", "period", "Up", "Up", "period", "Right"],
+     "key .\nkey .\nkey Up\nkey Up\nkey .\nkey Right\n"),
+    ("one_back", ["comma", "ctrl+z"], "key ,\nkey Ctrl+Z\n"),
+    ("reset", ["Delete", "Escape", "r"], "key Delete\nkey Escape\nkey R\n"),
+    ("unnamed", ["0"], "key 0\n"),
+    ("named", ["0"], "key 0\n"),
     ("wall", ["F3", ("drag", 225, 260, 225, 320)], "key F3\ndrag 225 260 225 320\n"),
     ("undone", ["ctrl+z"], "key Ctrl+Z\n"),
     ("dropped", ["F1", ("drop", "oblique/rotunda.map")], "key F1\nopen {maps}/oblique/rotunda.map\n"),
