@@ -1,6 +1,7 @@
 /// `sightline convert`: any map that can be read, in any format that can be written.
 #include "built.h"
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "options.h"
 #include "outputs.h"
@@ -28,8 +29,7 @@ static void print_formats(void) {
     const sl_map_format *formats = sl_map_formats(context, &count);
     puts("\nformats that are written, by the ending of OUT:");
     for (size_t i = 0; i < count; i++)
-        if (formats[i].write)
-            printf("  %-10s%-28s%s\n", formats[i].name, formats[i].endings, formats[i].what);
+        if (formats[i].write) help_name(formats[i].endings, 28, formats[i].name, formats[i].what);
     sl_context_destroy(context);
     input_print_formats();
 }

@@ -1,6 +1,7 @@
 /// `sightline export`: a baked file for other programs.
 #include "built.h"
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "sightline/support.h"
@@ -22,7 +23,7 @@ static void print_formats(void) {
     size_t count;
     const sl_export_format *formats = sl_export_formats(context, &count);
     puts("\nformats (the first is the default):");
-    for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
+    for (size_t i = 0; i < count; i++) help_name(formats[i].name, 10, formats[i].what, NULL);
     sl_context_destroy(context);
 }
 

@@ -1,5 +1,6 @@
 /// `sightline generate`: procedural maps.
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "options.h"
 #include "sightline/generate.h"
@@ -18,9 +19,12 @@ static void print_kinds(void) {
     size_t count;
     const sl_map_kind *kinds = sl_map_kinds(&count);
     puts("\nkinds, and what --size counts (defaults in parentheses):");
-    for (size_t i = 0; i < count; i++)
-        printf("  %-9s %s\n            %s (%llu)\n", kinds[i].name, kinds[i].what, kinds[i].size_is,
-               (unsigned long long)kinds[i].usual_size);
+    for (size_t i = 0; i < count; i++) {
+        char size[80];
+        snprintf(size, sizeof size, "%s (%llu)", kinds[i].size_is,
+                 (unsigned long long)kinds[i].usual_size);
+        help_name(kinds[i].name, 10, kinds[i].what, size);
+    }
 }
 
 static sl_status generate(sl_context *context, const char *name, const sl_generate_options *options,

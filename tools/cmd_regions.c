@@ -1,5 +1,6 @@
 /// `sightline regions`: what view cells see, by every from-region method (Laine 2005).
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "pipeline.h"
@@ -216,12 +217,11 @@ static void print_tables(void) {
     size_t count;
     puts("\nmethods, all of which run:");
     const sl_from_region_method *methods = sl_from_region_methods(&count);
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    for (size_t i = 0; i < count; i++) help_name(methods[i].name, 12, methods[i].what, NULL);
     puts("\nsolvers (the first is the default):");
     const sl_from_region_solver *solvers = sl_from_region_solvers(&count);
     for (size_t i = 0; i < count; i++)
-        printf("  %-12s%s; %s\n", solvers[i].name, solvers[i].what,
-               sl_guarantee_name(solvers[i].guarantee));
+        help_name(solvers[i].name, 12, solvers[i].what, sl_guarantee_name(solvers[i].guarantee));
     pipeline_print_effects();
     input_print_formats();
 }

@@ -1,5 +1,6 @@
 /// `sightline viewcells`: view cells that adapt to what is seen (Mattausch et al. 2006).
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "outputs.h"
@@ -447,7 +448,7 @@ static void print_tables(void) {
     size_t count;
     const sl_view_method *methods = sl_view_methods(&count);
     puts("\nmethods:");
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    for (size_t i = 0; i < count; i++) help_name(methods[i].name, 12, methods[i].what, NULL);
     pipeline_print_subdivisions();
     pipeline_print_effects();
     input_print_formats();

@@ -106,10 +106,12 @@ static void print_text(const command_usage *usage, const option_spec *options, s
                usage->tables ? " and their values" : "");
 }
 
-void help_name(const char *name, int width, const char *what) {
+void help_name(const char *name, int width, const char *what, const char *after) {
+    char text[512];
+    snprintf(text, sizeof text, "%s%s%s", what, after ? "; " : "", after ? after : "");
     printf("  %-*s", width, name);
     if ((int)strlen(name) >= width) printf("\n%*s", width + 2, "");
-    help_wrap(what, width + 2, width + 2);
+    help_wrap(text, width + 2, width + 2);
 }
 
 // --- manual pages

@@ -24,7 +24,8 @@ void help_print(const command_usage *usage, const option_spec *options, size_t c
 /// begin with a space, which stay as they are.
 void help_wrap(const char *text, int column, int indent);
 
-/// Prints a row of a table of names: the name in `width` columns, and what it is.
-void help_name(const char *name, int width, const char *what);
+/// Prints a row of a table of names: the name in `width` columns, what it is, and "; after" (NULL:
+/// nothing).
+void help_name(const char *name, int width, const char *what, const char *after);
 
 #endif

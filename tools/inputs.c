@@ -183,8 +183,8 @@ void input_print_formats(void) {
     (void)built_use_formats(context); // with no memory: the formats that are always there
     const sl_map_format *formats = sl_map_formats(context, &count);
     puts("\nmaps, by the ending of the file's name:");
-    for (size_t i = 0; i < count; i++) help_name(formats[i].endings, 28, formats[i].what);
-    help_name("-", 28, "standard input, by its first bytes, else as the map text");
+    for (size_t i = 0; i < count; i++) help_name(formats[i].endings, 28, formats[i].what, NULL);
+    help_name("-", 28, "standard input, by its first bytes, else as the map text", NULL);
     sl_context_destroy(context);
 }
 

@@ -232,7 +232,8 @@ void pipeline_print_subdivisions(void) {
     puts("\nsubdivisions:");
     size_t count;
     const sl_subdivision *subdivisions = sl_subdivisions(&count);
-    for (size_t i = 0; i < count; i++) help_name(subdivisions[i].name, 12, subdivisions[i].what);
+    for (size_t i = 0; i < count; i++)
+        help_name(subdivisions[i].name, 12, subdivisions[i].what, NULL);
     printf("  (default share of the kd-tree's rule 'obscured': %g)\n",
            sl_subdivide_options_default().obscured);
 }
@@ -247,19 +248,14 @@ void pipeline_print_effects(void) {
 
 void pipeline_print_methods(void) {
     size_t count;
-    char text[256];
     const sl_see_method *methods = sl_see_methods(&count);
     puts("\nmethods:");
-    for (size_t i = 0; i < count; i++) {
-        snprintf(text, sizeof text, "%s; %s", methods[i].what,
-                 methods[i].stabs ? "as exact as the solver"
-                                  : sl_guarantee_name(methods[i].guarantee));
-        help_name(methods[i].name, 12, text);
-    }
+    for (size_t i = 0; i < count; i++)
+        help_name(methods[i].name, 12, methods[i].what,
+                  methods[i].stabs ? "as exact as the solver"
+                                   : sl_guarantee_name(methods[i].guarantee));
     puts("\nsolvers:");
-    for (size_t i = 0; solver_at(i); i++) {
-        snprintf(text, sizeof text, "%s; %s", solver_at(i)->what,
-                 sl_guarantee_name(solver_at(i)->guarantee));
-        help_name(solver_at(i)->name, 12, text);
-    }
+    for (size_t i = 0; solver_at(i); i++)
+        help_name(solver_at(i)->name, 12, solver_at(i)->what,
+                  sl_guarantee_name(solver_at(i)->guarantee));
 }
