@@ -6,6 +6,8 @@
 #include "oracle/mirrored.h"
 #include "oracle/random_effects.h"
 
+#include "sightline/sees.h"
+
 #include <math.h>
 
 enum { MAPS = 96, EYES = 4, CELLS_MOST = 128 };
@@ -18,6 +20,7 @@ typedef struct trial {
     double scale;
     sl_map map;
     sl_space whole, space; ///< as it was made; with doors shut and glass that is dark
+    sl_space walled;       ///< the same with a wall on the dark side of glass
     uint32_t depth;
 } trial;
 
@@ -36,15 +39,19 @@ static void begin(trial *t, uint64_t seed) {
     assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
     bool shut[3];
     for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
-    const sl_filtered_space filtered = {.shut = shut, .one_way = true};
+    sl_filtered_space filtered = {.shut = shut, .one_way = true};
     assert_ok(t->context,
               sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->space));
+    filtered.dark_walls = true;
+    assert_ok(t->context,
+              sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->walled));
     assert_true(t->space.cell_count <= CELLS_MOST);
 }
 
 static void end(trial *t) {
     sl_space_destroy(t->context, &t->whole);
     sl_space_destroy(t->context, &t->space);
+    sl_space_destroy(t->context, &t->walled);
     sl_map_destroy(t->context, &t->map);
     sl_context_destroy(t->context);
 }
@@ -146,14 +153,15 @@ static void check_part(const trial *t, const sl_view *view, const sl_mirror_part
         complain(t, view, "a part and its image differ");
 }
 
-static void ask_region(const trial *t, const sl_view *view, const oracle_mirrored *truth) {
+static void ask_region(const trial *t, const sl_space *space, const sl_view *view,
+                       const oracle_mirrored *truth) {
     sl_outline outline;
     sl_room_mirrors mirrors;
     sl_mirrored_region region = {0};
     const size_t chains = oracle_chains(&t->map, t->depth);
     double *areas = calloc(chains, sizeof *areas);
     assert_non_null(areas);
-    assert_ok(t->context, sl_outline_make(t->context, &t->space, &outline));
+    assert_ok(t->context, sl_outline_make(t->context, space, &outline));
     assert_ok(t->context, sl_room_mirrors_make(t->context, &outline, &t->map, &mirrors));
     assert_ok(t->context,
               sl_mirrored_region_make(t->context, &mirrors, view, t->map.range, t->depth, &region));
@@ -209,7 +217,7 @@ static void random_maps(void **state) {
                 oracle_mirrored_of(&t.space, &t.map, &view, t.map.range, t.depth);
             ask_cells(&t, &view, &truth, SL_CLOSED);
             ask_cells(&t, &view, &truth, SL_OPEN);
-            if (!truth.on_wall && !(t.effects & SL_EFFECT_ONEWAY)) ask_region(&t, &view, &truth);
+            if (!truth.on_wall) ask_region(&t, &t.walled, &view, &truth);
             for (uint32_t c = 0; c < t.space.cell_count; c++) seen += truth.open[c];
             areas += !truth.on_wall && truth.areas[1] > 0;
             oracle_mirrored_free(&truth);
@@ -221,6 +229,34 @@ static void random_maps(void **state) {
 }
 
 // --- past glass
+
+/// Glass as a wall for this eye, and as a wall on its dark side alone, shows the same region and the
+/// same points; also for an eye on the glass.
+static void compare_outlines(trial *t, const sl_space *past, const sl_view *view) {
+    const sl_space *spaces[2] = {past, &t->walled};
+    sl_outline outlines[2];
+    double areas[2];
+    for (int i = 0; i < 2; i++) {
+        sl_region region = {0};
+        assert_ok(t->context, sl_outline_make(t->context, spaces[i], &outlines[i]));
+        assert_ok(t->context,
+                  sl_region_make(t->context, &outlines[i], view, t->map.range, &region));
+        areas[i] = sl_region_area(&region);
+        sl_region_destroy(t->context, &region);
+    }
+    if (fabs(areas[0] - areas[1]) > 1e-10 * t->scale * t->scale)
+        complain(t, view, "the regions past glass differ");
+    for (int i = 0; i < 40; i++) {
+        const sl_point point = random_point(t);
+        bool seen[2];
+        const sl_sight sight = i % 2 ? SL_OPEN : SL_CLOSED;
+        for (int k = 0; k < 2; k++)
+            assert_ok(t->context,
+                      sl_sees(t->context, &outlines[k], view->eye, point, sight, &seen[k]));
+        if (seen[0] != seen[1]) complain(t, view, "a point past glass differs");
+    }
+    for (int i = 0; i < 2; i++) sl_outline_destroy(t->context, &outlines[i]);
+}
 
 /// The region of an eye, and the cells that it sees, where glass that is dark for it is a wall.
 static void past_glass(void **state) {
@@ -239,16 +275,20 @@ static void past_glass(void **state) {
             uint64_t cells[CELLS_MOST / 64 + 1];
             sl_eye_account account;
             sl_eye_search *search;
-            trial past = t, all = t;
+            trial past = t, all = t, open = t;
             // Of what the glass itself says, and of its being a wall.
             const sl_filtered_space one_way = {.one_way = true};
+            const sl_filtered_space dark = {.one_way = true, .dark_walls = true};
             assert_ok(t.context,
                       sl_filtered_space_make(t.context, &t.whole, &one_way, NULL, &all.space));
+            assert_ok(t.context,
+                      sl_filtered_space_make(t.context, &t.whole, &dark, NULL, &open.walled));
             assert_ok(t.context,
                       sl_filtered_space_make(t.context, &t.whole, &filtered, NULL, &past.space));
             assert_ok(t.context, sl_space_check(t.context, &past.space));
             oracle_mirrored truth = oracle_mirrored_of(&all.space, &t.map, &view, t.map.range, 0);
-            if (!truth.on_wall) ask_region(&past, &view, &truth);
+            if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
+            compare_outlines(&open, &past.space, &view);
             assert_ok(t.context, sl_eye_search_create(t.context, &past.space, &bare, &search));
             sl_eye_search_limit(search, t.map.range);
             assert_ok(t.context, exact->cull(t.context, search, &view, cells, &account));
@@ -258,6 +298,7 @@ static void past_glass(void **state) {
             oracle_mirrored_free(&truth);
             sl_space_destroy(t.context, &past.space);
             sl_space_destroy(t.context, &all.space);
+            sl_space_destroy(t.context, &open.walled);
         }
         end(&t);
     }
@@ -342,7 +383,7 @@ static void try_boxes(trial *t, sl_sight sight, size_t *seen, size_t *hidden) {
     compare_past(t, moving, &view, sight, &truth, cells);
     trial past = *t;
     past.space = *boxed;
-    if (!truth.on_wall) ask_region(&past, &view, &truth);
+    if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
     oracle_mirrored_free(&truth);
     if (count == 1 && sight == SL_OPEN && is_plain(t, boxes[0].box, view.eye)) {
         // One that blocks may stand between itself and a mirror.

@@ -60,6 +60,9 @@ SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const 
 typedef struct sl_filtered_space {
     const bool *shut; ///< by door of the map; NULL: all are open
     bool one_way;     ///< with its glass; else that is open both ways
+    /// With `one_way`: the dark side of glass is a wall, after all other walls. Such a space has an
+    /// outline, in which regions see one way (outline.h).
+    bool dark_walls;
     /// Glass that is dark for this eye is a wall, all other is open both ways: what one eye sees
     /// straight on, without mirrors, is then what it sees past walls. NULL for none.
     const sl_point *eye;
@@ -67,7 +70,8 @@ typedef struct sl_filtered_space {
 
 /// A copy of a space for a filtered space. It is as sl_space_check wants it where the passage is
 /// not one-way: then all methods work on it. With one-way directed portals missing, only those that
-/// go through directed portals do, one way: "dfs", and eye-to-cell. Portals that are walls have no
+/// go through directed portals do, one way: "dfs", and eye-to-cell, directly and by mirror; with
+/// `dark_walls` also regions and single lines of sight. Portals that are walls have no
 /// directed portals and are left out; `portals` (portal_count of `space`, or NULL) gets the new
 /// number of each, UINT32_MAX for none.
 SL_API sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
