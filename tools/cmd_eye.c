@@ -187,8 +187,8 @@ static sl_status add_objects(sl_context *context, const sl_space *space, const e
     return seen_parts_add_region(context, space, objects->count ? &objects->region : region, parts);
 }
 
-static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
-                      const eye_run *run, const eye_objects *objects) {
+static sl_status draw_space(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                            const eye_run *run, const eye_objects *objects) {
     sl_draw_options options = plan->drawing;
     sl_eye_layer layers[SL_EYE_LAYERS_MOST];
     size_t count;
@@ -214,6 +214,19 @@ static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked 
     return status;
 }
 
+/// In the picture, one-way glass that is dark for the eye is a wall.
+static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                      const eye_run *run, const eye_objects *objects) {
+    const sl_filtered_space filtered = {.eye = &plan->at};
+    sl_baked dark = *baked;
+    if (!baked->map.oneway_count) return draw_space(context, plan, baked, run, objects);
+    dark.space = (sl_space){0};
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &dark.space));
+    const sl_status status = draw_space(context, plan, &dark, run, objects);
+    sl_space_destroy(context, &dark.space);
+    return status;
+}
+
 static sl_status tell(command_console *console, const eye_plan *plan, const sl_baked *baked,
                       const eye_run *run, const eye_objects *objects) {
     if (plan->output) SL_TRY(draw(console->context, plan, baked, run, objects));
@@ -225,25 +238,7 @@ static sl_status tell(command_console *console, const eye_plan *plan, const sl_b
     return SL_OK;
 }
 
-/// Makes walls of the one-way glass that blocks the eye, so that the picture shows it.
-static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
-    const sl_filtered_space filtered = {.eye = &eye};
-    sl_space walled;
-    if (!baked->map.oneway_count) return SL_OK;
-    if (baked->visibility.mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "glass that is dark from an eye may not be so in a mirror: bake the map "
-                       "--without mirror or --without oneway");
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
-    sl_space_destroy(context, &baked->space);
-    baked->space = walled;
-    sl_visibility trees = {.trees = baked->visibility.trees};
-    baked->visibility.trees = (sl_stab_trees){0};
-    sl_visibility_destroy(context, &trees);
-    return SL_OK;
-}
-
-/// Shut doors and blocking glass are walls of `baked` by now.
+/// Shut doors are walls of `baked` by now.
 static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
                      sl_query *query) {
     sl_context *context = console->context;
@@ -266,7 +261,6 @@ static sl_status look(command_console *console, const eye_plan *plan, sl_baked *
     sl_context *context = console->context;
     sl_query *query;
     SL_TRY(check_view(context, plan, &baked->space));
-    SL_TRY(darken(context, baked, plan->at));
     SL_TRY(sl_query_create(context, baked, &query));
     const sl_view view = sl_query_view(query, plan->at, plan->look, plan->fov);
     const sl_status status = ask(console, plan, &view, query);
