@@ -30,6 +30,7 @@ typedef struct isovist_plan {
 /// The space, and what its eyes see.
 typedef struct isovist_work {
     sl_baked baked;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_outline outline;
     sl_room_mirrors mirrors;
     isovist_scene scene;
@@ -221,16 +222,28 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
     return status;
 }
 
+/// One outline serves all eyes: glass is a wall on its dark side alone.
+static sl_status make_outline(sl_context *context, isovist_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sl_space *space = &w->baked.space;
+    if (w->baked.map.oneway_count) {
+        SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &w->dark));
+        space = &w->dark;
+    }
+    return sl_outline_make(context, space, &w->outline);
+}
+
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
-                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR, &w->baked));
+    SL_TRY(pipeline_read_space(
+        context, &plan->pipeline, "isovist",
+        SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
     SL_TRY(doors_shut(context, NULL, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
-    SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
+    SL_TRY(make_outline(context, w));
     w->scene = (isovist_scene){&w->outline, NULL, plan->range, plan->mirror_depth};
     if (w->baked.map.mirror_count) {
         SL_TRY(sl_room_mirrors_make(context, &w->outline, &w->baked.map, &w->mirrors));
@@ -321,6 +334,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     eyes_destroy(console->context, &w.eyes);
     sl_room_mirrors_destroy(console->context, &w.mirrors);
     sl_outline_destroy(console->context, &w.outline);
+    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }
