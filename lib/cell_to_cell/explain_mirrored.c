@@ -10,6 +10,7 @@
 #include "effects/mirrors.h"
 #include "sightline/explain.h"
 #include "sightline/support.h"
+#include "stab/funnel.h"
 
 #include <math.h>
 
@@ -75,6 +76,7 @@ static sl_status note_found(sl_context *context, search *s, const step *last) {
         out->steps[i] =
             (sl_bent_step){steps[i + 1].directed, steps[i + 1].place.mirror, steps[i + 1].at.cell};
     out->verdict = last->grazing ? SL_GRAZING : SL_STABBED;
+    if (s->options->range > 0) out->length = sli_funnel_shortest(s->search.solver_state);
     s->best = out->step_count;
     place_bends(s, last, s->search.solver->witness(s->search.solver_state));
     return SL_OK;
@@ -116,7 +118,8 @@ static sl_status try_step(sl_context *context, search *s, const step *from, step
     SL_TRY(sli_portal_search_push(context, &s->search, to->place.ends.left, to->place.ends.right,
                                   &verdict));
     to->grazing = from->grazing || verdict == SL_GRAZING;
-    const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN);
+    const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN) ||
+                        !sli_explain_in_range(s->options, s->search.solver_state);
     const bool found = !hidden && to->place.frame.depth && cell == s->to;
     const sl_status status = found ? note_found(context, s, to) : SL_OK;
     if (hidden || found)

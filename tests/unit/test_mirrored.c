@@ -22,6 +22,7 @@ typedef struct trial {
     sl_space whole, space; ///< as it was made; with doors shut and glass that is dark
     sl_space walled;       ///< the same with a wall on the dark side of glass
     sl_space shut;         ///< with doors shut alone
+    bool is_shut[3];       ///< by door
     uint32_t depth;
 } trial;
 
@@ -38,7 +39,7 @@ static void begin(trial *t, uint64_t seed) {
         t->map.range = (double)(1 + sl_random_below(&t->random, 20)) * t->scale / 2;
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
-    bool shut[3];
+    bool *shut = t->is_shut;
     for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
     sl_filtered_space filtered = {.shut = shut, .one_way = true};
     assert_ok(t->context,
@@ -453,41 +454,97 @@ static void check_bends(const trial *t, const sl_bent_sightline *bent) {
     assert_int_equal(bend, bent->mirrors);
 }
 
-/// What explaining finds is what the bake finds.
+/// Who sees whom without some effects, by bakes: with all, and without each one and without all.
+typedef struct bakes {
+    unsigned effects;       ///< that can hide something
+    sl_visibility seen[10]; ///< by the bits left out; the last one: all of them
+} bakes;
+
+enum { WITHOUT_ALL = 9 };
+
+static void bake_without(const trial *t, const sl_see_options *usual, unsigned without,
+                         sl_visibility *out) {
+    sl_plan plan = sl_plan_make(&t->map);
+    sl_see_options options = *usual;
+    plan.mirror_depth = t->depth;
+    plan.effects &= ~without;
+    if (without & SL_EFFECT_RANGE) plan.range = 0;
+    options.plan = &plan;
+    assert_ok(t->context, testing_method("dfs")->see(t->context, &t->whole, &options, out));
+}
+
+static bool bake_sees(const trial *t, const bakes *b, unsigned without, bool mirrored,
+                      uint32_t from, uint32_t to) {
+    const sl_visibility *v = &b->seen[without == b->effects && without ? WITHOUT_ALL : without];
+    if (!sl_pvs_sees(mirrored ? &v->mirrored : &v->pvs, from, to)) return false;
+    return without & SL_EFFECT_DOOR ||
+           sl_door_sets_open(mirrored ? &v->mirrored_doors : &v->doors, from, to, t->is_shut);
+}
+
+/// The effect that is said to decide is the one without which a bake sees the pair.
+static void check_verdict(const trial *t, const bakes *b, const sl_effect_verdict *said,
+                          bool mirrored, uint32_t from, uint32_t to) {
+    const bool seen = bake_sees(t, b, 0, mirrored, from, to);
+    unsigned decides = 0, without = 0;
+    for (unsigned bit = 1; bit <= b->effects && !seen; bit <<= 1)
+        if (b->effects & bit && bake_sees(t, b, bit, mirrored, from, to)) {
+            decides |= bit;
+            if (!without) without = bit;
+        }
+    if (!seen && !decides && b->effects && bake_sees(t, b, b->effects, mirrored, from, to))
+        without = b->effects;
+    if (said->seen != seen || said->decides != decides || said->without != without)
+        fail_msg("seed %llu, cells %u and %u, mirrored %d: seen %d, not %d; %x and %x decide, not "
+                 "%x and %x",
+                 (unsigned long long)t->seed, from, to, mirrored, said->seen, seen, said->decides,
+                 said->without, decides, without);
+}
+
+/// What explaining finds is what the bake finds; and the effect that decides is the one that does.
 static void explained_as_baked(void **state) {
     (void)state;
-    size_t found = 0, twice = 0;
-    for (uint64_t seed = 8; seed <= 8 * (uint64_t)MAPS; seed += 8) {
+    const uint64_t maps = testing_seeds(MAPS);
+    size_t found = 0, twice = 0, decided[2] = {0, 0}, together = 0;
+    for (uint64_t seed = 1; seed <= maps; seed++) {
         trial t;
         begin(&t, seed);
-        sl_plan plan = sl_plan_make(&t.map);
-        plan.mirror_depth = t.depth;
-        size_t count;
-        const sl_see_method *methods = sl_see_methods(&count);
-        while (strcmp(methods->name, "dfs") != 0) methods++;
         sl_see_options options = sl_see_options_default();
         sl_explain_options how = sl_explain_options_default();
         options.solver = sl_funnel();
-        options.plan = &plan;
         options.sight = how.sight = seed / 8 % 2 ? SL_CLOSED : SL_OPEN;
-        sl_visibility baked = {0};
-        assert_ok(t.context, methods->see(t.context, &t.whole, &options, &baked));
-        for (uint32_t a = 0; a < t.whole.cell_count; a++)
-            for (uint32_t b = 0; b < t.whole.cell_count; b++) {
-                sl_explanation e = {.from = a, .to = b, .sight = how.sight};
+        bakes b = {.effects = t.effects & (SL_EFFECT_ONEWAY | SL_EFFECT_RANGE)};
+        for (int i = 0; i < 3 && t.effects & SL_EFFECT_DOOR; i++)
+            if (t.is_shut[i]) b.effects |= SL_EFFECT_DOOR;
+        bake_without(&t, &options, 0, &b.seen[0]);
+        for (unsigned bit = 1; bit <= b.effects; bit <<= 1)
+            if (b.effects & bit) bake_without(&t, &options, bit, &b.seen[bit]);
+        bake_without(&t, &options, b.effects, &b.seen[WITHOUT_ALL]);
+        const sl_explain_state as = {t.is_shut, t.depth};
+        for (uint32_t from = 0; from < t.whole.cell_count; from++)
+            for (uint32_t to = 0; to < t.whole.cell_count; to++) {
+                sl_effect_explanation e;
                 assert_ok(t.context,
-                          sl_explain_by_mirror(t.context, &t.whole, &t.map, &how, t.depth, &e));
-                if ((e.bent.verdict != SL_HIDDEN) != sl_pvs_sees(&baked.mirrored, a, b))
-                    fail_msg("seed %llu: cells %u and %u", (unsigned long long)seed, a, b);
-                if (e.bent.bends) check_bends(&t, &e.bent);
-                found += e.bent.mirrors > 0;
-                twice += e.bent.mirrors > 1;
-                sl_explanation_destroy(t.context, &e);
+                          sl_explain_effects(t.context, &t.whole, &t.map, &as, &how, from, to, &e));
+                check_verdict(&t, &b, &e.direct, false, from, to);
+                check_verdict(&t, &b, &e.mirrored, true, from, to);
+                if (e.now.bent.bends) check_bends(&t, &e.now.bent);
+                if (e.bent_without.bends) check_bends(&t, &e.bent_without);
+                if (e.direct.without && !e.without.seen) fail_msg("what is without is hidden");
+                if (t.map.range > 0 && e.now.seen && !(e.now.length <= t.map.range * (1 + 1e-9)))
+                    fail_msg("a sightline of %g within %g", e.now.length, t.map.range);
+                found += e.now.bent.mirrors > 0;
+                twice += e.now.bent.mirrors > 1;
+                decided[0] += e.direct.decides != 0;
+                decided[1] += e.mirrored.decides != 0;
+                together += e.direct.without && !e.direct.decides;
+                sl_effect_explanation_destroy(t.context, &e);
             }
-        sl_visibility_destroy(t.context, &baked);
+        for (size_t i = 0; i < sizeof b.seen / sizeof *b.seen; i++)
+            sl_visibility_destroy(t.context, &b.seen[i]);
         end(&t);
     }
-    assert_true(found > 100 && twice > 0);
+    assert_true(found > 8 * maps && twice > maps / 16);
+    assert_true(decided[0] > 4 * maps && decided[1] > 4 * maps && together > 0);
 }
 
 int main(void) {
