@@ -155,7 +155,8 @@ static sl_status eye_print_json(sl_context *context, const sl_baked *baked, cons
 // --- the command
 
 typedef struct eye_plan {
-    const char *input, *at_text, *shut, *output;
+    const char *input, *at_text, *output;
+    door_choice doors;
     sl_point at;
     double look, fov, range;
     const char *look_given, *fov_given, *range_given, *picture_given;
@@ -281,12 +282,10 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = sl_draw_options_default()};
     option_table picture = picture_option_table(&plan.drawing, false);
     for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"at", 0, "X,Y", "where the eye is", .point = &plan.at, .text = &plan.at_text},
-        {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
-         .text = &plan.shut},
+        {.group = &doors},
         {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
          .count32 = &plan.mirror_depth, .most = 16},
         {"range", 0, "R",
@@ -332,7 +331,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     sl_status status =
         sl_effects_check(console->context, &baked.map, "eye",
                          SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK) status = doors_shut(console->context, plan.shut, &baked);
+    if (status == SL_OK) status = doors_shut(console->context, &plan.doors, &baked);
     if (status == SL_OK) status = look(console, &plan, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;

@@ -15,6 +15,7 @@
 typedef struct isovist_plan {
     const char *input, *path, *csv, *output, *picture;
     map_pipeline pipeline;
+    door_choice doors;
     option_list at;
     eye_place like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
@@ -240,7 +241,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
         SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
-    SL_TRY(doors_shut(context, NULL, &w->baked));
+    SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(make_outline(context, w));
@@ -275,6 +276,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                          .drawing = sl_draw_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"at", 0, "X,Y", "look from a point; may be given several times", .list = &plan.at},
         {"grid", 0, "STEP", "look from a grid over the map's inside", .number = &plan.grid,
@@ -290,6 +292,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .given = &plan.look_given},
         {"fov", 0, "DEGREES", "width of the view cone; 360 without it", .number = &plan.like.fov,
          .most = 360, .needs = "0 to 360 degrees are needed"},
+        {.group = &doors},
         {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
          .count32 = &plan.mirror_depth, .most = 16},
         {"range", 0, "R", "see no farther; without it the map's range, if any",

@@ -207,7 +207,8 @@ static sl_status walk_draw_chances(sl_context *context, const walk_rows *rows, c
 // --- the command
 
 typedef struct walk_plan {
-    const char *input, *path, *csv, *frames, *output, *shut;
+    const char *input, *path, *csv, *frames, *output;
+    door_choice doors;
     map_pipeline pipeline;
     uint64_t steps; ///< of a whole path at speed 1
     double step;    ///< 0: by the number of steps
@@ -466,7 +467,7 @@ static sl_status work(command_console *console, const walk_plan *plan, walk_work
     if (!input_ends_with(plan->pipeline.path, ".slv"))
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
-    SL_TRY(doors_shut(console->context, plan->shut, &w->baked));
+    SL_TRY(doors_shut(console->context, &plan->doors, &w->baked));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);
@@ -498,15 +499,13 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
                       .repeat = 3,
                       .options = sl_walk_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"path", 0, "P.txt|NAME",
          "a path of the map by its name, or a file with a line\n'x y' a point; without it a tour "
          "from the map's start",
          .text = &plan.path, .is_input = true},
-        {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
-         .text = &plan.shut},
+        {.group = &doors},
         {"steps", 0, "N", "frames of the whole way at speed 1; 980 without it",
          .count = &plan.steps, .least = 1, .most = 1000000, .given = &plan.steps_given},
         {"step", 0, "LENGTH", "instead: how far a frame goes at speed 1", .number = &plan.step,
