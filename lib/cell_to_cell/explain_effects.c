@@ -2,12 +2,12 @@
 ///
 /// The pair is explained with all effects of the map. If it is seen, that is the answer. If not, it
 /// is explained again without one effect, for each; an effect without which the pair is seen
-/// decides. If no single one does, it is explained without all of them. What hides the pair then is
-/// walls alone.
+/// decides. If no single one does, two are left out together, and then three. What hides the pair
+/// then is walls alone.
 ///
 /// Each search runs in a space of its own, in which shut doors are walls and glass has no directed
 /// portal on its dark side. The answer is put back into the numbers of the space that was given.
-/// Cost: up to five searches for what is seen directly, and as many by mirror.
+/// Cost: up to eight searches for what is seen directly, and as many by mirror.
 #include "sightline/explain.h"
 
 #include "sightline/support.h"
@@ -70,7 +70,7 @@ static sl_status search(sl_context *context, const job *j, const sl_space *space
     // Lengths are told wherever the map has a range.
     if (j->map->range > 0) options.range = effects & SL_EFFECT_RANGE ? j->map->range : INFINITY;
     SL_TRY(sl_explain(context, space, &options, j->from, j->to, out));
-    if (!j->map->mirror_count || !j->state->mirror_depth) return SL_OK;
+    if (!j->map->mirror_count) return SL_OK;
     const sl_status status =
         sl_explain_by_mirror(context, space, j->map, &options, j->state->mirror_depth, out);
     if (status != SL_OK) sl_explanation_destroy(context, out);
@@ -107,15 +107,20 @@ static bool is_seen(const sl_explanation *e, bool mirrored) {
            (e->bent.verdict == SL_GRAZING && e->sight == SL_CLOSED);
 }
 
+static unsigned count_bits(unsigned bits) {
+    unsigned count = 0;
+    for (; bits; bits &= bits - 1) count++;
+    return count;
+}
+
 /// Notes what is seen without some effects, and keeps the first explanation of it.
-static void note(sl_effect_verdict *verdict, bool mirrored, unsigned without, sl_explanation *tried,
-                 bool *kept) {
+static void note(sl_effect_verdict *verdict, bool mirrored, unsigned without,
+                 const sl_explanation *tried, bool *kept) {
     if (verdict->seen || !is_seen(tried, mirrored)) return;
-    verdict->decides |= without;
-    if (!verdict->without) {
-        verdict->without = without;
-        *kept = true;
-    }
+    if (count_bits(without) == 1) verdict->decides |= without;
+    if (verdict->without) return;
+    verdict->without = without;
+    *kept = true;
 }
 
 /// Explains without some effects.
@@ -142,22 +147,16 @@ static sl_status try_without(sl_context *context, const job *j, unsigned effects
     return SL_OK;
 }
 
+/// Tries to leave out one effect, then two together, then three, until something is seen.
 static sl_status find_deciding(sl_context *context, const job *j, unsigned effects,
                                sl_effect_explanation *out) {
-    const bool asked = out->now.bent.asked;
-    for (unsigned bit = 1; bit <= effects; bit <<= 1)
-        if (effects & bit) SL_TRY(try_without(context, j, effects, bit, out));
-    const bool several = effects & (effects - 1);
-    const bool open = !out->direct.seen && !out->direct.decides;
-    const bool bent_open = asked && !out->mirrored.seen && !out->mirrored.decides;
-    if (!several || (!open && !bent_open)) return SL_OK;
-    // What only falls without all of them: `without` has more than one bit.
-    const sl_effect_verdict direct = out->direct, mirrored = out->mirrored;
-    SL_TRY(try_without(context, j, effects, effects, out));
-    if (!open) out->direct = direct;
-    if (!bent_open) out->mirrored = mirrored;
-    if (open) out->direct.decides = 0;
-    if (bent_open) out->mirrored.decides = 0;
+    for (unsigned size = 1; size <= count_bits(effects); size++) {
+        const bool direct = !out->direct.seen && !out->direct.without;
+        const bool mirrored = !out->mirrored.seen && !out->mirrored.without;
+        for (unsigned without = 1; without <= effects && (direct || mirrored); without++)
+            if (!(without & ~effects) && count_bits(without) == size)
+                SL_TRY(try_without(context, j, effects, without, out));
+    }
     return SL_OK;
 }
 

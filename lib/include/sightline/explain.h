@@ -142,7 +142,7 @@ typedef struct sl_effect_explanation {
     sl_explanation now; ///< with all of them, by mirror too where the map has mirrors
     sl_effect_verdict direct, mirrored;
     /// The pair without the effects `direct.without`, and its way by mirror without those of
-    /// `mirrored.without`. Where `decides` has no single effect, `without` has them all.
+    /// `mirrored.without`: one that decides, or else as few as have to go together.
     sl_explanation without;
     sl_bent_sightline bent_without;
     bool complete;  ///< false: most_tests ended a search
