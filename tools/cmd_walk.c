@@ -462,8 +462,13 @@ static sl_status study(command_console *console, const walk_plan *plan, walk_wor
 }
 
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
-    SL_TRY(
-        pipeline_read_space(console->context, &plan->pipeline, "walk", SL_EFFECT_DOOR, &w->baked));
+    const unsigned all = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE;
+    SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, &w->baked));
+    SL_TRY(sl_effects_check_because(console->context, &w->baked.map, "walk",
+                                    SL_EFFECT_DOOR | SL_EFFECT_MIRROR,
+                                    "what it keeps from frame to frame is hidden by walls alone"));
+    if (w->baked.map.mirror_count)
+        sl_note(console->context, "mirrors are walls here: a walk looks at what is seen directly");
     if (!input_ends_with(plan->pipeline.path, ".slv"))
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));

@@ -219,7 +219,8 @@ size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
 option_table door_option_table(door_choice *doors) {
     const option_spec options[] = {
         {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map says",
+         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
+         "says",
          .text = &doors->shut},
         {"open", 0, "NAME,...", "doors that are open, the others as the map says;\n'all': all open",
          .text = &doors->open},
@@ -247,9 +248,9 @@ static sl_status fail_door(sl_context *context, const sl_map *map, const char *n
     const char *all = open ? "; 'all' opens all" : "; 'none' leaves all open";
     char names[NAME_LIST];
     name_list(&doors, names);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--%s: there is no door '%.*s'; the map's doors: %s%s", open ? "open" : "shut",
-                   (int)(length < 64 ? length : 64), name, names, map->door_count ? all : "");
+    return sl_fail(context, SL_BAD_ARGUMENT, "--%s: there is no door '%.*s'; the map's doors: %s%s",
+                   open ? "open" : "shut", (int)(length < 64 ? length : 64), name, names,
+                   map->door_count ? all : "");
 }
 
 static sl_status read_names(sl_context *context, const char *text, bool open, const sl_map *map,

@@ -3,7 +3,8 @@
 ///
 /// Glass may be a wall on its dark side alone:
 ///
-///      dark side | lit side        The cell at the left keeps no directed portal there, and has the
+///      dark side | lit side        The cell at the left keeps no directed portal there, and has
+///      the
 ///                |                 wall in its place. The cell at the right keeps its directed
 ///         wall   |  -> portal      portal. The wall runs with the dark side at its left.
 ///

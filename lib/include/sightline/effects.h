@@ -48,10 +48,19 @@ SL_API sl_plan sl_plan_make(const sl_map *map);
 /// Takes effects out of a map, and notes what was taken.
 SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects);
 
+/// Doors as they stand, for methods that know no doors: walls take the place of those that are
+/// shut, and open ones go. It is noted. Rooms that no start reaches but through a shut door are
+/// outside then. Clean the map after it.
+SL_API void sl_effects_note_doors(sl_context *context, const sl_map *map); ///< the note alone
+SL_API sl_status sl_effects_settle_doors(sl_context *context, sl_map *map);
+
 /// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
 /// what messages call the method.
 SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
                                   unsigned known);
+/// The same for a method that has a reason not to know an effect: "its lines end at walls alone".
+SL_API sl_status sl_effects_check_because(sl_context *context, const sl_map *map,
+                                          const char *method, unsigned known, const char *reason);
 
 /// The space as sight finds it for the time being, with what holds it back made part of the space:
 /// portals on doors that are shut become walls, and one-way glass has no directed portal on the
