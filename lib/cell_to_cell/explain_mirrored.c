@@ -100,6 +100,19 @@ static sl_status count_test(sl_context *context, search *s) {
     return SL_OK;
 }
 
+/// As in a bake: whether the middle line keeps clear of all rounded ends.
+static bool is_certain(const search *s, const step *to) {
+    const sl_box b = s->search.space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const sl_line line = s->search.solver->witness(s->search.solver_state);
+    for (const step *at = (const step *)s->search.steps + 1; at <= to; at++)
+        if (at[-1].place.frame.rounded &&
+            !sli_unfolded_is_clear(&at[-1].place.frame, &at->place.ends, line.a, line.b, size))
+            return false;
+    return true;
+}
+
 /// Tests the sequence with one step more, and goes there.
 static sl_status try_step(sl_context *context, search *s, const step *from, step *to) {
     const step *steps = s->search.steps;
@@ -117,6 +130,9 @@ static sl_status try_step(sl_context *context, search *s, const step *from, step
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &s->search, to->place.ends.left, to->place.ends.right,
                                   &verdict));
+    if (verdict == SL_STABBED && from->place.frame.rounded && s->options->sight == SL_OPEN &&
+        !is_certain(s, to))
+        verdict = SL_GRAZING;
     to->grazing = from->grazing || verdict == SL_GRAZING;
     const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN) ||
                         !sli_explain_in_range(s->options, s->search.solver_state);

@@ -395,9 +395,61 @@ static void random_maps(void **state) {
     assert_true(t.boxes_met > maps && t.boxes_hidden > maps);
 }
 
+/// Without glass, who is seen by mirror sees as well; also where ends of walls and mirrors are in
+/// line. `hidden`: two cells that see nothing of each other by mirror, or the same cell.
+static void check_mutual(trial *t, const char *name, const uint32_t hidden[2]) {
+    sl_plan plan = sl_plan_make(&t->map);
+    sl_see_options options = sl_see_options_default();
+    sl_visibility open = {0};
+    plan.mirror_depth = DEPTH;
+    options.solver = sl_funnel();
+    options.threads = 1;
+    options.plan = &plan;
+    options.sight = t->seed % 2 && hidden[0] == hidden[1] ? SL_CLOSED : SL_OPEN;
+    assert_ok(t->context, testing_method("dfs")->see(t->context, &t->space, &options, &open));
+    if (hidden[0] != hidden[1]) assert_false(sl_pvs_sees(&open.mirrored, hidden[0], hidden[1]));
+    for (uint32_t a = 0; a < t->space.cell_count; a++)
+        for (uint32_t b = 0; b < t->space.cell_count; b++)
+            if (sl_pvs_sees(&open.mirrored, a, b) && !sl_pvs_sees(&open.mirrored, b, a))
+                fail_msg("%s %llu: cell %u sees cell %u by mirror, and not the other way round",
+                         name, (unsigned long long)t->seed, a, b);
+    t->points += sl_pvs_count(&open.mirrored, 0);
+    sl_visibility_destroy(t->context, &open);
+}
+
+static void sight_by_mirror_is_mutual(void **state) {
+    (void)state;
+    // The end of the first mirror and two portals are in one line: the one cell sees the other
+    // along that line at most, which open sight does not count. And a mirror seen from one side.
+    static const struct {
+        const char *text;
+        sl_point from, to; ///< in cells that see nothing of each other by mirror with open sight
+    } cases[] = {
+        {"walls 0 0 4 0 4 7 0 7 0 0\nmirror 1 7 2 4\nmirror 4 1 3 2 one\n", {3, 6}, {3.75, 1}},
+        {"walls 0 0 5 0 5 12 0 12 0 0\nmirror 1 5 3 6 one\n", {4, 9}, {2, 2}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        trial t = {.context = testing_context(NULL), .seed = i};
+        testing_space(t.context, cases[i].text, &t.map, &t.space);
+        const uint32_t hidden[] = {sl_space_locate(&t.space, cases[i].from),
+                                   sl_space_locate(&t.space, cases[i].to)};
+        assert_int_not_equal(hidden[0], hidden[1]);
+        check_mutual(&t, "text", hidden);
+        end(&t);
+    }
+    const uint32_t none[2] = {0, 0};
+    const uint64_t maps = testing_seeds(MAPS);
+    for (uint64_t seed = 1; seed <= maps; seed++) {
+        trial t = {0};
+        begin(&t, seed);
+        if (!t.map.oneway_count) check_mutual(&t, "seed", none);
+        end(&t);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_maps),
+        cmocka_unit_test(sight_by_mirror_is_mutual),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
