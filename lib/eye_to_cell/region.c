@@ -17,8 +17,8 @@
 /// side. Pieces come in counter-clockwise order, so they are appended to one polygon
 /// (region_polygon.c).
 ///
-/// One-way glass is a portal at its lit side and a wall at its dark one. So a view passes it one way,
-/// also by mirror. At the eye itself the side that the eye is on decides.
+/// One-way glass is a portal at its lit side and a wall at its dark one. So a view passes it one
+/// way, also by mirror. At the eye itself the side that the eye is on decides.
 ///
 /// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
@@ -155,9 +155,9 @@ static sl_status add_sides(sl_context *context, const sl_outline *o, sl_point ey
 /// nothing.
 static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
     const sl_point a = end_of(o, at.right), b = side_of(o, at.left)->start;
-    return stop_at(o, at.right) == stop_at(o, at.left) &&
-           (a.x > eye.x) == (b.x > eye.x) && (a.x < eye.x) == (b.x < eye.x) &&
-           (a.y > eye.y) == (b.y > eye.y) && (a.y < eye.y) == (b.y < eye.y);
+    return stop_at(o, at.right) == stop_at(o, at.left) && (a.x > eye.x) == (b.x > eye.x) &&
+           (a.x < eye.x) == (b.x < eye.x) && (a.y > eye.y) == (b.y > eye.y) &&
+           (a.y < eye.y) == (b.y < eye.y);
 }
 
 sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_region *region) {

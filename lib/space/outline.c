@@ -175,7 +175,8 @@ static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
 }
 
 /// Finds the wall on the dark side of a portal that leads one way, and gives it to the lit side.
-static sl_status darken(sl_context *context, outliner *o, const uint32_t *first, uint32_t directed) {
+static sl_status darken(sl_context *context, outliner *o, const uint32_t *first,
+                        uint32_t directed) {
     const sl_directed_portal *portal = &o->space->directed[directed];
     sl_side *sides = o->sides.items;
     for (uint32_t i = first[portal->cell]; i < first[portal->cell + 1]; i++) {
