@@ -51,8 +51,9 @@ SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effe
 /// Doors as they stand, for methods that know no doors: walls take the place of those that are
 /// shut, and open ones go. It is noted. Rooms that no start reaches but through a shut door are
 /// outside then. Clean the map after it.
-SL_API void sl_effects_note_doors(sl_context *context, const sl_map *map); ///< the note alone
 SL_API sl_status sl_effects_settle_doors(sl_context *context, sl_map *map);
+/// The note alone: how many doors are open, how many are shut.
+SL_API void sl_effects_note_doors(sl_context *context, const sl_map *map);
 
 /// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
 /// what messages call the method.
