@@ -332,14 +332,14 @@ static void an_eye_in_rock_sees_nothing(void **state) {
     sl_context_destroy(context);
 }
 
-static sl_status bake_and_ask(sl_context *context) {
-    const char *const parts[] = {rooms, door, glass, NULL};
+static sl_status bake_and_ask(sl_context *context, const char *const *parts) {
     char text[1024] = "";
     for (size_t i = 0; parts[i]; i++) strcat(text, parts[i]);
     sl_map map = {0};
     sl_baked baked = {0};
     sl_query *query = NULL;
     sl_region region = {0};
+    sl_mirrored_region mirrored = {0};
     uint64_t cells[8];
     sl_status status = sl_map_read_text(context, "rooms", text, strlen(text), &map);
     sl_bake_options options = sl_bake_options_default();
@@ -352,16 +352,19 @@ static sl_status bake_and_ask(sl_context *context) {
         const sl_view view = sl_query_view(query, (sl_point){i ? 25 : 5, 4}, 0, 360);
         status = sl_query_look(context, query, &view, NULL, cells, NULL);
         if (status == SL_OK) status = sl_query_region(context, query, &view, &region);
+        if (status != SL_OK || !sl_query_baked(query)->map.mirror_count) continue;
+        status = sl_query_look_mirrored(context, query, &view, NULL, cells, NULL);
+        if (status == SL_OK) status = sl_query_mirrored_region(context, query, &view, &mirrored);
     }
     sl_region_destroy(context, &region);
+    sl_mirrored_region_destroy(context, &mirrored);
     sl_query_destroy(context, query);
     sl_baked_destroy(context, &baked);
     sl_map_destroy(context, &map);
     return status;
 }
 
-static void without_memory_nothing_leaks(void **state) {
-    (void)state;
+static void ask_without_memory(const char *const *parts) {
     testing_memory memory = {0};
     sl_status status = SL_NO_MEMORY;
     for (long n = 1; status == SL_NO_MEMORY; n++) {
@@ -369,13 +372,24 @@ static void without_memory_nothing_leaks(void **state) {
         sl_context *context = testing_context(&memory);
         memory.calls = 0;
         memory.fail_at = n;
-        status = bake_and_ask(context);
+        status = bake_and_ask(context, parts);
         memory.fail_at = 0;
         sl_context_destroy(context);
         assert_int_equal(memory.live, 0);
         assert_true(n < 20000);
     }
     assert_int_equal(status, SL_OK);
+}
+
+static void without_memory_nothing_leaks(void **state) {
+    (void)state;
+    static const char *const maps[][5] = {
+        {rooms, door, glass, NULL},
+        {rooms, door, glass, "mirror 12 10 18 10\n", NULL},
+        {rooms, "mirror 22 2 28 4\n", NULL},
+        {rooms, "mirror 22 2 28 4\noneway 1 9 9 7\n", NULL},
+    };
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) ask_without_memory(maps[i]);
 }
 
 /// Doors, mirrors, glass, boxes and a range at once. The mirror shows what walls leave of it; glass
