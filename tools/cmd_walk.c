@@ -223,6 +223,7 @@ typedef struct walk_plan {
 /// The space, the way through it, and the results.
 typedef struct walk_work {
     sl_baked baked;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_hierarchy hierarchy;
     walk_way way;
     double step; ///< at speed 1
@@ -316,7 +317,9 @@ static sl_status add_row(command_console *console, const walk_plan *plan, walk_w
                          const walk_choice *choice, double speed, const eye_places *eyes,
                          double **frames) {
     sl_context *context = console->context;
-    const walk_scene scene = {&w->baked, &w->hierarchy, 1e-9 * plan->wall_cost, plan->repeat};
+    const sl_space *through = w->baked.map.oneway_count ? &w->dark : &w->baked.space;
+    const walk_scene scene = {&w->baked, &w->hierarchy, through, 1e-9 * plan->wall_cost,
+                              plan->repeat};
     walk_row row = {.choice = *choice, .speed = speed, .steps = eyes->list.count};
     SL_TRY(SL_ARRAY_ROOM(context, &w->rows, 1));
     if (frames) {
@@ -461,18 +464,33 @@ static sl_status study(command_console *console, const walk_plan *plan, walk_wor
     return folder_close(context, &folder, status);
 }
 
+/// What a walk makes of effects. Its own methods know walls alone, and so keep more, never less.
+static void note_effects(sl_context *context, const sl_map *map) {
+    if (map->mirror_count)
+        sl_note(context, "mirrors are walls here: a walk looks at what is seen directly");
+    if (map->oneway_count)
+        sl_note(context, "one-way glass is open both ways to the walk's own methods: they keep "
+                         "what is dark, too");
+    if (map->range > 0)
+        sl_note(context, "the walk's own methods keep what is farther than the view range, too");
+}
+
+/// The space that culling by baked sets looks through.
+static sl_status make_dark(sl_context *context, walk_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    if (!w->baked.map.oneway_count) return SL_OK;
+    return sl_filtered_space_make(context, &w->baked.space, &filtered, NULL, &w->dark);
+}
+
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
     const unsigned all = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE;
     SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, &w->baked));
-    SL_TRY(sl_effects_check_because(console->context, &w->baked.map, "walk",
-                                    SL_EFFECT_DOOR | SL_EFFECT_MIRROR,
-                                    "what it keeps from frame to frame is hidden by walls alone"));
-    if (w->baked.map.mirror_count)
-        sl_note(console->context, "mirrors are walls here: a walk looks at what is seen directly");
+    note_effects(console->context, &w->baked.map);
     if (!input_ends_with(plan->pipeline.path, ".slv"))
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
     SL_TRY(doors_shut(console->context, &plan->doors, &w->baked));
+    SL_TRY(make_dark(console->context, w));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);
@@ -571,6 +589,7 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     sl_free(console->context, w.rows.items);
     sl_free(console->context, w.way.items);
     sl_hierarchy_destroy(console->context, &w.hierarchy);
+    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }
