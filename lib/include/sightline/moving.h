@@ -20,7 +20,7 @@ typedef struct sl_moving sl_moving;
 
 /// Creates it without boxes. The space and the visible sets must outlive it. `visibility` is as for
 /// sl_eye_search_create; stab trees are not used. SL_UNSUPPORTED for a loose space, and for one in
-/// which a portal lacks a direction (one-way glass).
+/// which a portal lacks a direction: glass is added by sl_moving_add_glass().
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
 /// Frees what sl_moving_create gave; NULL is fine.
