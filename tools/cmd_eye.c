@@ -156,7 +156,8 @@ static sl_status eye_print_json(sl_context *context, const sl_baked *baked, cons
 // --- the command
 
 typedef struct eye_plan {
-    const char *input, *at_text, *shut, *output;
+    const char *input, *at_text, *output;
+    door_choice doors;
     sl_point at;
     double look, fov, range;
     const char *look_given, *fov_given, *range_given, *picture_given;
@@ -188,8 +189,8 @@ static sl_status add_objects(sl_context *context, const sl_space *space, const e
     return seen_parts_add_region(context, space, objects->count ? &objects->region : region, parts);
 }
 
-static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
-                      const eye_run *run, const eye_objects *objects) {
+static sl_status draw_space(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                            const eye_run *run, const eye_objects *objects) {
     sl_draw_options options = plan->drawing;
     sl_eye_layer layers[SL_EYE_LAYERS_MOST];
     size_t count;
@@ -215,6 +216,19 @@ static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked 
     return status;
 }
 
+/// In the picture, one-way glass that is dark for the eye is a wall.
+static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                      const eye_run *run, const eye_objects *objects) {
+    const sl_filtered_space filtered = {.eye = &plan->at};
+    sl_baked dark = *baked;
+    if (!baked->map.oneway_count) return draw_space(context, plan, baked, run, objects);
+    dark.space = (sl_space){0};
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &dark.space));
+    const sl_status status = draw_space(context, plan, &dark, run, objects);
+    sl_space_destroy(context, &dark.space);
+    return status;
+}
+
 static sl_status tell(command_console *console, const eye_plan *plan, const sl_baked *baked,
                       const eye_run *run, const eye_objects *objects) {
     if (plan->output && output_has_ending(plan->output, EYE_FILES))
@@ -230,25 +244,7 @@ static sl_status tell(command_console *console, const eye_plan *plan, const sl_b
     return SL_OK;
 }
 
-/// Makes walls of the one-way glass that blocks the eye, so that the picture shows it.
-static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
-    const sl_filtered_space filtered = {.eye = &eye};
-    sl_space walled;
-    if (!baked->map.oneway_count) return SL_OK;
-    if (baked->visibility.mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "glass that is dark from an eye may not be so in a mirror: bake the map "
-                       "--without mirror or --without oneway");
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
-    sl_space_destroy(context, &baked->space);
-    baked->space = walled;
-    sl_visibility trees = {.trees = baked->visibility.trees};
-    baked->visibility.trees = (sl_stab_trees){0};
-    sl_visibility_destroy(context, &trees);
-    return SL_OK;
-}
-
-/// Shut doors and blocking glass are walls of `baked` by now.
+/// Shut doors are walls of `baked` by now.
 static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
                      sl_query *query) {
     sl_context *context = console->context;
@@ -271,7 +267,6 @@ static sl_status look(command_console *console, const eye_plan *plan, sl_baked *
     sl_context *context = console->context;
     sl_query *query;
     SL_TRY(check_view(context, plan, &baked->space));
-    SL_TRY(darken(context, baked, plan->at));
     SL_TRY(sl_query_create(context, baked, &query));
     const sl_view view = sl_query_view(query, plan->at, plan->look, plan->fov);
     const sl_status status = ask(console, plan, &view, query);
@@ -292,12 +287,10 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = sl_draw_options_default()};
     option_table picture = picture_option_table(&plan.drawing, false);
     for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"at", 0, "X,Y", "where the eye is", .point = &plan.at, .text = &plan.at_text},
-        {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
-         .text = &plan.shut},
+        {.group = &doors},
         {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
          .count32 = &plan.mirror_depth, .most = 16},
         {"range", 0, "R",
@@ -346,7 +339,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     sl_status status =
         sl_effects_check(console->context, &baked.map, "eye",
                          SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK) status = doors_shut(console->context, plan.shut, &baked);
+    if (status == SL_OK) status = doors_shut(console->context, &plan.doors, &baked);
     if (status == SL_OK) status = look(console, &plan, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;

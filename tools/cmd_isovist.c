@@ -15,6 +15,7 @@
 typedef struct isovist_plan {
     const char *input, *path, *csv, *output, *picture;
     map_pipeline pipeline;
+    door_choice doors;
     option_list at;
     eye_place like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
@@ -30,6 +31,7 @@ typedef struct isovist_plan {
 /// The space, and what its eyes see.
 typedef struct isovist_work {
     sl_baked baked;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_outline outline;
     sl_room_mirrors mirrors;
     isovist_scene scene;
@@ -223,16 +225,28 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
     return status;
 }
 
+/// One outline serves all eyes: glass is a wall on its dark side alone.
+static sl_status make_outline(sl_context *context, isovist_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sl_space *space = &w->baked.space;
+    if (w->baked.map.oneway_count) {
+        SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &w->dark));
+        space = &w->dark;
+    }
+    return sl_outline_make(context, space, &w->outline);
+}
+
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
-                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR, &w->baked));
+    SL_TRY(pipeline_read_space(
+        context, &plan->pipeline, "isovist",
+        SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
-    SL_TRY(doors_shut(context, NULL, &w->baked));
+    SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
-    SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
+    SL_TRY(make_outline(context, w));
     w->scene = (isovist_scene){&w->outline, NULL, plan->range, plan->mirror_depth};
     if (w->baked.map.mirror_count) {
         SL_TRY(sl_room_mirrors_make(context, &w->outline, &w->baked.map, &w->mirrors));
@@ -264,6 +278,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                          .drawing = sl_draw_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"at", 0, "X,Y", "look from a point; may be given several times", .list = &plan.at},
         {"grid", 0, "STEP", "look from a grid over the map's inside", .number = &plan.grid,
@@ -279,6 +294,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .given = &plan.look_given},
         {"fov", 0, "DEGREES", "width of the view cone; 360 without it", .number = &plan.like.fov,
          .most = 360, .needs = "0 to 360 degrees are needed"},
+        {.group = &doors},
         {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
          .count32 = &plan.mirror_depth, .most = 16},
         {"range", 0, "R", "see no farther; without it the map's range, if any",
@@ -325,6 +341,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     eyes_destroy(console->context, &w.eyes);
     sl_room_mirrors_destroy(console->context, &w.mirrors);
     sl_outline_destroy(console->context, &w.outline);
+    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }

@@ -207,7 +207,8 @@ static sl_status walk_draw_chances(sl_context *context, const walk_rows *rows, c
 // --- the command
 
 typedef struct walk_plan {
-    const char *input, *path, *csv, *frames, *output, *shut;
+    const char *input, *path, *csv, *frames, *output;
+    door_choice doors;
     map_pipeline pipeline;
     uint64_t steps; ///< of a whole path at speed 1
     double step;    ///< 0: by the number of steps
@@ -222,6 +223,7 @@ typedef struct walk_plan {
 /// The space, the way through it, and the results.
 typedef struct walk_work {
     sl_baked baked;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_hierarchy hierarchy;
     walk_way way;
     double step; ///< at speed 1
@@ -315,7 +317,9 @@ static sl_status add_row(command_console *console, const walk_plan *plan, walk_w
                          const walk_choice *choice, double speed, const eye_places *eyes,
                          double **frames) {
     sl_context *context = console->context;
-    const walk_scene scene = {&w->baked, &w->hierarchy, 1e-9 * plan->wall_cost, plan->repeat};
+    const sl_space *through = w->baked.map.oneway_count ? &w->dark : &w->baked.space;
+    const walk_scene scene = {&w->baked, &w->hierarchy, through, 1e-9 * plan->wall_cost,
+                              plan->repeat};
     walk_row row = {.choice = *choice, .speed = speed, .steps = eyes->list.count};
     SL_TRY(SL_ARRAY_ROOM(context, &w->rows, 1));
     if (frames) {
@@ -460,13 +464,33 @@ static sl_status study(command_console *console, const walk_plan *plan, walk_wor
     return folder_close(context, &folder, status);
 }
 
+/// What a walk makes of effects. Its own methods know walls alone, and so keep more, never less.
+static void note_effects(sl_context *context, const sl_map *map) {
+    if (map->mirror_count)
+        sl_note(context, "mirrors are walls here: a walk looks at what is seen directly");
+    if (map->oneway_count)
+        sl_note(context, "one-way glass is open both ways to the walk's own methods: they keep "
+                         "what is dark, too");
+    if (map->range > 0)
+        sl_note(context, "the walk's own methods keep what is farther than the view range, too");
+}
+
+/// The space that culling by baked sets looks through.
+static sl_status make_dark(sl_context *context, walk_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    if (!w->baked.map.oneway_count) return SL_OK;
+    return sl_filtered_space_make(context, &w->baked.space, &filtered, NULL, &w->dark);
+}
+
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
-    SL_TRY(
-        pipeline_read_space(console->context, &plan->pipeline, "walk", SL_EFFECT_DOOR, &w->baked));
+    const unsigned all = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE;
+    SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, &w->baked));
+    note_effects(console->context, &w->baked.map);
     if (!input_ends_with(plan->pipeline.path, ".slv"))
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
-    SL_TRY(doors_shut(console->context, plan->shut, &w->baked));
+    SL_TRY(doors_shut(console->context, &plan->doors, &w->baked));
+    SL_TRY(make_dark(console->context, w));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);
@@ -498,15 +522,13 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
                       .repeat = 3,
                       .options = sl_walk_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"path", 0, "P.txt|NAME",
          "a path of the map by its name, or a file with a line\n'x y' a point; without it a tour "
          "from the map's start",
          .text = &plan.path, .is_input = true},
-        {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
-         .text = &plan.shut},
+        {.group = &doors},
         {"steps", 0, "N", "frames of the whole way at speed 1; 980 without it",
          .count = &plan.steps, .least = 1, .most = 1000000, .given = &plan.steps_given},
         {"step", 0, "LENGTH", "instead: how far a frame goes at speed 1", .number = &plan.step,
@@ -567,6 +589,7 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     sl_free(console->context, w.rows.items);
     sl_free(console->context, w.way.items);
     sl_hierarchy_destroy(console->context, &w.hierarchy);
+    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }
