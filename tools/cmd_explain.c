@@ -86,31 +86,31 @@ sl_status cmd_explain(command_console *console, int argc, char **argv) {
     const option_table picture = picture_option_table(&plan.drawing, false);
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
-        {"sight", 0, "closed|open",
-         "whether lines count that touch portal ends;\nwithout it, as the file was baked",
-         .sight = &plan.options.sight, .given = &plan.sight_given},
-        {"misses", 0, "N",
-         "of a hidden pair, how many sequences to tell of\nthat came far; 3 without it",
-         .count32 = &plan.options.most_misses},
-        {"tests", 0, "N", "give up after N stabbing tests, and tell what is known",
-         .count = &plan.options.most_tests},
+        {"output", 'o', "PICTURE", "draw the answer: .png, .svg or .pdf", .text = &plan.output,
+         .check = CHECK_PICTURE},
         {.group = &doors},
-        {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
+        {"json", 0, NULL, "print the answer as one JSON object", .flag = &plan.json},
+        {"misses", 0, "N", "number of sequences to show that come far but fail (default 3)",
+         .count32 = &plan.options.most_misses},
+        {"tests", 0, "N", "stop after N stabbing tests, and print what is known",
+         .count = &plan.options.most_tests},
+        {"sight", 0, "closed|open",
+         "whether lines that only touch wall ends count: closed: yes; open: no (default: as baked)",
+         .sight = &plan.options.sight, .given = &plan.sight_given},
+        {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16},
-        {"output", 'o', "PICTURE", "draw it too: .png, .svg or .pdf, by the ending",
-         .text = &plan.output, .check = CHECK_PICTURE},
         {.group = &picture},
-        {"json", 0, NULL, "print JSON", .flag = &plan.json},
     };
     const command_usage usage = {
         .name = "explain",
         .synopsis = "FILE.slv A B [options]",
         .operands = {"FILE.slv", "A", "B"},
-        .what = "Tells why cell A does or does not see cell B: a line and the portals that it "
-                "passes, or\nwhat stops the sequences of portals that come farthest. Exact, "
-                "whatever the file's solver.\nOf doors, one-way glass and the view range it names "
-                "the one that decides.\nA and B are numbers of cells, or points X,Y in them "
-                "(after -- where X is negative).",
+        .what =
+            "Explains why cell A sees cell B: a line and the portals that it passes. Or why not: "
+            "what stops the sequences of portals that come farthest. The answer is exact, by "
+            "whatever solver the file was baked. If a door, one-way glass or the view range "
+            "decides, the answer names it. A and B are numbers of cells or points X,Y (after "
+            "'--' if X is negative).",
         .examples = "  sightline explain office.slv 12 40\n"
                     "  sightline explain office.slv 53,20 3.5,2 -o why.png",
         .options = options,

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "eye_files.h"
 #include "eye_run.h"
+#include "help.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
@@ -279,8 +280,7 @@ static void print_methods(void) {
     const sl_eye_method *methods = sl_eye_methods(&count);
     puts("\nmethods, each within the one before:");
     for (size_t i = 0; i < count; i++)
-        printf("  %-20s%s; %s\n", methods[i].name, methods[i].what,
-               sl_guarantee_name(methods[i].guarantee));
+        help_name(methods[i].name, 20, methods[i].what, sl_guarantee_name(methods[i].guarantee));
 }
 
 sl_status cmd_eye(command_console *console, int argc, char **argv) {
@@ -289,37 +289,36 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
-        {"at", 0, "X,Y", "where the eye is", .point = &plan.at, .text = &plan.at_text},
-        {.group = &doors},
-        {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
-         .count32 = &plan.mirror_depth, .most = 16},
-        {"range", 0, "R",
-         "how far the exact method and the region see, 0 for no\nlimit; without it as far as the "
-         "map says",
-         .number = &plan.range, .needs = "must not be negative", .given = &plan.range_given},
-        {"object", 0, "BOX",
-         "X0,Y0,X1,Y1 or the name of the map's object: something\nthat stands or moves where the "
-         "bake knows nothing of\nit: is it seen? With ',block' behind it, it blocks sight;\nmay "
-         "be given several times",
-         .list = &plan.objects},
-        {"look", 0, "DEG", "which way it looks, in degrees counter-clockwise\nfrom +x",
-         .number = &plan.look, .given = &plan.look_given},
-        {"fov", 0, "DEG", "how wide, 0 to 360 degrees in all; without --look\nand --fov all round",
-         .number = &plan.fov, .most = 360, .needs = "degrees from 0 to 360 are needed",
-         .given = &plan.fov_given},
+        {"at", 0, "X,Y", "the viewpoint", .point = &plan.at, .text = &plan.at_text},
+        {"look", 0, "DEG", "heading in degrees, counter-clockwise from +x", .number = &plan.look,
+         .given = &plan.look_given},
+        {"fov", 0, "DEG", "width of the view cone in degrees (default: 360)", .number = &plan.fov,
+         .most = 360, .needs = "degrees from 0 to 360 are needed", .given = &plan.fov_given},
         {"output", 'o', "PICTURE|TABLE",
-         "write it too, by the ending: a picture (.png, .svg,\n.pdf), or regions and cells "
-         "(.geojson, .csv)",
+         "a picture (.png, .svg, .pdf), or regions and cells (.geojson, .csv)",
          .text = &plan.output, .check = CHECK_PICTURE, .endings = EYE_FILES},
+        {"json", 0, NULL, "print one JSON object: the cells that each method keeps",
+         .flag = &plan.json},
+        {.group = &doors},
+        {"range", 0, "R",
+         "see no farther than R, 0: no limit (default: the map's range); for the exact method and "
+         "the region",
+         .number = &plan.range, .needs = "must not be negative", .given = &plan.range_given},
+        {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
+         .count32 = &plan.mirror_depth, .most = 16},
+        {"object", 0, "BOX",
+         "a box X0,Y0,X1,Y1 that is not in the map, or an object of the map by name: is it seen? "
+         "',block' behind it lets it block sight; may be given several times",
+         .list = &plan.objects},
         {.group = &picture},
-        {"json", 0, NULL, "print JSON: the cells that each method keeps", .flag = &plan.json},
     };
     const command_usage usage = {
         .name = "eye",
         .synopsis = "FILE.slv --at X,Y [--look DEG --fov DEG] [options]",
         .operands = {"FILE.slv"},
-        .what = "Shows what one viewpoint sees: the cells that each culling method keeps, their "
-                "share of\nthe area, and what it costs.",
+        .what =
+            "Shows what one viewpoint sees: the cells that each culling method keeps, their share "
+            "of the area, and the time.",
         .tables = print_methods,
         .examples = "  sightline eye office.slv --at 53,20\n"
                     "  sightline eye office.slv --at 53,20 --look 180 --fov 60 -o eye.png\n"

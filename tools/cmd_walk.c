@@ -1,5 +1,6 @@
 /// `sightline walk`: culling frame by frame without visible sets (Bittner and Havran 2002).
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "names.h"
 #include "outputs.h"
@@ -500,10 +501,10 @@ static void print_tables(void) {
     size_t count;
     const sl_walk_method *methods = sl_walk_methods(&count);
     puts("\nmethods, as Bittner & Havran 2002 have them, and beyond:");
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    for (size_t i = 0; i < count; i++) help_name(methods[i].name, 12, methods[i].what, NULL);
     const sl_node_test *tests = sl_node_tests(&count);
     puts("\ntests:");
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", tests[i].name, tests[i].what);
+    for (size_t i = 0; i < count; i++) help_name(tests[i].name, 12, tests[i].what, NULL);
     puts("\nThe table: node visibility tests a frame, what share the method saves of them, tests "
          "against\nthe view cone, states taken from neighbours, tests skipped, cells and walls "
          "drawn, and the\ntimes to find the cells, to draw their walls (into a row of 640 pixels "
@@ -525,54 +526,53 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"path", 0, "P.txt|NAME",
-         "a path of the map by its name, or a file with a line\n'x y' a point; without it a tour "
-         "from the map's start",
+         "a path of the map, or a file with a line 'x y' for each point (default: a tour from the "
+         "start)",
          .text = &plan.path, .is_input = true},
-        {.group = &doors},
-        {"steps", 0, "N", "frames of the whole way at speed 1; 980 without it",
+        {"method", 0, "NAME,...", "walk with these methods (default: all)",
+         .choices = &plan.methods, .names = walk_methods},
+        {"steps", 0, "N", "number of frames of the whole path at speed 1 (default 980)",
          .count = &plan.steps, .least = 1, .most = 1000000, .given = &plan.steps_given},
-        {"step", 0, "LENGTH", "instead: how far a frame goes at speed 1", .number = &plan.step,
-         .over_0 = true, .given = &plan.step_given},
-        {"speed", 0, "S", "relative speed; 1 without it", .number = &plan.speed, .over_0 = true},
-        {"fov", 0, "DEGREES", "width of the view cone; 60 without it", .number = &plan.fov,
+        {"speed", 0, "S", "relative speed (default 1)", .number = &plan.speed, .over_0 = true},
+        {"fov", 0, "DEGREES", "width of the view cone (default 60)", .number = &plan.fov,
          .over_0 = true, .most = 360, .needs = "over 0 to 360 degrees are needed"},
-        {"ahead", 0, "STEPS",
-         "the eye looks at the point of the way so many steps\non; 10 without it",
-         .number = &plan.ahead, .needs = "steps, 0 or more, are needed"},
-        {"method", 0, "NAME,...", "these methods; all without it", .choices = &plan.methods,
-         .names = walk_methods},
-        {"test", 0, "NAME,...", "these node visibility tests; all without it",
-         .choices = &plan.tests, .names = tests},
-        {"occluders", 0, "N", "chosen for each frame; 16 without it",
-         .count32 = &plan.options.occluders, .most = SL_WALK_OCCLUDERS_MOST},
-        {"cheap", 0, "WALLS", "draw a node of no more walls without a test",
-         .count32 = &plan.options.cheap},
-        {"p-vp", 0, "P", "the chance to try propagation; 0.5 without it",
-         .number = &plan.options.p_vp, .most = 1},
-        {"p-skip", 0, "P", "the chance to skip a test; 0.5 without it",
-         .number = &plan.options.p_skip, .most = 1},
-        {"seed", 0, "N", "of chances and tours; 1 without it", .count = &plan.options.seed},
-        {"repeat", 0, "N", "walk so often; times are the least. 3 without it",
-         .count32 = &plan.repeat, .least = 1, .most = MOST_REPEATS},
-        {"wall-cost", 0, "NS",
-         "count so many nanoseconds for drawing a wall instead\nof what it takes here",
-         .number = &plan.wall_cost, .over_0 = true},
-        {"csv", 0, "FILE.csv", "all figures of the table", .text = &plan.csv, .check = CHECK_TABLE},
-        {"frames", 0, "FILE.csv", "all figures of each frame", .text = &plan.frames,
+        {"csv", 0, "FILE.csv", "write all figures of the table", .text = &plan.csv,
+         .check = CHECK_TABLE},
+        {"frames", 0, "FILE.csv", "write all figures of each frame", .text = &plan.frames,
          .check = CHECK_TABLE},
         {"output", 'o', "DIR",
-         "instead of one walk: speeds from 0.25 to 8 and chances\nfrom 0 to 0.9, as tables and "
-         "charts",
+         "a study: speeds 0.25 to 8 and probabilities 0 to 0.9, as tables and charts",
          .text = &plan.output},
+        {.group = &doors},
+        {"step", 0, "LENGTH", "length of a frame at speed 1, in place of --steps",
+         .number = &plan.step, .over_0 = true, .given = &plan.step_given, .rare = true},
+        {"ahead", 0, "STEPS", "the eye looks at the point this many steps ahead (default 10)",
+         .number = &plan.ahead, .needs = "steps, 0 or more, are needed", .rare = true},
+        {"test", 0, "NAME,...", "use these node visibility tests (default: all)",
+         .choices = &plan.tests, .names = tests, .rare = true},
+        {"occluders", 0, "N", "number of occluders in a frame (default 16)",
+         .count32 = &plan.options.occluders, .most = SL_WALK_OCCLUDERS_MOST, .rare = true},
+        {"cheap", 0, "WALLS", "draw nodes with up to this number of walls without a test",
+         .count32 = &plan.options.cheap, .rare = true},
+        {"p-vp", 0, "P", "probability of propagation (default 0.5)", .number = &plan.options.p_vp,
+         .most = 1, .rare = true},
+        {"p-skip", 0, "P", "probability of skipping a test (default 0.5)",
+         .number = &plan.options.p_skip, .most = 1, .rare = true},
+        {"seed", 0, "N", "seed of all random choices (default 1)", .count = &plan.options.seed,
+         .rare = true},
+        {"repeat", 0, "N", "number of walks; times are the least of them (default 3)",
+         .count32 = &plan.repeat, .least = 1, .most = MOST_REPEATS, .rare = true},
+        {"wall-cost", 0, "NS", "count NS nanoseconds for drawing a wall (default: measured)",
+         .number = &plan.wall_cost, .over_0 = true, .rare = true},
         {.group = &pipeline},
     };
     const command_usage usage = {
         .name = "walk",
         .synopsis = "MAP|FILE.slv [--path P.txt|NAME] [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Walks a path and culls frame by frame, without visible sets: down the hierarchy, "
-                "each node\nagainst a few large occluders, with what the frame before tells. "
-                "Counts and times what each\nmethod does. No method misses anything that is seen.",
+        .what = "Walks along a path and culls frame by frame, without visible sets: down the "
+                "hierarchy, each node against a few large occluders, with what is known from the "
+                "frame before (Bittner and Havran 2002). No method misses anything that is seen.",
         .tables = print_tables,
         .examples = "  sightline walk office.map\n"
                     "  sightline walk office.slv --path tour.txt --speed 2 --frames frames.csv\n"

@@ -220,10 +220,9 @@ size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
 option_table door_option_table(door_choice *doors) {
     const option_spec options[] = {
         {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
+         "shut these doors, open all others; 'none' opens all (default: as the map says)",
          .text = &doors->shut},
-        {"open", 0, "NAME,...", "doors that are open, the others as the map says;\n'all': all open",
+        {"open", 0, "NAME,...", "open these doors, the others as the map says; 'all' opens all",
          .text = &doors->open},
     };
     option_table table = {0};
