@@ -292,8 +292,7 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
         .tables = print_tables,
         .examples = "  sightline regions office.map --objects walls --grid 4\n"
                     "  sightline regions t10.map --also t100.map -o out --threads 1\n"
-                    "  sightline regions office.map --view-cells leaves --objects cells --solver "
-                    "stabs",
+                    "  sightline regions a.map --view-cells leaves --objects cells --solver stabs",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

@@ -505,10 +505,13 @@ static void print_tables(void) {
     const sl_node_test *tests = sl_node_tests(&count);
     puts("\ntests:");
     for (size_t i = 0; i < count; i++) help_name(tests[i].name, 12, tests[i].what, NULL);
-    puts("\nThe table: node visibility tests a frame, what share the method saves of them, tests "
-         "against\nthe view cone, states taken from neighbours, tests skipped, cells and walls "
-         "drawn, and the\ntimes to find the cells, to draw their walls (into a row of 640 pixels "
-         "with a depth buffer),\nand both. Of a baked file culling by its visible sets follows.");
+    putchar('\n');
+    help_wrap("The table shows for each frame: node visibility tests, the share of them that the "
+              "method saves, tests against the view cone, states taken from neighbours, tests "
+              "skipped, cells and walls drawn, the time to find the cells, the time to draw their "
+              "walls (into a row of 640 pixels with a depth buffer), and the sum of both. For a "
+              "baked file, culling by its visible sets follows.",
+              0, 0);
 }
 
 sl_status cmd_walk(command_console *console, int argc, char **argv) {
