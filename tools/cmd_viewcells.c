@@ -540,7 +540,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     };
     const command_usage usage = {
         .name = "viewcells",
-        .synopsis = "MAP [--cells N | --memory BYTES | --tolerance X] [options]",
+        .synopsis = "MAP [--cells N | --memory BYTES] [options]",
         .operands = {"MAP"},
         .what =
             "Makes view cells that adapt to what is seen (Mattausch et al. 2006): regions of the "
