@@ -1,15 +1,19 @@
 #include "actions.h"
 
+#include "browser.h"
 #include "edit.h"
 #include "effects.h"
 #include "files.h"
+#include "import_dialog.h"
 #include "layers.h"
 #include "modes.h"
+#include "question.h"
 #include "quiz.h"
 #include "save.h"
 #include "view.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -69,15 +73,6 @@ SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
 SWITCH(dark, ui.dark)
 SWITCH(help, ui.help)
-
-static void maps(app_state *app) {
-    app->ui.maps_open = !app->ui.maps_open;
-    if (app->ui.maps_open) shelf_forget_maps(app);
-}
-
-static bool is_maps(const app_state *app) {
-    return app->ui.maps_open;
-}
 
 SWITCH(fly, view.eye.flies)
 
@@ -303,14 +298,52 @@ static bool is_play(const app_state *app) {
     return app->tool.recorder.plays;
 }
 
+static void take_export(app_state *app, int answer) {
+    if (answer == 0) app_check(app, save_series(app, "sightline-frames", SERIES_STEP));
+}
+
 static void export_series(app_state *app) {
-    app_check(app, save_series(app, "sightline-frames", 2));
+    static const char *const answers[] = {"S:Save", "C:Cancel"};
+    const size_t count = (app->tool.recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
+    char text[160];
+    if (!count) {
+        ui_say(&app->ui, false, "no way was recorded: record one, or play the map's path");
+        return;
+    }
+    snprintf(text, sizeof text, "%zu picture%s of %d x %d pixels, in the folder sightline-frames",
+             count, count == 1 ? "" : "s", app->ui.width, app->ui.height);
+    question_ask(app, "Save pictures of the way?", text, answers, 2, take_export);
 }
 
 // --- files
 
-static void choose(app_state *app) {
-    if (app->ui.maps_open) shelf_choose(app, app->shelf.at);
+static void file_menu(app_state *app) {
+    menu_open(app);
+}
+
+static void file_new(app_state *app) {
+    map_file_new(app);
+}
+
+static void file_open(app_state *app) {
+    browser_open(app);
+}
+
+static void file_import(app_state *app) {
+    import_open_again(app);
+}
+
+static void file_save(app_state *app) {
+    map_file_save(app);
+}
+
+static void file_save_as(app_state *app) {
+    map_file_save_as(app);
+}
+
+static void file_notes(app_state *app) {
+    const char *notes = app->document.notes;
+    question_tell(app, "What was read", *notes ? notes : "The reader of this file has no notes.");
 }
 
 static bool is_doors(const app_state *app) {
@@ -324,7 +357,7 @@ static void doors(app_state *app) {
         return;
     }
     options.doors = !options.doors;
-    shelf_open_again(app, &options);
+    files_open_again(app, &options);
 }
 
 static void cut_by(app_state *app, double share) {
@@ -332,7 +365,7 @@ static void cut_by(app_state *app, double share) {
     sl_import_options options = source->options;
     const double by = share * (source->highest - source->lowest);
     options.slice = fmin(fmax(options.slice + by, source->lowest), source->highest);
-    if (options.slice != source->options.slice) shelf_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(app, &options);
 }
 
 static void cut_lower(app_state *app) {
@@ -356,12 +389,14 @@ static void save_pdf(app_state *app) {
 }
 
 static void quit(app_state *app) {
-    app->quit = true;
+    map_file_quit(app);
 }
 
 static void escape(app_state *app) {
-    if (app->ui.help || app->ui.maps_open)
-        app->ui.help = app->ui.maps_open = false;
+    if (app->ui.help)
+        app->ui.help = false;
+    else if (map_file_stop(app))
+        ui_say(&app->ui, false, "stopped; the map is not saved");
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
@@ -438,14 +473,21 @@ static const action_row actions[] = {
 
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
-    {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_series, NULL},
+    {"export_series", NULL, "Pictures", "save pictures of the way", 0, 0, export_series, NULL},
 
-    {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
-    {"choose", "Return", NULL, "list: open what is chosen", 0, 0, choose, NULL},
+    {"file", "Ctrl+M", "File", "all that has to do with files", 0, 0, file_menu, NULL},
+    {"new", "Ctrl+N", "New", "a new map", 0, 0, file_new, NULL},
+    {"open", "Ctrl+O", "Open", "open a file", 0, 0, file_open, NULL},
+    {"open_too", "O", NULL, "open a file", 0, 0, file_open, NULL},
+    {"import", "Ctrl+I", "Options", "open the same file with other options", 0, 0, file_import,
+     NULL},
+    {"notes", "Ctrl+J", "Notes", "what the reader took of the file", 0, 0, file_notes, NULL},
+    {"save", "Ctrl+S", "Save", "save the map", 0, 0, file_save, NULL},
+    {"save_as", "Ctrl+Shift+S", "Save as", "save the map under a name", 0, 0, file_save_as, NULL},
     {"doors", "Ctrl+D", "Doors", "doors as doors, or as they begin", 0, 0, doors, is_doors},
     {"cut_lower", "Ctrl+Down", NULL, "3D model: cut it lower", 0, 0, cut_lower, NULL},
     {"cut_higher", "Ctrl+Up", NULL, "3D model: cut it higher", 0, 0, cut_higher, NULL},
-    {"save_png", "Ctrl+S", "Save", "save the plan as PNG", 0, 0, save_png, NULL},
+    {"save_png", "Ctrl+E", "PNG", "save the plan as PNG", 0, 0, save_png, NULL},
     {"save_svg", "Ctrl+G", "SVG", "save the plan as SVG", 0, 0, save_svg, NULL},
     {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},
     {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},

@@ -5,10 +5,12 @@
 #include "files.h"
 #include "modes.h"
 #include "quiz.h"
+#include "recovery.h"
 #include "sightline/support.h"
 #include "view.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 void app_init(app_state *app, sl_context *context) {
@@ -50,11 +52,12 @@ void app_destroy(app_state *app) {
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
     lesson_destroy(app->context, &app->tool.lesson);
+    map_file_destroy(app);
+    dialog_destroy(app);
     history_clear(app->context, &app->document.history);
     record_destroy(app->context, &app->tool.recorder);
     sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
     document_close(app->context, &app->document);
-    shelf_empty(app);
 }
 
 void app_check(app_state *app, sl_status status) {
@@ -90,11 +93,40 @@ static void drop_made(app_state *app) {
     app->view.seen.valid = false;
 }
 
+/// Says what was read.
+static void say_document(app_state *app) {
+    const sl_space *space = &app->document.baked->space;
+    char name[TITLE_TEXT], calls[CALLS_TEXT], partial[SL_PARTIAL_TEXT];
+    map_file_name(app, name);
+    effects_in_words(&app->document.map, calls);
+    sl_baked_say_partial(app->document.baked, partial);
+    if (partial[0])
+        ui_say(&app->ui, false, "%s is %s", name, partial);
+    else
+        ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s", name, space->cell_count,
+               space->portal_count, space->wall_count, *calls ? "; " : "", calls);
+}
+
+/// A wall may change how the whole map is cut into cells. That is said, as all cells are others.
+static void say_subdivision(app_state *app, bool was_mesh) {
+    const bool mesh = app->document.baked->space.neighbour != NULL;
+    if (mesh && !was_mesh)
+        ui_say(&app->ui, false,
+               "A wall is oblique now: the cells are those of a mesh, no longer of a kd-tree");
+    if (!mesh && was_mesh)
+        ui_say(&app->ui, false,
+               "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
+}
+
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
     app->tool.wall = UINT32_MAX;
     quiz_forget(app);
+    const bool was_mesh = app->view.mesh;
+    if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
+    if (!opened && app->document.baked && app->view.mesh != was_mesh)
+        say_subdivision(app, was_mesh);
     if (!opened || !app->document.baked) return;
     app->view.fitted = true;
     app->tool.drag = (drag_state){0};
@@ -103,21 +135,8 @@ static void take_document(app_state *app, bool opened) {
     app->tool.recorder.records = app->tool.recorder.plays = false;
     app->tool.recorder.frames.count = 0;
     walk_home(app);
-    const char *path = app->document.source.path;
-    const char *slash = path ? strrchr(path, '/') : NULL;
-    const char *map = app->document.source.options.map;
-    const sl_space *space = &app->document.baked->space;
-    char calls[CALLS_TEXT];
-    effects_in_words(&app->document.map, calls);
-    ui_say(&app->ui, false, "%s%s%s: %u cells, %u portals, %u walls; %s",
-           slash  ? slash + 1
-           : path ? path
-                  : "map",
-           map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
-           space->wall_count, calls);
-    char partial[SL_PARTIAL_TEXT];
-    sl_baked_say_partial(app->document.baked, partial);
-    if (partial[0]) ui_say(&app->ui, false, "%s is %s", slash ? slash + 1 : path, partial);
+    map_file_taken(app);
+    say_document(app);
 }
 
 void app_take_opened(app_state *app) {
@@ -142,20 +161,34 @@ static void keep_up(app_state *app) {
 static void poll(app_state *app, bool wait) {
     keep_up(app);
     const uint32_t before = app->document.opened, version = app->document.version;
+    char opening[PATH_TEXT] = "";
+    const char *file = document_opening(&app->document);
+    if (file) snprintf(opening, sizeof opening, "%s", file);
     bool changed = false;
     const sl_status status = wait ? document_wait(app->context, &app->document, &changed)
                                   : document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
     if (changed) drop_made(app);
-    if (version != app->document.version) take_document(app, before != app->document.opened);
+    if (version != app->document.version) {
+        take_document(app, before != app->document.opened);
+        // What was said before was of the map before.
+        const bool again = before == app->document.opened && *opening;
+        if (status == SL_OK && again && app->document.baked) say_document(app);
+    }
     follow(app);
-    app_check(app, status);
+    if (*opening)
+        files_check(app, opening, status);
+    else
+        app_check(app, status);
     view_layer_update(app, wait);
+    map_file_tick(app, wait);
+    recovery_tick(app);
 }
 
 job_progress app_progress(const app_state *app) {
     const job_progress document = document_progress(&app->document);
-    return document.running ? document : view_layer_progress(app->view.views);
+    const job_progress file = map_file_progress(app);
+    return document.running ? document : file.running ? file : view_layer_progress(app->view.views);
 }
 
 static void look(app_state *app) {
@@ -279,6 +312,6 @@ void app_draw(app_state *app, cairo_t *cairo) {
     if (app->ui.side_panel) mode_table()[app->tool.mode].panel(app, l.side);
     pane_bar(app, l.bar);
     pane_status(app, l.status);
-    if (app->ui.maps_open) pane_maps(app);
     if (app->ui.help) pane_help(app);
+    dialog_draw(app);
 }

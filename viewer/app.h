@@ -3,9 +3,11 @@
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
+#include "dialog.h"
 #include "document.h"
 #include "layers.h"
 #include "lesson.h"
+#include "map_file.h"
 #include "present.h"
 #include "save.h"
 #include "seen.h"
@@ -64,14 +66,6 @@ typedef struct drag_state {
     bool changed;
 } drag_state;
 
-/// The list that is shown while `maps_open`: files, or the maps of one file.
-typedef struct map_shelf {
-    sl_map_list files;      ///< paths
-    document_source source; ///< whose maps are listed; no path: files are
-    sl_map_list maps;       ///< of that file
-    size_t at, first;       ///< the row that the keys are at, and the first one shown
-} map_shelf;
-
 typedef struct quiz_state {
     uint32_t from, to;
     bool asked, answered, right;
@@ -88,6 +82,7 @@ typedef struct view_state {
     unsigned show; ///< layers, of show_bit
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
+    bool mesh;            ///< the cells are those of a mesh
     comparison compare;
     double motion; ///< seconds for which a moving plan may be drawn by moving the kept picture
 
@@ -125,7 +120,8 @@ struct app_state {
     view_state view;
     tool_state tool;
     ui_state ui;
-    map_shelf shelf;
+    dialog_state dialog;
+    file_state file;
     sl_import_options options; ///< the command line's, for files opened later too
     bool steady;               ///< under a script: no clock shows, nothing is remembered
     bool quit;

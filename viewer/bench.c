@@ -150,6 +150,15 @@ static void random_drag(app_state *app, sl_random *random) {
     input_release(app, app->tool.pointer);
 }
 
+static void random_dialog(app_state *app, sl_random *random) {
+    static const char *const keys[] = {"Return", "Escape",    "Tab",  "Shift+Tab",
+                                       "Space",  "Down",      "Up",   "Left",
+                                       "Right",  "Backspace", "Home", "PageDown"};
+    if (dialog_open_now(app) == DIALOG_NONE) return;
+    if (sl_random_below(random, 4) == 0) input_text(app, "ma\xc3\xa4");
+    input_key(app, keys[sl_random_below(random, sizeof keys / sizeof *keys)], true);
+}
+
 static void random_event(app_state *app, sl_random *random) {
     switch (sl_random_below(random, 40)) {
     case 0:
@@ -160,8 +169,7 @@ static void random_event(app_state *app, sl_random *random) {
         app->tool.held = 0;
         break;
     case 2:
-        if (app->shelf.files.count)
-            shelf_choose(app, sl_random_below(random, shelf_list(&app->shelf)->count));
+        random_dialog(app, random);
         break;
     case 3:
     case 4:
@@ -191,6 +199,7 @@ sl_status soak_run(app_state *app, double seconds, uint64_t seed) {
     sl_random random = {seed};
     const double end = sl_seconds() + seconds;
     uint64_t events = 0;
+    app->file.locked = true;
     while (sl_seconds() < end) {
         random_event(app, &random);
         app_tick(app, 1.0 / 30);

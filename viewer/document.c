@@ -22,6 +22,12 @@ static void clear(sl_context *context, sl_map *list, size_t *count) {
     while (*count) sl_map_destroy(context, &list[--*count]);
 }
 
+/// Adds the number of a state as push adds its map: `count` is that after push.
+static void push_state(uint64_t *states, size_t count, uint64_t state, bool dropped) {
+    if (dropped) memmove(states, states + 1, (count - 1) * sizeof *states);
+    states[count - 1] = state;
+}
+
 /// The oldest change is dropped for a new one.
 static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl_map *map) {
     sl_map copy = {0};
@@ -36,12 +42,18 @@ static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl
 }
 
 sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map) {
+    const bool full = history->done_count == HISTORY_MOST;
     clear(context, history->undone, &history->undone_count);
-    return push(context, history->done, &history->done_count, map);
+    SL_TRY(push(context, history->done, &history->done_count, map));
+    push_state(history->done_state, history->done_count, history->state, full);
+    history->state = ++history->last_state;
+    return SL_OK;
 }
 
 void history_forget_last(sl_context *context, edit_history *history) {
-    if (history->done_count) sl_map_destroy(context, &history->done[--history->done_count]);
+    if (!history->done_count) return;
+    sl_map_destroy(context, &history->done[--history->done_count]);
+    history->state = history->done_state[history->done_count];
 }
 
 static bool same_segment(sl_segment a, sl_segment b) {
@@ -75,10 +87,13 @@ bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool 
     sl_map *to = redo ? history->done : history->undone;
     size_t *from_count = redo ? &history->undone_count : &history->done_count;
     size_t *to_count = redo ? &history->done_count : &history->undone_count;
+    const bool full = *to_count == HISTORY_MOST;
     if (!*from_count) return false;
     *status = push(context, to, to_count, map);
     if (*status != SL_OK) return true;
+    push_state(redo ? history->done_state : history->undone_state, *to_count, history->state, full);
     const sl_map last = from[--*from_count];
+    history->state = (redo ? history->undone_state : history->done_state)[*from_count];
     *bake = !same_bake(map, &last);
     sl_map_destroy(context, map);
     *map = last;
@@ -88,12 +103,15 @@ bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool 
 void history_clear(sl_context *context, edit_history *history) {
     clear(context, history->done, &history->done_count);
     clear(context, history->undone, &history->undone_count);
+    history->state = ++history->last_state;
 }
 
 // --- the job
 
 struct bake_job {
     document_source source; ///< what to read; no path: `map` is what to bake
+    bool begins;            ///< `map` is a new one, and not the open one after a change
+    double weld;            ///< negative: the usual
     uint32_t mirror_depth;
     sl_map map;               ///< as drawn; filled by the job where it reads
     sl_map clean;             ///< the job's, to the end
@@ -102,6 +120,7 @@ struct bake_job {
     sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
     sl_status status;         ///< when `done`
     char message[1024];
+    char notes[NOTES_TEXT]; ///< the job's until space_ready
     pthread_t thread;
     atomic_bool cancel, space_ready, seen_ready, done;
     double until; ///< the clock's time at which the job gives up stab trees; 0: never
@@ -126,6 +145,14 @@ static void take_progress(void *user, const sl_progress *progress) {
     atomic_store(&job->stage, progress->stage);
     atomic_store(&job->count, progress->done);
     atomic_store(&job->total, progress->total);
+}
+
+/// Keeps what the reader says. Notes that come after the space are dropped.
+static void take_note(void *user, const char *message) {
+    bake_job *job = user;
+    const size_t used = strlen(job->notes);
+    if (!atomic_load(&job->space_ready))
+        snprintf(job->notes + used, sizeof job->notes - used, "%s%s", used ? "\n" : "", message);
 }
 
 /// Replaces the walls of a map.
@@ -185,6 +212,7 @@ static sl_status bake(sl_context *context, bake_job *job) {
     sl_bake_account account = {0};
     sl_map map = {0};
     options.mirror_depth = job->mirror_depth;
+    options.clean.weld = job->weld;
     SL_TRY(sl_map_copy(context, &job->map, &map));
     const sl_status status = sl_bake_space(context, &map, &options, job->baked, &account);
     sl_map_destroy(context, &map);
@@ -204,7 +232,8 @@ static sl_status work(sl_context *context, bake_job *job) {
 
 static void *run(void *user) {
     bake_job *job = user;
-    const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
+    const sl_hooks hooks = {
+        .user = job, .progress = take_progress, .note = take_note, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
     job->status = context ? sl_io_use(context) : SL_NO_MEMORY;
     if (job->status == SL_OK) job->status = work(context, job);
@@ -255,21 +284,24 @@ void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, (char *)(uintptr_t)source->options.map);
     sl_free(context, (char *)(uintptr_t)source->options.layers);
     sl_free(context, (char *)(uintptr_t)source->options.start_names);
+    sl_free(context, (char *)(uintptr_t)source->options.unit);
     *source = (document_source){0};
 }
 
 sl_status document_source_copy(sl_context *context, const document_source *from,
                                document_source *to) {
-    char *path = NULL, *map = NULL, *layers = NULL, *start_names = NULL;
+    char *path = NULL, *map = NULL, *layers = NULL, *start_names = NULL, *unit = NULL;
     sl_status status = copy_text(context, from->path, &path);
     if (status == SL_OK) status = copy_text(context, from->options.map, &map);
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
     if (status == SL_OK) status = copy_text(context, from->options.start_names, &start_names);
+    if (status == SL_OK) status = copy_text(context, from->options.unit, &unit);
     document_source copy = *from;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
     copy.options.start_names = start_names;
+    copy.options.unit = unit;
     if (status == SL_OK)
         *to = copy;
     else
@@ -289,11 +321,19 @@ bool document_is_baked(const char *path) {
     return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
 }
 
+static bake_job *make_job(sl_context *context, const document_state *document,
+                          const document_source *source) {
+    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+    if (!job) return NULL;
+    job->mirror_depth = document->mirror_depth;
+    job->weld = source && source->has_weld ? source->weld : sl_clean_options_default().weld;
+    return job;
+}
+
 sl_status document_open(sl_context *context, document_state *document,
                         const document_source *source) {
-    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+    bake_job *job = make_job(context, document, source);
     if (!job) return SL_NO_MEMORY;
-    job->mirror_depth = document->mirror_depth;
     const sl_status status = document_source_copy(context, source, &job->source);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -302,10 +342,22 @@ sl_status document_open(sl_context *context, document_state *document,
     return start(context, document, job);
 }
 
-sl_status document_rebuild(sl_context *context, document_state *document) {
-    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status document_begin(sl_context *context, document_state *document, sl_map *map) {
+    bake_job *job = make_job(context, document, NULL);
     if (!job) return SL_NO_MEMORY;
-    job->mirror_depth = document->mirror_depth;
+    job->begins = true;
+    job->map = *map;
+    *map = (sl_map){0};
+    return start(context, document, job);
+}
+
+const char *document_opening(const document_state *document) {
+    return document_awaits_space(document) ? document->job->source.path : NULL;
+}
+
+sl_status document_rebuild(sl_context *context, document_state *document) {
+    bake_job *job = make_job(context, document, &document->source);
+    if (!job) return SL_NO_MEMORY;
     const sl_status status = sl_map_copy(context, &document->map, &job->map);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -404,13 +456,14 @@ static sl_status take_space(sl_context *context, document_state *document) {
     document->baked_depth = job->mirror_depth;
     job->taken = true;
     document->version++;
-    if (job->source.path) {
+    if (job->source.path || job->begins) {
         sl_map_destroy(context, &document->map);
         SL_TRY(sl_map_copy(context, &job->map, &document->map));
         SL_TRY(take_objects(context, document));
         document_source_destroy(context, &document->source);
         document->source = job->source;
         job->source = (document_source){0};
+        memcpy(document->notes, job->notes, sizeof document->notes);
         document->opened += !document->source.again;
     }
     document_touch(document); // doors may have been turned while the job was at work

@@ -14,9 +14,11 @@
 
 enum { HISTORY_MOST = 100 };
 
-/// Zeroed to start.
+/// Zeroed to start. Each state of the map has a number of its own, so that it is known again.
 typedef struct edit_history {
     sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
+    uint64_t done_state[HISTORY_MOST], undone_state[HISTORY_MOST];
+    uint64_t state, last_state; ///< that of the map now, and the largest one given
     size_t done_count, undone_count;
 } edit_history;
 
@@ -42,6 +44,8 @@ typedef struct document_source {
     double lowest, highest; ///< of a 3D model; equal for all else
     unsigned takes;         ///< of sl_import_takes: what the format has a use for
     bool again;             ///< the file that is open with other options: no other one is opened
+    bool has_weld;
+    double weld; ///< as sl_clean_options.weld
 } document_source;
 
 /// A copy. `to` is untouched on failure.
@@ -51,7 +55,7 @@ void document_source_destroy(sl_context *context, document_source *source); ///<
 
 typedef struct bake_job bake_job;
 
-enum { OBJECTS_MOST = 256 };
+enum { OBJECTS_MOST = 256, NOTES_TEXT = 2048 };
 
 /// A document, zeroed to start. Its content stays empty while nothing is open.
 typedef struct document_state {
@@ -75,9 +79,10 @@ typedef struct document_state {
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
-    bake_job *job;    ///< NULL: none runs
-    edit_history history; ///< of changes by hand
-    bool stale;           ///< the map changes while something is dragged: it is to be made anew
+    char notes[NOTES_TEXT]; ///< what the reader of the file said it took, in lines
+    bake_job *job;          ///< NULL: none runs
+    edit_history history;   ///< of changes by hand
+    bool stale;             ///< the map changes while something is dragged: it is to be made anew
 } document_state;
 
 /// The progress of the work in the background.
@@ -94,6 +99,12 @@ bool document_is_baked(const char *path);
 /// the source.
 sl_status document_open(sl_context *context, document_state *document,
                         const document_source *source);
+
+/// Starts with a map that is in no file, and takes it over. It counts as one that is opened.
+sl_status document_begin(sl_context *context, document_state *document, sl_map *map);
+
+/// The file that is being read; NULL for none.
+const char *document_opening(const document_state *document);
 
 /// Starts to bake the map as it is now.
 sl_status document_rebuild(sl_context *context, document_state *document);

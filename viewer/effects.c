@@ -31,12 +31,6 @@ void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
-    if (!called_for) {
-        char none[CALLS_TEXT];
-        effects_left_out(map, none);
-        snprintf(text, CALLS_TEXT, "nothing calls for %.120s", none);
-        return;
-    }
     text[0] = '\0';
     for (size_t i = 0; i < count; i++) {
         char counted[64];

@@ -3,31 +3,20 @@
 #include "actions.h"
 #include "edit.h"
 #include "effects.h"
-#include "files.h"
 #include "modes.h"
 #include "quiz.h"
 #include "sliders.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
-
-/// The open list takes the keys that move in it.
-static bool list_key(app_state *app, const char *key, bool down) {
-    static const struct {
-        const char *key;
-        int by;
-    } moves[] = {{"Up", -1}, {"Down", 1}, {"PageUp", -10}, {"PageDown", 10}};
-    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
-        if (strcmp(key, moves[i].key) != 0) continue;
-        if (down) shelf_move(app, moves[i].by);
-        return true;
-    }
-    return false;
-}
 
 void input_key(app_state *app, const char *key, bool down) {
     size_t count;
-    if (app->ui.maps_open && list_key(app, key, down)) return;
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        dialog_key(app, key, down);
+        return;
+    }
     const action_row *actions = action_table(&count);
     const int number = action_of_key(key, app->tool.mode);
     if (number < 0) return;
@@ -37,7 +26,15 @@ void input_key(app_state *app, const char *key, bool down) {
         if (down) app->tool.recorder.plays = false;
         return;
     }
-    if (down) action->run(app);
+    if (!down) return;
+    action->run(app);
+    // A letter that opens a dialog comes as text too, which is not meant for the dialog.
+    if (dialog_open_now(app) != DIALOG_NONE)
+        snprintf(app->dialog.deaf, sizeof app->dialog.deaf, "%s", key);
+}
+
+void input_text(app_state *app, const char *text) {
+    if (dialog_open_now(app) != DIALOG_NONE) dialog_text(app, text);
 }
 
 // --- dragging
@@ -126,10 +123,8 @@ static void click(app_state *app, const hit_area *hit) {
         if (app->view.compare && (size_t)hit->value != app->view.method)
             app->view.other = app->view.method;
         app->view.method = (size_t)hit->value;
-    } else if (hit->kind == HIT_MAP) {
-        shelf_choose(app, (size_t)hit->value);
     } else if (hit->kind == HIT_PANEL && hit->value == 1) {
-        app->ui.help = app->ui.maps_open = false;
+        app->ui.help = false;
     }
 }
 
@@ -264,8 +259,8 @@ void input_release(app_state *app, sl_point at) {
 }
 
 void input_wheel(app_state *app, double steps) {
-    if (app->ui.maps_open) {
-        shelf_move(app, -(int)round(fmin(fmax(steps, -3), 3)));
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        dialog_wheel(app, steps);
         return;
     }
     const window_layout l = app_layout(app);

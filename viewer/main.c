@@ -1,7 +1,9 @@
 /// sightline-view: its arguments and its exit status. 0: done; 1: the work failed (no display); 2:
 /// the arguments or an input file are wrong.
 #include "bench.h"
+#include "browser.h"
 #include "files.h"
+#include "recovery.h"
 #include "save.h"
 #include "script.h"
 #include "sightline/io.h"
@@ -51,7 +53,7 @@ static void print_help(void) {
          "A script has a command a line: open FILE; key NAME; down NAME; up NAME; action NAME;\n"
          "move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS; wait FRAMES; size W H;\n"
          "eye X Y HEADING [CONE]; text SCALE; screenshot FILE; save FILE;\n"
-         "account FILE; export FOLDER.\n\n"
+         "account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT.\n\n"
          "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
          "example:\n"
          "  sightline-view maps/office.map");
@@ -190,6 +192,11 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     return SL_OK;
 }
 
+/// What a window can show, and the user can mend.
+static bool is_wrong_input(sl_status status) {
+    return status == SL_BAD_ARGUMENT || status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
+}
+
 /// Opens the named map and waits for it. A failure ends the program.
 static sl_status open_map(app_state *app, const arguments *a, bool ask) {
     app->options = a->options;
@@ -198,7 +205,7 @@ static sl_status open_map(app_state *app, const arguments *a, bool ask) {
                                     .options = a->options,
                                     .has_start = a->has_start,
                                     .start = a->start};
-    SL_TRY(shelf_open_source(app, &source, ask));
+    SL_TRY(files_open_source(app, &source, ask));
     sl_status status = SL_OK;
     bool changed;
     // The window's own way, but for the status, which is the program's here.
@@ -223,11 +230,16 @@ static sl_status run_headless(app_state *app, const arguments *a) {
 
 static sl_status run_window(app_state *app, const arguments *a) {
     app_window *window;
-    SL_TRY(open_map(app, a, true));
+    const sl_status opened = open_map(app, a, true);
+    if (is_wrong_input(opened))
+        files_check(app, a->map, opened);
+    else
+        SL_TRY(opened);
     app_take_opened(app);
     settings_load(app);
     SL_TRY(window_open(app, false, &window));
-    if (!a->map) app->ui.maps_open = true;
+    if (!a->map) browser_open(app);
+    recovery_begin(app);
     const sl_status status = window_run(window);
     window_close(window);
     if (status == SL_OK) settings_save(app);
@@ -243,7 +255,6 @@ static sl_status run(sl_context *context, int argc, char **argv) {
     app_state *app = sl_alloc_array(context, 1, sizeof *app);
     if (!app) return SL_NO_MEMORY;
     app_init(app, context);
-    shelf_fill(app, a.map);
     const bool headless = a.script || a.screenshot || a.bench || a.soak > 0;
     const sl_status status = headless ? run_headless(app, &a) : run_window(app, &a);
     app_destroy(app);
@@ -261,7 +272,5 @@ int main(int argc, char **argv) {
     if (status == SL_OK) status = run(context, argc, argv);
     if (status != SL_OK) fprintf(stderr, "sightline-view: %s\n", sl_context_message(context));
     sl_context_destroy(context);
-    const bool input =
-        status == SL_BAD_ARGUMENT || status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
-    return status == SL_OK ? 0 : input ? 2 : 1;
+    return status == SL_OK ? 0 : is_wrong_input(status) ? 2 : 1;
 }

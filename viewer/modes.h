@@ -22,7 +22,6 @@ void pane_first_person(app_state *app, sl_box box); ///< what the eye sees
 void pane_account(app_state *app, sl_box box);      ///< what accuracy costs
 void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
 void pane_help(app_state *app);                     ///< over all
-void pane_maps(app_state *app);                     ///< over all: the list of maps
 
 /// A pane below the plan. A row of the table in modes.c says when it is shown.
 typedef struct pane_below {

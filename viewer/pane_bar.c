@@ -1,7 +1,5 @@
-/// The bars at the top and at the bottom, the time line of the lesson, and the sheets over all: the
-/// help and the list of maps.
+/// The bars at the top and at the bottom, the time line of the lesson, and the help over all.
 #include "actions.h"
-#include "files.h"
 #include "modes.h"
 #include "sightline/canvas.h"
 
@@ -27,7 +25,7 @@ void pane_bar(app_state *app, sl_box box) {
     ui_line(ui, box.min.x, box.max.y - 0.5, box.max.x, box.max.y - 0.5, ui->palette.outline);
     ui_hit(ui, HIT_PANEL, 0, box);
     static const char *const modes[] = {"explore", "learn", "draw", "quiz"};
-    static const char *const others[] = {"maps", "fit", "undo", "redo", "save_png"};
+    static const char *const others[] = {"file", "open", "save", "fit", "undo", "redo"};
     static const char *const right[] = {"dark", "side_panel", "help"};
     double x = 0.6 * t;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) x = put_button(app, x, modes[i]);
@@ -181,48 +179,5 @@ void pane_help(app_state *app) {
         sl_text_show_within(ui->cairo, ui->palette.ink, x + 7.2 * t * size, y,
                             column - 7.6 * t * size, size * t, false, help);
         at++;
-    }
-}
-
-static void draw_row(app_state *app, sl_box row, size_t i, const char *name) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    const bool over = box_has(row, ui->pointer);
-    if (over || i == app->shelf.at)
-        ui_fill_round(ui, row, 0.3 * t,
-                      sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
-    sl_text_show_within(ui->cairo, ui->palette.ink, row.min.x + 0.6 * t, row.min.y + 1.3 * t,
-                        box_width(row) - 1.2 * t, t, false, name);
-    ui_hit(ui, HIT_MAP, (int)i, row);
-}
-
-/// Rows fill one column after the other. A long list shows the part with the chosen row.
-void pane_maps(app_state *app) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text, high = 1.9 * t;
-    const sl_map_list *list = shelf_list(&app->shelf);
-    const bool maps = list == &app->shelf.maps;
-    const double columns =
-        fmin(fmax(ceil(high * (double)list->count / (app->ui.height - 8 * t)), 1),
-             fmax(floor(app->ui.width / (22 * t)), 1));
-    const double rows = fmax(ceil((double)list->count / columns), 1);
-    const sl_box sheet = begin_sheet(&app->ui, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
-                                     maps ? "Which of its maps?" : "Maps at hand");
-    const double top = sheet.min.y + 3.3 * t, width = (box_width(sheet) - 2 * t) / columns;
-    const size_t fit = (size_t)fmax(floor((sheet.max.y - top) / high), 1);
-    const size_t page = fit * (size_t)columns;
-    if (!list->count)
-        ui_text(ui, sheet.min.x + 1.5 * t, top + t, 1, false, ui->palette.faint,
-                "None. Drop a file on the window.");
-    map_shelf *shelf = &app->shelf;
-    if (shelf->at < shelf->first) shelf->first = shelf->at;
-    if (shelf->at >= shelf->first + page) shelf->first = shelf->at - page + 1;
-    for (size_t i = shelf->first; i < list->count && i < shelf->first + page; i++) {
-        const size_t place = i - shelf->first;
-        const double x = sheet.min.x + t + width * (double)(place / fit);
-        const double y = top + high * (double)(place % fit);
-        const char *slash = maps ? NULL : strrchr(list->names[i], '/');
-        draw_row(app, (sl_box){{x, y}, {x + width, y + high}}, i,
-                 slash ? slash + 1 : list->names[i]);
     }
 }

@@ -111,6 +111,7 @@ sl_status save_plan(app_state *app, const char *path) {
 
 void save_numbered(app_state *app, const char *ending) {
     char path[64], chart[64];
+    if (app->file.locked) return;
     for (unsigned i = 1; i < 10000; i++) {
         snprintf(path, sizeof path, "sightline-%u.%s", i, ending);
         snprintf(chart, sizeof chart, "sightline-%u-account.%s", i, ending);
@@ -127,6 +128,7 @@ void save_numbered(app_state *app, const char *ending) {
 }
 
 sl_status save_series(app_state *app, const char *folder, unsigned every) {
+    if (app->file.locked) return SL_OK;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return sl_fail(app->context, SL_IO, "%s: %s", folder, strerror(errno));
     path_recorder *r = &app->tool.recorder;

@@ -47,6 +47,9 @@ sl_status save_plan(app_state *app, const char *path);
 /// Saves the plan under a free name in the present folder: NAME-1.ENDING.
 void save_numbered(app_state *app, const char *ending);
 
+/// One picture of so many frames is enough for a film of 30 a second.
+enum { SERIES_STEP = 2 };
+
 /// Plays the recording and saves frames: FOLDER/frame-0001.png and so on, one of `every`.
 sl_status save_series(app_state *app, const char *folder, unsigned every);
 

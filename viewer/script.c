@@ -47,14 +47,41 @@ static void frame(reader *r, double seconds) {
 // --- commands
 
 static sl_status do_open(reader *r, const words *w) {
-    shelf_open(r->app, w->rest);
+    map_file_give_up(r->app);
+    files_open(r->app, w->rest, false);
     app_settle(r->app);
     if (r->app->ui.message_is_error)
         return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->ui.message);
     return SL_OK;
 }
 
+static sl_status do_drop(reader *r, const words *w) {
+    files_open(r->app, w->rest, false);
+    app_settle(r->app);
+    frame(r, 0);
+    return SL_OK;
+}
+
+static sl_status do_type(reader *r, const words *w) {
+    input_text(r->app, w->rest);
+    frame(r, 0);
+    return SL_OK;
+}
+
+static sl_status do_expect(reader *r, const words *w) {
+    char title[TITLE_TEXT];
+    map_file_title(r->app, title);
+    const char *shown = dialog_title(r->app);
+    if (strstr(title, w->rest) || strstr(r->app->ui.message, w->rest) || strstr(shown, w->rest))
+        return SL_OK;
+    return sl_fail_at(r->app->context, r->file, r->line,
+                      "'%s' is not shown: the window's title is '%s', the message '%s', the dialog "
+                      "'%s'",
+                      w->rest, title, r->app->ui.message, shown);
+}
+
 static sl_status check_key(reader *r, const char *key) {
+    if (dialog_open_now(r->app) != DIALOG_NONE) return SL_OK; // each has keys of its own
     for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
         if (action_of_key(key, (app_mode)mode) >= 0) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
@@ -187,6 +214,7 @@ static const struct command {
     {"wheel", 1, do_wheel}, {"wait", 1, do_wait},      {"size", 2, do_size},
     {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
     {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
+    {"drop", -1, do_drop},  {"type", -1, do_type},     {"expect", -1, do_expect},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

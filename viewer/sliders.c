@@ -45,7 +45,7 @@ static void set_cut(app_state *app, double share) {
     const document_source *source = &app->document.source;
     sl_import_options options = source->options;
     options.slice = source->lowest + share * (source->highest - source->lowest);
-    if (options.slice != source->options.slice) shelf_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(app, &options);
 }
 
 // --- how deep splits are shown

@@ -13,6 +13,21 @@ void ui_say(ui_state *ui, bool error, const char *format, ...) {
     vsnprintf(ui->message, sizeof ui->message, format, arguments);
     va_end(arguments);
     ui->message_is_error = error;
+    ui->message_is_working = false;
+}
+
+void ui_say_working(ui_state *ui, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(ui->message, sizeof ui->message, format, arguments);
+    va_end(arguments);
+    ui->message_is_error = false;
+    ui->message_is_working = true;
+}
+
+void ui_done(ui_state *ui) {
+    if (ui->message_is_error || ui->message_is_working) ui->message[0] = '\0';
+    ui->message_is_error = ui->message_is_working = false;
 }
 
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box) {

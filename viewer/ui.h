@@ -17,7 +17,7 @@ typedef enum hit_kind {
     HIT_DUAL,
     HIT_TIME,   ///< the time line
     HIT_SLIDER, ///< value: of the table of sliders
-    HIT_MAP,    ///< value: row of the list that is open
+    HIT_DIALOG, ///< value: the number of a widget, and 256 times (a row of it + 1)
 } hit_kind;
 
 typedef struct hit_area {
@@ -42,9 +42,9 @@ typedef struct ui_state {
     double text_scale; ///< chosen by the user
     double density;    ///< of the screen: pixels where a common one has 1
     bool dark;
-    bool side_panel, first_person, accounts, effects, help, maps_open; ///< panels shown
-    char message[512];                                                 ///< the last thing to say
-    bool message_is_error;
+    bool side_panel, first_person, accounts, effects, help; ///< panels shown
+    char message[512];                                      ///< the last thing to say
+    bool message_is_error, message_is_working;
     double frame_seconds; ///< smoothed; shown in the corner unless steady
 } ui_state;
 
@@ -60,6 +60,11 @@ static inline double ui_text_size(const ui_state *ui) {
 /// Shows a message in the status line.
 void ui_say(ui_state *ui, bool error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/// The same for work that goes on: ui_done takes the message away.
+void ui_say_working(ui_state *ui, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/// The work is done: its message goes, and that of an error before it.
+void ui_done(ui_state *ui);
 
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
 /// The topmost thing at a place; kind HIT_NONE for nothing.

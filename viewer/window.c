@@ -16,6 +16,7 @@ struct app_window {
     SDL_Texture *texture;
     cairo_surface_t *surface;
     int width, height; ///< of texture and surface, pixels
+    char title[TITLE_TEXT];
 };
 
 static sl_status fail(sl_context *context, const char *what) {
@@ -98,8 +99,17 @@ static sl_status fit_texture(app_window *w) {
     return w->texture ? SL_OK : fail(w->app->context, "no texture");
 }
 
+static void show_title(app_window *w) {
+    char title[TITLE_TEXT];
+    map_file_title(w->app, title);
+    if (strcmp(title, w->title) == 0) return;
+    memcpy(w->title, title, sizeof title);
+    SDL_SetWindowTitle(w->window, title);
+}
+
 sl_status window_show(app_window *w) {
     SL_TRY(fit_texture(w));
+    show_title(w);
     cairo_t *cairo = cairo_create(w->surface);
     app_draw(w->app, cairo);
     cairo_destroy(cairo);
@@ -113,15 +123,22 @@ sl_status window_show(app_window *w) {
 
 // --- events
 
-/// The key's name as the table of actions has it: letters as capitals, '?' for itself.
-static void key_name(const SDL_Keysym *sym, char name[48]) {
+/// The key's name as the table of actions has it: letters as capitals, '?' for itself. In a dialog
+/// Backspace and Delete are two keys.
+static void key_name(const SDL_Keysym *sym, bool dialog, char name[48]) {
     const bool ctrl = sym->mod & (KMOD_CTRL | KMOD_GUI), shift = sym->mod & KMOD_SHIFT;
     const char *plain = SDL_GetKeyName(sym->sym);
     if (shift && sym->sym == SDLK_SLASH) plain = "?";
     if (sym->sym == SDLK_QUESTION) plain = "?";
     if (sym->sym == SDLK_PLUS || sym->sym == SDLK_KP_PLUS) plain = "=";
     if (sym->sym == SDLK_KP_MINUS) plain = "-";
-    if (sym->sym == SDLK_BACKSPACE) plain = "Delete";
+    if (sym->sym == SDLK_BACKSPACE && !dialog) plain = "Delete";
+    if (sym->sym == SDLK_KP_ENTER) plain = "Return";
+    // Shift counts beside Ctrl and for Tab; elsewhere it is a part of the letter.
+    if (shift && (ctrl || sym->sym == SDLK_TAB)) {
+        snprintf(name, 48, "%sShift+%s", ctrl ? "Ctrl+" : "", plain);
+        return;
+    }
     snprintf(name, 48, "%s%s", ctrl ? "Ctrl+" : "", plain);
 }
 
@@ -146,15 +163,25 @@ static void take_button(app_window *w, const SDL_MouseButtonEvent *e) {
                 at);
 }
 
+static void paste(app_state *app) {
+    char *text = SDL_GetClipboardText();
+    if (text) input_text(app, text);
+    SDL_free(text);
+}
+
 static void take_event(app_window *w, const SDL_Event *e) {
     char name[48];
     switch (e->type) {
     case SDL_QUIT:
-        w->app->quit = true;
+        map_file_quit(w->app);
+        break;
+    case SDL_TEXTINPUT:
+        input_text(w->app, e->text.text);
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
-        key_name(&e->key.keysym, name);
+        key_name(&e->key.keysym, dialog_open_now(w->app) != DIALOG_NONE, name);
+        if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste(w->app);
         input_key(w->app, name, e->type == SDL_KEYDOWN);
         break;
     case SDL_MOUSEBUTTONDOWN:
@@ -168,7 +195,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
         input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        shelf_open(w->app, e->drop.file);
+        files_open(w->app, e->drop.file, false);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
