@@ -103,8 +103,9 @@ static void say_document(app_state *app) {
     if (partial[0])
         ui_say(&app->ui, false, "%s is %s", name, partial);
     else
-        ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s", name, space->cell_count,
-               space->portal_count, space->wall_count, *calls ? "; " : "", calls);
+        ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s%s", name, space->cell_count,
+               space->portal_count, space->wall_count, *calls ? "; " : "", calls,
+               *app->document.notes ? "; Ctrl+J: what was read" : "");
 }
 
 /// A wall may change how the whole map is cut into cells. That is said, as all cells are others.

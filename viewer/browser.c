@@ -173,7 +173,8 @@ static void follow(app_state *app, browser_state *b) {
     free(folder);
     b->problem[0] = '\0';
     b->list.at = SIZE_MAX;
-    const size_t found = find_name(b, name);
+    // Samples have names with folders.
+    const size_t found = find_name(b, b->place == PLACE_SAMPLES ? b->path.text : name);
     if (found != SIZE_MAX) dialog_list_go(&b->list, found);
 }
 
@@ -377,6 +378,7 @@ void browser_save(app_state *app) {
     browser_state *b = begin(app, true);
     if (!b) return;
     const document_source *source = &app->document.source;
+    if (access(b->folder, W_OK) != 0) enter(app, b, getenv("HOME") ? getenv("HOME") : ".");
     if (source->options.map && !app->file.path)
         snprintf(name, sizeof name, "%.200s", source->options.map);
     else
@@ -464,12 +466,13 @@ void browser_draw(app_state *app) {
     y += 2.3 * t;
     draw_list(app, b, (sl_box){{x0, y}, {x1, box.max.y - 4.2 * t}});
     y = box.max.y - 1.8 * t;
-    const char *note = b->problem[0]               ? b->problem
-                       : b->place == PLACE_RECENT  ? "The files that were opened last"
+    const char *note = b->place == PLACE_RECENT    ? "The files that were opened last"
                        : b->place == PLACE_SAMPLES ? "The maps that come with Sightline"
                                                    : "Ctrl+Up: the folder above";
-    sl_text_show_within(ui->cairo, b->problem[0] ? ui->palette.start : ui->palette.faint, x0,
-                        y - 0.9 * t, x1 - x0, t, false, note);
+    if (b->problem[0])
+        dialog_problem(app, (sl_point){x0, y - 0.9 * t}, x1 - x0, b->problem);
+    else
+        ui_text(ui, x0, y - 0.9 * t, 1, false, ui->palette.faint, note);
     const int from = b->saves ? 1 : 0;
     const double left = dialog_buttons(app, x1, y, ends + from, 3 - from);
     if (b->place == PLACE_FOLDER)

@@ -49,6 +49,12 @@ void dialog_pop(app_state *app) {
     app->dialog.item_count = 0;
 }
 
+bool dialog_clear(app_state *app) {
+    while (app->dialog.depth && dialog_open_now(app) != DIALOG_QUESTION)
+        dialogs[dialog_open_now(app)].act(app, DIALOG_CANCEL);
+    return app->dialog.depth == 0;
+}
+
 void dialog_destroy(app_state *app) {
     for (size_t i = 1; i < sizeof dialogs / sizeof *dialogs; i++)
         if (dialogs[i].destroy) dialogs[i].destroy(app);
@@ -57,11 +63,8 @@ void dialog_destroy(app_state *app) {
 /// Only the uppermost one is drawn.
 void dialog_draw(app_state *app) {
     app->dialog.item_count = 0;
+    app->dialog.title[0] = app->dialog.problem[0] = '\0';
     if (app->dialog.depth) dialogs[dialog_open_now(app)].draw(app);
-}
-
-const char *dialog_title(const app_state *app) {
-    return app->dialog.depth ? app->dialog.title : "";
 }
 
 // --- widgets
@@ -102,6 +105,13 @@ sl_box dialog_begin(app_state *app, double width, double height, const char *tit
 
 void dialog_end(app_state *app) {
     app->ui.text = app->dialog.text;
+}
+
+void dialog_problem(app_state *app, sl_point at, double width, const char *text) {
+    ui_state *ui = &app->ui;
+    snprintf(app->dialog.problem, sizeof app->dialog.problem, "%s", text);
+    if (*text)
+        sl_text_show_within(ui->cairo, ui->palette.start, at.x, at.y, width, ui->text, false, text);
 }
 
 /// A frame about what is in focus.

@@ -59,9 +59,9 @@ typedef struct dialog_state {
     int depth;
     dialog_item items[ITEMS_MOST]; ///< of the last frame
     int item_count;
-    char deaf[48]; ///< the key that opened the dialog: its letter is no text
-    char title[320];
-    double text; ///< the size of text outside of the sheet
+    char deaf[48];                 ///< the key that opened the dialog: its letter is no text
+    char title[320], problem[512]; ///< as shown in the last frame
+    double text;                   ///< the size of text outside of the sheet
     dialog_list menu;
     struct browser_state *browser; ///< NULL: never opened
     struct import_state *import;   ///< likewise
@@ -72,12 +72,11 @@ dialog_kind dialog_open_now(const app_state *app);
 
 void dialog_push(app_state *app, dialog_kind kind, int focus);
 void dialog_pop(app_state *app);
+/// Closes all but a question, which waits for its answer; false where there is one.
+bool dialog_clear(app_state *app);
 void dialog_destroy(app_state *app);
 
 void dialog_draw(app_state *app);
-
-/// What the uppermost one is headed by in the last frame; "" where none is open.
-const char *dialog_title(const app_state *app);
 
 // --- input: each is for an open dialog
 
@@ -92,6 +91,9 @@ void dialog_wheel(app_state *app, double steps);
 /// the box below the title.
 sl_box dialog_begin(app_state *app, double width, double height, const char *title);
 void dialog_end(app_state *app);
+
+/// A line that says what is wrong; nothing for "".
+void dialog_problem(app_state *app, sl_point at, double width, const char *text);
 
 /// The height of a row of widgets, in units of plain text.
 #define DIALOG_ROW 2.1

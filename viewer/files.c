@@ -219,6 +219,10 @@ void files_open(app_state *app, const char *path, bool ask) {
     sl_map_choice_destroy(app->context, &choice);
 }
 
+void files_drop(app_state *app, const char *path) {
+    if (dialog_clear(app)) files_open(app, path, false);
+}
+
 sl_status files_open_source(app_state *app, const document_source *given, bool ask) {
     document_source source = *given;
     sl_map_choice choice = {0};
@@ -256,13 +260,16 @@ void files_check(app_state *app, const char *path, sl_status status) {
     if (status == SL_OK || status == SL_CANCELLED) return;
     // Options help where the file can be read at all.
     const char *tried = app->file.tried.path;
-    const bool again = tried && strcmp(tried, path) == 0 && app->file.tried.takes;
+    const bool again =
+        tried && strcmp(tried, path) == 0 && app->file.tried.takes & ~(unsigned)SL_TAKES_CELLS;
     char text[1200];
     const char *slash = strrchr(path, '/');
     snprintf(text, sizeof text, "%s", sl_context_message(app->context));
     ui_say(&app->ui, true, "%s was not opened", slash ? slash + 1 : path);
-    if (again)
-        question_ask(app, "The file was not opened", text, answers, 2, take_answer);
-    else
+    if (!again) {
         question_tell(app, "The file was not opened", text);
+        return;
+    }
+    question_ask(app, "The file was not opened", text, answers, 2, take_answer);
+    app->dialog.focus[app->dialog.depth - 1] = DIALOG_OWN + 1;
 }

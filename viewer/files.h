@@ -36,6 +36,10 @@ sl_status files_look(sl_context *context, document_source *source, sl_map_choice
 /// all options. Changes that would be lost are asked about. A failure gets a dialog.
 void files_open(app_state *app, const char *path, bool ask);
 
+/// The same for a file that is dropped on the window: other dialogs go; a question stays, and the
+/// file is not opened.
+void files_drop(app_state *app, const char *path);
+
 /// The same for a source that must use all its options: fails if the format does not take one.
 /// Asks for what is left open only if `ask` is set. Reports nothing, and loses changes.
 sl_status files_open_source(app_state *app, const document_source *source, bool ask);

@@ -47,8 +47,7 @@ static const struct {
     unsigned takes; ///< of sl_import_takes; 0: every format
 } fields[FIELDS] = {
     [FIELD_SLICE] = {"Cut at the height", "the middle", SL_TAKES_SLICE},
-    [FIELD_LAYERS] = {"Layers", "those that the file marks; else names with commas",
-                      SL_TAKES_LAYERS},
+    [FIELD_LAYERS] = {"Layers", "the format's own choice; else NAME,NAME", SL_TAKES_LAYERS},
     [FIELD_STARTS] = {"Names of starts", "player, spawn, start ...; none: no starts",
                       SL_TAKES_STARTS},
     [FIELD_TOLERANCE] = {"Error of curves", "the usual", SL_TAKES_TOLERANCE},
@@ -83,7 +82,9 @@ static void set_number(text_field *field, bool given, double value) {
 static void fill_fields(import_state *s) {
     const sl_import_options *o = &s->source.options;
     set_number(&s->fields[FIELD_SLICE], o->has_slice, o->slice);
-    field_set(&s->fields[FIELD_LAYERS], o->layers ? o->layers : "");
+    // Where there is a list, the field is for what the list cannot say.
+    const bool listed = s->choice.layers.count && o->layers && !strchr(o->layers, ':');
+    field_set(&s->fields[FIELD_LAYERS], o->layers && !listed ? o->layers : "");
     field_set(&s->fields[FIELD_STARTS], o->start_names ? o->start_names : "");
     set_number(&s->fields[FIELD_TOLERANCE], o->tolerance > 0, o->tolerance);
     field_set(&s->fields[FIELD_UNIT], o->unit ? o->unit : "");
@@ -221,11 +222,9 @@ static bool read_source(import_state *s, document_source *out, char layers[FIELD
     *out = s->source;
     s->problem[0] = '\0';
     o->layers = given_text(s, FIELD_LAYERS);
-    if (asks_layers(s)) {
+    if (asks_layers(s) && !o->layers) {
         if (!join_layers(s, layers, FIELD_TEXT)) return false;
         o->layers = *layers ? layers : NULL;
-        if (s->choice.layers_unsaid && !o->layers)
-            return complain(s, "Layers", "choose at least one that is solid");
     }
     o->start_names = given_text(s, FIELD_STARTS);
     o->unit = given_text(s, FIELD_UNIT);
@@ -332,7 +331,6 @@ void import_edited(app_state *app, int id) {
 // --- the picture
 
 static bool is_shown(const import_state *s, field_name name) {
-    if (name == FIELD_LAYERS && s->choice.layers.count) return false;
     return s->more && (!fields[name].takes || s->source.takes & fields[name].takes);
 }
 
@@ -364,8 +362,9 @@ static double draw_layers(app_state *app, import_state *s, sl_box box, double y,
     const double t = ui->text;
     const sl_box frame = {{box.min.x, y + 1.8 * t}, {box.max.x, y + 1.8 * t + high}};
     ui_text(ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
-            s->choice.layers_unsaid ? "Which layers are solid? The file does not say."
-                                    : "Solid layers; none: those that the file marks");
+            s->choice.layers_unsaid
+                ? "Which layers are solid? The file does not say. None: a guess from the lowest"
+                : "Solid layers; none: those that the file marks");
     dialog_list_frame(app, LAYERS_LIST, frame, &s->layers);
     for (size_t i = s->layers.first; i < s->layers.count && i < s->layers.first + s->layers.page;
          i++) {
@@ -384,6 +383,8 @@ static double draw_field(app_state *app, import_state *s, sl_box box, double y, 
     const double wide = weld ? dialog_buttons_width(app, &button, 1) + 0.6 * t : 0;
     char hint[160];
     snprintf(hint, sizeof hint, "%s", fields[name].hint);
+    if (name == FIELD_LAYERS && s->choice.layers.count)
+        snprintf(hint, sizeof hint, "instead of the list: NAME,NAME:TILE+TILE");
     if (name == FIELD_SLICE)
         snprintf(hint, sizeof hint, "between %.6g and %.6g", s->source.lowest, s->source.highest);
     ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, fields[name].label);
@@ -432,8 +433,7 @@ void import_draw(app_state *app) {
     if (asks_map(s)) y = draw_maps(app, s, box, y, high * t);
     if (asks_layers(s)) y = draw_layers(app, s, box, y, high * t);
     draw_options(app, s, box, y);
-    sl_text_show_within(ui->cairo, ui->palette.start, box.min.x, box.max.y - 2.5 * t,
-                        box_width(box), t, false, s->problem);
+    dialog_problem(app, (sl_point){box.min.x, box.max.y - 2.5 * t}, box_width(box), s->problem);
     const int from = s->more ? 1 : 0;
     dialog_buttons(app, box.max.x, box.max.y - 1.8 * t, buttons + from, 3 - from);
     dialog_end(app);

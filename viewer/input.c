@@ -151,6 +151,10 @@ void input_press(app_state *app, button_kind button, sl_point at) {
     const hit_area hit = ui_find(&app->ui, at);
     drag_state *drag = &app->tool.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        if (button == BUTTON_LEFT) dialog_press(app, &hit, at);
+        return;
+    }
     if (hit.kind != HIT_PLAN) {
         if (button != BUTTON_LEFT) return;
         drag->kind = DRAG_HIT;

@@ -86,7 +86,9 @@ void pane_status(app_state *app, sl_box box) {
             snprintf(text, sizeof text, "%s   %.1f ms a frame", doing, 1e3 * app->ui.frame_seconds);
         ui_text_right(ui, box.max.x - 0.8 * t, base, 0.95, ui->palette.faint, text);
     }
-    const sl_colour colour = app->ui.message_is_error ? ui->palette.start : ui->palette.ink;
+    const sl_colour colour = ui->message_is_error     ? ui->palette.start
+                             : ui->message_is_working ? ui->palette.faint
+                                                      : ui->palette.ink;
     sl_text_show_within(ui->cairo, colour, 0.8 * t, base, box.max.x - (works ? 30 : 15) * t,
                         0.95 * t, false, app->ui.message);
 }

@@ -2,6 +2,7 @@
 
 #include "actions.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -25,6 +26,10 @@ void question_tell(app_state *app, const char *title, const char *text) {
 
 static const question_state *question_now(const app_state *app) {
     return &app->dialog.questions[app->dialog.depth - 1];
+}
+
+const char *question_text(const app_state *app) {
+    return dialog_open_now(app) == DIALOG_QUESTION ? question_now(app)->text : "";
 }
 
 static void answer(app_state *app, int number) {
@@ -103,7 +108,7 @@ void question_draw(app_state *app) {
 // --- the menu
 
 static const char *const rows[] = {
-    "new",      "open",     "import",   "save",          "save_as",
+    "new",      "open",     "import",   "notes",         "save", "save_as",
     "save_png", "save_svg", "save_pdf", "export_series", "quit",
 };
 enum { ROWS = sizeof rows / sizeof *rows };
@@ -124,8 +129,10 @@ void menu_draw(app_state *app) {
         size_t count;
         const action_row *action = &action_table(&count)[action_find(rows[i])];
         const sl_box row = dialog_list_row(app, DIALOG_OWN, frame, list, i);
-        ui_text(ui, row.min.x + 0.6 * t, row.min.y + 1.2 * t, 1, false, ui->palette.ink,
-                action->help);
+        char label[96];
+        snprintf(label, sizeof label, "%s", action->help);
+        label[0] = (char)toupper((unsigned char)label[0]);
+        ui_text(ui, row.min.x + 0.6 * t, row.min.y + 1.2 * t, 1, false, ui->palette.ink, label);
         if (action->key)
             ui_text_right(ui, row.max.x - 0.6 * t, row.min.y + 1.2 * t, 0.95, ui->palette.faint,
                           action->key);

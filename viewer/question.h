@@ -13,6 +13,9 @@ void question_ask(app_state *app, const char *title, const char *text, const cha
 /// Shows a message until it is closed.
 void question_tell(app_state *app, const char *title, const char *text);
 
+/// The text of the uppermost dialog; "" where it is no question.
+const char *question_text(const app_state *app);
+
 void question_draw(app_state *app);
 void question_act(app_state *app, int id);
 bool question_key(app_state *app, const char *key);

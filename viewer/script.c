@@ -4,6 +4,7 @@
 #include "actions.h"
 #include "files.h"
 #include "input.h"
+#include "question.h"
 #include "save.h"
 #include "sightline/support.h"
 
@@ -56,7 +57,7 @@ static sl_status do_open(reader *r, const words *w) {
 }
 
 static sl_status do_drop(reader *r, const words *w) {
-    files_open(r->app, w->rest, false);
+    files_drop(r->app, w->rest);
     app_settle(r->app);
     frame(r, 0);
     return SL_OK;
@@ -68,16 +69,20 @@ static sl_status do_type(reader *r, const words *w) {
     return SL_OK;
 }
 
+/// A script goes wrong where it does not find what it expects.
 static sl_status do_expect(reader *r, const words *w) {
     char title[TITLE_TEXT];
+    const dialog_state *dialog = &r->app->dialog;
+    script_frame(r->app);
     map_file_title(r->app, title);
-    const char *shown = dialog_title(r->app);
-    if (strstr(title, w->rest) || strstr(r->app->ui.message, w->rest) || strstr(shown, w->rest))
-        return SL_OK;
+    const char *const shown[] = {title, r->app->ui.message, dialog->title, dialog->problem,
+                                 question_text(r->app)};
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (strstr(shown[i], w->rest)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line,
-                      "'%s' is not shown: the window's title is '%s', the message '%s', the dialog "
-                      "'%s'",
-                      w->rest, title, r->app->ui.message, shown);
+                      "'%s' is not shown. The window's title: '%s'; the message: '%s'; the dialog: "
+                      "'%s', '%s', '%.300s'",
+                      w->rest, shown[0], shown[1], shown[2], shown[3], shown[4]);
 }
 
 static sl_status check_key(reader *r, const char *key) {

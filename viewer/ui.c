@@ -25,11 +25,6 @@ void ui_say_working(ui_state *ui, const char *format, ...) {
     ui->message_is_working = true;
 }
 
-void ui_done(ui_state *ui) {
-    if (ui->message_is_error || ui->message_is_working) ui->message[0] = '\0';
-    ui->message_is_error = ui->message_is_working = false;
-}
-
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box) {
     if (ui->hit_count < HITS_MOST) ui->hits[ui->hit_count++] = (hit_area){kind, value, box};
 }

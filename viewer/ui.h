@@ -61,10 +61,8 @@ static inline double ui_text_size(const ui_state *ui) {
 void ui_say(ui_state *ui, bool error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// The same for work that goes on: ui_done takes the message away.
+/// The same for work that goes on: its end is to say something else.
 void ui_say_working(ui_state *ui, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/// The work is done: its message goes, and that of an error before it.
-void ui_done(ui_state *ui);
 
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
 /// The topmost thing at a place; kind HIT_NONE for nothing.

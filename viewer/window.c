@@ -195,7 +195,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
         input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        files_open(w->app, e->drop.file, false);
+        files_drop(w->app, e->drop.file);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
