@@ -349,10 +349,8 @@ static void press_return(app_state *app, const dialog_item *focused) {
 
 void dialog_key(app_state *app, const char *key, bool down) {
     dialog_state *d = &app->dialog;
-    if (!down) {
-        if (strcmp(key, d->deaf) == 0) d->deaf[0] = '\0';
-        return;
-    }
+    if (!down || strcmp(key, d->deaf) != 0) d->deaf[0] = '\0';
+    if (!down) return;
     const dialog_row *row = &dialogs[dialog_open_now(app)];
     dialog_item *focused = find_item(d, *focus_of(d));
     bool changed = false;

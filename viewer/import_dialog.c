@@ -272,9 +272,10 @@ static void take_weld(app_state *app, import_state *s) {
     s->task = NULL;
     if (status != SL_OK)
         snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(app->context));
-    else if (s->weld->weld > 0)
+    else if (s->weld->weld > 0) {
         set_number(&s->fields[FIELD_WELD], true, s->weld->weld);
-    else
+        app->dialog.focus[app->dialog.depth - 1] = DIALOG_MAIN;
+    } else
         snprintf(s->problem, sizeof s->problem, "No gaps of rounding were found.");
     document_source_destroy(app->context, &s->weld->source);
     sl_free(app->context, s->weld);

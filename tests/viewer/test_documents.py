@@ -216,15 +216,20 @@ class Cases:
         self.run("start outside", path, outside + "expect outside the map\n")
 
     def suggests_a_weld(self):
-        # The walls of a room miss each other by the rounding of a drawing.
+        # The walls along a hall miss each other by the rounding of a drawing: each gap gives cells.
         gap = 1e-7
-        plan = ["sightline 1"]
+        plan = ["sightline 1", "wall 0 0 0 9", "wall 24 0.8 24 8.2", "start 1 4 0"]
         for i in range(8):
             x = 3 * i
-            plan += [f"wall {x} 0 {x + 3 - gap} 0.{i}", f"wall {x} 9 {x + 3 - gap} 9.{i}"]
-            plan += [f"wall {x} 0 {x} 9"]
-        path = self.write("gaps.map", "\n".join(plan) + "\nwall 24 0 24 9\nstart 1 4 0\n")
-        self.run("suggest", path, "key Ctrl+I\nkey Tab\nkey Tab\nkey Space\nwait 1\nkey Return\nexpect gaps.map: \n")
+            plan += [f"wall {x} {0.1 * i:.3f} {x + 3 - gap} {0.1 * (i + 1):.3f}",
+                     f"wall {x + gap} {9 - 0.1 * i:.3f} {x + 3 - gap} {8.9 - 0.1 * i:.3f}"]
+        path = self.write("gaps.map", "\n".join(plan) + "\n")
+        welded = self.folder / "welded.map"
+        self.run("suggest", path, "expect gaps.map: 29 cells\nkey Ctrl+I\nkey Tab\nkey Tab\n"
+                 "key Space\nwait 1\nkey Return\nexpect gaps.map: 14 cells\n"
+                 f"key Ctrl+Shift+S\nkey Ctrl+U\ntype {welded}\nkey Return\nexpect saved\n")
+        # What is saved needs no weld any more.
+        self.run("welded", welded, "expect welded.map: 14 cells\n")
 
     def asks_which_map(self):
         for wad in pathlib.Path("/usr/share/games/doom").glob("freedoom1.wad"):

@@ -120,7 +120,7 @@ class Window:
         self.saved += 1
         path = self.folder / f"sightline-{self.saved}.png"
         self.do("mousemove", "--window", self.id, 1100, 600)
-        self.do("key", "ctrl+s")
+        self.do("key", "ctrl+e")
         self.viewer.check(wait_for_file(path), f"{path.name} was not saved")
         return path
 
@@ -185,7 +185,8 @@ def main():
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             draw_expected(viewer, folder)
-            shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"))
+            shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                                XDG_STATE_HOME=str(folder / "state"))
             program = subprocess.Popen([viewer.view, viewer.root / "maps/office.map"], cwd=folder,
                                        env=shown, stderr=subprocess.PIPE, text=True)
             drive(viewer, Window(shown, viewer, folder))
