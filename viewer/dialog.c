@@ -347,33 +347,53 @@ static void press_return(app_state *app, const dialog_item *focused) {
     dialogs[dialog_open_now(app)].act(app, own ? focused->id : DIALOG_MAIN);
 }
 
+/// Where the focus goes by a key: 1 on, -1 back, 0 nowhere. Arrows count where nothing else takes
+/// them.
+static int focus_step(const char *key, bool arrows) {
+    static const struct {
+        const char *key;
+        int by;
+        bool arrow;
+    } steps[] = {{"Tab", 1, false}, {"Shift+Tab", -1, false}, {"Left", -1, true},
+                 {"Up", -1, true},  {"Right", 1, true},       {"Down", 1, true}};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+        if (steps[i].arrow == arrows && strcmp(key, steps[i].key) == 0) return steps[i].by;
+    return 0;
+}
+
+/// The keys of the widget in focus, and those of the list; false for others.
+static bool widget_key(app_state *app, const char *key) {
+    dialog_state *d = &app->dialog;
+    dialog_item *focused = find_item(d, *focus_of(d));
+    bool changed = false;
+    if (focused && focused->kind == ITEM_FIELD && field_key(focused->field, key, &changed)) {
+        if (changed) edited(app, focused->id);
+        return true;
+    }
+    if (strcmp(key, "Space") == 0) {
+        if (focused && focused->kind != ITEM_FIELD)
+            dialogs[dialog_open_now(app)].act(app, focused->id);
+        return true;
+    }
+    return list_key(app, key, focused && focused->kind == ITEM_LIST);
+}
+
 void dialog_key(app_state *app, const char *key, bool down) {
     dialog_state *d = &app->dialog;
     if (!down || strcmp(key, d->deaf) != 0) d->deaf[0] = '\0';
     if (!down) return;
     const dialog_row *row = &dialogs[dialog_open_now(app)];
-    dialog_item *focused = find_item(d, *focus_of(d));
-    bool changed = false;
-    if (strcmp(key, "Escape") == 0)
+    if (strcmp(key, "Escape") == 0) {
         row->act(app, DIALOG_CANCEL);
-    else if (row->key && row->key(app, key))
         return;
-    else if (strcmp(key, "Tab") == 0)
-        move_focus(d, 1);
-    else if (strcmp(key, "Shift+Tab") == 0)
-        move_focus(d, -1);
-    else if (strcmp(key, "Return") == 0)
-        press_return(app, focused);
-    else if (focused && focused->kind == ITEM_FIELD && field_key(focused->field, key, &changed)) {
-        if (changed) edited(app, focused->id);
-    } else if (strcmp(key, "Space") == 0) {
-        if (focused && focused->kind != ITEM_FIELD) row->act(app, focused->id);
-    } else if (list_key(app, key, focused && focused->kind == ITEM_LIST))
-        return;
-    else if (strcmp(key, "Left") == 0 || strcmp(key, "Up") == 0)
-        move_focus(d, -1);
-    else if (strcmp(key, "Right") == 0 || strcmp(key, "Down") == 0)
-        move_focus(d, 1);
+    }
+    if (row->key && row->key(app, key)) return;
+    if (strcmp(key, "Return") == 0)
+        press_return(app, find_item(d, *focus_of(d)));
+    else if (focus_step(key, false))
+        move_focus(d, focus_step(key, false));
+    else if (!widget_key(app, key) && focus_step(key, true))
+        move_focus(d, focus_step(key, true));
 }
 
 void dialog_text(app_state *app, const char *text) {
