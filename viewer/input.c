@@ -17,6 +17,7 @@ void input_key(app_state *app, const char *key, bool down) {
         dialog_key(app, key, down);
         return;
     }
+    if (strcmp(key, "Backspace") == 0) key = "Delete";
     const action_row *actions = action_table(&count);
     const int number = action_of_key(key, app->tool.mode);
     if (number < 0) return;

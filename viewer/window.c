@@ -123,23 +123,19 @@ sl_status window_show(app_window *w) {
 
 // --- events
 
-/// The key's name as the table of actions has it: letters as capitals, '?' for itself. In a dialog
-/// Backspace and Delete are two keys.
-static void key_name(const SDL_Keysym *sym, bool dialog, char name[48]) {
+/// The key's name as the table of actions has it: letters as capitals, '?' for itself.
+static void key_name(const SDL_Keysym *sym, char name[48]) {
     const bool ctrl = sym->mod & (KMOD_CTRL | KMOD_GUI), shift = sym->mod & KMOD_SHIFT;
     const char *plain = SDL_GetKeyName(sym->sym);
     if (shift && sym->sym == SDLK_SLASH) plain = "?";
     if (sym->sym == SDLK_QUESTION) plain = "?";
     if (sym->sym == SDLK_PLUS || sym->sym == SDLK_KP_PLUS) plain = "=";
     if (sym->sym == SDLK_KP_MINUS) plain = "-";
-    if (sym->sym == SDLK_BACKSPACE && !dialog) plain = "Delete";
     if (sym->sym == SDLK_KP_ENTER) plain = "Return";
-    // Shift counts beside Ctrl and for Tab; elsewhere it is a part of the letter.
-    if (shift && (ctrl || sym->sym == SDLK_TAB)) {
-        snprintf(name, 48, "%sShift+%s", ctrl ? "Ctrl+" : "", plain);
-        return;
-    }
-    snprintf(name, 48, "%s%s", ctrl ? "Ctrl+" : "", plain);
+    // With other keys the shift is a part of what they type.
+    const bool letter = sym->sym >= SDLK_a && sym->sym <= SDLK_z;
+    const bool with_shift = shift && ((ctrl && letter) || sym->sym == SDLK_TAB);
+    snprintf(name, 48, "%s%s%s", ctrl ? "Ctrl+" : "", with_shift ? "Shift+" : "", plain);
 }
 
 /// From window coordinates to pixels.
@@ -175,14 +171,14 @@ static void take_event(app_window *w, const SDL_Event *e) {
     case SDL_QUIT:
         map_file_quit(w->app);
         break;
-    case SDL_TEXTINPUT:
-        input_text(w->app, e->text.text);
-        break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
-        key_name(&e->key.keysym, dialog_open_now(w->app) != DIALOG_NONE, name);
+        key_name(&e->key.keysym, name);
         if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste(w->app);
         input_key(w->app, name, e->type == SDL_KEYDOWN);
+        break;
+    case SDL_TEXTINPUT:
+        input_text(w->app, e->text.text);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
