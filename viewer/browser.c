@@ -453,7 +453,11 @@ void browser_draw(app_state *app) {
         {RECENT, "Recent files"}, {SAMPLES, "Samples"}, {HOME, "Home"}, {PARENT, "Folder above"}};
     ui_state *ui = &app->ui;
     browser_state *b = app->dialog.browser;
-    const sl_box box = dialog_begin(app, 58, 40, b->saves ? "Save the map" : "Open a map");
+    // With large text the sheet has fewer rows, and text stays large.
+    const double wide = fmin(fmax((ui->width - 12) / ui->text, 44), 58);
+    const double text = fmin(ui->text, (ui->width - 12) / wide);
+    const double high = fmin(fmax((ui->height - 12) / text, 24), 40);
+    const sl_box box = dialog_begin(app, wide, high, b->saves ? "Save the map" : "Open a map");
     const double t = ui->text, x0 = box.min.x, x1 = box.max.x;
     const dialog_label ends[] = {{OPTIONS, "Options..."},
                                  {DIALOG_CANCEL, "Cancel"},
@@ -477,6 +481,6 @@ void browser_draw(app_state *app) {
     const double left = dialog_buttons(app, x1, y, ends + from, 3 - from);
     if (b->place == PLACE_FOLDER)
         dialog_check(app, ALL_FILES, (sl_box){{x0, y}, {fmin(x0 + 22 * t, left - t), y + 1.8 * t}},
-                     b->saves ? "All files" : "All files, not only maps", b->all);
+                     "All files", b->all);
     dialog_end(app);
 }

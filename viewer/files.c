@@ -220,7 +220,10 @@ void files_open(app_state *app, const char *path, bool ask) {
 }
 
 void files_drop(app_state *app, const char *path) {
-    if (dialog_clear(app)) files_open(app, path, false);
+    if (dialog_clear(app))
+        files_open(app, path, false);
+    else
+        ui_say(&app->ui, true, "answer the question first, then drop the file again");
 }
 
 sl_status files_open_source(app_state *app, const document_source *given, bool ask) {

@@ -46,7 +46,7 @@ static const struct {
     const char *label, *hint;
     unsigned takes; ///< of sl_import_takes; 0: every format
 } fields[FIELDS] = {
-    [FIELD_SLICE] = {"Cut at the height", "the middle", SL_TAKES_SLICE},
+    [FIELD_SLICE] = {"Cut at the height", "the middle of the model", SL_TAKES_SLICE},
     [FIELD_LAYERS] = {"Layers", "the format's own choice; else NAME,NAME", SL_TAKES_LAYERS},
     [FIELD_STARTS] = {"Names of starts", "player, spawn, start ...; none: no starts",
                       SL_TAKES_STARTS},
@@ -232,7 +232,9 @@ static bool read_source(import_state *s, document_source *out, char layers[FIELD
     o->cells = s->cells;
     if (asks_map(s) && s->maps.at < s->maps.count) o->map = s->choice.maps.names[s->maps.at];
     if (!read_number(s, FIELD_SLICE, -1e150, 1e150, &given, &o->slice)) return false;
-    if (given && s->source.takes & SL_TAKES_SLICE) o->has_slice = true;
+    // A model is cut in its middle if no height is given.
+    if (!given) o->slice = s->source.lowest + (s->source.highest - s->source.lowest) / 2;
+    o->has_slice = (s->source.takes & SL_TAKES_SLICE) != 0;
     o->tolerance = o->threshold = 0;
     return read_number(s, FIELD_TOLERANCE, 1e-300, 1e300, &given, &o->tolerance) &&
            read_number(s, FIELD_THRESHOLD, 1e-300, 1, &given, &o->threshold) &&
@@ -315,6 +317,7 @@ void import_act(app_state *app, int id) {
         break;
     case MORE:
         s->more = true;
+        app->dialog.focus[app->dialog.depth - 1] = DIALOG_MAIN;
         break;
     case SUGGEST:
         suggest(app, s);
@@ -382,13 +385,14 @@ static double draw_field(app_state *app, import_state *s, sl_box box, double y, 
     const bool weld = name == FIELD_WELD;
     const dialog_label button = {SUGGEST, s->task ? "Looking ..." : "Suggest"};
     const double wide = weld ? dialog_buttons_width(app, &button, 1) + 0.6 * t : 0;
-    char hint[160];
+    char hint[160], label[96];
     snprintf(hint, sizeof hint, "%s", fields[name].hint);
+    snprintf(label, sizeof label, "%s", fields[name].label);
     if (name == FIELD_LAYERS && s->choice.layers.count)
         snprintf(hint, sizeof hint, "instead of the list: NAME,NAME:TILE+TILE");
     if (name == FIELD_SLICE)
-        snprintf(hint, sizeof hint, "between %.6g and %.6g", s->source.lowest, s->source.highest);
-    ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, fields[name].label);
+        snprintf(label, sizeof label, "Cut, %.5g to %.5g", s->source.lowest, s->source.highest);
+    ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, label);
     dialog_field(app, FIRST_FIELD + name, (sl_box){{left, y}, {box.max.x - wide, y + 1.8 * t}},
                  &s->fields[name], hint);
     if (weld) dialog_buttons(app, box.max.x, y, &button, 1);
@@ -422,13 +426,15 @@ void import_draw(app_state *app) {
     const char *slash = strrchr(s->source.path, '/');
     snprintf(title, sizeof title, "Open %.300s", slash ? slash + 1 : s->source.path);
     const int rows = count_rows(s);
-    // Lists have up to 12 rows, fewer beside many options.
-    const double lists = asks_map(s) + asks_layers(s), most = rows > 4 ? 6 : 12;
+    // Lists have 4 to 12 rows, as there is room.
+    const double lists = asks_map(s) + asks_layers(s), rest = 8.8 + DIALOG_ROW * rows;
+    const double text = fmin(ui->text, (ui->width - 12) / 50.0);
+    const double room = ((ui->height - 12) / text - rest) / fmax(lists, 1) - 2.7;
+    const double most = fmin(fmax(floor(room / 1.7), 4), 12);
     const double list_rows =
         fmin(fmax(fmax((double)s->maps.count, (double)s->layers.count), 3), most);
     const double high = 1.7 * list_rows + 0.2;
-    const sl_box box =
-        dialog_begin(app, 50, 3.4 + lists * (high + 2.5) + DIALOG_ROW * rows + 5.4, title);
+    const sl_box box = dialog_begin(app, 50, rest + lists * (high + 2.5), title);
     const double t = ui->text;
     double y = box.min.y;
     if (asks_map(s)) y = draw_maps(app, s, box, y, high * t);
