@@ -328,6 +328,9 @@ static bool list_key(app_state *app, const char *key, bool focused) {
     else
         return false;
     dialog_list_go(list, to);
+    // Return means the row now, and no longer the button that was in focus.
+    const dialog_item *before = find_item(&app->dialog, *focus_of(&app->dialog));
+    if (!before || before->kind != ITEM_FIELD) *focus_of(&app->dialog) = item->id;
     edited(app, item->id);
     return true;
 }
