@@ -67,6 +67,10 @@ void dialog_draw(app_state *app) {
     if (app->dialog.depth) dialogs[dialog_open_now(app)].draw(app);
 }
 
+bool dialog_is_unseen(const app_state *app) {
+    return app->dialog.depth && !app->dialog.item_count;
+}
+
 // --- widgets
 
 static int *focus_of(dialog_state *d) {

@@ -78,6 +78,9 @@ void dialog_destroy(app_state *app);
 
 void dialog_draw(app_state *app);
 
+/// Whether the uppermost one was not drawn yet: keys find no widgets in it.
+bool dialog_is_unseen(const app_state *app);
+
 // --- input: each is for an open dialog
 
 void dialog_key(app_state *app, const char *key, bool down);

@@ -217,8 +217,9 @@ sl_status window_run(app_window *w) {
         const bool any = is_lively(app) ? SDL_PollEvent(&event) : SDL_WaitEventTimeout(&event, 250);
         bool more = any;
         for (bool stale = false; more; stale = true, more = SDL_PollEvent(&event)) {
-            // A click meant what is there after the key before it.
-            if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(window_show(w));
+            // A click meant what is there after the key before it, and a key the dialog that opens.
+            if ((stale && event.type == SDL_MOUSEBUTTONDOWN) || dialog_is_unseen(app))
+                SL_TRY(window_show(w));
             take_event(w, &event);
         }
         const double now = sl_seconds();

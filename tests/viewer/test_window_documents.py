@@ -35,14 +35,17 @@ class Session:
             time.sleep(1)
 
     def find(self):
-        """The window of this program, not that of another one."""
+        """The window of this program, not that of another one. A renderer may make it anew at
+        first: it counts once it has stayed for a while."""
         end = time.monotonic() + PATIENCE
+        before = None
         while time.monotonic() < end and self.program.poll() is None:
             found = self.window.do("search", "--all", "--pid", self.program.pid, "--name",
-                                   "Sightline")
-            if found:
-                return found.split()[0]
-            time.sleep(0.1)
+                                   "Sightline").split()
+            if found and found == before:
+                return found[0]
+            before = found
+            time.sleep(0.5)
         return None
 
     def keys(self, *names):
