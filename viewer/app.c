@@ -24,7 +24,10 @@ void app_init(app_state *app, sl_context *context) {
                  .tree_depth = 64,
                  .method = count - 1},
         .tool = {.pointer = {-1, -1}, .wall = UINT32_MAX, .quiz = {.random = 1}},
-        .ui = {.side_panel = true,
+        .ui = {.bar_rows = 1,
+               .time_lines = 1,
+               .scrolling = -1,
+               .side_panel = true,
                .effects = true,
                .text_scale = 1,
                .density = 1,
@@ -177,6 +180,7 @@ void app_settle(app_state *app) {
 
 void app_tick(app_state *app, double seconds) {
     poll(app, app->steady);
+    ui_tick(&app->ui, seconds);
     app->view.motion = fmax(app->view.motion - seconds, 0);
     record_frame frame;
     if (record_play(&app->tool.recorder, seconds, &frame)) {
@@ -270,7 +274,7 @@ void app_draw(app_state *app, cairo_t *cairo) {
     app->ui.palette = sl_palette_make(app->ui.dark);
     app->ui.text = ui_text_size(&app->ui);
     app->ui.pointer = app->tool.pointer;
-    app->ui.hit_count = 0;
+    ui_begin(&app->ui);
     app_fit(app, l.plan[0]);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
