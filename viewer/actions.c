@@ -68,7 +68,19 @@ SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
 SWITCH(dark, ui.dark)
-SWITCH(help, ui.help)
+SWITCH(fullscreen, ui.fullscreen)
+SWITCH(present, ui.presents)
+
+static void help(app_state *app) {
+    if (app->ui.help)
+        app_shut_help(app);
+    else
+        app_open_help(app);
+}
+
+static bool is_help(const app_state *app) {
+    return app->ui.help;
+}
 
 static void maps(app_state *app) {
     app->ui.maps_open = !app->ui.maps_open;
@@ -141,12 +153,25 @@ static void zoom_out(app_state *app) {
     zoom(app, 1 / 1.25);
 }
 
+/// Goes to the next size of text, or back.
+static void text_step(app_state *app, bool larger) {
+    static const double sizes[] = {0.75, 1, 1.25, 1.5, 2, 2.5, 3};
+    const double now = app->ui.text_scale;
+    enum { COUNT_OF_SIZES = sizeof sizes / sizeof *sizes };
+    for (int i = 0; i < COUNT_OF_SIZES; i++) {
+        const double size = sizes[larger ? i : COUNT_OF_SIZES - 1 - i];
+        if (larger ? size <= now + 1e-9 : size >= now - 1e-9) continue;
+        app->ui.text_scale = size;
+        return;
+    }
+}
+
 static void text_larger(app_state *app) {
-    app->ui.text_scale = fmin(app->ui.text_scale * 1.15, 3);
+    text_step(app, true);
 }
 
 static void text_smaller(app_state *app) {
-    app->ui.text_scale = fmax(app->ui.text_scale / 1.15, 0.7);
+    text_step(app, false);
 }
 
 static void narrower(app_state *app) {
@@ -360,8 +385,10 @@ static void quit(app_state *app) {
 }
 
 static void escape(app_state *app) {
-    if (app->ui.help || app->ui.maps_open)
-        app->ui.help = app->ui.maps_open = false;
+    if (app->ui.help)
+        app_shut_help(app);
+    else if (app->ui.maps_open)
+        app->ui.maps_open = false;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
@@ -432,13 +459,14 @@ static const action_row actions[] = {
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
      EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
 
-    {"answer_yes", "Y", "Yes", "quiz: seen", QUIZ, 0, answer_yes, NULL},
-    {"answer_no", "N", "No", "quiz: not seen", QUIZ, 0, answer_no, NULL},
-    {"next_question", "Space", "Next", "quiz: the next question", QUIZ, 0, next_question, NULL},
+    {"answer_yes", "Y", "Yes, seen (Y)", "quiz: seen", QUIZ, 0, answer_yes, NULL},
+    {"answer_no", "N", "No (N)", "quiz: not seen", QUIZ, 0, answer_no, NULL},
+    {"next_question", "Space", "Next (Space)", "quiz: the next question", QUIZ, 0, next_question,
+     NULL},
 
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
-    {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_series, NULL},
+    {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_series, NULL},
 
     {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
     {"choose", "Return", NULL, "list: open what is chosen", 0, 0, choose, NULL},
@@ -454,7 +482,11 @@ static const action_row actions[] = {
     {"dark", "T", "Dark", "light or dark", 0, 0, dark, is_dark},
     {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
-    {"side_panel", "Tab", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"side_panel", "Ctrl+B", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"fullscreen", "F11", "Fullscreen", "fill the screen, or the window again", 0, 0, fullscreen,
+     is_fullscreen},
+    {"present", "F12", "Present", "for a projector: large text, strong tones, few panels", 0, 0,
+     present, is_present},
     {"help", "?", "?", "this help", 0, 0, help, is_help},
     {"escape", "Escape", "Stop", "stop, close", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},

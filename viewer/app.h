@@ -181,4 +181,10 @@ typedef struct window_layout {
 
 window_layout app_layout(const app_state *app);
 
+/// Moves a border between panels, of ui_edges, by pixels; positive: the panel grows.
+void app_drag_edge(app_state *app, int edge, double by);
+
+void app_open_help(app_state *app);
+void app_shut_help(app_state *app);
+
 #endif

@@ -23,6 +23,12 @@ void pane_account(app_state *app, sl_box box);      ///< what accuracy costs
 void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
 void pane_help(app_state *app);                     ///< over all
 void pane_maps(app_state *app);                     ///< over all: the list of maps
+void pane_tip(app_state *app);                      ///< over all: what the pointer is over
+
+/// Work out how many lines the bar and the time line need. Before the layout of a frame.
+void pane_bar_measure(app_state *app);
+void pane_time_measure(app_state *app);
+double pane_time_height(const app_state *app);
 
 /// A pane below the plan. A row of the table in modes.c says when it is shown.
 typedef struct pane_below {

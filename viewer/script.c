@@ -176,6 +176,32 @@ static sl_status do_export(reader *r, const words *w) {
     return save_series(r->app, w->rest, 2);
 }
 
+/// Types text, as into a text field.
+static sl_status do_type(reader *r, const words *w) {
+    input_text(r->app, w->rest);
+    frame(r, 0);
+    return SL_OK;
+}
+
+/// Checks that every text of the next frame is in its panel, and lies on no other.
+static sl_status do_fits(reader *r, const words *w) {
+    (void)w;
+    char text[160];
+    ui_state *ui = &r->app->ui;
+    text_spot *spots = sl_alloc_array(r->app->context, SPOTS_MOST, sizeof *spots);
+    if (!spots) return SL_NO_MEMORY;
+    app_tick(r->app, 0);
+    script_frame(r->app); // some places follow from the frame before
+    ui->spots = spots;
+    script_frame(r->app);
+    const char *misfit = ui_misfit(ui, text);
+    ui->spots = NULL;
+    ui->spot_count = 0;
+    sl_free(r->app->context, spots);
+    if (!misfit) return SL_OK;
+    return sl_fail_at(r->app->context, r->file, r->line, "%s", misfit);
+}
+
 static const struct command {
     const char *name;
     int numbers; ///< that must follow; -1: text, -2: any numbers
@@ -187,6 +213,7 @@ static const struct command {
     {"wheel", 1, do_wheel}, {"wait", 1, do_wait},      {"size", 2, do_size},
     {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
     {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
+    {"type", -1, do_type},  {"fits", 0, do_fits},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

@@ -31,7 +31,7 @@ eye 53 20 160 60
 key M
 key R
 key Q
-key Tab
+action side_panel
 END
 shoot office.map view-cells <<'END'
 eye 53 20 160 90

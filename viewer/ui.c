@@ -99,6 +99,14 @@ void ui_text_right(ui_state *ui, double x, double y, double size, sl_colour colo
     ui_text(ui, x - ui_text_width(ui, size, false, text), y, size, false, colour, text);
 }
 
+void ui_text_within(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
+                    const char *text) {
+    const double high = size * ui->text, wanted = ui_text_width(ui, size, false, text);
+    sl_text_show_within(ui->cairo, colour, x, y, width, high, false, text);
+    // Where it had to be cut, that is a fault of the place.
+    keep_spot(ui, x, y - 0.75 * high, fmax(fmin(wanted, width), wanted * 2 / 3), 0.95 * high, text);
+}
+
 double ui_lines(ui_state *ui, double x, double y, double width, double size, bool bold,
                 sl_colour colour, const char *text) {
     const double high = size * ui->text;
@@ -142,6 +150,11 @@ static void draw_focus(ui_state *ui, sl_box box) {
     cairo_stroke(ui->cairo);
 }
 
+void ui_hit_focus(ui_state *ui, hit_kind kind, int value, sl_box box) {
+    ui_hit(ui, kind, value, box);
+    draw_focus(ui, box);
+}
+
 double ui_button_width(ui_state *ui, const char *label) {
     return ui_text_width(ui, 0.95, false, label) + 1.3 * ui->text;
 }
@@ -153,8 +166,7 @@ double ui_button(ui_state *ui, double x, double y, double height, const char *la
     ui_fill_round(ui, box, 0.3 * ui->text, ground_of(ui, box, on));
     ui_text(ui, x + 0.65 * ui->text, y + height / 2 + 0.35 * ui->text, 0.95, false, ui->palette.ink,
             label);
-    ui_hit(ui, HIT_ACTION, action, box);
-    draw_focus(ui, box);
+    ui_hit_focus(ui, HIT_ACTION, action, box);
     return box.max.x;
 }
 
@@ -186,8 +198,7 @@ double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bo
             0.12 * t, ui->palette.page);
     ui_lines(ui, words, middle + 0.36 * t, room, 1, false, ui->palette.ink, label);
     if (key) ui_text_right(ui, end, middle + 0.36 * t, 0.9, ui->palette.faint, key);
-    ui_hit(ui, HIT_ACTION, action, row);
-    draw_focus(ui, row);
+    ui_hit_focus(ui, HIT_ACTION, action, row);
     return row.max.y;
 }
 
@@ -202,8 +213,7 @@ void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int numb
     sl_set_colour(ui->cairo, ui->palette.glass);
     cairo_fill(ui->cairo);
     const sl_box box = {{track.min.x - 0.5 * t, track.min.y}, {track.max.x + 0.5 * t, track.max.y}};
-    ui_hit(ui, kind, number, box);
-    draw_focus(ui, box);
+    ui_hit_focus(ui, kind, number, box);
 }
 
 double ui_row(ui_state *ui, double left, double right, double y, const char *text,
@@ -219,9 +229,13 @@ double ui_row(ui_state *ui, double left, double right, double y, const char *tex
                       sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
     ui_lines(ui, left + gap, y + 1.3 * t, room, 1, false, ui->palette.ink, text);
     if (beside) ui_text_right(ui, right - gap, y + 1.3 * t, 0.9, ui->palette.faint, beside);
-    ui_hit(ui, kind, number, row);
-    draw_focus(ui, row);
+    ui_hit_focus(ui, kind, number, row);
     return row.max.y;
+}
+
+void ui_edge(ui_state *ui, int number, sl_box box) {
+    if (box_has(box, ui->pointer)) ui_fill(ui, box, ui->palette.faint);
+    ui_hit_focus(ui, HIT_EDGE, number, box);
 }
 
 // --- text fields
@@ -250,8 +264,7 @@ void ui_text_field(ui_state *ui, sl_box box, const ui_field *field, const char *
                 (sl_box){{x + at, base - 0.9 * t}, {x + at + fmax(0.1 * t, 1), base + 0.25 * t}},
                 ui->palette.ink);
     cairo_restore(ui->cairo);
-    ui_hit(ui, HIT_FIELD, number, box);
-    draw_focus(ui, box);
+    ui_hit_focus(ui, HIT_FIELD, number, box);
 }
 
 void ui_field_set(ui_field *field, const char *text) {

@@ -76,6 +76,7 @@ typedef struct ui_state {
     double text_scale; ///< chosen by the user
     double density;    ///< of the screen: pixels where a common one has 1
     bool dark;
+    bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
     bool side_panel, first_person, accounts, effects, help, maps_open; ///< panels shown
     char message[512];                                                 ///< the last thing to say
@@ -84,7 +85,7 @@ typedef struct ui_state {
 
     double edges[EDGES]; ///< sizes of panels that were dragged: side, plain texts; below, a share
                          ///< of the window; 0: the usual ones
-    sl_box area, clip; ///< the panel that is drawn, and what of it is shown
+    sl_box area, clip;   ///< the panel that is drawn, and what of it is shown
     ui_scroll scrolls[SCROLLS];
     int scrolling; ///< the scroll area that is drawn; -1: none
     ui_focus focus;
@@ -96,7 +97,7 @@ typedef struct ui_state {
     hit_area hovered; ///< what a tooltip would be about, and for how long the pointer rests there
     double hover_seconds;
     bool hover_is_focus;
-    int bar_rows, time_lines; ///< of buttons; of the lesson's sentence
+    int bar_rows, time_lines, time_rows; ///< of buttons; of the lesson's sentence and its buttons
 
     text_spot *spots; ///< NULL: texts are not kept
     int spot_count;
@@ -120,6 +121,8 @@ void ui_say(ui_state *ui, bool error, const char *format, ...)
 
 /// A place that a click finds. It is cut to what is shown of the area.
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
+/// The same, and marks it where it has the focus. For widgets that are drawn elsewhere.
+void ui_hit_focus(ui_state *ui, hit_kind kind, int value, sl_box box);
 /// The topmost thing at a place; kind HIT_NONE for nothing.
 hit_area ui_find(const ui_state *ui, sl_point at);
 
@@ -144,6 +147,9 @@ double ui_text(ui_state *ui, double x, double y, double size, bool bold, sl_colo
 /// The same, ending at x.
 void ui_text_right(ui_state *ui, double x, double y, double size, sl_colour colour,
                    const char *text);
+/// The same from the left end, no wider than `width`: set smaller, down to two thirds, then cut.
+void ui_text_within(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
+                    const char *text);
 double ui_text_width(ui_state *ui, double size, bool bold, const char *text);
 /// Breaks text into lines of a width, each `size * 1.4` plain texts high; returns the base line
 /// below.
@@ -197,6 +203,9 @@ double ui_row(ui_state *ui, double left, double right, double y, const char *tex
               const char *beside, bool chosen, hit_kind kind, int number);
 /// A text field with its cursor, where typing goes to it; `empty` stands there before.
 void ui_text_field(ui_state *ui, sl_box box, const ui_field *field, const char *empty, int number);
+
+/// A border that can be dragged: marked under the pointer and where it has the focus.
+void ui_edge(ui_state *ui, int number, sl_box box);
 
 void ui_field_set(ui_field *field, const char *text);
 /// Adds text at the cursor, as far as there is room.

@@ -109,9 +109,9 @@ void ui_end_scroll(ui_state *ui, sl_box box, double bottom) {
     if (scroll->length > scroll->room + 1) {
         const double wide = ui_bar_width(ui), left = box.max.x - wide;
         const double high = box_height(box), share = scroll->room / scroll->length;
-        const double top = box.min.y + high * scroll->at / scroll->length;
-        const sl_box thumb = {{left + 0.25 * wide, top},
-                              {left + 0.8 * wide, fmin(top + high * share, box.max.y)}};
+        const double size = fmin(fmax(high * share, 2.5 * wide), high);
+        const double top = box.min.y + (high - size) * scroll->at / (scroll->length - scroll->room);
+        const sl_box thumb = {{left + 0.25 * wide, top}, {left + 0.8 * wide, top + size}};
         ui_fill_round(ui, thumb, 0.25 * wide, ui->palette.faint);
         ui_hit(ui, HIT_BAR, number, (sl_box){{left, box.min.y}, box.max});
     }

@@ -16,6 +16,7 @@ struct app_window {
     SDL_Texture *texture;
     cairo_surface_t *surface;
     int width, height; ///< of texture and surface, pixels
+    bool fullscreen;
 };
 
 static sl_status fail(sl_context *context, const char *what) {
@@ -45,9 +46,15 @@ static sl_status open_window(app_window *w, bool hidden) {
     const char *driver = SDL_GetCurrentVideoDriver();
     // X's windows are measured in pixels, whatever the screen.
     const double by = driver && strcmp(driver, "x11") == 0 ? density_of_screen(0) : 1;
+    int width = (int)(by * w->app->ui.width), height = (int)(by * w->app->ui.height);
+    SDL_Rect free;
+    if (!hidden && SDL_GetDisplayUsableBounds(0, &free) == 0) {
+        // Some room for its frame and title.
+        width = SDL_min(width, SDL_max(free.w - 16, 640));
+        height = SDL_min(height, SDL_max(free.h - 48, 480));
+    }
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                 (int)(by * w->app->ui.width), (int)(by * w->app->ui.height),
-                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+                                 width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->window) return fail(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
     const Uint32 wanted = hidden ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_PRESENTVSYNC;
@@ -99,6 +106,10 @@ static sl_status fit_texture(app_window *w) {
 }
 
 sl_status window_show(app_window *w) {
+    if (w->fullscreen != w->app->ui.fullscreen) {
+        w->fullscreen = w->app->ui.fullscreen;
+        SDL_SetWindowFullscreen(w->window, w->fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    }
     SL_TRY(fit_texture(w));
     cairo_t *cairo = cairo_create(w->surface);
     app_draw(w->app, cairo);
@@ -121,8 +132,11 @@ static void key_name(const SDL_Keysym *sym, char name[48]) {
     if (sym->sym == SDLK_QUESTION) plain = "?";
     if (sym->sym == SDLK_PLUS || sym->sym == SDLK_KP_PLUS) plain = "=";
     if (sym->sym == SDLK_KP_MINUS) plain = "-";
-    if (sym->sym == SDLK_BACKSPACE) plain = "Delete";
-    snprintf(name, 48, "%s%s", ctrl ? "Ctrl+" : "", plain);
+    // With other keys the shift is a part of what they type.
+    const bool with_shift =
+        shift && (sym->sym == SDLK_TAB || sym->sym == SDLK_RETURN || sym->sym == SDLK_LEFT ||
+                  sym->sym == SDLK_RIGHT || sym->sym == SDLK_UP || sym->sym == SDLK_DOWN);
+    snprintf(name, 48, "%s%s%s", ctrl ? "Ctrl+" : "", with_shift ? "Shift+" : "", plain);
 }
 
 /// From window coordinates to pixels.
@@ -156,6 +170,9 @@ static void take_event(app_window *w, const SDL_Event *e) {
     case SDL_KEYUP:
         key_name(&e->key.keysym, name);
         input_key(w->app, name, e->type == SDL_KEYDOWN);
+        break;
+    case SDL_TEXTINPUT:
+        input_text(w->app, e->text.text);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
@@ -201,6 +218,7 @@ sl_status window_run(app_window *w) {
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);
+        if (!lively) ui_tick(&app->ui, now - last);
         last = now;
         SL_TRY(window_show(w));
         const double spent = sl_seconds() - now;
