@@ -20,6 +20,7 @@ void app_init(app_state *app, sl_context *context) {
         .view = {.fitted = true,
                  .eye = {.fov = 90},
                  .show = SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS,
+                 .fill = LAYER_CULL,
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},

@@ -86,6 +86,7 @@ typedef struct view_state {
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
     unsigned show; ///< layers, of show_bit
+    unsigned fill; ///< the layer that was switched on last of those that fill the plan
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
     comparison compare;

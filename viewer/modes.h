@@ -44,9 +44,6 @@ const pane_below *panes_below(void);
 /// Describes the cell under a point. The caller breaks the text into lines.
 void pane_describe(const app_state *app, sl_point at, char *text, size_t room);
 
-/// The colours of culling methods: steps of the ramp from loose to exact.
-sl_colour pane_method_colour(const ui_state *ui, size_t method);
-
 /// Drags the lesson's line, in the dual plane or in the plan.
 void pane_dual_drag(app_state *app, sl_box box, sl_point to);
 void pane_plan_drag_line(app_state *app, sl_point from, sl_point to);

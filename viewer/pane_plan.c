@@ -124,7 +124,7 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
     now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
     now.key.dark = app->ui.dark;
     if (!over && layers_shows(app, LAYER_VIEWS)) {
-        now.key.views = view_layer_shown(app->view.views);
+        now.key.views = view_layer_shown(app->view.views) << 1 | (layers_fill(app) == LAYER_VIEWS);
         now.key.mark = view_layer_marked(app->view.views);
     }
     now.key.frame = at_origin(*frame);

@@ -83,17 +83,16 @@ static void button_row(app_state *app, column *c, const char *const *names) {
     c->y += 2 * t;
 }
 
-/// What the colour of solid ground means.
-static void ground_row(app_state *app, column *c) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    if (!app->document.baked || !app->document.solid) return;
-    c->y += 0.3 * t;
-    ui_fill_round(ui, (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 2.2 * t, c->y + 1.25 * t}},
-                  0.15 * t, ui->palette.solid);
-    c->y = ui_lines(ui, c->left + 2.8 * t, c->y + 1.1 * t, width_of(c) - 2.8 * t, 1, false,
-                    ui->palette.ink, "Solid ground") -
-           t;
+/// What the plan shows, and how.
+static void draw_legend(app_state *app, column *c) {
+    legend_row rows[LEGEND_MOST];
+    char text[96];
+    const int count = layers_legend(app, rows);
+    if (!count) return;
+    heading(&app->ui, c, "Legend", NULL);
+    for (int i = 0; i < count; i++)
+        c->y = layers_legend_row(&app->ui, c->left, c->right, c->y, &rows[i]);
+    if (layer_nodes_words(app, text)) words(&app->ui, c, 0.9, app->ui.palette.faint, text);
 }
 
 /// The layers that belong to the present mode.
@@ -158,7 +157,7 @@ static double figure_size(const ui_state *ui, const column *c) {
 
 typedef struct method_row {
     const char *name;
-    sl_colour colour;
+    tone which;
     bool known, counts_cells, chosen, other;
     uint32_t cells;
     double area, seconds;
@@ -205,8 +204,8 @@ static void draw_method(app_state *app, column *c, const method_row *row, int nu
                       sl_colour_mix(ui->palette.page,
                                     row->chosen ? ui->palette.glass : ui->palette.ink,
                                     row->chosen ? 0.2 : 0.08));
-    ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
-                  0.15 * t, row->colour);
+    layers_swatch(ui, (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}},
+                  &(legend_row){.mark = LEGEND_AREA, .which = row->which});
     char name[64];
     snprintf(name, sizeof name, "%s", row->name);
     for (char *at = name; *at; at++)
@@ -239,7 +238,7 @@ static void draw_methods(app_state *app, column *c) {
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         const seen_method *m = &seen->methods[i];
         const method_row row = {.name = methods[i].name,
-                                .colour = pane_method_colour(&app->ui, i),
+                                .which = layers_method_tone(i, app->view.method),
                                 .known = seen->valid && m->known,
                                 .counts_cells = true,
                                 .chosen = i == app->view.method,
@@ -251,7 +250,7 @@ static void draw_methods(app_state *app, column *c) {
         draw_method(app, c, &row, (int)i);
     }
     const method_row region = {.name = "visible region",
-                               .colour = ui->palette.source,
+                               .which = TONE_REGION,
                                .known = seen->valid,
                                .area = seen->region_area,
                                .seconds = seen->region_seconds,
@@ -392,7 +391,7 @@ void pane_side(app_state *app, sl_box box) {
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
-    ground_row(app, &c);
+    draw_legend(app, &c);
     c.y += 0.3 * app->ui.text;
     draw_sliders(app, &c);
     static const char *const views[] = {"views_merge", "views_split", "views_largest", NULL};
@@ -469,7 +468,7 @@ void pane_learn(app_state *app, sl_box box) {
     draw_account(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
-    ground_row(app, &c);
+    draw_legend(app, &c);
     draw_words(app, &c);
     end_panel(&app->ui, &c);
 }
@@ -493,7 +492,7 @@ void pane_draw(app_state *app, sl_box box) {
              app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
     rule(&app->ui, &c, text);
     layer_rows(app, &c);
-    ground_row(app, &c);
+    draw_legend(app, &c);
     draw_methods(app, &c);
     draw_words(app, &c);
     end_panel(&app->ui, &c);

@@ -166,7 +166,6 @@ sl_status view_job_end(sl_context *context, view_job *job, view_history *out) {
 // --- the layer
 
 #define RAMP_STEPS 32
-#define OPACITY    0.85
 /// The first cut costs this much more than the cheapest one, as in `sightline viewcells` by
 /// default.
 #define TOLERANCE 0.1
@@ -429,13 +428,10 @@ static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *fra
     }
 }
 
-static void draw_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment *borders,
-                         size_t count, sl_colour colour, double width) {
+static void add_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment *borders,
+                        size_t count) {
+    cairo_new_path(cairo);
     for (size_t i = 0; i < count; i++) sl_path_segment(cairo, frame, borders[i].a, borders[i].b);
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_SQUARE);
-    cairo_stroke(cairo);
 }
 
 /// View cells reach into walled-in space without viewpoints: that is cut off.
@@ -452,16 +448,14 @@ static void clip_to_inside(const document_state *document, cairo_t *cairo, const
 void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const view_layer *layer = app->view.views;
     if (!view_layer_shown(layer)) return;
-    cairo_push_group(cairo);
-    draw_cells(app, cairo, frame);
-    draw_borders(cairo, frame, layer->borders, layer->border_count, app->ui.palette.page,
-                 0.8 * frame->unit);
-    cairo_pop_group_to_source(cairo);
+    const sl_palette *palette = &app->ui.palette;
     cairo_save(cairo);
     clip_to_inside(&app->document, cairo, frame);
-    cairo_paint_with_alpha(cairo, OPACITY);
-    draw_borders(cairo, frame, layer->mark_borders, layer->mark_border_count, app->ui.palette.start,
-                 4 * frame->unit);
+    if (layers_fill(app) == LAYER_VIEWS) draw_cells(app, cairo, frame);
+    add_borders(cairo, frame, layer->borders, layer->border_count);
+    tone_cased(cairo, palette, palette->wall, 0.9 * frame->unit, 0);
+    add_borders(cairo, frame, layer->mark_borders, layer->mark_border_count);
+    tone_cased(cairo, palette, palette->start, 4 * frame->unit, 0);
     cairo_restore(cairo);
 }
 
@@ -476,7 +470,7 @@ static void draw_ramp(app_state *app, double left, double right, double base) {
     ui_text(ui, left, base, 0.95, false, ui->palette.ink, least);
     ui_text_right(ui, right, base, 0.95, ui->palette.ink, most);
     const double from = left + 4.2 * t, wide = (right - left - 8.4 * t) / RAMP_STEPS;
-    for (int step = 0; step < RAMP_STEPS; step++)
+    for (int step = 0; step < RAMP_STEPS && layers_fill(app) == LAYER_VIEWS; step++)
         ui_fill(ui,
                 (sl_box){{from + wide * step, base - 0.8 * t}, {right - 4.2 * t, base + 0.1 * t}},
                 colour_of(&app->ui, step));
