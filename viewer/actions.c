@@ -451,7 +451,7 @@ static const action_row actions[] = {
     {"step_first", "Home", "|\xe2\x97\x80", "learn: to the first step", LEARN, 0, step_first, NULL},
     {"step_last", "End", "\xe2\x96\xb6|", "learn: to the last step", LEARN, 0, step_last, NULL},
     {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
-    {"subject", "U", "Another subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
+    {"subject", "U", "Subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},

@@ -63,6 +63,9 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
     const sl_map *map = &app->document.map;
     if (!app->document.baked) return 0;
     int at = add_layers(app, rows);
+    if (layers_shows(app, LAYER_VIEWS) && view_layer_shown(app->view.views))
+        rows[at++] = stroke("border of a view cell", palette->wall, false);
+    if (layers_shows(app, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
     if (layers_shows(app, LAYER_TREE) && app->view.seen.valid)
         rows[at++] = stroke("stab tree", palette->tree, false);
     if (layers_shows(app, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
@@ -181,7 +184,7 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
 }
 
 void layers_draw_keys(app_state *app, const sl_frame *frame) {
-    if (app->tool.mode != MODE_QUIZ && (!app->ui.side_panel || app->ui.presents))
-        draw_over_plan(app, frame);
+    if (app->ui.side_panel && !app->ui.presents) return;
+    if (app->tool.mode != MODE_QUIZ) draw_over_plan(app, frame);
     if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS)) view_layer_draw_key(app, frame);
 }

@@ -52,6 +52,7 @@ static void draw_rock_note(app_state *app, const sl_frame *frame) {
     const double t = ui->text, middle = frame->left + frame->width / 2;
     const double wide = fmin(ui_text_width(ui, 1, true, text) + 1, frame->width - 3 * t);
     const double high = ui_lines_height(ui, wide, 1, true, text);
+    if (high > 0.5 * frame->height) return; // the panel says it too
     const double bottom = frame->top + frame->height - 0.8 * t, left = middle - wide / 2;
     ui_fill_round(
         ui, (sl_box){{left - 0.6 * t, bottom - high - 0.5 * t}, {left + wide + 0.6 * t, bottom}},

@@ -195,9 +195,11 @@ void pane_time(app_state *app, sl_box box) {
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
     char text[SENTENCE], count[48];
     lesson_sentence(lesson, &app->document, text);
-    double y = ui_lines(ui, box.min.x + 0.9 * t, box.min.y + 1.6 * t, box_width(box) - 1.8 * t,
-                        SENTENCE_SIZE, false, ui->palette.ink, text) -
-               0.8 * t;
+    const sl_box room = {{box.min.x, box.min.y + 1}, box.max};
+    double y = ui_begin_scroll(ui, SCROLL_TIME, room);
+    y = ui_lines(ui, box.min.x + 0.9 * t, y + 1.6 * t, box_width(box) - 1.8 * t, SENTENCE_SIZE,
+                 false, ui->palette.ink, text) -
+        0.8 * t;
     double x = box.min.x + 0.7 * t;
     for (int i = 0; i < STEP_BUTTONS; i++) x = put_button(app, x, y, step_buttons[i]);
     if (ui->time_rows > 1) {
@@ -206,12 +208,15 @@ void pane_time(app_state *app, sl_box box) {
     }
     const size_t length = lesson_length(lesson);
     write_count(lesson, count);
+    box.max.x -= ui_bar_width(ui);
     const double left = box.max.x - 0.9 * t - ui_text_width(ui, 0.95, false, count);
-    ui_text_right(ui, box.max.x - 0.9 * t, y + 1.15 * t, 0.95, ui->palette.faint, count);
+    ui_text_right(ui, left + ui_text_width(ui, 0.95, false, count), y + 1.15 * t, 0.95,
+                  ui->palette.faint, count);
     const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
     if (box_width(line) > 2 * t)
         ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME,
                   0);
+    ui_end_scroll(ui, room, y + 1.9 * t);
     ui_end_area(ui);
 }
 

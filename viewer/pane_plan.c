@@ -159,6 +159,7 @@ static void draw_empty(app_state *app, sl_box box) {
 static void draw_name(app_state *app, sl_box box, int index, int count) {
     if (count < 2) return;
     ui_state *ui = &app->ui;
+    if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
     size_t methods;
     const size_t method = index ? app->view.other : app->view.method;
     const char *name = sl_eye_methods(&methods)[method].name;
@@ -175,10 +176,10 @@ static void draw_name(app_state *app, sl_box box, int index, int count) {
     const double high = ui_lines_height(ui, wide, 1, true, text);
     const sl_box ground = {{box.min.x + gap, box.min.y + 0.8 * t},
                            {box.min.x + gap + wide + 1.2 * t, box.min.y + 1.3 * t + high}};
+    if (box_height(ground) > 0.4 * box_height(box)) return; // the panel says it too
     ui_fill_round(ui, ground, 0.3 * t, ui->palette.page);
     ui_lines(ui, ground.min.x + 0.6 * t, ground.min.y + 1.25 * t, wide, 1, true, ui->palette.ink,
              text);
-    if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
 }
 
 void pane_plan(app_state *app, sl_box box, int index, bool vector) {

@@ -92,6 +92,8 @@ static void draw_legend(app_state *app, column *c) {
     heading(&app->ui, c, "Legend", NULL);
     for (int i = 0; i < count; i++)
         c->y = layers_legend_row(&app->ui, c->left, c->right, c->y, &rows[i]);
+    if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS))
+        c->y = view_layer_key(app, c->left, c->right, c->y);
     if (layer_nodes_words(app, text)) words(&app->ui, c, 0.9, app->ui.palette.faint, text);
 }
 
@@ -540,22 +542,23 @@ static sl_dual_frame frame_of(const app_state *app, sl_box box) {
                              ui_scale(&app->ui));
 }
 
-void pane_dual(app_state *app, sl_box box) {
+static void draw_dual(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
-    const double t = ui->text;
+    const double t = ui->text, wide = box_width(box) - 1.8 * t;
     const lesson_state *lesson = &app->tool.lesson;
-    ui_fill(ui, box, ui->palette.page);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    const double x = ui_text(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, 1, true, ui->palette.ink,
-                             "Lines as points");
     char text[160];
+    if (box_height(box) < 3 * t) return; // too low for anything
     if (lesson->end_count)
         snprintf(text, sizeof text, "%u half-planes: %s", 2 * lesson->end_count,
                  lesson->dual.corner_count ? "what all leave is green" : "nothing is left");
     else
         snprintf(text, sizeof text, "no portal is crossed yet: every line counts");
-    ui_text(ui, box.min.x + 1.7 * t + x, box.min.y + 1.5 * t, 0.95, false, ui->palette.faint, text);
+    const double title = ui_text_width(ui, 1, true, "Lines as points");
+    ui_text_within(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, wide, 1, ui->palette.ink,
+                   "Lines as points");
+    if (wide > title + 0.8 * t + ui_text_width(ui, 0.95, false, text))
+        ui_text(ui, box.min.x + 1.7 * t + title, box.min.y + 1.5 * t, 0.95, false,
+                ui->palette.faint, text);
     if (!lesson->end_count) return;
     const sl_dual_frame frame = frame_of(app, box);
     sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
@@ -565,8 +568,17 @@ void pane_dual(app_state *app, sl_box box) {
         ui->cairo, ui->palette.faint, frame.left, base, frame.width, 0.85 * t, false,
         "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
         "right ends, from below   bar: the best line and its margin");
-    ui_hit(ui, HIT_DUAL, 0,
-           (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
+    ui_hit_focus(
+        ui, HIT_DUAL, 0,
+        (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
+}
+
+void pane_dual(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    ui_begin_area(ui, box);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
+    draw_dual(app, box);
+    ui_end_area(ui);
 }
 
 void pane_dual_drag(app_state *app, sl_box box, sl_point to) {

@@ -34,7 +34,15 @@ typedef struct hit_area {
 enum { HITS_MOST = 512, SPOTS_MOST = 512, UI_FIELD_TEXT = 512, UI_TIP_TEXT = 320 };
 
 /// Areas that scroll. Each keeps its place from frame to frame.
-enum ui_scrolls { SCROLL_SIDE, SCROLL_HELP, SCROLL_LIST, SCROLL_EFFECTS, SCROLL_DIALOG, SCROLLS };
+enum ui_scrolls {
+    SCROLL_SIDE,
+    SCROLL_HELP,
+    SCROLL_LIST,
+    SCROLL_EFFECTS,
+    SCROLL_TIME,
+    SCROLL_DIALOG,
+    SCROLLS
+};
 
 /// Borders between panels.
 enum ui_edges { EDGE_SIDE, EDGE_BELOW, EDGES };
@@ -109,7 +117,9 @@ static inline double ui_scale(const ui_state *ui) {
 }
 /// The size of plain text, pixels.
 static inline double ui_text_size(const ui_state *ui) {
-    return 13 * ui->text_scale * ui->density * (ui->presents ? 1.6 : 1);
+    const double most = ui->text_scale > 3 ? ui->text_scale : 3;
+    const double larger = 1.6 * ui->text_scale < most ? 1.6 * ui->text_scale : most;
+    return 13 * ui->density * (ui->presents ? larger : ui->text_scale);
 }
 
 /// Begins a frame: no hits, no clip.

@@ -467,12 +467,15 @@ static void draw_ramp(app_state *app, double left, double right, double base) {
     char least[32], most[32];
     write_cost(layer->least, least);
     write_cost(layer->most, most);
+    // A layer that does not fill the plan has no colours.
+    if (layers_fill(app) != LAYER_VIEWS) return;
     ui_text(ui, left, base, 0.95, false, ui->palette.ink, least);
     ui_text_right(ui, right, base, 0.95, ui->palette.ink, most);
-    const double from = left + 4.2 * t, wide = (right - left - 8.4 * t) / RAMP_STEPS;
-    for (int step = 0; step < RAMP_STEPS && layers_fill(app) == LAYER_VIEWS; step++)
-        ui_fill(ui,
-                (sl_box){{from + wide * step, base - 0.8 * t}, {right - 4.2 * t, base + 0.1 * t}},
+    const double side =
+        0.4 * t + fmax(ui_text_width(ui, 0.95, false, least), ui_text_width(ui, 0.95, false, most));
+    const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
+    for (int step = 0; step < RAMP_STEPS; step++)
+        ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
                 colour_of(&app->ui, step));
 }
 
@@ -514,19 +517,37 @@ static void write_key(const app_state *app, key_row rows[KEY_ROWS]) {
     write_pointed(app, rows[4].text, sizeof rows[4].text);
 }
 
+double view_layer_key(app_state *app, double left, double right, double y) {
+    ui_state *ui = &app->ui;
+    key_row rows[KEY_ROWS];
+    const double t = ui->text;
+    if (!view_layer_shown(app->view.views)) return y;
+    write_key(app, rows);
+    for (int i = 0; i < KEY_ROWS; i++) {
+        const double value = ui_text_width(ui, 0.95, false, rows[i].text) + 0.6 * t;
+        const double label = ui_text_width(ui, 0.95, i == 0, rows[i].label);
+        // A narrow key has the value below its label.
+        const bool beside = label + value <= right - left;
+        double end = ui_lines(ui, left, y + 1.1 * t, right - left, 0.95, i == 0, ui->palette.ink,
+                              rows[i].label);
+        if (beside)
+            ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.ink, rows[i].text);
+        else
+            end =
+                ui_lines(ui, left, end, right - left, 0.95, false, ui->palette.faint, rows[i].text);
+        y = end - 0.95 * t;
+    }
+    draw_ramp(app, left, right, y + 1.1 * t);
+    return y + 1.6 * t;
+}
+
 void view_layer_draw_key(app_state *app, const sl_frame *frame) {
     if (!view_layer_shown(app->view.views)) return;
     ui_state *ui = &app->ui;
-    key_row rows[KEY_ROWS];
-    const double t = ui->text, row = 1.5 * t, wide = 18 * t;
+    const double t = ui->text, wide = 19 * t, high = (KEY_ROWS + 1.3) * 1.4 * t;
     const double right = frame->left + frame->width - t, bottom = frame->top + frame->height - t;
-    const double left = right - wide, top = bottom - (KEY_ROWS + 1) * row - 0.6 * t;
-    ui_fill_round(ui, (sl_box){{left, top}, {right, bottom}}, 0.3 * t, ui->palette.page);
-    write_key(app, rows);
-    double base = top + 0.3 * t + 0.8 * row;
-    for (int i = 0; i < KEY_ROWS; i++, base += row) {
-        ui_text(ui, left + 0.6 * t, base, 0.95, i == 0, ui->palette.ink, rows[i].label);
-        ui_text_right(ui, right - 0.6 * t, base, 0.95, ui->palette.ink, rows[i].text);
-    }
-    draw_ramp(app, left + 0.6 * t, right - 0.6 * t, base);
+    if (wide > frame->width - 2 * t || high > 0.75 * frame->height) return;
+    ui_fill_round(ui, (sl_box){{right - wide, bottom - high}, {right, bottom}}, 0.3 * t,
+                  ui->palette.page);
+    view_layer_key(app, right - wide + 0.6 * t, right - 0.6 * t, bottom - high + 0.2 * t);
 }

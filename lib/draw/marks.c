@@ -3,7 +3,9 @@
 /// The hues are those of Okabe & Ito, "Color Universal Design" (2008): orange, sky blue, bluish
 /// green, yellow, blue, vermilion, reddish purple. They differ under every common colour blindness.
 /// Soft tones are the same hues mixed with the ground. The ramp of the heat map goes evenly through
-/// the lightness of Oklab.
+/// the lightness of Oklab. Lines, marks and text have a contrast of 3:1 at least to the page and to
+/// cells, text 4.5:1 to the page (WCAG 2.1), also for eyes without red or green cones: some hues
+/// are darker for that.
 #include "draw/marks.h"
 
 #include <math.h>
