@@ -265,7 +265,7 @@ window_layout app_layout(const app_state *app) {
             box(0, fmax(bottom - pane_time_height(app), bar + 0.3 * (bottom - bar)), w, bottom);
         bottom = l.time.min.y;
     }
-    const double right = floor(w - side_width(app));
+    const double right = round(w - side_width(app));
     l.side = box(right, bar, w, bottom);
     place_below(app, &l, right, &bottom);
     l.plan[0] = box(0, bar, right, bottom);

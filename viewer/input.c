@@ -187,6 +187,17 @@ void input_key(app_state *app, const char *key, bool down) {
     if (down && !before && app->ui.field) app->ui.field_mutes = true;
 }
 
+bool input_takes(const char *key) {
+    static const char *const own[] = {"Tab",          "Shift+Tab",  "Return",
+                                      "Shift+Return", "Shift+Left", "Shift+Right",
+                                      "Shift+Up",     "Shift+Down", "Backspace"};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(own[i], key) == 0) return true;
+    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
+        if (action_of_key(key, (app_mode)mode) >= 0) return true;
+    return false;
+}
+
 void input_text(app_state *app, const char *text) {
     if (!app->ui.field || app->ui.field_mutes) return;
     ui_field_type(app->ui.field, text);
@@ -282,7 +293,7 @@ static void click(app_state *app, const hit_area *hit) {
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_MAP) {
         shelf_choose(app, (size_t)hit->value);
-    } else if (hit->kind == HIT_PANEL && hit->value == 1) {
+    } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
         app_shut_help(app);
         app->ui.maps_open = false;
     }

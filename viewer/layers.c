@@ -130,6 +130,16 @@ void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cell
     tone_fill(cairo, app->ui.dark, which, frame->unit, origin_of(frame));
 }
 
+void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which) {
+    const sl_space *space = &app->document.baked->space;
+    const sl_cell *c = &space->cells[cell];
+    cairo_new_path(app->ui.cairo);
+    sl_path_polygon(app->ui.cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
+    tone_fill(app->ui.cairo, app->ui.dark, which, frame->unit, origin_of(frame));
+    sl_draw_cell(app->ui.cairo, space, frame, cell, tone_colour(app->ui.dark, which), 0,
+                 2 * frame->unit);
+}
+
 void layer_pvs(app_state *app, const sl_frame *frame, int index) {
     const bool fills = layers_fill(app) == LAYER_PVS;
     (void)index;

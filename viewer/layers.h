@@ -84,6 +84,9 @@ unsigned layers_fill(const app_state *app);
 void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cells,
                      const uint64_t *without, tone which, bool fills);
 
+/// Fills one cell with a tone, and outlines it.
+void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which);
+
 /// Draws a region likewise. Arcs are drawn as arcs.
 void layers_draw_region(app_state *app, const sl_frame *frame, const sl_region *region, tone which,
                         bool fills);

@@ -120,7 +120,10 @@ static double draw_doing(app_state *app, sl_box box) {
     return right - ui_text_width(ui, 0.95, false, text);
 }
 
-/// A message that is longer than the line grows upwards, over the panes.
+#define MESSAGE_SECONDS 8
+
+/// A message that is longer than the line grows upwards, over the panes. After some seconds it is
+/// cut to the line, unless it is an error; the tooltip has all of it.
 static void draw_message(app_state *app, sl_box box, double right) {
     ui_state *ui = &app->ui;
     const double t = ui->text, left = 0.8 * t, size = 0.95;
@@ -128,6 +131,11 @@ static void draw_message(app_state *app, sl_box box, double right) {
     if (!*ui->message) return;
     if (ui_text_width(ui, size, ui->message_is_error, ui->message) <= right - left) {
         ui_text(ui, left, box.max.y - 0.62 * t, size, ui->message_is_error, colour, ui->message);
+        return;
+    }
+    if (!ui->message_is_error && ui->message_seconds > MESSAGE_SECONDS) {
+        sl_text_show_within(ui->cairo, colour, left, box.max.y - 0.62 * t, right - left, size * t,
+                            false, ui->message);
         return;
     }
     const double wide = box.max.x - 2 * left;
@@ -146,6 +154,7 @@ static void draw_message(app_state *app, sl_box box, double right) {
 void pane_status(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     ui_begin_area(ui, box);
+    ui_hit(ui, HIT_PANEL, PANEL_STATUS, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
     const double left = app_progress(app).running ? draw_progress(app, box) : draw_doing(app, box);
     ui_end_area(ui);

@@ -187,6 +187,10 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
     case HIT_SLIDER:
         snprintf(text, UI_TIP_TEXT, "%s", slider_table(&count)[hit->value].help);
         break;
+    case HIT_PANEL:
+        if (hit->value == PANEL_STATUS && app->ui.message_seconds > 8)
+            snprintf(text, UI_TIP_TEXT, "%.300s", app->ui.message);
+        break;
     case HIT_TIME:
         snprintf(text, UI_TIP_TEXT, "The steps of the lesson: drag to go to one (Left, Right)");
         break;

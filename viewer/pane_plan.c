@@ -182,9 +182,26 @@ static void draw_name(app_state *app, sl_box box, int index, int count) {
              text);
 }
 
+/// The cursor that keys move: a cross with a rim, over any ground.
+static void draw_cursor(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const sl_point at = ui->pointer;
+    const double arm = 9 * ui_scale(ui), gap = 2.5 * ui_scale(ui);
+    ui_mark_focus(ui, box);
+    if (!box_has(box, at)) return;
+    for (int i = -1; i <= 1; i += 2) {
+        cairo_move_to(ui->cairo, at.x + i * gap, at.y);
+        cairo_line_to(ui->cairo, at.x + i * arm, at.y);
+        cairo_move_to(ui->cairo, at.x, at.y + i * gap);
+        cairo_line_to(ui->cairo, at.x, at.y + i * arm);
+    }
+    tone_cased(ui->cairo, &ui->palette, ui->palette.start, 2 * ui_scale(ui), 0);
+}
+
 void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     cairo_t *cairo = app->ui.cairo;
     ui_hit(&app->ui, HIT_PLAN, index, box);
+    const bool focused = ui_has_focus(&app->ui);
     app->ui.area = box;
     if (!app->document.baked || !make_scene(app)) {
         draw_empty(app, box);
@@ -207,5 +224,6 @@ void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     if (!index) layers_draw_keys(app, &frame);
     const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
+    if (!vector && focused) draw_cursor(app, box);
     cairo_restore(cairo);
 }

@@ -55,13 +55,13 @@ static sl_status do_open(reader *r, const words *w) {
 }
 
 static sl_status check_key(reader *r, const char *key) {
-    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
-        if (action_of_key(key, (app_mode)mode) >= 0) return SL_OK;
+    if (input_takes(key)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }
 
 static sl_status do_key(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
+    if (!r->app->ui.hit_count) frame(r, 0); // keys act on what was drawn
     input_key(r->app, w->rest, true);
     frame(r, 1.0 / 60);
     input_key(r->app, w->rest, false);

@@ -13,6 +13,7 @@ void ui_say(ui_state *ui, bool error, const char *format, ...) {
     vsnprintf(ui->message, sizeof ui->message, format, arguments);
     va_end(arguments);
     ui->message_is_error = error;
+    ui->message_seconds = 0;
 }
 
 void ui_fill(ui_state *ui, sl_box box, sl_colour colour) {
@@ -136,13 +137,14 @@ static sl_colour ground_of(const ui_state *ui, sl_box box, bool on) {
     return box_has(box, ui->pointer) ? sl_colour_mix(plain, p->ink, 0.09) : plain;
 }
 
-/// Marks the widget that keys act on.
-static void draw_focus(ui_state *ui, sl_box box) {
+bool ui_has_focus(const ui_state *ui) {
     const hit_area *last = ui->hit_count ? &ui->hits[ui->hit_count - 1] : NULL;
+    return last && last->kind == ui->focus.kind && last->value == ui->focus.value &&
+           ui->copies - 1 == ui->focus.copy;
+}
+
+void ui_mark_focus(ui_state *ui, sl_box box) {
     const double w = fmax(0.15 * ui->text, 2);
-    if (!last || last->kind != ui->focus.kind || last->value != ui->focus.value ||
-        ui->copies - 1 != ui->focus.copy)
-        return;
     cairo_rectangle(ui->cairo, box.min.x + w / 2, box.min.y + w / 2, box_width(box) - w,
                     box_height(box) - w);
     sl_set_colour(ui->cairo, ui->palette.start);
@@ -152,7 +154,7 @@ static void draw_focus(ui_state *ui, sl_box box) {
 
 void ui_hit_focus(ui_state *ui, hit_kind kind, int value, sl_box box) {
     ui_hit(ui, kind, value, box);
-    draw_focus(ui, box);
+    if (ui_has_focus(ui)) ui_mark_focus(ui, box);
 }
 
 double ui_button_width(ui_state *ui, const char *label) {

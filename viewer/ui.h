@@ -10,7 +10,7 @@
 
 typedef enum hit_kind {
     HIT_NONE,
-    HIT_PANEL,  ///< swallows; value 1: of a sheet over all, which shuts
+    HIT_PANEL,  ///< swallows; value: of ui_panels
     HIT_ACTION, ///< value: of the table of actions
     HIT_METHOD, ///< value: of the culling methods
     HIT_PLAN,   ///< value: which of the plans, from 0
@@ -32,6 +32,9 @@ typedef struct hit_area {
 } hit_area;
 
 enum { HITS_MOST = 512, SPOTS_MOST = 512, UI_FIELD_TEXT = 512, UI_TIP_TEXT = 320 };
+
+/// PANEL_SHEET: all beside a sheet over all, which shuts it.
+enum ui_panels { PANEL_PLAIN, PANEL_SHEET, PANEL_STATUS };
 
 /// Areas that scroll. Each keeps its place from frame to frame.
 enum ui_scrolls {
@@ -89,7 +92,8 @@ typedef struct ui_state {
     bool side_panel, first_person, accounts, effects, help, maps_open; ///< panels shown
     char message[512];                                                 ///< the last thing to say
     bool message_is_error;
-    double frame_seconds; ///< smoothed; shown in the corner unless steady
+    double message_seconds; ///< for which it has been there
+    double frame_seconds;   ///< smoothed; shown in the corner unless steady
 
     double edges[EDGES]; ///< sizes of panels that were dragged: side, plain texts; below, a share
                          ///< of the window; 0: the usual ones
@@ -133,6 +137,9 @@ void ui_say(ui_state *ui, bool error, const char *format, ...)
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
 /// The same, and marks it where it has the focus. For widgets that are drawn elsewhere.
 void ui_hit_focus(ui_state *ui, hit_kind kind, int value, sl_box box);
+/// Whether the widget that was registered last has the focus; and its mark.
+bool ui_has_focus(const ui_state *ui);
+void ui_mark_focus(ui_state *ui, sl_box box);
 /// The topmost thing at a place; kind HIT_NONE for nothing.
 hit_area ui_find(const ui_state *ui, sl_point at);
 
@@ -193,7 +200,7 @@ void ui_scroll_by(ui_scroll *scroll, double by);
 int ui_scroll_at(const ui_state *ui, sl_point at);
 
 /// A sheet over all, of that size or as large as the window allows, with its title. Its contents
-/// begin at `top`. A click beside it finds HIT_PANEL with value 1. Keys move among its widgets
+/// begin at `top`. A click beside it finds PANEL_SHEET. Keys move among its widgets
 /// alone. Ends with ui_end_area.
 sl_box ui_begin_sheet(ui_state *ui, double width, double height, const char *title, double *top);
 

@@ -57,7 +57,7 @@ int ui_scroll_at(const ui_state *ui, sl_point at) {
         const hit_area *hit = &ui->hits[i];
         if (!box_has(hit->box, at)) continue;
         if (hit->kind == HIT_SCROLL) return hit->value;
-        if (hit->kind == HIT_PANEL && hit->value == 1) return -1;
+        if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) return -1;
     }
     return -1;
 }
@@ -71,7 +71,7 @@ void ui_begin_area(ui_state *ui, sl_box box) {
     ui->area = box;
     ui->clip = meet(box, whole_page(ui));
     ui_fill(ui, box, ui->palette.page);
-    ui_hit(ui, HIT_PANEL, 0, box);
+    ui_hit(ui, HIT_PANEL, PANEL_PLAIN, box);
 }
 
 void ui_end_area(ui_state *ui) {
@@ -121,7 +121,7 @@ void ui_end_scroll(ui_state *ui, sl_box box, double bottom) {
 sl_box ui_begin_sheet(ui_state *ui, double width, double height, const char *title, double *top) {
     const double t = ui->text;
     ui->area = ui->clip = whole_page(ui);
-    ui_hit(ui, HIT_PANEL, 1, ui->area);
+    ui_hit(ui, HIT_PANEL, PANEL_SHEET, ui->area);
     const sl_colour dim = ui->palette.dark ? ui->palette.page : ui->palette.ink;
     cairo_set_source_rgba(ui->cairo, dim.red, dim.green, dim.blue, 0.45);
     cairo_paint(ui->cairo);
@@ -151,7 +151,7 @@ static bool takes_focus(const hit_area *hit) {
 static int first_reached(const ui_state *ui) {
     int first = 0;
     for (int i = 0; i < ui->hit_count; i++)
-        if (ui->hits[i].kind == HIT_PANEL && ui->hits[i].value == 1) first = i + 1;
+        if (ui->hits[i].kind == HIT_PANEL && ui->hits[i].value == PANEL_SHEET) first = i + 1;
     return first;
 }
 
@@ -213,6 +213,7 @@ void ui_tick(ui_state *ui, double seconds) {
         ui->hover_seconds = 0;
     }
     ui->hover_seconds += seconds;
+    ui->message_seconds += seconds;
 }
 
 hit_area ui_tip_of(const ui_state *ui) {
