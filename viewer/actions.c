@@ -69,6 +69,7 @@ SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
 SWITCH(dark, ui.dark)
+SWITCH(legend, ui.legend)
 SWITCH(fullscreen, ui.fullscreen)
 SWITCH(present, ui.presents)
 
@@ -484,6 +485,8 @@ static const action_row actions[] = {
     {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
     {"side_panel", "Ctrl+B", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"legend", "Ctrl+L", "Legend", "the legend over the plan, where there is no panel", 0, 0,
+     legend, is_legend},
     {"fullscreen", "F11", "Fullscreen", "fill the screen, or the window again", 0, 0, fullscreen,
      is_fullscreen},
     {"present", "F12", "Present", "for a projector: large text, strong tones, few panels", 0, 0,

@@ -28,6 +28,7 @@ void app_init(app_state *app, sl_context *context) {
         .ui = {.bar_rows = 1,
                .time_lines = 1,
                .scrolling = -1,
+               .legend = true,
                .side_panel = true,
                .effects = true,
                .text_scale = 1,

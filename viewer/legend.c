@@ -185,6 +185,6 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
 
 void layers_draw_keys(app_state *app, const sl_frame *frame) {
     if (app->ui.side_panel && !app->ui.presents) return;
-    if (app->tool.mode != MODE_QUIZ) draw_over_plan(app, frame);
+    if (app->tool.mode != MODE_QUIZ && app->ui.legend) draw_over_plan(app, frame);
     if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS)) view_layer_draw_key(app, frame);
 }

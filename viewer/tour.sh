@@ -38,7 +38,7 @@ eye 53 20 160 90
 key M
 key R
 key F5
-drag 818 306 761 306
+drag 818 531 761 531
 key F6
 END
 shoot office.map account <<'END'

@@ -89,6 +89,7 @@ typedef struct ui_state {
     bool dark;
     bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
+    bool legend;   ///< over the plan, where there is no panel
     bool side_panel, first_person, accounts, effects, help, maps_open; ///< panels shown
     char message[512];                                                 ///< the last thing to say
     bool message_is_error;

@@ -49,9 +49,9 @@ static sl_status open_window(app_window *w, bool hidden) {
     int width = (int)(by * w->app->ui.width), height = (int)(by * w->app->ui.height);
     SDL_Rect free;
     if (!hidden && SDL_GetDisplayUsableBounds(0, &free) == 0) {
-        // Some room for its frame and title.
-        width = SDL_min(width, SDL_max(free.w - 16, 640));
-        height = SDL_min(height, SDL_max(free.h - 48, 480));
+        // Where it would not fit, its frame and title have some room.
+        if (width > free.w) width = SDL_max(free.w - 16, 640);
+        if (height > free.h) height = SDL_max(free.h - 48, 480);
     }
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
                                  width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
