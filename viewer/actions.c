@@ -54,6 +54,7 @@ MODE(quiz, MODE_QUIZ)
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
         app->view.show ^= SHOW_##NAME;                                                             \
+        if (app->view.show & SHOW_FILLS & SHOW_##NAME) app->view.fill = LAYER_##NAME;              \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \
@@ -72,7 +73,20 @@ SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
 SWITCH(dark, ui.dark)
-SWITCH(help, ui.help)
+SWITCH(legend, ui.legend)
+SWITCH(fullscreen, ui.fullscreen)
+SWITCH(present, ui.presents)
+
+static void help(app_state *app) {
+    if (app->ui.help)
+        app_shut_help(app);
+    else
+        app_open_help(app);
+}
+
+static bool is_help(const app_state *app) {
+    return app->ui.help;
+}
 
 SWITCH(fly, view.eye.flies)
 
@@ -136,12 +150,25 @@ static void zoom_out(app_state *app) {
     zoom(app, 1 / 1.25);
 }
 
+/// Goes to the next size of text, or back.
+static void text_step(app_state *app, bool larger) {
+    static const double sizes[] = {0.75, 1, 1.25, 1.5, 2, 2.5, 3};
+    const double now = app->ui.text_scale;
+    enum { COUNT_OF_SIZES = sizeof sizes / sizeof *sizes };
+    for (int i = 0; i < COUNT_OF_SIZES; i++) {
+        const double size = sizes[larger ? i : COUNT_OF_SIZES - 1 - i];
+        if (larger ? size <= now + 1e-9 : size >= now - 1e-9) continue;
+        app->ui.text_scale = size;
+        return;
+    }
+}
+
 static void text_larger(app_state *app) {
-    app->ui.text_scale = fmin(app->ui.text_scale * 1.15, 3);
+    text_step(app, true);
 }
 
 static void text_smaller(app_state *app) {
-    app->ui.text_scale = fmax(app->ui.text_scale / 1.15, 0.7);
+    text_step(app, false);
 }
 
 static void narrower(app_state *app) {
@@ -394,7 +421,7 @@ static void quit(app_state *app) {
 
 static void escape(app_state *app) {
     if (app->ui.help)
-        app->ui.help = false;
+        app_shut_help(app);
     else if (map_file_stop(app))
         ui_say(&app->ui, false, "stopped; the map is not saved");
     else if (app->document.job) {
@@ -458,7 +485,7 @@ static const action_row actions[] = {
     {"step_first", "Home", "|\xe2\x97\x80", "learn: to the first step", LEARN, 0, step_first, NULL},
     {"step_last", "End", "\xe2\x96\xb6|", "learn: to the last step", LEARN, 0, step_last, NULL},
     {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
-    {"subject", "U", "Another subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
+    {"subject", "U", "Subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
@@ -467,13 +494,14 @@ static const action_row actions[] = {
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
      EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
 
-    {"answer_yes", "Y", "Yes", "quiz: seen", QUIZ, 0, answer_yes, NULL},
-    {"answer_no", "N", "No", "quiz: not seen", QUIZ, 0, answer_no, NULL},
-    {"next_question", "Space", "Next", "quiz: the next question", QUIZ, 0, next_question, NULL},
+    {"answer_yes", "Y", "Yes, seen (Y)", "quiz: seen", QUIZ, 0, answer_yes, NULL},
+    {"answer_no", "N", "No (N)", "quiz: not seen", QUIZ, 0, answer_no, NULL},
+    {"next_question", "Space", "Next (Space)", "quiz: the next question", QUIZ, 0, next_question,
+     NULL},
 
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
-    {"export_series", NULL, "Pictures", "save pictures of the way", 0, 0, export_series, NULL},
+    {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_series, NULL},
 
     {"file", "Ctrl+M", "File", "all that has to do with files", 0, 0, file_menu, NULL},
     {"new", "Ctrl+N", "New", "a new map", 0, 0, file_new, NULL},
@@ -496,7 +524,13 @@ static const action_row actions[] = {
     {"dark", "T", "Dark", "light or dark", 0, 0, dark, is_dark},
     {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
-    {"side_panel", "Tab", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"side_panel", "Ctrl+B", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"legend", "Ctrl+L", "Legend", "the legend over the plan, where there is no panel", 0, 0,
+     legend, is_legend},
+    {"fullscreen", "F11", "Fullscreen", "fill the screen, or the window again", 0, 0, fullscreen,
+     is_fullscreen},
+    {"present", "F12", "Present", "for a projector: large text, strong tones, few panels", 0, 0,
+     present, is_present},
     {"help", "?", "?", "this help", 0, 0, help, is_help},
     {"escape", "Escape", "Stop", "stop, close", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},

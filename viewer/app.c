@@ -22,11 +22,16 @@ void app_init(app_state *app, sl_context *context) {
         .view = {.fitted = true,
                  .eye = {.fov = 90},
                  .show = SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS,
+                 .fill = LAYER_CULL,
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
         .tool = {.pointer = {-1, -1}, .wall = UINT32_MAX, .quiz = {.random = 1}},
-        .ui = {.side_panel = true,
+        .ui = {.bar_rows = 1,
+               .time_lines = 1,
+               .scrolling = -1,
+               .legend = true,
+               .side_panel = true,
                .effects = true,
                .text_scale = 1,
                .density = 1,
@@ -211,6 +216,7 @@ void app_settle(app_state *app) {
 
 void app_tick(app_state *app, double seconds) {
     poll(app, app->steady);
+    ui_tick(&app->ui, seconds);
     app->view.motion = fmax(app->view.motion - seconds, 0);
     record_frame frame;
     if (record_play(&app->tool.recorder, seconds, &frame)) {
@@ -251,38 +257,52 @@ static sl_box box(double left, double top, double right, double bottom) {
     return (sl_box){{left, top}, {fmax(right, left + 1), fmax(bottom, top + 1)}};
 }
 
-window_layout app_layout(const app_state *app) {
-    const double t = ui_text_size(&app->ui), w = app->ui.width, h = app->ui.height;
-    window_layout l = {.plan_count = 1};
-    const double bar = 2.3 * t, status = 1.9 * t;
-    const double side = app->ui.side_panel ? fmin(26 * t, 0.5 * w) : 0;
-    l.bar = box(0, 0, w, bar);
-    l.status = box(0, h - status, w, h);
-    l.side = box(w - side, bar, w, h - status);
-    const double right = w - side;
-    double bottom = h - status;
-    if (app->tool.mode == MODE_LEARN) {
-        l.time = box(0, bottom - 4.7 * t, right, bottom);
-        bottom = l.time.min.y;
-    }
+/// In a presentation the plan has the window to itself, but for what was opened since.
+static double side_width(const app_state *app) {
+    const ui_state *ui = &app->ui;
+    const double t = ui_text_size(ui), chosen = ui->edges[EDGE_SIDE];
+    if (!ui->side_panel || ui->presents) return 0;
+    return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
+}
+
+static void place_below(const app_state *app, window_layout *l, double right, double *bottom) {
     int shown = 0, before = 0;
-    const double share = 0.42 * (bottom - bar);
+    const double t = ui_text_size(&app->ui), chosen = app->ui.edges[EDGE_BELOW];
+    const double room = *bottom - l->bar.max.y;
     double high = 0;
     for (int i = 0; i < PANES_BELOW; i++) {
         const pane_below *pane = &panes_below()[i];
         if (!pane->shown(app)) continue;
-        high = fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), share) : share);
+        high =
+            fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), 0.42 * room) : 0.42 * room);
         shown++;
     }
-    if (shown) {
-        const double top = bottom - high;
-        for (int i = 0; i < PANES_BELOW; i++) {
-            if (!panes_below()[i].shown(app)) continue;
-            const double left = right * before / shown;
-            l.below[i] = box(left, top, right * ++before / shown, bottom);
-        }
-        bottom = top;
+    if (!shown) return;
+    if (chosen > 0) high = fmin(fmax(chosen, 0.1), 0.8) * room;
+    const double top = round(*bottom - high);
+    for (int i = 0; i < PANES_BELOW; i++) {
+        if (!panes_below()[i].shown(app)) continue;
+        const double left = right * before / shown;
+        l->below[i] = box(left, top, right * ++before / shown, *bottom);
     }
+    *bottom = top;
+}
+
+window_layout app_layout(const app_state *app) {
+    const double t = ui_text_size(&app->ui), w = app->ui.width, h = app->ui.height;
+    window_layout l = {.plan_count = 1};
+    const double bar = (0.3 + 2 * app->ui.bar_rows) * t, status = 1.9 * t;
+    l.bar = box(0, 0, w, bar);
+    l.status = box(0, h - status, w, h);
+    double bottom = h - status;
+    if (app->tool.mode == MODE_LEARN) {
+        l.time =
+            box(0, fmax(bottom - pane_time_height(app), bar + 0.3 * (bottom - bar)), w, bottom);
+        bottom = l.time.min.y;
+    }
+    const double right = round(w - side_width(app));
+    l.side = box(right, bar, w, bottom);
+    place_below(app, &l, right, &bottom);
     l.plan[0] = box(0, bar, right, bottom);
     if (app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE) {
         l.plan_count = 2;
@@ -292,27 +312,83 @@ window_layout app_layout(const app_state *app) {
     return l;
 }
 
+void app_drag_edge(app_state *app, int edge, double by) {
+    const window_layout l = app_layout(app);
+    if (edge == EDGE_SIDE) {
+        app->ui.edges[edge] = fmax(side_width(app) + by, 1) / ui_text_size(&app->ui);
+        return;
+    }
+    double high = 0, bottom = l.plan[0].max.y;
+    for (int i = 0; i < PANES_BELOW; i++) high = fmax(high, box_height(l.below[i]));
+    const double room = bottom + high - l.bar.max.y;
+    app->ui.edges[edge] = fmin(fmax((high + by) / room, 0.1), 0.8);
+}
+
+/// The borders that can be dragged: over all panes, as they are narrow.
+static void draw_edges(app_state *app, const window_layout *l) {
+    ui_state *ui = &app->ui;
+    const double wide = fmax(0.35 * ui->text, 4);
+    if (side_width(app) > 0)
+        ui_edge(ui, EDGE_SIDE,
+                (sl_box){{l->side.min.x - wide / 2, l->side.min.y},
+                         {l->side.min.x + wide / 2, l->side.max.y}});
+    for (int i = 0; i < PANES_BELOW; i++)
+        if (box_width(l->below[i]) > 0) {
+            ui_edge(ui, EDGE_BELOW,
+                    (sl_box){{0, l->below[i].min.y - wide / 2},
+                             {l->side.min.x, l->below[i].min.y + wide / 2}});
+            break;
+        }
+}
+
+void app_open_help(app_state *app) {
+    app->ui.help = true;
+    app->ui.filter = (ui_field){0};
+    app->ui.field = &app->ui.filter;
+    app->ui.scrolls[SCROLL_HELP] = (ui_scroll){0};
+    app->ui.focus = (ui_focus){0};
+}
+
+void app_shut_help(app_state *app) {
+    app->ui.help = false;
+    if (app->ui.field == &app->ui.filter) app->ui.field = NULL;
+}
+
 void app_fit(app_state *app, sl_box plan) {
     if (app->view.fitted && app->document.baked)
         app->view.camera =
             camera_fit(app->document.baked->space.bounds, box_width(plan), box_height(plan));
 }
 
+/// On a projector pale tones vanish.
+static sl_palette palette_of(const ui_state *ui) {
+    sl_palette p = sl_palette_make(ui->dark);
+    if (!ui->presents) return p;
+    p.faint = sl_colour_mix(p.faint, p.ink, 0.6);
+    p.outline = sl_colour_mix(p.outline, p.ink, 0.4);
+    for (int i = 0; i < SL_TONES; i++) p.floor[i] = sl_colour_mix(p.floor[i], p.floor[0], 0.7);
+    return p;
+}
+
 void app_draw(app_state *app, cairo_t *cairo) {
-    const window_layout l = app_layout(app);
     app->ui.cairo = cairo;
-    app->ui.palette = sl_palette_make(app->ui.dark);
+    app->ui.palette = palette_of(&app->ui);
     app->ui.text = ui_text_size(&app->ui);
     app->ui.pointer = app->tool.pointer;
-    app->ui.hit_count = 0;
+    ui_begin(&app->ui);
+    pane_bar_measure(app);
+    pane_time_measure(app);
+    const window_layout l = app_layout(app);
     app_fit(app, l.plan[0]);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
         if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);
+    if (side_width(app) > 0) mode_table()[app->tool.mode].panel(app, l.side);
+    draw_edges(app, &l);
     if (box_width(l.time) > 0) pane_time(app, l.time);
-    if (app->ui.side_panel) mode_table()[app->tool.mode].panel(app, l.side);
     pane_bar(app, l.bar);
     pane_status(app, l.status);
     if (app->ui.help) pane_help(app);
     dialog_draw(app);
+    pane_tip(app);
 }

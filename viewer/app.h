@@ -80,6 +80,7 @@ typedef struct view_state {
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
     unsigned show; ///< layers, of show_bit
+    unsigned fill; ///< the layer that was switched on last of those that fill the plan
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
     bool mesh;            ///< the cells are those of a mesh
@@ -176,5 +177,11 @@ typedef struct window_layout {
 } window_layout;
 
 window_layout app_layout(const app_state *app);
+
+/// Moves a border between panels, of ui_edges, by pixels; positive: the panel grows.
+void app_drag_edge(app_state *app, int edge, double by);
+
+void app_open_help(app_state *app);
+void app_shut_help(app_state *app);
 
 #endif

@@ -36,7 +36,7 @@ dialog_kind dialog_open_now(const app_state *app) {
 
 void dialog_push(app_state *app, dialog_kind kind, int focus) {
     dialog_state *d = &app->dialog;
-    app->ui.help = false;
+    app_shut_help(app);
     app->tool.held = 0;
     d->item_count = 0;
     if (d->depth == DIALOGS_MOST) d->depth--;
@@ -99,8 +99,7 @@ sl_box dialog_begin(app_state *app, double width, double height, const char *tit
     ui_fill_round(ui,
                   (sl_box){{sheet.min.x - 1, sheet.min.y - 1}, {sheet.max.x + 1, sheet.max.y + 1}},
                   0.6 * t, ui->palette.outline);
-    ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
-    ui_hit(ui, HIT_DIALOG, 1 << 8, sheet);
+    ui_begin_area(ui, sheet);
     sl_text_show_within(ui->cairo, ui->palette.ink, sheet.min.x + 1.3 * t, sheet.min.y + 2 * t,
                         w - 2.6 * t, 1.3 * t, true, title);
     return (sl_box){{sheet.min.x + 1.3 * t, sheet.min.y + 3 * t},
@@ -108,6 +107,7 @@ sl_box dialog_begin(app_state *app, double width, double height, const char *tit
 }
 
 void dialog_end(app_state *app) {
+    ui_end_area(&app->ui);
     app->ui.text = app->dialog.text;
 }
 

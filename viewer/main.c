@@ -53,7 +53,8 @@ static void print_help(void) {
          "A script has a command a line: open FILE; key NAME; down NAME; up NAME; action NAME;\n"
          "move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS; wait FRAMES; size W H;\n"
          "eye X Y HEADING [CONE]; text SCALE; screenshot FILE; save FILE;\n"
-         "account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT.\n\n"
+         "account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT;\n"
+         "fits (fails if a text does not fit its panel).\n\n"
          "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
          "example:\n"
          "  sightline-view maps/office.map");

@@ -124,7 +124,7 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
     now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
     now.key.dark = app->ui.dark;
     if (!over && layers_shows(app, LAYER_VIEWS)) {
-        now.key.views = view_layer_shown(app->view.views);
+        now.key.views = view_layer_shown(app->view.views) << 1 | (layers_fill(app) == LAYER_VIEWS);
         now.key.mark = view_layer_marked(app->view.views);
     }
     now.key.frame = at_origin(*frame);
@@ -146,17 +146,20 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
 
 static void draw_empty(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
+    const double t = ui->text, gap = fmin(3 * t, 0.08 * box_width(box));
+    const double x = box.min.x + gap, wide = box_width(box) - 2 * gap;
     ui_fill(ui, box, ui->palette.ground);
-    const double x = box.min.x + 3 * ui->text, y = (box.min.y + box.max.y) / 2;
-    ui_text(ui, x, y, 1.6, true, ui->palette.ink,
-            app->document.job ? "Opening ..." : "No map is open");
-    ui_text(ui, x, y + 2 * ui->text, 1, false, ui->palette.faint,
-            "Drop a map or a .slv file here, or press O for the maps at hand.");
+    const double y =
+        ui_lines(ui, x, fmax((box.min.y + box.max.y) / 2 - 2 * t, box.min.y + 2.5 * t), wide, 1.6,
+                 true, ui->palette.ink, app->document.job ? "Opening ..." : "No map is open");
+    ui_lines(ui, x, y, wide, 1, false, ui->palette.faint,
+             "Drop a map or a .slv file here, or press O for the maps at hand.");
 }
 
 static void draw_name(app_state *app, sl_box box, int index, int count) {
     if (count < 2) return;
     ui_state *ui = &app->ui;
+    if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
     size_t methods;
     const size_t method = index ? app->view.other : app->view.method;
     const char *name = sl_eye_methods(&methods)[method].name;
@@ -167,18 +170,39 @@ static void draw_name(app_state *app, sl_box box, int index, int count) {
     for (char *at = words; *at; at++)
         if (*at == '_') *at = ' ';
     snprintf(text, sizeof text, "%s: %u cells", words, app->view.seen.valid ? seen->count : 0);
-    const double width = ui_text_width(ui, 1, true, text);
-    const sl_box ground = {{box.min.x + ui->text, box.min.y + 0.8 * ui->text},
-                           {box.min.x + 2.2 * ui->text + width, box.min.y + 2.7 * ui->text}};
-    ui_fill_round(ui, ground, 0.3 * ui->text, ui->palette.page);
-    ui_text(ui, ground.min.x + 0.6 * ui->text, ground.max.y - 0.6 * ui->text, 1, true,
-            ui->palette.ink, text);
-    if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
+    const double t = ui->text, gap = fmin(t, 0.04 * box_width(box));
+    const double wide =
+        fmin(ui_text_width(ui, 1, true, text) + 1, box_width(box) - 2 * gap - 1.2 * t);
+    const double high = ui_lines_height(ui, wide, 1, true, text);
+    const sl_box ground = {{box.min.x + gap, box.min.y + 0.8 * t},
+                           {box.min.x + gap + wide + 1.2 * t, box.min.y + 1.3 * t + high}};
+    if (box_height(ground) > 0.4 * box_height(box)) return; // the panel says it too
+    ui_fill_round(ui, ground, 0.3 * t, ui->palette.page);
+    ui_lines(ui, ground.min.x + 0.6 * t, ground.min.y + 1.25 * t, wide, 1, true, ui->palette.ink,
+             text);
+}
+
+/// The cursor that keys move: a cross with a rim, over any ground.
+static void draw_cursor(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const sl_point at = ui->pointer;
+    const double arm = 9 * ui_scale(ui), gap = 2.5 * ui_scale(ui);
+    ui_mark_focus(ui, box);
+    if (!box_has(box, at)) return;
+    for (int i = -1; i <= 1; i += 2) {
+        cairo_move_to(ui->cairo, at.x + i * gap, at.y);
+        cairo_line_to(ui->cairo, at.x + i * arm, at.y);
+        cairo_move_to(ui->cairo, at.x, at.y + i * gap);
+        cairo_line_to(ui->cairo, at.x, at.y + i * arm);
+    }
+    tone_cased(ui->cairo, &ui->palette, ui->palette.start, 2 * ui_scale(ui), 0);
 }
 
 void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     cairo_t *cairo = app->ui.cairo;
     ui_hit(&app->ui, HIT_PLAN, index, box);
+    const bool focused = ui_has_focus(&app->ui);
+    app->ui.area = box;
     if (!app->document.baked || !make_scene(app)) {
         draw_empty(app, box);
         return;
@@ -200,5 +224,6 @@ void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     if (!index) layers_draw_keys(app, &frame);
     const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
+    if (!vector && focused) draw_cursor(app, box);
     cairo_restore(cairo);
 }

@@ -127,11 +127,9 @@ void quiz_words(const app_state *app, char *text, size_t room) {
 
 void quiz_draw_below(app_state *app, const sl_frame *frame) {
     const quiz_state *q = &app->tool.quiz;
-    const sl_palette *palette = &app->ui.palette;
     if (!q->asked) return;
-    const sl_space *space = &app->document.baked->space;
-    sl_draw_cell(app->ui.cairo, space, frame, q->from, palette->source_edge, 0.5, 2 * frame->unit);
-    sl_draw_cell(app->ui.cairo, space, frame, q->to, palette->door, 0.5, 2 * frame->unit);
+    layers_draw_cell(app, frame, q->from, TONE_FROM);
+    layers_draw_cell(app, frame, q->to, TONE_TO);
 }
 
 void quiz_draw_above(app_state *app, const sl_frame *frame) {

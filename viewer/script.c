@@ -86,14 +86,14 @@ static sl_status do_expect(reader *r, const words *w) {
 }
 
 static sl_status check_key(reader *r, const char *key) {
-    if (dialog_open_now(r->app) != DIALOG_NONE) return SL_OK; // each has keys of its own
-    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
-        if (action_of_key(key, (app_mode)mode) >= 0) return SL_OK;
+    // A dialog has keys of its own.
+    if (dialog_open_now(r->app) != DIALOG_NONE || input_takes(key)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }
 
 static sl_status do_key(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
+    if (!r->app->ui.hit_count) frame(r, 0); // keys act on what was drawn
     input_key(r->app, w->rest, true);
     frame(r, 1.0 / 60);
     input_key(r->app, w->rest, false);
@@ -208,6 +208,26 @@ static sl_status do_export(reader *r, const words *w) {
     return save_series(r->app, w->rest, 2);
 }
 
+/// Types text, as into a text field.
+/// Checks that every text of the next frame is in its panel, and lies on no other.
+static sl_status do_fits(reader *r, const words *w) {
+    (void)w;
+    char text[160];
+    ui_state *ui = &r->app->ui;
+    text_spot *spots = sl_alloc_array(r->app->context, SPOTS_MOST, sizeof *spots);
+    if (!spots) return SL_NO_MEMORY;
+    app_tick(r->app, 0);
+    script_frame(r->app); // some places follow from the frame before
+    ui->spots = spots;
+    script_frame(r->app);
+    const char *misfit = ui_misfit(ui, text);
+    ui->spots = NULL;
+    ui->spot_count = 0;
+    sl_free(r->app->context, spots);
+    if (!misfit) return SL_OK;
+    return sl_fail_at(r->app->context, r->file, r->line, "%s", misfit);
+}
+
 static const struct command {
     const char *name;
     int numbers; ///< that must follow; -1: text, -2: any numbers
@@ -220,6 +240,7 @@ static const struct command {
     {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
     {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
     {"drop", -1, do_drop},  {"type", -1, do_type},     {"expect", -1, do_expect},
+    {"fits", 0, do_fits},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

@@ -17,6 +17,7 @@ struct app_window {
     cairo_surface_t *surface;
     int width, height; ///< of texture and surface, pixels
     char title[TITLE_TEXT];
+    bool fullscreen;
 };
 
 static sl_status fail(sl_context *context, const char *what) {
@@ -46,9 +47,15 @@ static sl_status open_window(app_window *w, bool hidden) {
     const char *driver = SDL_GetCurrentVideoDriver();
     // X's windows are measured in pixels, whatever the screen.
     const double by = driver && strcmp(driver, "x11") == 0 ? density_of_screen(0) : 1;
+    int width = (int)(by * w->app->ui.width), height = (int)(by * w->app->ui.height);
+    SDL_Rect free;
+    if (!hidden && SDL_GetDisplayUsableBounds(0, &free) == 0) {
+        // Where it would not fit, its frame and title have some room.
+        if (width > free.w) width = SDL_max(free.w - 16, 640);
+        if (height > free.h) height = SDL_max(free.h - 48, 480);
+    }
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                 (int)(by * w->app->ui.width), (int)(by * w->app->ui.height),
-                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+                                 width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->window) return fail(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
     const Uint32 wanted = hidden ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_PRESENTVSYNC;
@@ -108,6 +115,10 @@ static void show_title(app_window *w) {
 }
 
 sl_status window_show(app_window *w) {
+    if (w->fullscreen != w->app->ui.fullscreen) {
+        w->fullscreen = w->app->ui.fullscreen;
+        SDL_SetWindowFullscreen(w->window, w->fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    }
     SL_TRY(fit_texture(w));
     show_title(w);
     cairo_t *cairo = cairo_create(w->surface);
@@ -134,7 +145,10 @@ static void key_name(const SDL_Keysym *sym, char name[48]) {
     if (sym->sym == SDLK_KP_ENTER) plain = "Return";
     // With other keys the shift is a part of what they type.
     const bool letter = sym->sym >= SDLK_a && sym->sym <= SDLK_z;
-    const bool with_shift = shift && ((ctrl && letter) || sym->sym == SDLK_TAB);
+    const bool with_shift =
+        shift && ((ctrl && letter) || sym->sym == SDLK_TAB || sym->sym == SDLK_RETURN ||
+                  sym->sym == SDLK_LEFT || sym->sym == SDLK_RIGHT || sym->sym == SDLK_UP ||
+                  sym->sym == SDLK_DOWN);
     snprintf(name, 48, "%s%s%s", ctrl ? "Ctrl+" : "", with_shift ? "Shift+" : "", plain);
 }
 
@@ -225,6 +239,7 @@ sl_status window_run(app_window *w) {
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);
+        if (!lively) ui_tick(&app->ui, now - last);
         last = now;
         SL_TRY(window_show(w));
         const double spent = sl_seconds() - now;

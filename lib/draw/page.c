@@ -2,6 +2,7 @@
 /// anything is drawn; then the same functions draw it. The file is PNG, SVG or PDF.
 #include "draw/page.h"
 #include "draw/marks.h"
+#include "sightline/json_write.h"
 #include "sightline/support.h"
 
 #include <cairo-pdf.h>
@@ -44,7 +45,7 @@ static sl_status fail_cairo(sl_context *context, const char *path, cairo_status_
     case CAIRO_STATUS_NO_MEMORY:
         return sl_fail_memory(context);
     case CAIRO_STATUS_INVALID_STRING:
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: a text is not UTF-8", path);
     case CAIRO_STATUS_WRITE_ERROR:
         return sl_fail(context, SL_IO, "%s: cannot write: %s", path,
                        errno ? strerror(errno) : "the system refused");
@@ -131,6 +132,8 @@ sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_pap
 sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
                          int width, int height, const char *title, sli_paper *out) {
     *out = (sli_paper){.kind = kind, .path = path, .context = context};
+    if (title && !sl_text_is_utf8(title))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
     SL_TRY(sl_output_open(context, path, &out->output));
     out->surface = kind->create(out, width, height);
     out->cairo = cairo_create(out->surface);
