@@ -132,6 +132,21 @@ static void random_key(app_state *app, sl_random *random) {
     if (sl_random_below(random, 4)) input_key(app, action->key, false);
 }
 
+/// Keys that walk through the widgets, and use them.
+static void random_focus_key(app_state *app, sl_random *random) {
+    static const char *const keys[] = {"Tab",    "Tab",          "Tab",   "Shift+Tab",
+                                       "Return", "Shift+Return", "Left",  "Right",
+                                       "Up",     "Down",         "Space", "Backspace"};
+    const hit_area focused = ui_focused(&app->ui);
+    const char *key = keys[sl_random_below(random, sizeof keys / sizeof *keys)];
+    size_t count;
+    const bool writes =
+        focused.kind == HIT_ACTION && !is_harmless(action_table(&count)[focused.value].name);
+    input_key(app, writes ? "Tab" : key, true);
+    input_key(app, key, false);
+    if (!sl_random_below(random, 4)) input_text(app, "wall");
+}
+
 static bool is_file_button(const ui_state *ui, sl_point at) {
     size_t count;
     const hit_area hit = ui_find(ui, at);
@@ -184,6 +199,12 @@ static void random_event(app_state *app, sl_random *random) {
     case 11:
     case 12:
         random_drag(app, random);
+        break;
+    case 15:
+    case 16:
+    case 17:
+    case 18:
+        random_focus_key(app, random);
         break;
     case 13:
     case 14:

@@ -112,14 +112,15 @@ static sl_status step(app_state *app) {
 int layer_nodes_legend(const app_state *app, legend_row *rows) {
     const node_layer *layer = app->view.nodes;
     const bool fills = layers_fill(app) == LAYER_NODES;
+    int at = 0;
     if (!layer || !layer->stepped) return 0;
-    for (int k = 0; k < KINDS; k++) {
-        rows[k] = (legend_row){.label = tone_table()[tones[k]].label,
-                               .mark = fills ? LEGEND_AREA : LEGEND_LINE,
-                               .which = tones[k]};
-        snprintf(rows[k].value, sizeof rows[k].value, "%u", layer->counts[k]);
+    for (int k = fills ? 0 : VISIBLE; k < KINDS; k++, at++) {
+        rows[at] = (legend_row){.label = tone_table()[tones[k]].label,
+                                .mark = fills ? LEGEND_AREA : LEGEND_LINE,
+                                .which = tones[k]};
+        snprintf(rows[at].value, sizeof rows[at].value, "%u", layer->counts[k]);
     }
-    return KINDS;
+    return at;
 }
 
 const char *layer_nodes_words(const app_state *app, char text[96]) {
@@ -136,6 +137,7 @@ void layer_nodes(app_state *app, const sl_frame *frame, int index) {
     (void)index;
     app_check(app, status);
     if (status != SL_OK) return;
-    for (int k = 0; k < KINDS; k++)
+    // Lines go round what is visible: the rest has all of the map in it.
+    for (int k = fills ? 0 : VISIBLE; k < KINDS; k++)
         layers_draw_set(app, frame, app->view.nodes->sets[k], NULL, tones[k], fills);
 }

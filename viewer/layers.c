@@ -117,9 +117,12 @@ void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cell
     cairo_t *cairo = app->ui.cairo;
     cairo_new_path(cairo);
     if (!fills) {
+        cairo_save(cairo);
+        cairo_set_antialias(cairo, CAIRO_ANTIALIAS_FAST);
         add_border(app, frame, cells, without);
         // Wider than walls: it shows on both sides of them.
         tone_line(cairo, &app->ui.palette, which, 6 * frame->unit);
+        cairo_restore(cairo);
         return;
     }
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
