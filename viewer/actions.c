@@ -222,6 +222,7 @@ static void subject(app_state *app) {
 static void travel(app_state *app, bool redo) {
     sl_status status = SL_OK;
     bool bake = false;
+    if (edit_cancel(app)) return;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
         ui_say(&app->ui, false, redo ? "nothing to redo" : "nothing to undo");
@@ -362,6 +363,8 @@ static void quit(app_state *app) {
 static void escape(app_state *app) {
     if (app->ui.help || app->ui.maps_open)
         app->ui.help = app->ui.maps_open = false;
+    else if (edit_cancel(app))
+        ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");

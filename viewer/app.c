@@ -11,6 +11,9 @@
 #include <math.h>
 #include <string.h>
 
+/// A frame of a drag takes this long, where its space does not come sooner.
+#define DRAG_FRAME_SECONDS 0.014
+
 void app_init(app_state *app, sl_context *context) {
     size_t count;
     sl_eye_methods(&count);
@@ -52,6 +55,7 @@ void app_destroy(app_state *app) {
     lesson_destroy(app->context, &app->tool.lesson);
     history_clear(app->context, &app->document.history);
     record_destroy(app->context, &app->tool.recorder);
+    sl_free(app->context, app->tool.ends.items);
     sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
     document_close(app->context, &app->document);
     shelf_empty(app);
@@ -93,9 +97,9 @@ static void drop_made(app_state *app) {
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
-    app->tool.wall = UINT32_MAX;
     quiz_forget(app);
     if (!opened || !app->document.baked) return;
+    app->tool.wall = UINT32_MAX;
     app->view.fitted = true;
     app->tool.drag = (drag_state){0};
     app->document.stale = false;
@@ -132,24 +136,44 @@ static void follow(app_state *app) {
     if (app->view.present.version != before && app->tool.quiz.answered) quiz_forget(app);
 }
 
-/// While something is dragged, a new bake starts only after the last one has its cells. Bakes that
-/// start at each step would never get that far.
+/// While something is dragged, a new space starts only after the last one is there. Jobs that start
+/// at each step would never get that far.
 static void keep_up(app_state *app) {
     if (!app->document.stale || document_awaits_space(&app->document)) return;
-    app_after_edit(app);
+    app->document.stale = false;
+    app_check(app, document_rebuild(app->context, &app->document, true));
 }
 
-static void poll(app_state *app, bool wait) {
-    keep_up(app);
+/// A frame of a drag waits for its space if that comes soon. So the plan is mostly not late at all,
+/// and else by one frame.
+static void wait_for_drag(const app_state *app) {
+    const double spare = DRAG_FRAME_SECONDS - app->view.draw_seconds;
+    if (app->tool.drag.changed && document_awaits_space(&app->document))
+        document_wait_space(&app->document, fmin(fmax(spare, 0), DRAG_FRAME_SECONDS / 2));
+}
+
+/// Takes over what the background has made.
+static void take_results(app_state *app, bool wait) {
     const uint32_t before = app->document.opened, version = app->document.version;
+    const uint32_t read = app->document.read;
     bool changed = false;
     const sl_status status = wait ? document_wait(app->context, &app->document, &changed)
                                   : document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
     if (changed) drop_made(app);
+    if (read != app->document.read) app->tool.drag = (drag_state){0}; // of another map
     if (version != app->document.version) take_document(app, before != app->document.opened);
     follow(app);
     app_check(app, status);
+}
+
+static void poll(app_state *app, bool wait) {
+    do {
+        keep_up(app);
+        if (!wait) wait_for_drag(app);
+        take_results(app, wait);
+    } while (wait && app->document.stale);
+    keep_up(app);
     view_layer_update(app, wait);
 }
 
@@ -208,7 +232,12 @@ void app_before_edit(app_state *app) {
 
 void app_after_edit(app_state *app) {
     app->document.stale = false;
-    app_check(app, document_rebuild(app->context, &app->document));
+    app_check(app, document_rebuild(app->context, &app->document, false));
+}
+
+void app_after_step(app_state *app) {
+    app->document.stale = true;
+    keep_up(app);
 }
 
 // --- the frame
@@ -266,6 +295,7 @@ void app_fit(app_state *app, sl_box plan) {
 
 void app_draw(app_state *app, cairo_t *cairo) {
     const window_layout l = app_layout(app);
+    const double before = sl_seconds();
     app->ui.cairo = cairo;
     app->ui.palette = sl_palette_make(app->ui.dark);
     app->ui.text = ui_text_size(&app->ui);
@@ -281,4 +311,5 @@ void app_draw(app_state *app, cairo_t *cairo) {
     pane_status(app, l.status);
     if (app->ui.maps_open) pane_maps(app);
     if (app->ui.help) pane_help(app);
+    app->view.draw_seconds = 0.8 * app->view.draw_seconds + 0.2 * (sl_seconds() - before);
 }

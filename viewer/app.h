@@ -47,6 +47,8 @@ typedef enum drag_kind {
     DRAG_END,  ///< a portal end of the lesson
     DRAG_NEW_WALL,
     DRAG_WALL,
+    DRAG_CORNER,
+    DRAG_DOOR,
     DRAG_MIRROR,
     DRAG_OBJECT,
 } drag_kind;
@@ -63,6 +65,14 @@ typedef struct drag_state {
     sl_segment segment;
     bool changed;
 } drag_state;
+
+/// An end of a wall, a door or glass that is dragged, and where it was.
+typedef struct held_end {
+    int kind; ///< of edit.c
+    size_t index;
+    bool second;
+    sl_point was;
+} held_end;
 
 /// The list that is shown while `maps_open`: files, or the maps of one file.
 typedef struct map_shelf {
@@ -99,6 +109,7 @@ typedef struct view_state {
     uint32_t scene_version, scene_show; ///< of what the scene was made
     uint32_t tree_version, tree_cell;   ///< of what the tree was made
     bool tree_dark;
+    double draw_seconds;      ///< that a frame takes to draw, smoothed
     kept_picture under, over; ///< below and above what changes from frame to frame
     account_picture account;
 
@@ -113,7 +124,8 @@ typedef struct tool_state {
     unsigned held;    ///< keys, of hold_key
     sl_point pointer; ///< negative: outside
     drag_state drag;
-    uint32_t wall; ///< chosen, of the map; UINT32_MAX: none
+    uint32_t wall;           ///< chosen, of the map; UINT32_MAX: none
+    SL_ARRAY(held_end) ends; ///< that are dragged
     lesson_state lesson;
     quiz_state quiz;
     path_recorder recorder;
@@ -160,6 +172,8 @@ void app_keep(app_state *app);
 /// The same where the change needs a new bake. Call app_after_edit after it: that starts the bake.
 void app_before_edit(app_state *app);
 void app_after_edit(app_state *app);
+/// Call after each step of a drag that changed the map: the space follows, visible sets do not.
+void app_after_step(app_state *app);
 /// Call after a change that needs no new bake.
 void app_after_touch(app_state *app);
 

@@ -176,6 +176,23 @@ static void draw_name(app_state *app, sl_box box, int index, int count) {
     if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
 }
 
+/// Says that the plan is not that of the map as it is now.
+static void draw_late(app_state *app, sl_box box) {
+    if (!document_is_late(&app->document)) return;
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    const char *text = app->document.stale || app->document.job
+                           ? "Updating ..."
+                           : "The plan does not show the last change.";
+    const double half = fmin(ui_text_width(ui, 1, true, text), box_width(box) - 3 * t) / 2;
+    const double middle = (box.min.x + box.max.x) / 2, base = box.min.y + 2.1 * t;
+    ui_fill_round(ui,
+                  (sl_box){{middle - half - 0.6 * t, base - 1.3 * t},
+                           {middle + half + 0.6 * t, base + 0.6 * t}},
+                  0.3 * t, ui->palette.page);
+    sl_text_show_within(ui->cairo, ui->palette.start, middle - half, base, 2 * half, t, true, text);
+}
+
 void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     cairo_t *cairo = app->ui.cairo;
     ui_hit(&app->ui, HIT_PLAN, index, box);
@@ -200,5 +217,6 @@ void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     if (!index) layers_draw_keys(app, &frame);
     const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
+    draw_late(app, box);
     cairo_restore(cairo);
 }

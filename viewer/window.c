@@ -181,8 +181,9 @@ static void take_event(app_window *w, const SDL_Event *e) {
 
 /// Whether something moves without input.
 static bool is_lively(const app_state *app) {
-    return app->tool.held || app_progress(app).running || app->tool.recorder.plays ||
-           app->tool.recorder.records || app->tool.lesson.plays || app->view.motion > 0;
+    return app->tool.held || app->document.job || app_progress(app).running ||
+           app->tool.recorder.plays || app->tool.recorder.records || app->tool.lesson.plays ||
+           app->view.motion > 0;
 }
 
 sl_status window_run(app_window *w) {
