@@ -13,6 +13,8 @@
 
 /// A frame of a drag takes this long, where its space does not come sooner.
 #define DRAG_FRAME_SECONDS 0.014
+/// It waits at least this long: small maps are never late.
+#define DRAG_WAIT_SECONDS 0.003
 
 void app_init(app_state *app, sl_context *context) {
     size_t count;
@@ -46,6 +48,8 @@ void app_destroy(app_state *app) {
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
+    sl_free(app->context, app->view.under.items.items);
+    sl_free(app->context, app->view.over.items.items);
     if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
     node_layer_destroy(app->context, app->view.nodes);
     view_layer_destroy(app->context, app->view.views);
@@ -149,7 +153,7 @@ static void keep_up(app_state *app) {
 static void wait_for_drag(const app_state *app) {
     const double spare = DRAG_FRAME_SECONDS - app->view.draw_seconds;
     if (app->tool.drag.changed && document_awaits_space(&app->document))
-        document_wait_space(&app->document, fmin(fmax(spare, 0), DRAG_FRAME_SECONDS / 2));
+        document_wait_space(&app->document, fmax(spare, DRAG_WAIT_SECONDS));
 }
 
 /// Takes over what the background has made.

@@ -3,6 +3,7 @@
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
+#include "changes.h"
 #include "document.h"
 #include "layers.h"
 #include "lesson.h"
@@ -26,7 +27,8 @@ typedef struct kept_picture {
         uint32_t version, touched, show, depth, dark, views, mark;
         sl_frame frame;
     } key;
-    double seconds; ///< that drawing it took
+    double seconds;   ///< that drawing it took
+    plan_items items; ///< that are in it, while the map is edited
 } kept_picture;
 
 /// The account as it was drawn last.

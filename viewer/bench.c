@@ -83,18 +83,21 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
                       middle.y - (at.y - camera->middle.y) * camera->scale};
 }
 
-/// Drags a wall, or a corner, round in a circle; each frame is another place.
+/// Drags a wall, or a corner, round in a circle, to the middle of the map and back; each frame is
+/// another place.
 static void drag_on(app_state *app, bool corner, unsigned frame) {
-    static const double radius = 60;
+    static const double radius = 25;
     drag_state *drag = &app->tool.drag;
     if (frame == 0) {
         app->tool.mode = MODE_DRAW;
         app->view.eye.flies = true;
         input_press(app, BUTTON_LEFT, grip_of_wall(app, corner));
     }
-    const double angle = 0.3 * frame;
-    input_move(app, (sl_point){drag->from.x + radius * sin(angle),
-                               drag->from.y + radius * (1 - cos(angle))});
+    const sl_box plan = app_layout(app).plan[0];
+    const double angle = 0.3 * frame, towards = atan2((plan.min.y + plan.max.y) / 2 - drag->from.y,
+                                                      (plan.min.x + plan.max.x) / 2 - drag->from.x);
+    input_move(app, (sl_point){drag->from.x + radius * (cos(towards) - cos(towards + angle)),
+                               drag->from.y + radius * (sin(towards) - sin(towards + angle))});
 }
 
 /// One frame of a part of the benchmark.

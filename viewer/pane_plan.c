@@ -65,6 +65,69 @@ static sl_frame at_origin(sl_frame frame) {
     return frame;
 }
 
+/// Draws a picture where it is clipped to.
+static bool paint(app_state *app, cairo_t *cairo, bool over, const sl_frame *frame) {
+    if (over) {
+        cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
+        cairo_paint(cairo);
+        cairo_set_operator(cairo, CAIRO_OPERATOR_OVER);
+        draw_over(app, cairo, frame);
+    } else {
+        draw_under(app, cairo, frame);
+    }
+    return cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
+}
+
+/// The part of a frame around a box of the map, in whole pixels.
+static void part_of_frame(const sl_frame *frame, const sl_box *box, sl_frame *part) {
+    const double around = 16 * frame->unit + 2; // lines and marks reach out of the box
+    const sl_point low = sl_frame_point(frame, box->min), high = sl_frame_point(frame, box->max);
+    const double left = fmax(floor(low.x - around), 0), top = fmax(floor(high.y - around), 0);
+    const double right = fmin(ceil(high.x + around), frame->width);
+    const double bottom = fmin(ceil(low.y + around), frame->height);
+    *part = *frame;
+    part->left = left;
+    part->top = top;
+    part->width = fmax(right - left, 0);
+    part->height = fmax(bottom - top, 0);
+    part->corner.x = frame->corner.x + left / frame->scale;
+    part->corner.y = frame->corner.y + (frame->height - bottom) / frame->scale;
+}
+
+/// Pixels about a part in which things are drawn only to be clipped.
+#define AROUND 200
+
+/// Draws what differs from the picture, which was drawn for the same frame. False if that is much.
+static bool mend(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
+    const document_state *document = &app->document;
+    plan_items now = {0};
+    sl_box boxes[CHANGES_MOST];
+    sl_frame parts[CHANGES_MOST];
+    if (!kept->items.count ||
+        plan_items_list(app->context, document->baked, app->view.scene, over, &now) != SL_OK) {
+        sl_free(app->context, now.items);
+        return false;
+    }
+    const int count = plan_items_compare(&kept->items, &now, boxes);
+    sl_free(app->context, kept->items.items);
+    kept->items = now;
+    double area = 0;
+    for (int i = 0; i < count; i++) {
+        part_of_frame(local, &boxes[i], &parts[i]);
+        area += (parts[i].width + AROUND) * (parts[i].height + AROUND);
+    }
+    if (area > 0.8 * (local->width + AROUND) * (local->height + AROUND)) return false;
+    bool good = true;
+    for (int i = 0; i < count && good; i++) {
+        cairo_t *cairo = cairo_create(kept->surface);
+        cairo_rectangle(cairo, parts[i].left, parts[i].top, parts[i].width, parts[i].height);
+        cairo_clip(cairo);
+        good = paint(app, cairo, over, &parts[i]);
+        cairo_destroy(cairo);
+    }
+    return good;
+}
+
 static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
     const double before = sl_seconds();
@@ -75,16 +138,12 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
                                                    width, height);
     }
     cairo_t *cairo = cairo_create(kept->surface);
-    if (over) {
-        cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
-        cairo_paint(cairo);
-        cairo_set_operator(cairo, CAIRO_OPERATOR_OVER);
-        draw_over(app, cairo, local);
-    } else {
-        draw_under(app, cairo, local);
-    }
-    const bool good = cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
+    const bool good = paint(app, cairo, over, local);
     cairo_destroy(cairo);
+    kept->items.count = 0;
+    if (app->tool.drag.changed)
+        app_check(app, plan_items_list(app->context, app->document.baked, app->view.scene, over,
+                                       &kept->items));
     kept->seconds = sl_seconds() - before;
     return good;
 }
@@ -136,7 +195,14 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
             kept->surface && memcmp(&other.key, &now.key, sizeof now.key) == 0 &&
             kept->key.frame.width == frame->width && kept->key.frame.height == frame->height;
         const bool wait = only_moved && app->view.motion > 0 && kept->seconds > SLOW_SECONDS;
-        if (!wait && remake(app, kept, over, &now.key.frame))
+        other = *kept;
+        other.key.version = now.key.version;
+        other.key.touched = now.key.touched;
+        const bool only_dragged = kept->surface && app->document.live &&
+                                  memcmp(&other.key, &now.key, sizeof now.key) == 0;
+        if (only_dragged && mend(app, kept, over, &now.key.frame))
+            memcpy(&kept->key, &now.key, sizeof now.key);
+        else if (!wait && remake(app, kept, over, &now.key.frame))
             memcpy(&kept->key, &now.key, sizeof now.key);
     }
     if (kept->surface) blit(app->ui.cairo, kept, frame, app->ui.palette.page, over);
