@@ -163,12 +163,19 @@ static bool can_go(const app_state *app, const drag_state *drag, sl_point now) {
     return any;
 }
 
+/// Keeps the map for undo. Walls that are moved are no longer the sides of the solid ground that the
+/// file speaks of: where they contradict each other, ground is open from now on.
+static void begin_change(app_state *app, drag_state *drag) {
+    app_before_edit(app);
+    app->document.map.ground_guessed = true;
+    drag->changed = true;
+}
+
 /// A new wall begins where the pointer was pressed. Its second end is held.
 static bool begin_wall(app_state *app, drag_state *drag, sl_point now) {
     const sl_point from = edit_snap(app, drag->at), to = edit_snap(app, now);
     if (is_same(from, to) || !is_usable(from) || !is_usable(to)) return false;
-    app_before_edit(app);
-    drag->changed = true;
+    begin_change(app, drag);
     const sl_status status = sl_map_add_wall(app->context, &app->document.map, from, to, 0);
     app_check(app, status);
     return status == SL_OK && hold(app, WALLS, app->document.map.wall_count - 1, true);
@@ -180,8 +187,7 @@ void edit_drag(app_state *app, drag_state *drag, sl_point now) {
         return;
     }
     if (!can_go(app, drag, now)) return;
-    if (!drag->changed) app_before_edit(app);
-    drag->changed = true;
+    if (!drag->changed) begin_change(app, drag);
     for (size_t i = 0; i < app->tool.ends.count; i++) {
         const held_end *e = &app->tool.ends.items[i];
         *end_of(&app->document.map, e->kind, e->index, e->second) = place_of(app, drag, e, now);
@@ -215,6 +221,7 @@ void edit_drop(app_state *app, const drag_state *drag) {
     if (drag->changed && app->tool.ends.count) {
         if (!moved) history_take_back(app->context, &app->document.history, &app->document.map);
         if (moved) say_moved(app, drag);
+        app->tool.wall = UINT32_MAX;
         app_after_edit(app);
     }
     app->tool.ends.count = 0;
@@ -246,6 +253,7 @@ void edit_delete(app_state *app) {
         return;
     }
     app_before_edit(app);
+    map->ground_guessed = true;
     map->walls[app->tool.wall] = map->walls[--map->wall_count];
     app->tool.wall = UINT32_MAX;
     ui_say(&app->ui, false, "wall deleted");
