@@ -2,6 +2,7 @@
 
 #include "edit.h"
 #include "effects.h"
+#include "export.h"
 #include "files.h"
 #include "layers.h"
 #include "modes.h"
@@ -304,8 +305,8 @@ static bool is_play(const app_state *app) {
     return app->tool.recorder.plays;
 }
 
-static void export_series(app_state *app) {
-    app_check(app, save_series(app, "sightline-frames", 2));
+static void export_frames(app_state *app) {
+    app_check(app, (app->steady ? save_series : export_series)(app, "sightline-frames", 2));
 }
 
 // --- files
@@ -368,7 +369,9 @@ static void escape(app_state *app) {
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
-    } else if (view_layer_stop(app))
+    } else if (export_stop(app))
+        ui_say(&app->ui, false, "stopped; the pictures that are written stay");
+    else if (view_layer_stop(app))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
@@ -441,7 +444,7 @@ static const action_row actions[] = {
 
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
-    {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_series, NULL},
+    {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_frames, NULL},
 
     {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
     {"choose", "Return", NULL, "list: open what is chosen", 0, 0, choose, NULL},

@@ -45,6 +45,10 @@ static void drop_scenes(app_state *app) {
 }
 
 void app_destroy(app_state *app) {
+    // All jobs are told before any of them is waited for.
+    document_stop_soon(&app->document);
+    export_stop(app);
+    view_layer_stop(app);
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
@@ -183,7 +187,9 @@ static void poll(app_state *app, bool wait) {
 
 job_progress app_progress(const app_state *app) {
     const job_progress document = document_progress(&app->document);
-    return document.running ? document : view_layer_progress(app->view.views);
+    if (document.running) return document;
+    const job_progress pictures = export_progress(app->exports);
+    return pictures.running ? pictures : view_layer_progress(app->view.views);
 }
 
 static void look(app_state *app) {
@@ -216,7 +222,9 @@ void app_tick(app_state *app, double seconds) {
     app_check(app, record_tick(app->context, &app->tool.recorder, seconds,
                                (record_frame){app->view.eye.at, app->view.eye.heading}));
     if (app->document.baked) lesson_tick(&app->tool.lesson, &app->document, seconds);
+    export_move(app);
     look(app);
+    export_take(app);
 }
 
 void app_keep(app_state *app) {

@@ -5,6 +5,7 @@
 
 #include "changes.h"
 #include "document.h"
+#include "export.h"
 #include "layers.h"
 #include "lesson.h"
 #include "present.h"
@@ -140,6 +141,7 @@ struct app_state {
     tool_state tool;
     ui_state ui;
     map_shelf shelf;
+    export_job *exports;       ///< NULL: no pictures are being written
     sl_import_options options; ///< the command line's, for files opened later too
     bool steady;               ///< under a script: no clock shows, nothing is remembered
     bool quit;

@@ -568,6 +568,10 @@ job_progress document_progress(const document_state *document) {
                           .share = total ? (double)count / (double)total : -1};
 }
 
+void document_stop_soon(document_state *document) {
+    if (document->job) atomic_store(&document->job->cancel, true);
+}
+
 void document_cancel(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     if (!job) return;

@@ -138,6 +138,9 @@ sl_status document_wait(sl_context *context, document_state *document, bool *cha
 /// The space of a drag shows no progress, as long as it comes soon.
 job_progress document_progress(const document_state *document);
 
+/// Tells the job to stop, if one runs; whoever cancels it later waits the less.
+void document_stop_soon(document_state *document);
+
 /// Stops the job, if one runs.
 void document_cancel(sl_context *context, document_state *document);
 

@@ -163,8 +163,8 @@ static bool can_go(const app_state *app, const drag_state *drag, sl_point now) {
     return any;
 }
 
-/// Keeps the map for undo. Walls that are moved are no longer the sides of the solid ground that the
-/// file speaks of: where they contradict each other, ground is open from now on.
+/// Keeps the map for undo. Walls that are moved are no longer the sides of the solid ground that
+/// the file speaks of: where they contradict each other, ground is open from now on.
 static void begin_change(app_state *app, drag_state *drag) {
     app_before_edit(app);
     app->document.map.ground_guessed = true;
