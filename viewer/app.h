@@ -143,7 +143,10 @@ struct app_state {
     map_shelf shelf;
     export_job *exports;       ///< NULL: no pictures are being written
     sl_import_options options; ///< the command line's, for files opened later too
-    bool steady;               ///< under a script: no clock shows, nothing is remembered
+    /// For pictures that may take longer than a frame has: the window stops them for keys that must
+    /// not wait. NULL: they are drawn to their end.
+    sl_context *drawing;
+    bool steady; ///< under a script: no clock shows, nothing is remembered
     bool quit;
 };
 

@@ -89,8 +89,11 @@ static sl_status begin(app_state *app, writer *w, const char *path, int width, i
     snprintf(w->path, sizeof w->path, "%s", path);
     w->surface = surface_for(path, width, height);
     cairo_t *cairo = cairo_create(w->surface);
+    sl_context *const drawing = app->drawing;
     job->draws = true;
+    app->drawing = NULL; // it is drawn to its end
     draw(app, cairo);
+    app->drawing = drawing;
     job->draws = false;
     const cairo_status_t drawn = cairo_status(cairo);
     cairo_destroy(cairo);

@@ -41,22 +41,28 @@ static bool make_scene(app_state *app) {
 
 // --- pictures that are kept
 
-/// Draws what is below all that changes: cells, portals, view cells, splits.
-static void draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
+static sl_context *drawing(const app_state *app) {
+    return app->drawing ? app->drawing : app->context;
+}
+
+/// Draws what is below all that changes: cells, portals, view cells, splits. False if it was
+/// stopped.
+static bool draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const unsigned layers =
         scene_layers(&app->view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
-    app_check(app, sl_draw_plan(app->context, cairo, app->view.scene, layers, frame));
+    if (sl_draw_plan(drawing(app), cairo, app->view.scene, layers, frame) != SL_OK) return false;
     if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
     if (app->view.show & SHOW_SPLITS)
         sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
                         app->document.baked->space.node_count, app->view.split_depth);
+    return true;
 }
 
 /// Draws what is over it: walls and other things of the map.
-static void draw_over(app_state *app, cairo_t *cairo, const sl_frame *frame) {
-    app_check(app, sl_draw_walls(app->context, cairo, app->view.scene, frame));
+static bool draw_over(app_state *app, cairo_t *cairo, const sl_frame *frame) {
+    return sl_draw_walls(drawing(app), cairo, app->view.scene, frame) == SL_OK;
 }
 
 /// The frame of a pane with its upper left at the origin.
@@ -67,15 +73,16 @@ static sl_frame at_origin(sl_frame frame) {
 
 /// Draws a picture where it is clipped to.
 static bool paint(app_state *app, cairo_t *cairo, bool over, const sl_frame *frame) {
+    bool whole;
     if (over) {
         cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
         cairo_paint(cairo);
         cairo_set_operator(cairo, CAIRO_OPERATOR_OVER);
-        draw_over(app, cairo, frame);
+        whole = draw_over(app, cairo, frame);
     } else {
-        draw_under(app, cairo, frame);
+        whole = draw_under(app, cairo, frame);
     }
-    return cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
+    return whole && cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
 }
 
 /// The part of a frame around a box of the map, in whole pixels.
@@ -141,7 +148,8 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
     const bool good = paint(app, cairo, over, local);
     cairo_destroy(cairo);
     kept->items.count = 0;
-    if (app->tool.drag.changed)
+    if (!good) kept->key.version = app->document.version - 1; // it is drawn again
+    if (good && app->tool.drag.changed)
         app_check(app, plan_items_list(app->context, app->document.baked, app->view.scene, over,
                                        &kept->items));
     kept->seconds = sl_seconds() - before;
