@@ -3,6 +3,7 @@
 #include "browser.h"
 #include "edit.h"
 #include "effects.h"
+#include "export.h"
 #include "files.h"
 #include "import_dialog.h"
 #include "layers.h"
@@ -244,6 +245,7 @@ static void subject(app_state *app) {
 static void travel(app_state *app, bool redo) {
     sl_status status = SL_OK;
     bool bake = false;
+    if (edit_cancel(app)) return;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
         ui_say(&app->ui, false, redo ? "nothing to redo" : "nothing to undo");
@@ -326,10 +328,12 @@ static bool is_play(const app_state *app) {
 }
 
 static void take_export(app_state *app, int answer) {
-    if (answer == 0) app_check(app, save_series(app, "sightline-frames", SERIES_STEP));
+    if (answer == 0 && !app->file.locked)
+        app_check(
+            app, (app->steady ? save_series : export_series)(app, "sightline-frames", SERIES_STEP));
 }
 
-static void export_series(app_state *app) {
+static void export_frames(app_state *app) {
     static const char *const answers[] = {"S:Save", "C:Cancel"};
     const size_t count = (app->tool.recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
     char text[160];
@@ -424,10 +428,14 @@ static void escape(app_state *app) {
         app_shut_help(app);
     else if (map_file_stop(app))
         ui_say(&app->ui, false, "stopped; the map is not saved");
+    else if (edit_cancel(app))
+        ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
-    } else if (view_layer_stop(app))
+    } else if (export_stop(app))
+        ui_say(&app->ui, false, "stopped; the pictures that are written stay");
+    else if (view_layer_stop(app))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
@@ -501,7 +509,7 @@ static const action_row actions[] = {
 
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
-    {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_series, NULL},
+    {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_frames, NULL},
 
     {"file", "Ctrl+M", "File", "all that has to do with files", 0, 0, file_menu, NULL},
     {"new", "Ctrl+N", "New", "a new map", 0, 0, file_new, NULL},

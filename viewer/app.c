@@ -13,6 +13,11 @@
 #include <stdio.h>
 #include <string.h>
 
+/// A frame of a drag takes this long, where its space does not come sooner.
+#define DRAG_FRAME_SECONDS 0.014
+/// It waits at least this long: small maps are never late.
+#define DRAG_WAIT_SECONDS 0.003
+
 void app_init(app_state *app, sl_context *context) {
     size_t count;
     sl_eye_methods(&count);
@@ -47,9 +52,15 @@ static void drop_scenes(app_state *app) {
 }
 
 void app_destroy(app_state *app) {
+    // All jobs are told before any of them is waited for.
+    document_stop_soon(&app->document);
+    export_stop(app);
+    view_layer_stop(app);
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
+    sl_free(app->context, app->view.under.items.items);
+    sl_free(app->context, app->view.over.items.items);
     if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
     node_layer_destroy(app->context, app->view.nodes);
     view_layer_destroy(app->context, app->view.views);
@@ -61,6 +72,7 @@ void app_destroy(app_state *app) {
     dialog_destroy(app);
     history_clear(app->context, &app->document.history);
     record_destroy(app->context, &app->tool.recorder);
+    sl_free(app->context, app->tool.ends.items);
     sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
     document_close(app->context, &app->document);
 }
@@ -127,13 +139,13 @@ static void say_subdivision(app_state *app, bool was_mesh) {
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
-    app->tool.wall = UINT32_MAX;
     quiz_forget(app);
     const bool was_mesh = app->view.mesh;
     if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
         say_subdivision(app, was_mesh);
     if (!opened || !app->document.baked) return;
+    app->tool.wall = UINT32_MAX;
     app->view.fitted = true;
     app->tool.drag = (drag_state){0};
     app->document.stale = false;
@@ -157,16 +169,26 @@ static void follow(app_state *app) {
     if (app->view.present.version != before && app->tool.quiz.answered) quiz_forget(app);
 }
 
-/// While something is dragged, a new bake starts only after the last one has its cells. Bakes that
-/// start at each step would never get that far.
+/// While something is dragged, a new space starts only after the last one is there. Jobs that start
+/// at each step would never get that far.
 static void keep_up(app_state *app) {
     if (!app->document.stale || document_awaits_space(&app->document)) return;
-    app_after_edit(app);
+    app->document.stale = false;
+    app_check(app, document_rebuild(app->context, &app->document, true));
 }
 
-static void poll(app_state *app, bool wait) {
-    keep_up(app);
+/// A frame of a drag waits for its space if that comes soon. So the plan is mostly not late at all,
+/// and else by one frame.
+static void wait_for_drag(const app_state *app) {
+    const double spare = DRAG_FRAME_SECONDS - app->view.draw_seconds;
+    if (app->tool.drag.changed && document_awaits_space(&app->document))
+        document_wait_space(&app->document, fmax(spare, DRAG_WAIT_SECONDS));
+}
+
+/// Takes over what the background has made.
+static void take_results(app_state *app, bool wait) {
     const uint32_t before = app->document.opened, version = app->document.version;
+    const uint32_t read = app->document.read;
     char opening[PATH_TEXT] = "";
     const char *file = document_opening(&app->document);
     if (file) snprintf(opening, sizeof opening, "%s", file);
@@ -175,6 +197,7 @@ static void poll(app_state *app, bool wait) {
                                   : document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
     if (changed) drop_made(app);
+    if (read != app->document.read) app->tool.drag = (drag_state){0}; // of another map
     if (version != app->document.version) {
         take_document(app, before != app->document.opened);
         // What was said before was of the map before.
@@ -186,6 +209,15 @@ static void poll(app_state *app, bool wait) {
         files_check(app, opening, status);
     else
         app_check(app, status);
+}
+
+static void poll(app_state *app, bool wait) {
+    do {
+        keep_up(app);
+        if (!wait) wait_for_drag(app);
+        take_results(app, wait);
+    } while (wait && app->document.stale);
+    keep_up(app);
     view_layer_update(app, wait);
     map_file_tick(app, wait);
     recovery_tick(app);
@@ -193,8 +225,10 @@ static void poll(app_state *app, bool wait) {
 
 job_progress app_progress(const app_state *app) {
     const job_progress document = document_progress(&app->document);
-    const job_progress file = map_file_progress(app);
-    return document.running ? document : file.running ? file : view_layer_progress(app->view.views);
+    if (document.running) return document;
+    const job_progress file = map_file_progress(app), pictures = export_progress(app->exports);
+    if (file.running) return file;
+    return pictures.running ? pictures : view_layer_progress(app->view.views);
 }
 
 static void look(app_state *app) {
@@ -228,7 +262,9 @@ void app_tick(app_state *app, double seconds) {
     app_check(app, record_tick(app->context, &app->tool.recorder, seconds,
                                (record_frame){app->view.eye.at, app->view.eye.heading}));
     if (app->document.baked) lesson_tick(&app->tool.lesson, &app->document, seconds);
+    export_move(app);
     look(app);
+    export_take(app);
 }
 
 void app_keep(app_state *app) {
@@ -248,7 +284,12 @@ void app_before_edit(app_state *app) {
 
 void app_after_edit(app_state *app) {
     app->document.stale = false;
-    app_check(app, document_rebuild(app->context, &app->document));
+    app_check(app, document_rebuild(app->context, &app->document, false));
+}
+
+void app_after_step(app_state *app) {
+    app->document.stale = true;
+    keep_up(app);
 }
 
 // --- the frame
@@ -371,6 +412,7 @@ static sl_palette palette_of(const ui_state *ui) {
 }
 
 void app_draw(app_state *app, cairo_t *cairo) {
+    const double before = sl_seconds();
     app->ui.cairo = cairo;
     app->ui.palette = palette_of(&app->ui);
     app->ui.text = ui_text_size(&app->ui);
@@ -391,4 +433,5 @@ void app_draw(app_state *app, cairo_t *cairo) {
     if (app->ui.help) pane_help(app);
     dialog_draw(app);
     pane_tip(app);
+    app->view.draw_seconds = 0.8 * app->view.draw_seconds + 0.2 * (sl_seconds() - before);
 }

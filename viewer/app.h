@@ -3,8 +3,10 @@
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
+#include "changes.h"
 #include "dialog.h"
 #include "document.h"
+#include "export.h"
 #include "layers.h"
 #include "lesson.h"
 #include "map_file.h"
@@ -28,7 +30,8 @@ typedef struct kept_picture {
         uint32_t version, touched, show, depth, dark, views, mark;
         sl_frame frame;
     } key;
-    double seconds; ///< that drawing it took
+    double seconds;   ///< that drawing it took
+    plan_items items; ///< that are in it, while the map is edited
 } kept_picture;
 
 /// The account as it was drawn last.
@@ -49,6 +52,8 @@ typedef enum drag_kind {
     DRAG_END,  ///< a portal end of the lesson
     DRAG_NEW_WALL,
     DRAG_WALL,
+    DRAG_CORNER,
+    DRAG_DOOR,
     DRAG_MIRROR,
     DRAG_OBJECT,
 } drag_kind;
@@ -65,6 +70,14 @@ typedef struct drag_state {
     sl_segment segment;
     bool changed;
 } drag_state;
+
+/// An end of a wall, a door or glass that is dragged, and where it was.
+typedef struct held_end {
+    int kind; ///< of edit.c
+    size_t index;
+    bool second;
+    sl_point was;
+} held_end;
 
 typedef struct quiz_state {
     uint32_t from, to;
@@ -95,6 +108,7 @@ typedef struct view_state {
     uint32_t scene_version, scene_show; ///< of what the scene was made
     uint32_t tree_version, tree_cell;   ///< of what the tree was made
     bool tree_dark;
+    double draw_seconds;      ///< that a frame takes to draw, smoothed
     kept_picture under, over; ///< below and above what changes from frame to frame
     account_picture account;
 
@@ -109,7 +123,8 @@ typedef struct tool_state {
     unsigned held;    ///< keys, of hold_key
     sl_point pointer; ///< negative: outside
     drag_state drag;
-    uint32_t wall; ///< chosen, of the map; UINT32_MAX: none
+    uint32_t wall;           ///< chosen, of the map; UINT32_MAX: none
+    SL_ARRAY(held_end) ends; ///< that are dragged
     lesson_state lesson;
     quiz_state quiz;
     path_recorder recorder;
@@ -123,8 +138,12 @@ struct app_state {
     ui_state ui;
     dialog_state dialog;
     file_state file;
+    export_job *exports;       ///< NULL: no pictures are being written
     sl_import_options options; ///< the command line's, for files opened later too
-    bool steady;               ///< under a script: no clock shows, nothing is remembered
+    /// For pictures that may take longer than a frame has: the window stops them for keys that must
+    /// not wait. NULL: they are drawn to their end.
+    sl_context *drawing;
+    bool steady; ///< under a script: no clock shows, nothing is remembered
     bool quit;
 };
 
@@ -157,6 +176,8 @@ void app_keep(app_state *app);
 /// The same where the change needs a new bake. Call app_after_edit after it: that starts the bake.
 void app_before_edit(app_state *app);
 void app_after_edit(app_state *app);
+/// Call after each step of a drag that changed the map: the space follows, visible sets do not.
+void app_after_step(app_state *app);
 /// Call after a change that needs no new bake.
 void app_after_touch(app_state *app);
 

@@ -4,6 +4,12 @@
 /// A job owns all that it makes until it sets a flag: space_ready, seen_ready, done. After the flag
 /// that part belongs to the main thread. document_poll takes it over and never waits. A change by
 /// hand cancels the job and starts another one. The old map stays until the new one has its space.
+///
+/// While something is dragged, jobs are live: they make the space alone, which is all that the
+/// visible region and the eye's culling need. A live job runs to its end before the next one
+/// starts, with the map as it is then. So the picture is late by one job, however fast the drag.
+/// Cost: one whole bake of the space per frame. That is a few ms for some thousand walls, and
+/// simpler than to mend the old space.
 #include "document.h"
 
 #include "sightline/io.h"
@@ -54,6 +60,14 @@ void history_forget_last(sl_context *context, edit_history *history) {
     if (!history->done_count) return;
     sl_map_destroy(context, &history->done[--history->done_count]);
     history->state = history->done_state[history->done_count];
+}
+
+bool history_take_back(sl_context *context, edit_history *history, sl_map *map) {
+    if (!history->done_count) return false;
+    sl_map_destroy(context, map);
+    *map = history->done[--history->done_count];
+    history->state = history->done_state[history->done_count];
+    return true;
 }
 
 static bool same_segment(sl_segment a, sl_segment b) {
@@ -111,11 +125,16 @@ void history_clear(sl_context *context, edit_history *history) {
 struct bake_job {
     document_source source; ///< what to read; no path: `map` is what to bake
     bool begins;            ///< `map` is a new one, and not the open one after a change
-    double weld;            ///< negative: the usual
+    double wanted_weld;     ///< negative: the usual
     uint32_t mirror_depth;
-    sl_map map;               ///< as drawn; filled by the job where it reads
-    sl_map clean;             ///< the job's, to the end
-    sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
+    sl_map map;         ///< as drawn; filled by the job where it reads
+    sl_map clean;       ///< the job's, to the end
+    sl_baked *baked;    ///< the job's until space_ready, then only its visibility is
+    sl_outline outline; ///< these four as well
+    sli_split *splits;
+    double *areas;
+    sl_eye_search *search;
+    double weld;
     sl_visibility visibility; ///< the job's until seen_ready
     sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
     sl_status status;         ///< when `done`
@@ -123,7 +142,10 @@ struct bake_job {
     char notes[NOTES_TEXT]; ///< the job's until space_ready
     pthread_t thread;
     atomic_bool cancel, space_ready, seen_ready, done;
-    double until; ///< the clock's time at which the job gives up stab trees; 0: never
+    bool live;      ///< the space alone
+    uint32_t edit;  ///< of the document, when the job started
+    double started; ///< by the clock
+    double until;   ///< the clock's time at which the job gives up stab trees; 0: never
     _Atomic(const char *) stage;
     atomic_uint_fast64_t count, total;
     bool taken, seen_taken; ///< the main thread has the space, the visibility
@@ -131,6 +153,9 @@ struct bake_job {
 
 /// Stab trees are kept if all of them fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
+
+/// The progress of a drag's space is shown after this time, seconds.
+#define SOON 0.25
 
 /// The search for stab trees ends after this time: open places have too many sequences.
 #define TREE_SECONDS 20
@@ -161,6 +186,24 @@ static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *wall
     return sl_map_add_walls(context, map, walls, count);
 }
 
+static sl_status add_mirrors(sl_context *context, const sl_map *map, uint32_t depth,
+                             sl_eye_search *search) {
+    return map->mirror_count ? sl_eye_search_add_mirrors(context, search, map, depth) : SL_OK;
+}
+
+/// Makes what the plan, the lessons and the eye need of the space.
+static sl_status measure_space(sl_context *context, bake_job *job) {
+    const sl_space *space = &job->baked->space;
+    job->areas = sl_alloc_array(context, space->cell_count, sizeof *job->areas);
+    if (!job->areas) return SL_NO_MEMORY;
+    for (uint32_t cell = 0; cell < space->cell_count; cell++)
+        job->areas[cell] = sl_space_area(space, cell);
+    SL_TRY(sl_outline_make(context, space, &job->outline));
+    SL_TRY(sli_splits_make(context, space, &job->splits));
+    SL_TRY(sl_eye_search_create(context, space, &job->baked->visibility, &job->search));
+    return add_mirrors(context, &job->baked->map, job->mirror_depth, job->search);
+}
+
 /// A baked file has all but the map as drawn: the walls of its space take its place.
 static sl_status read_baked(sl_context *context, bake_job *job) {
     SL_TRY(sl_baked_read(context, job->source.path, job->baked));
@@ -168,6 +211,7 @@ static sl_status read_baked(sl_context *context, bake_job *job) {
     SL_TRY(set_walls(context, &job->map, job->baked->space.walls, job->baked->space.wall_count));
     job->visibility = job->baked->visibility;
     job->baked->visibility = (sl_visibility){0};
+    SL_TRY(measure_space(context, job));
     atomic_store(&job->space_ready, true);
     atomic_store(&job->seen_ready, true);
     return SL_OK;
@@ -212,13 +256,16 @@ static sl_status bake(sl_context *context, bake_job *job) {
     sl_bake_account account = {0};
     sl_map map = {0};
     options.mirror_depth = job->mirror_depth;
-    options.clean.weld = job->weld;
+    options.clean.weld = job->wanted_weld;
     SL_TRY(sl_map_copy(context, &job->map, &map));
     const sl_status status = sl_bake_space(context, &map, &options, job->baked, &account);
     sl_map_destroy(context, &map);
     SL_TRY(status);
-    SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
+    job->weld = account.cleaning.tolerance;
+    SL_TRY(measure_space(context, job));
+    if (!job->live) SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
     atomic_store(&job->space_ready, true);
+    if (job->live) return SL_OK;
     SL_TRY(see(context, job, &options, &job->visibility));
     atomic_store(&job->seen_ready, true);
     return see_with_trees(context, job, options);
@@ -245,6 +292,12 @@ static void *run(void *user) {
 }
 
 static void free_job(sl_context *context, bake_job *job) {
+    if (!job->taken && job->search) sl_eye_search_destroy(context, job->search);
+    if (!job->taken) {
+        sl_outline_destroy(context, &job->outline);
+        sl_free(context, job->splits);
+        sl_free(context, job->areas);
+    }
     if (!job->taken && job->baked) {
         sl_baked_destroy(context, job->baked);
         sl_free(context, job->baked);
@@ -260,6 +313,7 @@ static void free_job(sl_context *context, bake_job *job) {
 /// Starts the thread. Owns the content of the job also on failure.
 static sl_status bake_job_start(sl_context *context, bake_job *job) {
     atomic_store(&job->stage, "read");
+    job->started = sl_seconds();
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
     if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
     free_job(context, job);
@@ -326,7 +380,7 @@ static bake_job *make_job(sl_context *context, const document_state *document,
     bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return NULL;
     job->mirror_depth = document->mirror_depth;
-    job->weld = source && source->has_weld ? source->weld : sl_clean_options_default().weld;
+    job->wanted_weld = source && source->has_weld ? source->weld : sl_clean_options_default().weld;
     return job;
 }
 
@@ -355,9 +409,12 @@ const char *document_opening(const document_state *document) {
     return document_awaits_space(document) ? document->job->source.path : NULL;
 }
 
-sl_status document_rebuild(sl_context *context, document_state *document) {
+sl_status document_rebuild(sl_context *context, document_state *document, bool live) {
+    document->edit++;
     bake_job *job = make_job(context, document, &document->source);
     if (!job) return SL_NO_MEMORY;
+    job->live = live;
+    job->edit = document->edit;
     const sl_status status = sl_map_copy(context, &document->map, &job->map);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -369,6 +426,10 @@ sl_status document_rebuild(sl_context *context, document_state *document) {
 bool document_has_rows(const document_state *document) {
     const double now = document->map.range, baked = document->baked->map.range;
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
+}
+
+bool document_is_late(const document_state *document) {
+    return document->baked && (document->stale || document->shown != document->edit);
 }
 
 bool document_awaits_space(const document_state *document) {
@@ -415,9 +476,7 @@ static void drop_baked(sl_context *context, document_state *document) {
 
 sl_status document_add_mirrors(sl_context *context, const document_state *document,
                                sl_eye_search *search) {
-    const sl_map *map = &document->baked->map;
-    if (!map->mirror_count) return SL_OK;
-    return sl_eye_search_add_mirrors(context, search, map, document->mirror_depth);
+    return add_mirrors(context, &document->baked->map, document->mirror_depth, search);
 }
 
 static sl_status make_search(sl_context *context, document_state *document) {
@@ -432,31 +491,39 @@ sl_status document_renew_search(sl_context *context, document_state *document) {
     return document->search ? make_search(context, document) : SL_OK;
 }
 
-static sl_status measure_cells(sl_context *context, document_state *document) {
+static void count_cells(document_state *document) {
     const sl_space *space = &document->baked->space;
-    document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
-    if (!document->areas) return SL_NO_MEMORY;
     document->area = 0;
     document->counted = document->solid = 0;
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
-        document->areas[cell] = sl_space_area(space, cell);
         document->solid += space->cells[cell].solid;
         if (!sl_baked_counts(document->baked, cell)) continue;
         document->area += document->areas[cell];
         document->counted++;
     }
-    return SL_OK;
+}
+
+static void take_made(document_state *document, bake_job *job) {
+    document->baked = job->baked;
+    document->baked_depth = job->mirror_depth;
+    document->outline = job->outline;
+    document->splits = job->splits;
+    document->areas = job->areas;
+    document->search = job->search;
+    document->weld = job->weld;
+    document->live = job->live;
+    document->shown = job->edit;
+    job->taken = true;
+    document->version++;
 }
 
 /// Takes over the space: it is shown from now on.
 static sl_status take_space(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     drop_baked(context, document);
-    document->baked = job->baked;
-    document->baked_depth = job->mirror_depth;
-    job->taken = true;
-    document->version++;
+    take_made(document, job);
     if (job->source.path || job->begins) {
+        document->shown = document->edit; // the file's map takes the place of all changes
         sl_map_destroy(context, &document->map);
         SL_TRY(sl_map_copy(context, &job->map, &document->map));
         SL_TRY(take_objects(context, document));
@@ -465,12 +532,11 @@ static sl_status take_space(sl_context *context, document_state *document) {
         job->source = (document_source){0};
         memcpy(document->notes, job->notes, sizeof document->notes);
         document->opened += !document->source.again;
+        document->read++;
     }
     document_touch(document); // doors may have been turned while the job was at work
-    SL_TRY(measure_cells(context, document));
-    SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
-    SL_TRY(sli_splits_make(context, &document->baked->space, &document->splits));
-    return make_search(context, document);
+    count_cells(document);
+    return job->mirror_depth == document->mirror_depth ? SL_OK : make_search(context, document);
 }
 
 /// Takes over the visible sets. They come a second time, equal but with stab trees.
@@ -521,6 +587,16 @@ sl_status document_poll(sl_context *context, document_state *document, bool *cha
     return finish(context, document);
 }
 
+void document_wait_space(const document_state *document, double seconds) {
+    const double end = sl_seconds() + seconds;
+    const bake_job *job = document->job;
+    while (job && !job->taken && !atomic_load(&job->space_ready) && !atomic_load(&job->done) &&
+           sl_seconds() < end) {
+        const struct timespec pause = {0, 100000};
+        nanosleep(&pause, NULL);
+    }
+}
+
 sl_status document_wait(sl_context *context, document_state *document, bool *changed) {
     bool any = false;
     sl_status status = SL_OK;
@@ -539,11 +615,15 @@ sl_status document_wait(sl_context *context, document_state *document, bool *cha
 
 job_progress document_progress(const document_state *document) {
     const bake_job *job = document->job;
-    if (!job) return (job_progress){0};
+    if (!job || (job->live && sl_seconds() < job->started + SOON)) return (job_progress){0};
     const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
     return (job_progress){.running = true,
                           .stage = atomic_load(&job->stage),
                           .share = total ? (double)count / (double)total : -1};
+}
+
+void document_stop_soon(document_state *document) {
+    if (document->job) atomic_store(&document->job->cancel, true);
 }
 
 void document_cancel(sl_context *context, document_state *document) {
@@ -563,6 +643,7 @@ void document_close(sl_context *context, document_state *document) {
     *document = (document_state){.version = document->version + 1,
                                  .touched = document->touched,
                                  .opened = document->opened,
+                                 .read = document->read,
                                  .history = document->history,
                                  .stale = document->stale};
 }

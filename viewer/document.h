@@ -28,6 +28,10 @@ sl_status history_keep(sl_context *context, edit_history *history, const sl_map 
 /// Drops the last change that was kept: nothing changed.
 void history_forget_last(sl_context *context, edit_history *history);
 
+/// Takes the last change back as if it had never been: the map is as it was kept. False where there
+/// is none.
+bool history_take_back(sl_context *context, edit_history *history, sl_map *map);
+
 /// Goes one change back (or forward); false where there is none. *bake says whether the change
 /// needs a new bake.
 bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
@@ -79,10 +83,14 @@ typedef struct document_state {
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
+    uint32_t read;    ///< the same, and with every file that is read again
     char notes[NOTES_TEXT]; ///< what the reader of the file said it took, in lines
     bake_job *job;          ///< NULL: none runs
     edit_history history;   ///< of changes by hand
     bool stale;             ///< the map changes while something is dragged: it is to be made anew
+    bool live;              ///< the space is one of a drag: no visible sets are made for it
+    uint32_t edit, shown;   ///< number of the last change that needs a bake, and of the one shown
+    double weld;            ///< ends of walls this near to each other are one corner
 } document_state;
 
 /// The progress of the work in the background.
@@ -106,8 +114,11 @@ sl_status document_begin(sl_context *context, document_state *document, sl_map *
 /// The file that is being read; NULL for none.
 const char *document_opening(const document_state *document);
 
-/// Starts to bake the map as it is now.
-sl_status document_rebuild(sl_context *context, document_state *document);
+/// Starts to bake the map as it is now. `live`: only its space, for the next frame of a drag.
+sl_status document_rebuild(sl_context *context, document_state *document, bool live);
+
+/// Whether the space that is shown is not that of the map as it is now.
+bool document_is_late(const document_state *document);
 
 /// Whether visible sets are there, and hold all that cells see with the present range.
 bool document_has_rows(const document_state *document);
@@ -129,10 +140,17 @@ void document_touch(document_state *document);
 /// failed gives its status and message, and the old map stays.
 sl_status document_poll(sl_context *context, document_state *document, bool *changed);
 
+/// Waits for the space of a running job, up to this time. The next poll takes it over.
+void document_wait_space(const document_state *document, double seconds);
+
 /// Waits until no job runs.
 sl_status document_wait(sl_context *context, document_state *document, bool *changed);
 
+/// The space of a drag shows no progress, as long as it comes soon.
 job_progress document_progress(const document_state *document);
+
+/// Tells the job to stop, if one runs; whoever cancels it later waits the less.
+void document_stop_soon(document_state *document);
 
 /// Stops the job, if one runs.
 void document_cancel(sl_context *context, document_state *document);

@@ -210,7 +210,7 @@ void mirror_move(app_state *app, drag_state *drag, sl_point now) {
     if (!drag->changed) app_before_edit(app);
     drag->changed = true;
     map->mirrors[drag->index].segment = to;
-    app->document.stale = true;
+    app_after_step(app);
 }
 
 void mirror_drop(app_state *app, const drag_state *drag) {

@@ -273,9 +273,7 @@ static drag_kind plan_drag(app_state *app, drag_state *drag) {
     if (moves && mirror_take(app, drag)) return DRAG_MIRROR;
     if (app->tool.mode == MODE_EXPLORE && object_take(app, drag)) return DRAG_OBJECT;
     if (app->tool.mode != MODE_DRAW) return DRAG_PAN;
-    drag->index = edit_pick(app, drag->at);
-    app->tool.wall = drag->index;
-    return drag->index == UINT32_MAX ? DRAG_NEW_WALL : DRAG_WALL;
+    return edit_take(app, drag);
 }
 
 static void click(app_state *app, const hit_area *hit) {
@@ -399,31 +397,29 @@ static void input_point(app_state *app, sl_point to) {
         break;
     case DRAG_NEW_WALL:
     case DRAG_WALL:
+    case DRAG_CORNER:
+    case DRAG_DOOR:
+        if (drag->moved) edit_drag(app, drag, now);
+        break;
     case DRAG_NONE:
         break;
     }
     drag->last = to;
 }
 
-static void finish_wall(app_state *app, const drag_state *drag, sl_point now) {
-    if (drag->kind == DRAG_NEW_WALL) {
-        edit_add(app, edit_snap(app, drag->at), edit_snap(app, now));
-        return;
-    }
-    const double step = edit_step(app);
-    edit_move(app, drag->index, step * round((now.x - drag->at.x) / step),
-              step * round((now.y - drag->at.y) / step));
+static bool is_edit(drag_kind kind) {
+    return kind == DRAG_NEW_WALL || kind == DRAG_WALL || kind == DRAG_CORNER || kind == DRAG_DOOR;
 }
 
 void input_release(app_state *app, sl_point at) {
+    if (is_edit(app->tool.drag.kind)) input_move(app, at);
     const drag_state drag = app->tool.drag;
     app->tool.drag = (drag_state){0};
     app->tool.pointer = at;
+    if (is_edit(drag.kind)) edit_drop(app, &drag);
     if (!app->document.baked) return;
     if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end) slider_of(&drag.hit)->end(app);
     const sl_point now = to_map(app, drag.hit.value, at);
-    if ((drag.kind == DRAG_NEW_WALL || drag.kind == DRAG_WALL) && drag.moved)
-        finish_wall(app, &drag, now);
     if (drag.kind == DRAG_MIRROR) mirror_drop(app, &drag);
     if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(app, drag.index);
     const bool holds =

@@ -1,5 +1,6 @@
 /// sightline-view: its arguments and its exit status. 0: done; 1: the work failed (no display); 2:
-/// the arguments or an input file are wrong.
+/// the arguments are wrong, or without a window an input file is. A window opens at once, whatever
+/// the map; what is wrong with the file is told in it.
 #include "bench.h"
 #include "browser.h"
 #include "files.h"
@@ -193,31 +194,22 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     return SL_OK;
 }
 
-/// What a window can show, and the user can mend.
-static bool is_wrong_input(sl_status status) {
-    return status == SL_BAD_ARGUMENT || status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
-}
-
-/// Opens the named map and waits for it. A failure ends the program.
+/// Starts to open the named map.
 static sl_status open_map(app_state *app, const arguments *a, bool ask) {
-    app->options = a->options;
     if (!a->map) return SL_OK;
     const document_source source = {.path = (char *)(uintptr_t)a->map,
                                     .options = a->options,
                                     .has_start = a->has_start,
                                     .start = a->start};
-    SL_TRY(files_open_source(app, &source, ask));
-    sl_status status = SL_OK;
-    bool changed;
-    // The window's own way, but for the status, which is the program's here.
-    while (app->document.job && !app->document.baked && status == SL_OK)
-        status = document_poll(app->context, &app->document, &changed);
-    return status;
+    return files_open_source(app, &source, ask);
 }
 
+/// Without a window a map that cannot be opened ends the program.
 static sl_status run_headless(app_state *app, const arguments *a) {
     app->steady = true;
     SL_TRY(open_map(app, a, false));
+    bool changed;
+    SL_TRY(document_wait(app->context, &app->document, &changed));
     app_take_opened(app);
     app_settle(app);
     if (a->script) SL_TRY(script_run(app, a->script, NULL, NULL));
@@ -231,17 +223,15 @@ static sl_status run_headless(app_state *app, const arguments *a) {
 
 static sl_status run_window(app_state *app, const arguments *a) {
     app_window *window;
-    const sl_status opened = open_map(app, a, true);
-    if (is_wrong_input(opened))
-        files_check(app, a->map, opened);
-    else
-        SL_TRY(opened);
-    app_take_opened(app);
     settings_load(app);
     SL_TRY(window_open(app, false, &window));
     if (!a->map) browser_open(app);
     recovery_begin(app);
-    const sl_status status = window_run(window);
+    sl_status status = window_show(window);
+    if (status == SL_OK) {
+        files_check(app, a->map ? a->map : "", open_map(app, a, true));
+        status = window_run(window);
+    }
     window_close(window);
     if (status == SL_OK) settings_save(app);
     return status;
@@ -256,6 +246,7 @@ static sl_status run(sl_context *context, int argc, char **argv) {
     app_state *app = sl_alloc_array(context, 1, sizeof *app);
     if (!app) return SL_NO_MEMORY;
     app_init(app, context);
+    app->options = a.options;
     const bool headless = a.script || a.screenshot || a.bench || a.soak > 0;
     const sl_status status = headless ? run_headless(app, &a) : run_window(app, &a);
     app_destroy(app);
@@ -273,5 +264,7 @@ int main(int argc, char **argv) {
     if (status == SL_OK) status = run(context, argc, argv);
     if (status != SL_OK) fprintf(stderr, "sightline-view: %s\n", sl_context_message(context));
     sl_context_destroy(context);
-    return status == SL_OK ? 0 : is_wrong_input(status) ? 2 : 1;
+    const bool input =
+        status == SL_BAD_ARGUMENT || status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
+    return status == SL_OK ? 0 : input ? 2 : 1;
 }

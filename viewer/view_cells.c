@@ -279,7 +279,7 @@ void view_layer_update(app_state *app, bool wait) {
     if (!wanted && app->view.views && !app->view.views->cells) drop(app);
     if (!wanted) return;
     // The document's version has settled once its cells are seen.
-    const bool settled = app->document.has_visibility || !app->document.job;
+    const bool settled = app->document.has_visibility || !(app->document.job || app->document.live);
     if (!app->view.views && settled) app_check(app, begin(app));
     view_layer *layer = app->view.views;
     if (layer && layer->job && (wait || view_job_is_done(layer->job)))

@@ -39,12 +39,25 @@ static double find_density(const app_window *w) {
     return density_of_screen(SDL_GetWindowDisplayIndex(w->window));
 }
 
+/// Whether a driver of SDL's shows nothing. SDL takes such a one where it finds no display; who
+/// asks for it by name gets it.
+static bool is_unseen(const char *driver) {
+    const char *asked = SDL_getenv("SDL_VIDEODRIVER");
+    return driver && (!asked || strcmp(asked, driver) != 0) &&
+           (strcmp(driver, "offscreen") == 0 || strcmp(driver, "dummy") == 0 ||
+            strcmp(driver, "evdev") == 0);
+}
+
 static sl_status open_window(app_window *w, bool hidden) {
     sl_context *context = w->app->context;
     if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail(context, "no display");
     const char *driver = SDL_GetCurrentVideoDriver();
+    if (!hidden && is_unseen(driver))
+        return sl_fail(context, SL_IO,
+                       "no display: neither DISPLAY nor WAYLAND_DISPLAY leads to one (--script, "
+                       "--screenshot and --bench need none)");
     // X's windows are measured in pixels, whatever the screen.
     const double by = driver && strcmp(driver, "x11") == 0 ? density_of_screen(0) : 1;
     int width = (int)(by * w->app->ui.width), height = (int)(by * w->app->ui.height);
@@ -66,10 +79,30 @@ static sl_status open_window(app_window *w, bool hidden) {
     return SL_OK;
 }
 
+// --- what cannot wait
+
+/// Whether a key was pressed that ends jobs, or the window is to close. A picture of a large map
+/// takes seconds; it is given up then, and drawn again if there is still a need.
+static bool is_called_away(void *user) {
+    SDL_Event events[64];
+    (void)user;
+    SDL_PumpEvents();
+    if (SDL_HasEvent(SDL_QUIT)) return true;
+    const int count = SDL_PeepEvents(events, 64, SDL_PEEKEVENT, SDL_KEYDOWN, SDL_KEYDOWN);
+    for (int i = 0; i < count; i++) {
+        const SDL_Keysym *key = &events[i].key.keysym;
+        if (key->sym == SDLK_ESCAPE || (key->sym == SDLK_q && key->mod & (KMOD_CTRL | KMOD_GUI)))
+            return true;
+    }
+    return false;
+}
+
 sl_status window_open(app_state *app, bool hidden, app_window **out) {
     app_window *w = sl_alloc_array(app->context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
+    const sl_hooks hooks = {.cancelled = is_called_away};
     w->app = app;
+    if (!hidden) app->drawing = sl_context_create(&hooks);
     const sl_status status = open_window(w, hidden);
     if (status == SL_OK)
         *out = w;
@@ -84,6 +117,8 @@ void window_close(app_window *w) {
     if (w->renderer) SDL_DestroyRenderer(w->renderer);
     if (w->window) SDL_DestroyWindow(w->window);
     SDL_Quit();
+    sl_context_destroy(w->app->drawing);
+    w->app->drawing = NULL;
     sl_free(w->app->context, w);
 }
 
@@ -124,6 +159,7 @@ sl_status window_show(app_window *w) {
     cairo_t *cairo = cairo_create(w->surface);
     app_draw(w->app, cairo);
     cairo_destroy(cairo);
+    if (w->app->drawing && is_called_away(w)) return SL_OK; // it may be half a picture
     cairo_surface_flush(w->surface);
     SDL_UpdateTexture(w->texture, NULL, cairo_image_surface_get_data(w->surface),
                       cairo_image_surface_get_stride(w->surface));
@@ -218,8 +254,9 @@ static void take_event(app_window *w, const SDL_Event *e) {
 
 /// Whether something moves without input.
 static bool is_lively(const app_state *app) {
-    return app->tool.held || app_progress(app).running || app->tool.recorder.plays ||
-           app->tool.recorder.records || app->tool.lesson.plays || app->view.motion > 0;
+    return app->tool.held || app->document.job || app_progress(app).running ||
+           app->tool.recorder.plays || app->tool.recorder.records || app->tool.lesson.plays ||
+           app->view.motion > 0;
 }
 
 sl_status window_run(app_window *w) {

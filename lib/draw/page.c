@@ -22,14 +22,22 @@ struct sli_paper_kind {
     sl_status (*finish)(sl_context *context, sli_paper *paper);
 };
 
+/// cairo knows no other way to be stopped than a failure to write.
+static bool is_stopped(sli_paper *paper) {
+    if (sl_check_cancelled(paper->context) != SL_OK) paper->stopped = true;
+    return paper->stopped;
+}
+
 static cairo_status_t write_through(void *user, const unsigned char *bytes, unsigned size) {
     sli_paper *paper = user;
+    if (is_stopped(paper)) return CAIRO_STATUS_WRITE_ERROR;
     return fwrite(bytes, 1, size, paper->output.stream) == size ? CAIRO_STATUS_SUCCESS
                                                                 : CAIRO_STATUS_WRITE_ERROR;
 }
 
 static cairo_status_t keep_back(void *user, const unsigned char *bytes, unsigned size) {
     sli_paper *paper = user;
+    if (is_stopped(paper)) return CAIRO_STATUS_WRITE_ERROR;
     if (SL_ARRAY_ROOM(paper->context, &paper->text, size) != SL_OK) {
         paper->out_of_memory = true;
         return CAIRO_STATUS_WRITE_ERROR;
@@ -151,6 +159,7 @@ sl_status sli_paper_close(sl_context *context, sli_paper *paper, sl_status statu
     // Before the stream goes: cairo may still write when it lets go of a surface that failed.
     cairo_surface_destroy(paper->surface);
     sl_free(context, paper->text.items);
+    if (paper->stopped) status = sl_fail(context, SL_CANCELLED, "interrupted");
     return sl_output_close(context, &paper->output, status);
 }
 
