@@ -48,7 +48,7 @@ typedef struct kept_text {
 /// What a surface keeps. The fonts come from the map of fonts of the thread that draws.
 typedef struct text_store {
     PangoContext *context;
-    kept_text kept[SHELVES][ON_A_SHELF];
+    kept_text kept[SHELVES * ON_A_SHELF];
     uint64_t count; ///< of texts shown
 } text_store;
 
@@ -65,7 +65,8 @@ static void drop_runs(kept_text *kept) {
 
 static void drop_store(void *data) {
     text_store *store = data;
-    for (kept_text *kept = store->kept[0]; kept != store->kept[SHELVES]; kept++) {
+    for (int i = 0; i < SHELVES * ON_A_SHELF; i++) {
+        kept_text *kept = &store->kept[i];
         drop_runs(kept);
         free(kept->text);
         if (kept->layout) g_object_unref(kept->layout);
@@ -115,7 +116,7 @@ static bool is_same(const kept_text *a, const kept_text *b) {
 
 /// The place of a text on its shelf, or the one that it is to have.
 static kept_text *find(text_store *store, uint64_t hash, const kept_text *wanted) {
-    kept_text *shelf = store->kept[hash % SHELVES], *oldest = shelf;
+    kept_text *shelf = &store->kept[hash % SHELVES * ON_A_SHELF], *oldest = shelf;
     for (int i = 0; i < ON_A_SHELF; i++) {
         if (is_same(&shelf[i], wanted)) return &shelf[i];
         if (shelf[i].used < oldest->used) oldest = &shelf[i];
