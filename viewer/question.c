@@ -91,7 +91,7 @@ void question_draw(app_state *app) {
     ui_state *ui = &app->ui;
     const question_state *q = question_now(app);
     char lines[LINES_MOST][LINE_TEXT];
-    const double width = 48;
+    const double width = fmin(fmax((ui->width - 12) / ui->text, 30), 48);
     const int count = break_lines(ui, q->text, (width - 3) * ui->text, lines);
     const sl_box box = dialog_begin(app, width, 3.5 + 1.5 * count + 4.2, q->title);
     const double t = ui->text;

@@ -144,6 +144,8 @@ class Cases:
             s.keys("ctrl+q", "Return")
             s.ends("save and quit")
             self.viewer.check(other.read_text() != before, "changes are not saved at the end")
+        recent = (self.folder / "config/sightline/recent").read_text().split()
+        self.viewer.check(recent == [str(other), str(path)], f"recent files: {recent}")
         left = list((self.folder / "state/sightline").glob("unsaved-*"))
         self.viewer.check(not left, f"copies are left: {left}")
 
