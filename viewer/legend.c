@@ -177,6 +177,8 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
     if (!count || high > 0.75 * frame->height || wide < 8 * t) return;
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
+    ui_fill_round(ui, (sl_box){{left - 1, y - 1}, {left + wide + 1, bottom + 1}}, 0.3 * t,
+                  ui->palette.faint);
     ui_fill_round(ui, (sl_box){{left, y}, {left + wide, bottom}}, 0.3 * t, ui->palette.page);
     y += 0.1 * t;
     for (int i = 0; i < count; i++)

@@ -190,6 +190,12 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
         if (hit->value == PANEL_STATUS && app->ui.message_seconds > 8)
             snprintf(text, UI_TIP_TEXT, "%.300s", app->ui.message);
         break;
+    case HIT_PLAN:
+        if (app->ui.hover_is_focus)
+            snprintf(text, UI_TIP_TEXT,
+                     "Arrows move the cursor, with Shift by a pixel. Return clicks, Shift+Return "
+                     "asks why, Space takes hold and lets go, Escape leaves.");
+        break;
     case HIT_TIME:
         snprintf(text, UI_TIP_TEXT, "The steps of the lesson: drag to go to one (Left, Right)");
         break;

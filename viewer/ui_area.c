@@ -129,6 +129,9 @@ sl_box ui_begin_sheet(ui_state *ui, double width, double height, const char *tit
     const double w = fmin(width, ui->width - 2 * rim), h = fmin(height, ui->height - 2 * rim);
     const sl_box sheet = {{floor((ui->width - w) / 2), floor((ui->height - h) / 2)},
                           {floor((ui->width + w) / 2), floor((ui->height + h) / 2)}};
+    ui_fill_round(ui,
+                  (sl_box){{sheet.min.x - 1, sheet.min.y - 1}, {sheet.max.x + 1, sheet.max.y + 1}},
+                  0.6 * t, ui->palette.faint);
     ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
     cairo_save(ui->cairo);
     cairo_rectangle(ui->cairo, sheet.min.x, sheet.min.y, w, h);
@@ -229,7 +232,8 @@ void ui_tip(ui_state *ui, sl_box beside, const char *text) {
     const double high = ui_lines_height(ui, wide, 0.95, false, text) + 0.5 * t;
     const double left = fmin(fmax(beside.min.x, 0.4 * t), ui->width - wide - 1.6 * t);
     const double under = beside.max.y + 0.3 * t, over = beside.min.y - high - 0.3 * t;
-    const double top = under + high <= ui->height || over < 0 ? under : over;
+    // Beside a large box there is no room: then it stands in it.
+    const double top = under + high <= ui->height ? under : over >= 0 ? over : beside.min.y + t;
     const sl_box box = {{left, top}, {left + wide + 1.2 * t, top + high}};
     ui->area = ui->clip = whole_page(ui);
     const double rim = 1;
