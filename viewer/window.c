@@ -235,6 +235,7 @@ sl_status window_run(app_window *w) {
             if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(window_show(w));
             take_event(w, &event);
         }
+        if (app->quit) break;
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);
