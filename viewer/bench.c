@@ -238,8 +238,54 @@ static void random_dialog(app_state *app, sl_random *random) {
     input_key(app, keys[sl_random_below(random, sizeof keys / sizeof *keys)], true);
 }
 
+/// A place in the window on a wall or a door of the map: an end, or somewhere between.
+static bool random_grip(const app_state *app, sl_random *random, sl_point *at) {
+    const sl_map *map = &app->document.map;
+    const size_t count = map->wall_count + map->door_count;
+    if (!count || !(app->view.camera.scale > 0)) return false;
+    const size_t i = sl_random_below(random, count);
+    const sl_segment s = i < map->wall_count ? (sl_segment){map->walls[i].a, map->walls[i].b}
+                                             : map->doors[i - map->wall_count].segment;
+    const double share = 0.5 * (double)sl_random_below(random, 3);
+    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
+    *at = sl_frame_point(
+        &frame, (sl_point){s.a.x + share * (s.b.x - s.a.x), s.a.y + share * (s.b.y - s.a.y)});
+    return box_has(app_layout(app).plan[0], *at);
+}
+
+/// Drags a wall, a corner or a door by hand, frame by frame. Keys may come between: Esc, or others.
+static void random_edit(app_state *app, sl_random *random) {
+    sl_point at;
+    if (app->tool.mode != MODE_DRAW) input_key(app, "F3", true);
+    if (app->ui.help || dialog_open_now(app) != DIALOG_NONE || !random_grip(app, random, &at))
+        return;
+    if (ui_find(&app->ui, at).kind != HIT_PLAN) return;
+    input_press(app, BUTTON_LEFT, at);
+    for (uint64_t steps = sl_random_below(random, 8); steps > 0; steps--) {
+        const double far = sl_random_below(random, 8) ? 40 : 400;
+        at.x += far * (sl_random_unit(random) - 0.5);
+        at.y += far * (sl_random_unit(random) - 0.5);
+        input_move(app, at);
+        app_tick(app, 1.0 / 60);
+        if (sl_random_below(random, 3)) script_frame(app);
+        if (!sl_random_below(random, 12)) random_key(app, random);
+    }
+    if (!sl_random_below(random, 4)) input_key(app, "Escape", true);
+    input_release(app, at);
+}
+
 static void random_event(app_state *app, sl_random *random) {
-    switch (sl_random_below(random, 40)) {
+    switch (sl_random_below(random, 46)) {
+    case 40:
+    case 41:
+    case 42:
+    case 43:
+        random_edit(app, random);
+        break;
+    case 44:
+    case 45:
+        input_key(app, "Escape", true); // whatever is at work
+        break;
     case 0:
         app->ui.width = 320 + (int)sl_random_below(random, 900);
         app->ui.height = 240 + (int)sl_random_below(random, 700);

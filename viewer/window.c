@@ -273,6 +273,7 @@ sl_status window_run(app_window *w) {
                 SL_TRY(window_show(w));
             take_event(w, &event);
         }
+        if (app->quit) break;
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);

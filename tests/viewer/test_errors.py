@@ -30,8 +30,12 @@ def main():
         fails(1, "no display", office, env=nowhere)
         fails(2, "missing.map", folder / "missing.map", "--screenshot", out)
         fails(2, "broken.map:2", broken, "--screenshot", out)
-        # A window would show what is wrong with the file.
-        fails(1, "no display", broken, env=nowhere)
+        unset = {name: value for name, value in nowhere.items()
+                 if name not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+        for map_file in (office, broken):
+            done = viewer.run(map_file, env=unset)
+            viewer.check(done.returncode == 1 and "no display" in done.stderr,
+                         f"without a display: status {done.returncode}, {done.stderr!r}")
         fails(2, "cut.slv", cut, "--screenshot", out)
         fails(2, "--nonsense: no such option", "--nonsense")
         fails(2, "--doors=1: takes no argument", office, "--doors=1")
