@@ -1,5 +1,6 @@
 /// `sightline eye`: what one viewpoint sees, by every culling method.
 #include "commands.h"
+#include "eye_files.h"
 #include "eye_run.h"
 #include "inputs.h"
 #include "json_print.h"
@@ -216,7 +217,11 @@ static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked 
 
 static sl_status tell(command_console *console, const eye_plan *plan, const sl_baked *baked,
                       const eye_run *run, const eye_objects *objects) {
-    if (plan->output) SL_TRY(draw(console->context, plan, baked, run, objects));
+    if (plan->output && output_has_ending(plan->output, EYE_FILES))
+        SL_TRY(eye_files_write(console->context, baked, run, objects, plan->look, plan->fov,
+                               plan->output));
+    else if (plan->output)
+        SL_TRY(draw(console->context, plan, baked, run, objects));
     progress_line_clear(&console->line);
     if (plan->json) return eye_print_json(console->context, baked, run, objects);
     if (console->quiet && plan->output) return SL_OK;
@@ -309,8 +314,10 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
         {"fov", 0, "DEG", "how wide, 0 to 360 degrees in all; without --look\nand --fov all round",
          .number = &plan.fov, .most = 360, .needs = "degrees from 0 to 360 are needed",
          .given = &plan.fov_given},
-        {"output", 'o', "PICTURE", "draw it too: .png, .svg or .pdf, by the ending",
-         .text = &plan.output, .check = CHECK_PICTURE},
+        {"output", 'o', "PICTURE|TABLE",
+         "write it too, by the ending: a picture (.png, .svg,\n.pdf), or regions and cells "
+         "(.geojson, .csv)",
+         .text = &plan.output, .check = CHECK_PICTURE, .endings = EYE_FILES},
         {.group = &picture},
         {"json", 0, NULL, "print JSON: the cells that each method keeps", .flag = &plan.json},
     };
@@ -323,6 +330,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
         .tables = print_methods,
         .examples = "  sightline eye office.slv --at 53,20\n"
                     "  sightline eye office.slv --at 53,20 --look 180 --fov 60 -o eye.png\n"
+                    "  sightline eye office.slv --at 53,20 -o eye.geojson\n"
                     "  sightline eye office.slv --at 53,20 --object 40,18,41,21,block -o eye.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
@@ -330,7 +338,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
-    if (plan.picture_given && !plan.output)
+    if (plan.picture_given && (!plan.output || output_has_ending(plan.output, EYE_FILES)))
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};

@@ -164,12 +164,14 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     for (size_t i = 0; i < count; i++) values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count; i++)
         values[eyes->squares.items[i]] = isovist_value(&w->isovists[i], plan->measure);
-    char measure[64], title[512];
+    char measure[64], title[512], unit[ISOVIST_UNIT];
     write_measure(plan->measure, measure, sizeof measure);
     write_title(plan, measure, title, sizeof title);
+    isovist_unit(plan->measure, w->baked.map.unit, unit);
     sl_draw_options drawing = plan->drawing;
     if (!drawing.title) drawing.title = title;
     const sl_field field = {.name = measure,
+                            .unit = *unit ? unit : NULL,
                             .corner = eyes->corner,
                             .step = eyes->step,
                             .columns = eyes->columns,
@@ -281,9 +283,10 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .count32 = &plan.mirror_depth, .most = 16},
         {"range", 0, "R", "see no farther; without it the map's range, if any",
          .number = &plan.range, .over_0 = true, .given = &plan.range_given},
-        {"output", 'o', "FILE.csv",
-         "where the table goes; without it to stdout,\nor nowhere where there is a --picture",
-         .text = &plan.output, .check = CHECK_TABLE},
+        {"output", 'o', "TABLE",
+         "where the table goes: .csv, or .geojson for the\nregions with their measures (default: "
+         "stdout, as CSV;\nnowhere with --picture)",
+         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
         {"picture", 0, "PICTURE",
          "draw what the points see, or a heat map of the\ngrid: .png, .svg or .pdf, by the ending",
          .text = &plan.picture, .check = CHECK_PICTURE},
@@ -307,7 +310,8 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         .tables = print_tables,
         .examples = "  sightline isovist office.map --at 53,20 --picture seen.png\n"
                     "  sightline isovist office.map --grid 0.5 --measure occlusivity --picture "
-                    "heat.png -o all.csv",
+                    "heat.png -o all.csv\n"
+                    "  sightline isovist office.map --grid 2 -o seen.geojson",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

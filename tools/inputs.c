@@ -1,6 +1,7 @@
 #include "inputs.h"
 
 #include "built.h"
+#include "help.h"
 #include "names.h"
 #include "sightline/support.h"
 
@@ -56,33 +57,33 @@ option_table input_option_table(input_options *input) {
         {"map", 0, "NAME", "which map of a file that holds several", .text = &to->map,
          .given = given},
         {"slice", 0, "Z", "cut a 3D model at this height", .number = &to->slice,
-         .flag = &to->has_slice, .given = given},
-        {"layers", 0, "LAYER,...", "the layers of a drawing or tile map to take",
+         .flag = &to->has_slice, .given = given, .rare = true},
+        {"layers", 0, "LAYER,...", "which layers of a drawing or a tile map to read",
          .text = &to->layers, .given = given},
         {"start-names", 0, "NAME,...",
-         "objects of a game map that are starts;\n'none': no starts (default: Player, "
-         "Spawn, "
-         "Start ...)",
-         .text = &to->start_names, .given = given},
-        {"tolerance", 0, "T", "how far curves may be from their walls", .number = &to->tolerance,
-         .over_0 = true, .given = given},
-        {"unit", 0, "UNIT", "of a drawing, turned into this: mm cm m km in ft yd",
-         .text = &to->unit, .given = given},
+         "which objects of a game map are starts (default: Player, Spawn, Start ...; 'none': no "
+         "starts)",
+         .text = &to->start_names, .given = given, .rare = true},
+        {"tolerance", 0, "T", "largest distance of a curve from its walls",
+         .number = &to->tolerance, .over_0 = true, .given = given, .rare = true},
+        {"unit", 0, "UNIT", "convert a drawing to this unit: mm cm m km in ft yd",
+         .text = &to->unit, .given = given, .rare = true},
         {"weld", 0, "T",
-         "join wall ends up to this far apart, in map units;\n0: none (default: on oblique maps, "
-         "2^-46 of the\nlargest coordinate; in drawings, 5 units of the\nlast digit, if larger)",
+         "join wall ends up to T apart, in map units; 0 joins none (default: 2^-46 of the largest "
+         "coordinate on oblique maps, or 5 units of the last digit of a drawing)",
          .number = &input->clean.weld, .needs = "0 or a number over 0 is needed", .given = given},
         {"threshold", 0, "T", "darkness from which a pixel is solid, up to 1",
          .number = &to->threshold, .over_0 = true, .most = 1,
-         .needs = "a number over 0, at most 1, is needed", .given = given},
-        {"sectors", 0, NULL,
-         "cut cells between the sectors of a Doom map too: for\na REJECT that hides more",
-         .flag = &to->sectors, .given = given},
-        {"doors", 0, NULL, "take doors as doors; without it as what they are\nwhen the map begins",
+         .needs = "a number over 0, at most 1, is needed", .given = given, .rare = true},
+        {"sectors", 0, NULL, "end cells at the sectors of a Doom map: its REJECT hides more then",
+         .flag = &to->sectors, .given = given, .rare = true},
+        {"doors", 0, NULL,
+         "keep the doors of the format as doors (default: walls if shut, gaps if open)",
          .flag = &to->doors, .given = given},
     };
     option_table table = {0};
     option_table_add(&table, options, sizeof options / sizeof *options);
+    option_table_topic(&table, "reading a map");
     return table;
 }
 
@@ -182,8 +183,8 @@ void input_print_formats(void) {
     (void)built_use_formats(context); // with no memory: the formats that are always there
     const sl_map_format *formats = sl_map_formats(context, &count);
     puts("\nmaps, by the ending of the file's name:");
-    for (size_t i = 0; i < count; i++) printf("  %-28s%s\n", formats[i].endings, formats[i].what);
-    printf("  %-28s%s\n", "-", "standard input, by its first bytes, else as the map text");
+    for (size_t i = 0; i < count; i++) help_name(formats[i].endings, 28, formats[i].what, NULL);
+    help_name("-", 28, "standard input, by its first bytes, else as the map text", NULL);
     sl_context_destroy(context);
 }
 

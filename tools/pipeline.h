@@ -57,7 +57,7 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
 /// For --help: the names that the options take.
 void pipeline_print_subdivisions(void);
 void pipeline_print_effects(void);
-/// Methods and solvers. The remarks follow the headings.
-void pipeline_print_methods(const char *on_methods, const char *on_solvers);
+/// Methods and solvers.
+void pipeline_print_methods(void);
 
 #endif

@@ -12,6 +12,7 @@
 #include "quiz.h"
 #include "save.h"
 #include "view.h"
+#include "why.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -235,8 +236,81 @@ static void step_last(app_state *app) {
 
 SWITCH(play_steps, tool.lesson.plays)
 
+/// Goes to the next step of a kind, or says that there is none.
+static void seek(app_state *app, bool rejects, bool back) {
+    const subject_row *subject = lesson_subject(&app->tool.lesson);
+    const char *name = rejects ? subject->rejected : subject->found;
+    app->tool.lesson.plays = false;
+    if (lesson_seek(&app->tool.lesson, &app->document, rejects, back)) return;
+    if (name)
+        ui_say(&app->ui, false, "no %s step \"%s\"", back ? "earlier" : "later", name);
+    else
+        ui_say(&app->ui, false, "this subject has no such steps");
+}
+
+static void found_next(app_state *app) {
+    seek(app, false, false);
+}
+
+static void found_back(app_state *app) {
+    seek(app, false, true);
+}
+
+static void rejected_next(app_state *app) {
+    seek(app, true, false);
+}
+
+static void set_speed(app_state *app, int by) {
+    lesson_state *lesson = &app->tool.lesson;
+    lesson_set_speed(lesson, lesson->speed + by);
+    ui_say(&app->ui, false, "%g steps a second", ldexp(2, lesson->speed));
+}
+
+static void slower(app_state *app) {
+    set_speed(app, -1);
+}
+
+static void faster(app_state *app) {
+    set_speed(app, 1);
+}
+
+SWITCH(program, ui.program)
+
+static void choose_end(app_state *app, bool back) {
+    lesson_state *lesson = &app->tool.lesson;
+    char name[48] = "the line";
+    if (!lesson->end_count) {
+        ui_say(&app->ui, false, "this step has no portals to choose from");
+        return;
+    }
+    lesson_choose(lesson, back);
+    const uint32_t chosen = lesson_chosen(lesson);
+    if (chosen != CHOSEN_NONE && chosen != CHOSEN_LINE) lesson_name_end(chosen, name);
+    if (chosen == CHOSEN_NONE)
+        ui_say(&app->ui, false, "nothing is chosen: Left and Right step");
+    else
+        ui_say(&app->ui, false, "%s: the arrows move it, Ctrl+Z takes that back", name);
+}
+
+static void choose_next(app_state *app) {
+    choose_end(app, false);
+}
+
+static void choose_back(app_state *app) {
+    choose_end(app, true);
+}
+
+static void reset_ends(app_state *app) {
+    lesson_reset(&app->tool.lesson, &app->document);
+    ui_say(&app->ui, false, "the portal ends and the line are where they were");
+}
+
+static void why_step(app_state *app) {
+    why_go_to_step(app);
+}
+
 static void subject(app_state *app) {
-    lesson_change(app->context, &app->tool.lesson, &app->document);
+    lesson_next_subject(app->context, &app->tool.lesson, &app->document);
     app_tick(app, 0);
 }
 
@@ -261,7 +335,11 @@ static void travel(app_state *app, bool redo) {
 }
 
 static void undo(app_state *app) {
-    travel(app, false);
+    const bool learns = app->tool.mode == MODE_LEARN;
+    if (learns && lesson_undo(&app->tool.lesson))
+        ui_say(&app->ui, false, "undone in the lesson");
+    else
+        travel(app, false);
 }
 
 static void redo(app_state *app) {
@@ -437,6 +515,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; the pictures that are written stay");
     else if (view_layer_stop(app))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
+    else if (app->tool.mode == MODE_LEARN && app->tool.lesson.chosen_next)
+        app->tool.lesson.chosen_next = 0;
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
     else
@@ -465,17 +545,17 @@ static const action_row actions[] = {
     HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, HOLD_TURN_RIGHT),
     {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
-    {"narrower", ",", NULL, "narrower view cone", 0, 0, narrower, NULL},
-    {"wider", ".", NULL, "wider view cone", 0, 0, wider, NULL},
+    {"narrower", ",", NULL, "narrower view cone", NOT_LEARN, 0, narrower, NULL},
+    {"wider", ".", NULL, "wider view cone", NOT_LEARN, 0, wider, NULL},
     {"range", "Ctrl+R", "Range", "set a view range, or lift it", 0, 0, range, is_range},
     {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
 
     LAYERS(LAYER_ROW){"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
     {"split_more", "]", NULL, "splits deeper", 0, 0, split_more, NULL},
-    {"tree_less", "-", NULL, "stab tree: a portal shorter", 0, 0, tree_less, NULL},
-    {"tree_more", "=", NULL, "stab tree: a portal longer", 0, 0, tree_more, NULL},
-    {"views_merge", "Ctrl+Left", "Merge", "view cells: one fewer", 0, 0, views_merge, NULL},
-    {"views_split", "Ctrl+Right", "Split", "view cells: one more", 0, 0, views_split, NULL},
+    {"tree_less", "-", NULL, "stab tree: a portal shorter", NOT_LEARN, 0, tree_less, NULL},
+    {"tree_more", "=", NULL, "stab tree: a portal longer", NOT_LEARN, 0, tree_more, NULL},
+    {"views_merge", "Ctrl+Left", "Merge", "view cells: one fewer", NOT_LEARN, 0, views_merge, NULL},
+    {"views_split", "Ctrl+Right", "Split", "view cells: one more", NOT_LEARN, 0, views_split, NULL},
     {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
      views_largest, NULL},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
@@ -493,7 +573,21 @@ static const action_row actions[] = {
     {"step_first", "Home", "|\xe2\x97\x80", "learn: to the first step", LEARN, 0, step_first, NULL},
     {"step_last", "End", "\xe2\x96\xb6|", "learn: to the last step", LEARN, 0, step_last, NULL},
     {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
+    {"found_next", "Ctrl+Right", "Next", "learn: the next new cell", LEARN, 0, found_next, NULL},
+    {"found_back", "Ctrl+Left", "Back", "learn: the new cell before", LEARN, 0, found_back, NULL},
+    {"rejected_next", "R", "Rejection", "learn: the next rejection", LEARN, 0, rejected_next, NULL},
+    {"slower", "-", "Slower", "learn: play slower", LEARN, 0, slower, NULL},
+    {"faster", "=", "Faster", "learn: play faster", LEARN, 0, faster, NULL},
+    {"choose_next", ".", NULL, "learn: choose the line, or a portal end", LEARN, 0, choose_next,
+     NULL},
+    {"choose_back", ",", NULL, "learn: the one before", LEARN, 0, choose_back, NULL},
+    {"reset_ends", "Delete", "Reset", "learn: ends and line as they were", LEARN, 0, reset_ends,
+     NULL},
+    {"program", "Ctrl+L", "Linear program", "learn: the linear program", LEARN, 0, program,
+     is_program},
     {"subject", "U", "Subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
+    {"why_step", "Ctrl+T", "Show the step", "why: the step of the search that decides", 0, 0,
+     why_step, NULL},
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},

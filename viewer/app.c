@@ -26,7 +26,8 @@ void app_init(app_state *app, sl_context *context) {
         .document = {.mirror_depth = 1},
         .view = {.fitted = true,
                  .eye = {.fov = 90},
-                 .show = SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS,
+                 .show =
+                     SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
                  .fill = LAYER_CULL,
                  .split_depth = 6,
                  .tree_depth = 64,
@@ -417,11 +418,13 @@ void app_draw(app_state *app, cairo_t *cairo) {
     app->ui.palette = palette_of(&app->ui);
     app->ui.text = ui_text_size(&app->ui);
     app->ui.pointer = app->tool.pointer;
+    app->ui.over = ui_find(&app->ui, app->tool.pointer);
     ui_begin(&app->ui);
     pane_bar_measure(app);
     pane_time_measure(app);
     const window_layout l = app_layout(app);
     app_fit(app, l.plan[0]);
+    pane_dual_hover(app);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
         if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);

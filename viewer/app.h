@@ -42,6 +42,14 @@ typedef struct account_picture {
     double text, made; ///< when, by the clock
 } account_picture;
 
+/// What the first-person pane shows: wall pieces drawn, and columns of pixels by what is in them.
+typedef struct first_person_counts {
+    uint32_t pieces;
+    uint32_t mirrors, reflected; ///< mirrors, and what is seen in them
+    uint32_t leaves, frames;     ///< doors that are shut, and open ones
+    uint32_t dark, tinted;       ///< one-way glass from its dark side, and from the other
+} first_person_counts;
+
 /// What the pointer does while its button is down.
 typedef enum drag_kind {
     DRAG_NONE,
@@ -82,6 +90,9 @@ typedef struct held_end {
 typedef struct quiz_state {
     uint32_t from, to;
     bool asked, answered, right;
+    bool judged; ///< answered by the user, who said `said`; else only explained
+    bool said;
+    bool seeded; ///< by the clock; under scripts questions are always the same
     unsigned asked_count, right_count;
     uint64_t random;
     sl_explanation explanation; ///< once answered
@@ -111,6 +122,7 @@ typedef struct view_state {
     double draw_seconds;      ///< that a frame takes to draw, smoothed
     kept_picture under, over; ///< below and above what changes from frame to frame
     account_picture account;
+    first_person_counts first_person; ///< of the last frame
 
     node_layer *nodes; ///< these three: NULL: none yet
     view_layer *views;
@@ -188,7 +200,7 @@ bool app_is_solid(const app_state *app, sl_point at);
 uint32_t app_eye_cell(const app_state *app);
 
 /// The panes below the plan, side by side: rows of the table in modes.c.
-enum { PANE_DUAL, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
+enum { PANE_DUAL, PANE_PROGRAM, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
 
 /// Where things are on the page.
 typedef struct window_layout {

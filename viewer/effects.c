@@ -132,11 +132,19 @@ uint32_t door_at(const app_state *app, sl_point at) {
 void door_toggle(app_state *app, uint32_t door) {
     sl_map *map = &app->document.map;
     if (door >= map->door_count) return;
+    const bool open = !map->doors[door].open;
+    size_t parts = 0;
     app_keep(app);
-    map->doors[door].open = !map->doors[door].open;
+    for (size_t i = 0; i < map->door_count; i++) {
+        if (strcmp(map->doors[i].name, map->doors[door].name) != 0) continue;
+        map->doors[i].open = open;
+        parts++;
+    }
     app_after_touch(app);
-    ui_say(&app->ui, false, "door %s is %s", map->doors[door].name,
-           map->doors[door].open ? "open" : "shut");
+    char several[32] = "";
+    if (parts > 1) snprintf(several, sizeof several, " (%zu parts)", parts);
+    ui_say(&app->ui, false, "door %s is %s%s", map->doors[door].name, open ? "open" : "shut",
+           several);
 }
 
 void door_toggle_nearest(app_state *app) {

@@ -21,7 +21,7 @@ void effects_left_out(const sl_map *map, char text[CALLS_TEXT]);
 /// The door under a place of the plan; UINT32_MAX for none.
 uint32_t door_at(const app_state *app, sl_point at);
 
-/// Shuts an open door, opens a shut one.
+/// Shuts an open door, opens a shut one, with all doors of its name.
 void door_toggle(app_state *app, uint32_t door);
 
 /// The same for the door nearest to the eye.

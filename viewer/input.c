@@ -141,6 +141,22 @@ static bool sheet_key(app_state *app, const char *key) {
     return false;
 }
 
+/// What is chosen in the lesson takes the arrows.
+static bool lesson_key(app_state *app, const char *key) {
+    static const struct {
+        const char *key;
+        int x, y;
+    } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}};
+    if (app->tool.mode != MODE_LEARN || lesson_chosen(&app->tool.lesson) == CHOSEN_NONE)
+        return false;
+    for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
+        if (strcmp(key, arrows[i].key) != 0) continue;
+        pane_dual_nudge(app, arrows[i].x, arrows[i].y);
+        return true;
+    }
+    return false;
+}
+
 /// Keys that are not for the table of actions.
 static bool own_key(app_state *app, const char *key, bool down) {
     ui_state *ui = &app->ui;
@@ -150,7 +166,7 @@ static bool own_key(app_state *app, const char *key, bool down) {
         return true;
     }
     if (ui->help && sheet_key(app, key)) return true;
-    return focus_key(app, key);
+    return lesson_key(app, key) || focus_key(app, key);
 }
 
 void input_key(app_state *app, const char *key, bool down) {
@@ -240,22 +256,6 @@ static void follow(app_state *app, const hit_area *hit, sl_point at) {
     }
 }
 
-/// The portal end of the lesson under the pointer: twice its number, plus one for a right end.
-static bool pick_end(const app_state *app, sl_point at, uint32_t *found) {
-    const lesson_state *lesson = &app->tool.lesson;
-    double nearest = 8 * ui_scale(&app->ui) / app->view.camera.scale;
-    bool any = false;
-    for (uint32_t i = 0; i < 2 * lesson->end_count; i++) {
-        const sl_point p = i % 2 ? lesson->ends[i / 2].right : lesson->ends[i / 2].left;
-        const double distance = hypot(p.x - at.x, p.y - at.y);
-        if (distance > nearest) continue;
-        nearest = distance;
-        *found = i;
-        any = true;
-    }
-    return any;
-}
-
 static bool near_line(const app_state *app, sl_point at) {
     const lesson_state *lesson = &app->tool.lesson;
     if (!lesson->end_count) return false;
@@ -267,7 +267,8 @@ static bool near_line(const app_state *app, sl_point at) {
 
 static drag_kind plan_drag(app_state *app, drag_state *drag) {
     const bool searches = app->tool.mode == MODE_LEARN && app->tool.lesson.end_count > 0;
-    if (searches && pick_end(app, drag->at, &drag->index)) return DRAG_END;
+    if (searches) drag->index = pane_plan_end_at(app, drag->at);
+    if (searches && drag->index != UINT32_MAX) return DRAG_END;
     if (searches && near_line(app, drag->at)) return DRAG_LINE;
     const bool moves = app->tool.mode == MODE_EXPLORE || app->tool.mode == MODE_DRAW;
     if (moves && mirror_take(app, drag)) return DRAG_MIRROR;
@@ -287,7 +288,18 @@ static void click(app_state *app, const hit_area *hit) {
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
         app_shut_help(app);
+    } else if (hit->kind == HIT_SUBJECT) {
+        lesson_set_subject(app->context, &app->tool.lesson, (size_t)hit->value);
+        app_tick(app, 0);
+    } else if (hit->kind == HIT_END) {
+        app->tool.lesson.chosen_next = (uint32_t)hit->value + 2;
     }
+}
+
+/// The first move of a drag in the lesson is kept for undo.
+static void keep_once(app_state *app, drag_state *drag, uint32_t what) {
+    if (!drag->changed && app->tool.lesson.end_count) lesson_keep(&app->tool.lesson, what);
+    drag->changed = true;
 }
 
 static void explain_to(app_state *app, sl_point at) {
@@ -303,9 +315,14 @@ static void explain_to(app_state *app, sl_point at) {
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
     quiz_explain(app, from, to);
     if (!app->tool.quiz.answered) return;
-    char text[sizeof app->ui.message];
-    quiz_words(app, text, sizeof text);
-    ui_say(&app->ui, false, "Cell %u: %.440s", to, text);
+    if (app->ui.presents) { // without a panel
+        char text[sizeof app->ui.message];
+        quiz_words(app, text, sizeof text);
+        ui_say(&app->ui, false, "Cell %u: %.440s", to, text);
+        return;
+    }
+    app->ui.side_panel = true;
+    ui_say(&app->ui, false, "why: see the panel; Ctrl+T shows the step that decides");
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {
@@ -328,6 +345,7 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
         if (button != BUTTON_LEFT) return;
         drag->kind = DRAG_HIT;
         if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(app);
+        if (hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
         click(app, &hit);
         follow(app, &hit, at);
         return;
@@ -340,18 +358,6 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
         drag->kind = plan_drag(app, drag);
     else
         drag->kind = button == BUTTON_MIDDLE ? DRAG_LOOK : DRAG_PAN;
-}
-
-static void drag_end(tool_state *tool, uint32_t index, sl_point at) {
-    lesson_state *lesson = &tool->lesson;
-    if (index >= 2 * lesson->end_count) return;
-    sl_portal_ends *ends = &lesson->ends[index / 2];
-    const sl_portal_ends before = *ends;
-    *(index % 2 ? &ends->right : &ends->left) = at;
-    if (ends->left.x == ends->right.x && ends->left.y == ends->right.y) *ends = before;
-    lesson->dragged = true;
-    lesson_refresh(lesson);
-    if (lesson->dual.corner_count) lesson->line = lesson->dual.best;
 }
 
 void input_move(app_state *app, sl_point to) {
@@ -378,16 +384,19 @@ static void input_point(app_state *app, sl_point to) {
         app->view.eye.heading = fmod(app->view.eye.heading - 0.4 * dx + 720, 360);
         break;
     case DRAG_HIT:
+        if (drag->hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
         if (drag->hit.kind == HIT_EDGE)
             app_drag_edge(app, drag->hit.value, drag->hit.value == EDGE_SIDE ? -dx : -dy);
         else
             follow(app, &drag->hit, to);
         break;
     case DRAG_LINE:
+        keep_once(app, drag, CHOSEN_LINE);
         pane_plan_drag_line(app, before, now);
         break;
     case DRAG_END:
-        if (drag->moved) drag_end(&app->tool, drag->index, now);
+        if (drag->moved) keep_once(app, drag, drag->index);
+        if (drag->moved) lesson_move_end(&app->tool.lesson, drag->index, now);
         break;
     case DRAG_MIRROR:
         if (drag->moved) mirror_move(app, drag, now);

@@ -42,7 +42,11 @@ typedef struct app_state app_state;
     LAYER(STARTS, "starts", "J", "Starts, paths, objects", "starts, paths, objects", IN_ALL_MODES, \
           0, NULL)                                                                                 \
     LAYER(WATCH, "watch", "Y", "Who sees the eye", "through one-way glass: who sees the eye",      \
-          IN_EXPLORE, SL_EFFECT_ONEWAY, layer_watch)
+          IN_EXPLORE, SL_EFFECT_ONEWAY, layer_watch)                                               \
+    LAYER(NUMBERS, "numbers", "0", "Numbers", "numbers of cells, and of portals with a p",         \
+          IN_EXPLORE | IN_DRAW, 0, NULL)                                                           \
+    LAYER(NAMES, "numbers_too", "0", "Numbers", "numbers, as sentences name cells",                \
+          IN_LEARN | IN_QUIZ, 0, NULL)
 
 #define LAYER_NUMBER(NAME, ...) LAYER_##NAME,
 enum { LAYERS(LAYER_NUMBER) LAYER_COUNT };

@@ -18,6 +18,7 @@ void pane_draw(app_state *app, sl_box box);         ///< likewise: walls
 void pane_status(app_state *app, sl_box box);       ///< the line at the bottom
 void pane_time(app_state *app, sl_box box);         ///< the time line of the lesson
 void pane_dual(app_state *app, sl_box box);         ///< lines as points
+void pane_program(app_state *app, sl_box box);      ///< the linear program of the lesson's portals
 void pane_first_person(app_state *app, sl_box box); ///< what the eye sees
 void pane_account(app_state *app, sl_box box);      ///< what accuracy costs
 void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
@@ -46,6 +47,12 @@ void pane_describe(const app_state *app, sl_point at, char *text, size_t room);
 /// Drags the lesson's line, in the dual plane or in the plan.
 void pane_dual_drag(app_state *app, sl_box box, sl_point to);
 void pane_plan_drag_line(app_state *app, sl_point from, sl_point to);
+/// Moves what keys have chosen by a small step: the line in the dual plane, an end in the plan.
+void pane_dual_nudge(app_state *app, int x, int y);
+/// The portal end of the lesson at a place of the map; UINT32_MAX for none.
+uint32_t pane_plan_end_at(const app_state *app, sl_point at);
+/// Finds what is under the pointer in one pane and is to be marked in the others.
+void pane_dual_hover(app_state *app);
 
 // --- modes
 

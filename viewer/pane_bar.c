@@ -181,6 +181,25 @@ static double buttons_width(app_state *app) {
     return wide;
 }
 
+/// Marks the steps about the cell under the pointer, if not too many are.
+static void draw_ticks(app_state *app, sl_box line) {
+    enum { TICKS_MOST = 400 };
+    const lesson_state *lesson = &app->tool.lesson;
+    const subject_row *subject = lesson_subject(lesson);
+    const size_t length = lesson_length(lesson);
+    if (!subject->cell || length < 2 || app->ui.over.kind != HIT_PLAN) return;
+    const sl_point at = camera_point(&app->view.camera, app_layout(app).plan[0], app->tool.pointer);
+    const uint32_t cell = sl_space_locate(&app->document.baked->space, at);
+    int ticks = 0;
+    for (size_t i = 0; i < length && cell != SL_NO_CELL && ticks < TICKS_MOST; i++) {
+        if (subject->cell(lesson, i) != cell) continue;
+        const double x = line.min.x + (double)i / (double)(length - 1) * (line.max.x - line.min.x);
+        ui_fill(&app->ui, (sl_box){{x - 1, line.min.y + 1}, {x + 1, line.max.y - 1}},
+                app->ui.palette.start);
+        ticks++;
+    }
+}
+
 /// The line stands beside the buttons where it has room there, else below them.
 void pane_time_measure(app_state *app) {
     ui_state *ui = &app->ui;
@@ -223,9 +242,11 @@ void pane_time(app_state *app, sl_box box) {
     ui_text_right(ui, left + ui_text_width(ui, 0.95, false, count), y + 1.15 * t, 0.95,
                   ui->palette.faint, count);
     const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
-    if (box_width(line) > 2 * t)
+    if (box_width(line) > 2 * t) {
+        draw_ticks(app, line);
         ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME,
                   0);
+    }
     ui_end_scroll(ui, room, y + 1.9 * t);
     ui_end_area(ui);
 }

@@ -202,6 +202,9 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
     case HIT_DUAL:
         snprintf(text, UI_TIP_TEXT, "Each point is a line in the plan: drag to choose another");
         break;
+    case HIT_END:
+        snprintf(text, UI_TIP_TEXT, "A click chooses this portal end: arrows move it");
+        break;
     case HIT_EDGE:
         snprintf(text, UI_TIP_TEXT, "Drag: the size of the panel");
         break;

@@ -13,14 +13,20 @@
 
 // --- scenes
 
-static unsigned scene_layers(const view_state *view) {
+static unsigned scene_layers(const app_state *app) {
+    const view_state *view = &app->view;
+    // A subdivision in the making has no cells to be named yet.
+    const bool named =
+        layers_shows(app, LAYER_NAMES) &&
+        !(app->tool.mode == MODE_LEARN && lesson_subject(&app->tool.lesson) == &lesson_subdivision);
+    const bool numbers = layers_shows(app, LAYER_NUMBERS) || named;
     return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
-           (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) |
+           (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
            (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
 }
 
 static bool make_scene(app_state *app) {
-    const unsigned layers = scene_layers(&app->view);
+    const unsigned layers = scene_layers(app);
     const uint32_t key = layers | (app->ui.dark ? 1024u : 0u);
     if (app->view.scene && app->view.scene_version == app->document.version &&
         app->view.scene_show == key)
@@ -49,7 +55,7 @@ static sl_context *drawing(const app_state *app) {
 /// stopped.
 static bool draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const unsigned layers =
-        scene_layers(&app->view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
+        scene_layers(app) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_NUMBERS);
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
     if (sl_draw_plan(drawing(app), cairo, app->view.scene, layers, frame) != SL_OK) return false;
@@ -187,7 +193,7 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
     memset(&now.key, 0, sizeof now.key);
     now.key.version = app->document.version;
     now.key.touched = over ? app->document.touched : 0;
-    now.key.show = scene_layers(&app->view) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
+    now.key.show = scene_layers(app) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
     now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
     now.key.dark = app->ui.dark;
     if (!over && layers_shows(app, LAYER_VIEWS)) {

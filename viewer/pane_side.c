@@ -1,6 +1,5 @@
-/// The panel at the right: layers, what each method keeps, what the pointer is over. Other modes
-/// show pseudo-code, the question, or walls there. And lines as points: the dual plane of the
-/// portal sequence of the lesson.
+/// The panel at the right: layers, what each method keeps, what the pointer is over, and why a cell
+/// is seen or not. Other modes show pseudo-code, the question, or walls there.
 #include "actions.h"
 #include "effects.h"
 #include "modes.h"
@@ -63,24 +62,27 @@ static void check_row(app_state *app, column *c, const char *name) {
                     action->label, action->key, action->on(app), number);
 }
 
+/// A button from x on, or on the next line where it has no room. Returns where the next one begins.
+static double place_button(ui_state *ui, column *c, double x, const char *label, bool on,
+                           int action) {
+    const double t = ui->text;
+    if (x > c->left && x + ui_button_width(ui, label) > c->right) {
+        x = c->left;
+        c->y += 2 * t;
+    }
+    return ui_button(ui, x, c->y + 0.4 * t, 1.6 * t, label, on, action) + 0.4 * t;
+}
+
 /// Draws the buttons of actions, on as many lines as they need; the names end with NULL.
 static void button_row(app_state *app, column *c, const char *const *names) {
     size_t count;
     const action_row *actions = action_table(&count);
-    const double t = app->ui.text;
     double x = c->left;
     for (; *names; names++) {
         const action_row *a = &actions[action_find(*names)];
-        const double wide = ui_button_width(&app->ui, a->label);
-        if (x > c->left && x + wide > c->right) {
-            x = c->left;
-            c->y += 2 * t;
-        }
-        x = ui_button(&app->ui, x, c->y + 0.4 * t, 1.6 * t, a->label, a->on && a->on(app),
-                      (int)(a - actions)) +
-            0.4 * t;
+        x = place_button(&app->ui, c, x, a->label, a->on && a->on(app), (int)(a - actions));
     }
-    c->y += 2 * t;
+    c->y += 2 * app->ui.text;
 }
 
 /// What the plan shows, and how.
@@ -161,6 +163,7 @@ typedef struct method_row {
     const char *name;
     tone which;
     bool known, counts_cells, chosen, other;
+    bool keeps; ///< the cell under the pointer
     uint32_t cells;
     double area, seconds;
     uint64_t tests;
@@ -206,8 +209,9 @@ static void draw_method(app_state *app, column *c, const method_row *row, int nu
                       sl_colour_mix(ui->palette.page,
                                     row->chosen ? ui->palette.glass : ui->palette.ink,
                                     row->chosen ? 0.2 : 0.08));
-    layers_swatch(ui, (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}},
-                  &(legend_row){.mark = LEGEND_AREA, .which = row->which});
+    const sl_box swatch = {{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}};
+    layers_swatch(ui, swatch, &(legend_row){.mark = LEGEND_AREA, .which = row->which});
+    if (row->keeps) ui_outline(ui, swatch, 0.18 * t, ui->palette.ink);
     char name[64];
     snprintf(name, sizeof name, "%s", row->name);
     for (char *at = name; *at; at++)
@@ -231,11 +235,20 @@ static void draw_method_titles(ui_state *ui, column *c) {
                       titles[i]);
 }
 
+/// The cell of the plan under the pointer; SL_NO_CELL for none.
+static uint32_t cell_under_pointer(const app_state *app) {
+    const sl_box plan = app_layout(app).plan[0];
+    if (!app->document.baked || app->ui.over.kind != HIT_PLAN) return SL_NO_CELL;
+    return sl_space_locate(&app->document.baked->space,
+                           camera_point(&app->view.camera, plan, app->tool.pointer));
+}
+
 static void draw_methods(app_state *app, column *c) {
     ui_state *ui = &app->ui;
     const seen_state *seen = &app->view.seen;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
+    const uint32_t cell = cell_under_pointer(app);
     draw_method_titles(ui, c);
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         const seen_method *m = &seen->methods[i];
@@ -245,6 +258,8 @@ static void draw_methods(app_state *app, column *c) {
                                 .counts_cells = true,
                                 .chosen = i == app->view.method,
                                 .other = app->view.compare && i == app->view.other,
+                                .keeps = app->view.seen.valid && m->known && cell != SL_NO_CELL &&
+                                         sl_eye_sees(m->cells, cell),
                                 .cells = m->count,
                                 .area = m->area,
                                 .seconds = m->seconds,
@@ -388,8 +403,25 @@ static void draw_words(app_state *app, column *c) {
                         app->ui.palette.ink, text);
 }
 
+/// Why the cell that was asked about is seen or not.
+static void draw_why(app_state *app, column *c) {
+    const quiz_state *q = &app->tool.quiz;
+    char text[1024];
+    if (!q->answered) return;
+    snprintf(text, sizeof text, "Why cell %u %s cell %u%s", q->from,
+             q->explanation.verdict == SL_HIDDEN && !quiz_is_bent(q) ? "does not see" : "sees",
+             q->to, quiz_is_bent(q) ? " by mirror" : "");
+    heading(&app->ui, c, text, NULL);
+    quiz_words(app, text, sizeof text);
+    words(&app->ui, c, 0.95, app->ui.palette.ink, text);
+    static const char *const step[] = {"why_step", NULL};
+    button_row(app, c, step);
+    c->y += 0.4 * app->ui.text;
+}
+
 void pane_side(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
+    draw_why(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
@@ -435,38 +467,119 @@ static void draw_code(app_state *app, column *c) {
     }
 }
 
-static void draw_account(app_state *app, column *c) {
+/// The subjects to choose from: those that the map allows.
+static void draw_subjects(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
+    size_t count;
+    const subject_row *const *subjects = subject_table(&count);
+    heading(ui, c, "Lessons", "U");
+    for (size_t i = 0; i < count; i++) {
+        if (!lesson_fits(i, &app->document)) continue;
+        const bool on = i == app->tool.lesson.subject;
+        const double high = ui_lines_height(ui, width_of(c), 1, on, subjects[i]->title) + 0.1 * t;
+        const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + high}};
+        if (on || box_has(row, ui->pointer))
+            ui_fill_round(ui, row, 0.25 * t,
+                          sl_colour_mix(ui->palette.page, ui->palette.glass, on ? 0.22 : 0.1));
+        ui_lines(ui, c->left, c->y + 1.08 * t, width_of(c), 1, on, ui->palette.ink,
+                 subjects[i]->title);
+        ui_hit_focus(ui, HIT_SUBJECT, (int)i, row);
+        c->y = row.max.y;
+    }
+}
+
+/// Buttons to the next step of a kind, named by the subject, and the speed.
+static void draw_steps(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
     const lesson_state *lesson = &app->tool.lesson;
+    const subject_row *subject = lesson_subject(lesson);
+    char text[64];
+    double x = c->left;
+    if (lesson->finds) {
+        snprintf(text, sizeof text, "\xe2\x97\x80 %s", subject->found ? subject->found : "");
+        x = place_button(ui, c, x, text, false, action_find("found_back"));
+        snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->found ? subject->found : "");
+        x = place_button(ui, c, x, text, false, action_find("found_next"));
+    }
+    if (lesson->rejects) {
+        snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->rejected ? subject->rejected : "");
+        place_button(ui, c, x, text, false, action_find("rejected_next"));
+    }
+    if (lesson->finds || lesson->rejects) c->y += 2 * ui->text;
+    static const char *const speed[] = {"slower", "faster", NULL};
+    button_row(app, c, speed);
+    snprintf(text, sizeof text, "%g steps a second", ldexp(2, lesson->speed));
+    words(ui, c, 0.95, ui->palette.faint, text);
+}
+
+/// "L1 and L4 against R2 and R3".
+static void list_ends(const sl_conflict *conflict, char *text, size_t room) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int side = 0; side < 2; side++) {
+        bool first = true;
+        for (uint32_t i = 0; i < conflict->end_count && used < room; i++) {
+            if (conflict->ends[i].left != (side == 0)) continue;
+            used += (size_t)snprintf(text + used, room - used, "%s%c%u",
+                                     !first      ? " and "
+                                     : side == 1 ? " against "
+                                                 : "",
+                                     side ? 'R' : 'L', conflict->ends[i].portal + 1);
+            first = false;
+        }
+    }
+}
+
+/// What the ends that leave no line are to each other.
+static void write_conflict(app_state *app, char *text, size_t room) {
+    lesson_state *lesson = &app->tool.lesson;
+    char ends[128];
+    sl_status status;
+    const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
+    app_check(app, status);
+    text[0] = '\0';
+    if (conflict->verdict == SL_STABBED || !conflict->end_count) return;
+    list_ends(conflict, ends, sizeof ends);
+    snprintf(text, room, "%s: %s. They are marked: %s.",
+             conflict->verdict == SL_GRAZING ? "The line only grazes"
+             : conflict->turns               ? "No line: the portals turn back"
+                                             : "No line is left",
+             ends, sl_conflict_reason(lesson->ends, conflict));
+}
+
+static void draw_account(app_state *app, column *c) {
+    lesson_state *lesson = &app->tool.lesson;
     const subject_row *subject = lesson_subject(lesson);
     char text[SENTENCE];
     if (!lesson_shows(lesson, &app->document)) return;
     if (subject->account) {
         subject->account(lesson, text);
         heading(&app->ui, c, "So far", NULL);
-        c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
-                            app->ui.palette.ink, text) -
-               0.9 * app->ui.text;
+        words(&app->ui, c, 1, app->ui.palette.ink, text);
     }
     if (!lesson->end_count) return;
-    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     const double margin =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
-    snprintf(text, sizeof text,
-             "Its margin is %.3g, the best is %.3g. %s Drag it in the plan or as a point in the "
-             "dual plane; drag portal ends too.",
-             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale,
-             lesson->dual.corner_count ? "" : "No line is left.");
-    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
-                        app->ui.palette.ink, text) -
-           0.9 * app->ui.text;
+    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    snprintf(text, sizeof text, "Its margin is %.3g, the best is %.3g.",
+             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale);
+    words(&app->ui, c, 0.95, app->ui.palette.ink, text);
+    write_conflict(app, text, sizeof text);
+    if (*text) words(&app->ui, c, 0.95, app->ui.palette.start, text);
+    words(&app->ui, c, 0.95, app->ui.palette.faint,
+          "Drag it or portal ends, or choose by . and move by arrows.");
+    static const char *const change[] = {"undo", "reset_ends", "program", NULL};
+    button_row(app, c, change);
 }
 
 void pane_learn(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
-    heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
+    draw_why(app, &c);
+    draw_subjects(app, &c);
+    c.y += 0.7 * app->ui.text;
     draw_code(app, &c);
-    static const char *const other[] = {"subject", NULL};
-    button_row(app, &c, other);
+    draw_steps(app, &c);
     draw_account(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
@@ -506,8 +619,8 @@ static void draw_question(app_state *app, column *c) {
     ui_state *ui = &app->ui;
     const quiz_state *q = &app->tool.quiz;
     static const char *const answers[] = {"answer_yes", "answer_no", NULL};
-    static const char *const next[] = {"next_question", NULL};
-    char text[512];
+    static const char *const next[] = {"next_question", "why_step", NULL};
+    char text[1024];
     snprintf(text, sizeof text, "Can the orange cell %u see the purple cell %u?", q->from, q->to);
     words(ui, c, 1.15, ui->palette.ink, text);
     if (!q->answered) {
@@ -531,78 +644,4 @@ void pane_quiz(app_state *app, sl_box box) {
         words(&app->ui, &c, 0.95, app->ui.palette.ink,
               "Space asks about two cells. The visibility must be there first.");
     end_panel(&app->ui, &c);
-}
-
-// --- the dual plane
-
-static sl_dual_frame frame_of(const app_state *app, sl_box box) {
-    const double t = ui_text_size(&app->ui);
-    return sl_dual_frame_fit(&app->tool.lesson.before, box.min.x + 0.9 * t, box.min.y + 2.2 * t,
-                             fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
-                             ui_scale(&app->ui));
-}
-
-static void draw_dual(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text, wide = box_width(box) - 1.8 * t;
-    const lesson_state *lesson = &app->tool.lesson;
-    char text[160];
-    if (box_height(box) < 3 * t) return; // too low for anything
-    if (lesson->end_count)
-        snprintf(text, sizeof text, "%u half-planes: %s", 2 * lesson->end_count,
-                 lesson->dual.corner_count ? "what all leave is green" : "nothing is left");
-    else
-        snprintf(text, sizeof text, "no portal is crossed yet: every line counts");
-    const double title = ui_text_width(ui, 1, true, "Lines as points");
-    ui_text_within(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, wide, 1, ui->palette.ink,
-                   "Lines as points");
-    if (wide > title + 0.8 * t + ui_text_width(ui, 0.95, false, text))
-        ui_text(ui, box.min.x + 1.7 * t + title, box.min.y + 1.5 * t, 0.95, false,
-                ui->palette.faint, text);
-    if (!lesson->end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
-                 lesson->line);
-    const double base = frame.top + frame.height + 1.2 * t;
-    sl_text_show_within(
-        ui->cairo, ui->palette.faint, frame.left, base, frame.width, 0.85 * t, false,
-        "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
-        "right ends, from below   bar: the best line and its margin");
-    ui_hit_focus(
-        ui, HIT_DUAL, 0,
-        (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
-}
-
-void pane_dual(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
-    ui_begin_area(ui, box);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    draw_dual(app, box);
-    ui_end_area(ui);
-}
-
-void pane_dual_drag(app_state *app, sl_box box, sl_point to) {
-    if (!app->tool.lesson.end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    const sl_dual_line line = sl_dual_frame_line(&frame, to);
-    app->tool.lesson.line.slope = fmin(fmax(line.slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
-    app->tool.lesson.line.height = fmin(fmax(line.height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
-}
-
-/// Near an end of the shown line it turns about the other end; between the ends it is shifted.
-void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
-    lesson_state *lesson = &app->tool.lesson;
-    if (!lesson->end_count) return;
-    const sl_point a = sl_dual_point(&lesson->dual, from), b = sl_dual_point(&lesson->dual, to);
-    sl_dual_line *line = &lesson->line;
-    const double pivot = a.x > 0.35 ? -1 : a.x < -0.35 ? 1 : 0;
-    if (pivot == 0) {
-        line->height += (b.y - line->slope * b.x) - line->height;
-    } else if (fabs(b.x - pivot) > 0.05) {
-        const double at = line->slope * pivot + line->height;
-        const double slope = (b.y - at) / (b.x - pivot);
-        line->slope = fmin(fmax(slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
-        line->height = at - line->slope * pivot;
-    }
-    line->height = fmin(fmax(line->height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
 }

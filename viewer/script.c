@@ -4,6 +4,7 @@
 #include "actions.h"
 #include "files.h"
 #include "input.h"
+#include "print.h"
 #include "question.h"
 #include "save.h"
 #include "sightline/support.h"
@@ -208,7 +209,6 @@ static sl_status do_export(reader *r, const words *w) {
     return save_series(r->app, w->rest, 2);
 }
 
-/// Types text, as into a text field.
 /// Checks that every text of the next frame is in its panel, and lies on no other.
 static sl_status do_fits(reader *r, const words *w) {
     (void)w;
@@ -228,6 +228,19 @@ static sl_status do_fits(reader *r, const words *w) {
     return sl_fail_at(r->app->context, r->file, r->line, "%s", misfit);
 }
 
+/// Prints what the frame shows now. The frame is drawn twice: what the pointer is over is that of
+/// the frame before.
+static sl_status do_print(reader *r, const words *w) {
+    app_tick(r->app, 0);
+    script_frame(r->app);
+    script_frame(r->app);
+    if (!print_state(r->app, w->rest, stdout))
+        return sl_fail_at(r->app->context, r->file, r->line,
+                          "no state is called '%s': " PRINT_NAMES, w->rest);
+    fflush(stdout);
+    return SL_OK;
+}
+
 static const struct command {
     const char *name;
     int numbers; ///< that must follow; -1: text, -2: any numbers
@@ -240,7 +253,7 @@ static const struct command {
     {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
     {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
     {"drop", -1, do_drop},  {"type", -1, do_type},     {"expect", -1, do_expect},
-    {"fits", 0, do_fits},
+    {"fits", 0, do_fits},   {"print", -1, do_print},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

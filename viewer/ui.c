@@ -53,6 +53,14 @@ void ui_line(ui_state *ui, double x0, double y0, double x1, double y1, sl_colour
     cairo_stroke(ui->cairo);
 }
 
+void ui_outline(ui_state *ui, sl_box box, double width, sl_colour colour) {
+    cairo_rectangle(ui->cairo, box.min.x + width / 2, box.min.y + width / 2, box_width(box) - width,
+                    box_height(box) - width);
+    sl_set_colour(ui->cairo, colour);
+    cairo_set_line_width(ui->cairo, width);
+    cairo_stroke(ui->cairo);
+}
+
 /// Keeps a text's box for ui_misfit.
 static void keep_spot(ui_state *ui, double x, double y, double width, double height,
                       const char *text) {
@@ -155,12 +163,7 @@ bool ui_has_focus(const ui_state *ui) {
 }
 
 void ui_mark_focus(ui_state *ui, sl_box box) {
-    const double w = fmax(0.15 * ui->text, 2);
-    cairo_rectangle(ui->cairo, box.min.x + w / 2, box.min.y + w / 2, box_width(box) - w,
-                    box_height(box) - w);
-    sl_set_colour(ui->cairo, ui->palette.start);
-    cairo_set_line_width(ui->cairo, w);
-    cairo_stroke(ui->cairo);
+    ui_outline(ui, box, fmax(0.15 * ui->text, 2), ui->palette.start);
 }
 
 void ui_hit_focus(ui_state *ui, hit_kind kind, int value, sl_box box) {

@@ -15,13 +15,15 @@ typedef enum hit_kind {
     HIT_METHOD, ///< value: of the culling methods
     HIT_PLAN,   ///< value: which of the plans, from 0
     HIT_DUAL,
-    HIT_TIME,   ///< the time line
-    HIT_SLIDER, ///< value: of the table of sliders
-    HIT_DIALOG, ///< value: the number of a widget, and 256 times (a row of it + 1)
-    HIT_FIELD,  ///< a text field; value: chosen by its owner
-    HIT_SCROLL, ///< value: of ui_scrolls
-    HIT_BAR,    ///< the bar beside a scroll area; value: likewise
-    HIT_EDGE,   ///< a border that can be dragged; value: of ui_edges
+    HIT_TIME,    ///< the time line
+    HIT_SLIDER,  ///< value: of the table of sliders
+    HIT_DIALOG,  ///< value: the number of a widget, and 256 times (a row of it + 1)
+    HIT_FIELD,   ///< a text field; value: chosen by its owner
+    HIT_SCROLL,  ///< value: of ui_scrolls
+    HIT_BAR,     ///< the bar beside a scroll area; value: likewise
+    HIT_EDGE,    ///< a border that can be dragged; value: of ui_edges
+    HIT_SUBJECT, ///< value: of the lesson's subjects
+    HIT_END,     ///< value: a portal end of the lesson
 } hit_kind;
 
 typedef struct hit_area {
@@ -80,6 +82,7 @@ typedef struct ui_state {
     sl_palette palette;
     double text; ///< size of plain text, pixels
     sl_point pointer;
+    hit_area over; ///< under the pointer, in the frame before
     hit_area hits[HITS_MOST];
     int hit_count;
 
@@ -90,8 +93,8 @@ typedef struct ui_state {
     bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
     bool legend;   ///< over the plan, where there is no panel
-    bool side_panel, first_person, accounts, effects, help; ///< panels shown
-    char message[512];                                      ///< the last thing to say
+    bool side_panel, first_person, accounts, effects, program, help; ///< panels shown
+    char message[512];                                               ///< the last thing to say
     bool message_is_error, message_is_working;
     double message_seconds; ///< for which it has been there
     double frame_seconds;   ///< smoothed; shown in the corner unless steady
@@ -160,6 +163,8 @@ static inline double box_height(sl_box box) {
 void ui_fill(ui_state *ui, sl_box box, sl_colour colour);
 /// With rounded corners.
 void ui_fill_round(ui_state *ui, sl_box box, double radius, sl_colour colour);
+/// A line inside the border of a box.
+void ui_outline(ui_state *ui, sl_box box, double width, sl_colour colour);
 void ui_line(ui_state *ui, double x0, double y0, double x1, double y1, sl_colour colour);
 
 /// Draws text from the left end of its base line; returns its width. `size` in units of plain text.

@@ -38,6 +38,10 @@ static sl_point cell_middle(const sl_space *space, uint32_t cell) {
     return (sl_point){base.x + sum.x, base.y + sum.y};
 }
 
+sl_point sli_scene_middle(const sl_scene *scene, uint32_t cell) {
+    return cell_middle(&scene->baked->space, cell);
+}
+
 sl_colour sli_scene_colour(const sl_scene *scene, unsigned paint) {
     const sl_palette *palette = &scene->palette;
     if (paint >= SLI_PAINT_HEAT)
@@ -580,6 +584,10 @@ static void draw_fault_marks(const plan *p) {
         sli_draw_faults(p->cairo, p->palette, &p->pens, p->frame, p->scene->options.faults);
 }
 
+static void draw_numbers(const plan *p) {
+    sli_draw_numbers(p->cairo, p->scene, p->frame);
+}
+
 typedef struct step {
     unsigned layers; ///< any of them calls for it; 0: always
     void (*draw)(const plan *p);
@@ -594,9 +602,10 @@ static const step steps[] = {
     {SL_LAYER_STAB_TREE, draw_tree},
     {SL_LAYER_WALLS, draw_walls},
     {SL_LAYER_STARTS, draw_starts},
+    {SL_LAYER_NUMBERS, draw_numbers},
     {0, draw_fault_marks},
 };
-enum { STEPS = sizeof steps / sizeof *steps, WALLS_STEP = STEPS - 3 };
+enum { STEPS = sizeof steps / sizeof *steps, WALLS_STEP = STEPS - 4 };
 
 static plan plan_of(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame) {
     return (plan){.cairo = cairo,

@@ -433,6 +433,7 @@ static sl_status read_file(ldtk *reader, sl_map *map) {
     size_t grids;
     SL_TRY(
         sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map, &grids));
+    strcpy(map->unit, "px");
     give_account(reader, map, grids);
     return sli_things_finish(&reader->things, map);
 }

@@ -30,8 +30,20 @@ sli_affine sli_affine_turn(double degrees);
 double sli_shortest_unit(double value);
 /// Keeps the finer of two units in `finest`, where 0 stands for none yet.
 void sli_keep_finest(double *finest, double unit);
-/// What sl_map.precision is by the finest unit, in the map's unit, that the map's places have.
-double sli_precision_of(const sl_map *map, double finest);
+/// A number for the digits of a place. The sum over all places of a file, in any order, changes
+/// when one of them does.
+uint64_t sli_digits_of(const char *text, size_t length);
+/// The same of a number in its shortest text.
+uint64_t sli_digits_of_number(double value);
+
+/// Room for a mark: the sum of a file's digits and the map's precision, as the file's writer knew
+/// them.
+enum { SLI_MARK_TEXT = 64 };
+
+/// What sl_map.precision is: what a mark says, if the file still has the numbers that were written.
+/// Else, and with `mark` NULL, it follows from the finest unit, in the map's unit, that the map's
+/// places have.
+double sli_marked_precision(const sl_map *map, double finest, const char *mark, uint64_t sum);
 
 typedef struct sli_pen {
     sl_context *context;
@@ -45,6 +57,7 @@ typedef struct sli_pen {
     size_t walls;      ///< drawn
     size_t points;     ///< lines of no length, left out
     double finest;     ///< the finest unit of the coordinates, in the map's unit
+    uint64_t sum;      ///< of their digits
 } sli_pen;
 
 /// Takes note of how a coordinate is written, which the file has in `unit` drawing units.

@@ -5,6 +5,7 @@
 /// grid by grid, and shapes are drawn by the pen. Maps of diamonds are read in the plan, where
 /// diamonds are squares (tiled_lattice.c), and projected onto the screen at the end.
 #include "io/tiled.h"
+#include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "sightline/io.h"
@@ -241,11 +242,91 @@ static sl_status look_for_thing(sli_tiled_reader *reader, const sli_json *object
     return status;
 }
 
+// --- layers that say what they hold
+
+/// Reads an object of such a layer.
+static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, const sli_json *object,
+                           const sli_tiled_place *at, sli_layer_item item) {
+    sl_map drawn = {0}, *map = reader->pen.map;
+    sli_tiled_shape shape;
+    SL_TRY(read_shape(reader, object, &shape));
+    SL_TRY(name_object(reader, layer, object, &shape));
+    const sli_affine outer = reader->pen.affine;
+    const sli_affine place = sli_affine_after(outer, affine_of_layer(reader, at));
+    const sl_point start = sli_affine_apply(place, (sl_point){shape.x, shape.y});
+    const char *name = text_of(object, "name");
+    if (item.layer == SLI_LAYER_DOOR)
+        item.open = sli_tiled_says_of(object, "type").state != SLI_DOOR_SHUT;
+    item.name = *name ? name : NULL;
+    item.heading = -shape.rotation + 0.0;
+    item.points = &start;
+    item.count = 1;
+    reader->pen.map = &drawn;
+    reader->pen.affine = place;
+    const sl_status drawing = sli_tiled_draw_shape(&reader->pen, &shape);
+    reader->pen.map = map;
+    reader->pen.affine = outer;
+    const sl_status status = drawing == SL_OK
+                                 ? sli_layer_take(reader->context, reader->map->file->name, map,
+                                                  &item, &drawn, reader->pen.item)
+                                 : drawing;
+    sl_map_destroy(reader->context, &drawn);
+    reader->objects += item.layer >= SLI_LAYER_WALL && item.layer <= SLI_LAYER_WALL_SOLID;
+    return status;
+}
+
+/// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
+/// layer is one of the map's own. With --start-names the names of objects decide what is a start.
+static sli_layer kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer) {
+    const char *name = text_of(layer, "name");
+    const sli_layer kind = reader->lattice.orientation == SLI_TILED_ORTHOGONAL
+                               ? sli_layer_of((sli_word){name, strlen(name)}, NULL)
+                               : SLI_LAYER_NONE;
+    return kind == SLI_LAYER_START && reader->options->start_names ? SLI_LAYER_NONE : kind;
+}
+
+/// Reads the objects of such a layer. Doors and starts are taken whatever --layers says.
+static sl_status read_items(sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_tiled_place *at, sli_layer kind) {
+    const sli_json objects = sli_json_member(layer, "objects");
+    size_t count = 0;
+    if (objects.value) SL_TRY(sli_json_array(&objects, &count));
+    if (reader->options->layers && !at->asked && kind != SLI_LAYER_DOOR && kind != SLI_LAYER_START)
+        return SL_OK;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(read_item(reader, layer, &object, at, (sli_layer_item){.layer = kind}));
+    }
+    return SL_OK;
+}
+
+/// What a file of our own says of the whole map.
+static sl_status read_marks(sli_tiled_reader *reader) {
+    sl_map *map = reader->pen.map;
+    sli_tiled_properties at = sli_tiled_properties_of(reader->map);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        double *to = !name                                  ? NULL
+                     : strcmp(name, "sightline-range") == 0 ? &map->range
+                     : strcmp(name, "sightline-snap") == 0  ? &map->snap
+                     : strcmp(name, "sightline-y0") == 0    ? &reader->lattice.height
+                                                            : NULL;
+        if (!to) continue;
+        SL_TRY(sli_json_number(&value, to));
+        if (to != &reader->lattice.height && !(*to > 0))
+            return sli_json_fail(&value, "%s: expected a number greater than 0", name);
+    }
+    return SL_OK;
+}
+
 /// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
 static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
                               const sli_tiled_place *at) {
     const sli_json objects = sli_json_member(layer, "objects");
+    const sli_layer kind = kind_of_layer(reader, layer);
     size_t count = 0;
+    if (kind) return read_items(reader, layer, at, kind);
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
     const sli_affine outer = reader->pen.affine;
     const sli_affine move = affine_of_layer(reader, at);
@@ -305,6 +386,16 @@ static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
 static sl_status read_head(sli_tiled_reader *reader) {
     sli_tiled_lattice *lattice = &reader->lattice;
     SL_TRY(sli_tiled_read_lattice(reader->map, lattice));
+    const double height = lattice->height;
+    if (lattice->orientation == SLI_TILED_ORTHOGONAL) {
+        const sli_json columns = sli_json_member(reader->map, "width");
+        const double width = sli_json_number_or_0(&columns);
+        SL_TRY(read_marks(reader));
+        reader->pen.map->page =
+            (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
+        reader->pen.map->top = lattice->height;
+        reader->pen.map->pixels = 1;
+    }
     const bool plan = sli_tiled_has_plan(lattice);
     reader->to_plan = sli_tiled_to_plan(lattice);
     reader->top = plan ? 0 : lattice->height;
@@ -443,7 +534,9 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_add_tile_walls(reader, &grids));
     if (!reader->pen.map->wall_count) return fail_no_walls(reader);
     check_guess(reader);
+    strcpy(reader->pen.map->unit, "px");
     give_account(reader, grids);
+    sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);
 }

@@ -205,6 +205,109 @@ static void texts_may_be_of_any_bytes(void **state) {
     assert_int_equal(cairo_status(c->cairo), CAIRO_STATUS_SUCCESS);
 }
 
+/// Left ends at both sides of right ones: the segments between them cross at (20, 5).
+static const sl_portal_ends crossed[2] = {{{15, 5}, {20, 2}}, {{25, 5}, {20, 8}}};
+
+static void conflicts_are_marked_at_their_ends(void **state) {
+    canvas *c = *state;
+    const sl_conflict conflict = {.verdict = SL_HIDDEN,
+                                  .end_count = 4,
+                                  .ends = {{0, true}, {1, true}, {0, false}, {1, false}}};
+    const sl_conflict half = {.verdict = SL_HIDDEN, .end_count = 1, .ends = {{0, true}}};
+    sl_draw_conflict(c->cairo, &c->palette, &c->frame, crossed, &half);
+    assert_true(has_colour(c, 15, 5, c->palette.glass));
+    assert_false(has_colour(c, 25, 5, c->palette.glass));
+    assert_false(has_colour(c, 20, 2, c->palette.start));
+    sl_draw_conflict(c->cairo, &c->palette, &c->frame, crossed, &conflict);
+    assert_true(has_colour(c, 25, 5, c->palette.glass));
+    assert_true(has_colour(c, 20, 2, c->palette.start));
+    assert_true(has_colour(c, 20, 8, c->palette.start));
+    assert_true(has_colour(c, 22, 5, c->palette.glass)); // between the left ends
+    assert_true(has_colour(c, 20, 4, c->palette.start)); // between the right ones, drawn last
+    assert_true(has_colour(c, 15.7, 5, c->palette.ink)); // the rim
+}
+
+static void portals_that_turn_get_arrows(void **state) {
+    canvas *c = *state;
+    const sl_portal_ends turned[2] = {{{10, 10}, {10, 4}}, {{30, 4}, {30, 10}}};
+    sl_conflict conflict;
+    assert_ok(c->context, sl_conflict_find(c->context, turned, 2, &conflict));
+    assert_true(conflict.turns && conflict.verdict == SL_HIDDEN);
+    sl_draw_conflict(c->cairo, &c->palette, &c->frame, turned, &conflict);
+    // To the right through the first, to the left through the second.
+    assert_true(has_colour(c, 11, 7, c->palette.ink) && has_colour(c, 29, 7, c->palette.ink));
+    assert_true(has_colour(c, 10, 10, c->palette.glass) && has_colour(c, 30, 10, c->palette.start));
+}
+
+static void contradictions_lie_in_the_frame(void **state) {
+    canvas *c = *state;
+    sl_random random = {5};
+    for (int i = 0; i < 300; i++) {
+        sl_portal_ends ends[3];
+        sl_dual dual, before;
+        sl_conflict conflict;
+        for (int k = 0; k < 3; k++) {
+            const double x = 10 * k + (double)sl_random_below(&random, 5);
+            const double y = (double)sl_random_below(&random, 12);
+            ends[k] = (sl_portal_ends){{x, y + 1 + (double)sl_random_below(&random, 4)}, {x, y}};
+        }
+        sl_dual_make(ends, 3, 3, &dual);
+        sl_dual_make(ends, 3, 2, &before);
+        assert_ok(c->context, sl_conflict_find(c->context, ends, 3, &conflict));
+        const sl_dual_frame f =
+            sl_dual_frame_fit_conflict(&dual, &before, ends, &conflict, 10, 20, 200, 100, 1);
+        for (uint32_t k = 0; k < conflict.end_count; k++) {
+            const sl_portal_ends *at = &ends[conflict.ends[k].portal];
+            const sl_point p = sl_dual_point(&dual, conflict.ends[k].left ? at->left : at->right);
+            const sl_dual_line on = {dual.best.slope, p.y - dual.best.slope * p.x};
+            const sl_point place = sl_dual_frame_point(&f, on);
+            assert_true(place.x > 10 && place.x < 210 && place.y > 20 && place.y < 120);
+            const sl_dual_line back = sl_dual_frame_line(&f, place);
+            assert_true(fabs(back.slope - on.slope) < 1e-9 && fabs(back.height - on.height) < 1e-9);
+        }
+    }
+}
+
+static void equations_are_those_of_half_planes(void **state) {
+    (void)state;
+    const sl_dual plain = {.along = {1, 0}, .scale = 1};
+    char text[SL_EQUATION_TEXT];
+    sl_dual_equation(&plain, (sl_point){0.25, -2}, true, text);
+    assert_string_equal(text, "b \xe2\x89\xa4 \xe2\x88\x92"
+                              "2 \xe2\x88\x92 0.25 a");
+    sl_dual_equation(&plain, (sl_point){-1.5, 3}, false, text);
+    assert_string_equal(text, "b \xe2\x89\xa5 3 + 1.5 a");
+    sl_dual_equation(&plain, (sl_point){1e-9, 1e-9}, true, text);
+    assert_string_equal(text, "b \xe2\x89\xa4 0 \xe2\x88\x92 0 a");
+}
+
+/// How many pixels of the picture have a colour.
+static int count_pixels(const canvas *c, sl_colour colour) {
+    int count = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            count += has_colour(c, (x + 0.5) / 10, (HEIGHT - y - 0.5) / 10, colour);
+    return count;
+}
+
+static void marks_of_the_dual_plane_are_drawn(void **state) {
+    canvas *c = *state;
+    sl_dual dual, before;
+    sl_conflict conflict;
+    sl_dual_make(crossed, 2, 2, &dual);
+    sl_dual_make(crossed, 2, 1, &before);
+    assert_ok(c->context, sl_conflict_find(c->context, crossed, 2, &conflict));
+    assert_int_equal(conflict.verdict, SL_HIDDEN);
+    const sl_dual_frame f =
+        sl_dual_frame_fit_conflict(&dual, &before, crossed, &conflict, 0, 0, WIDTH, HEIGHT, 1);
+    sl_draw_dual(c->cairo, &c->palette, &f, &dual, crossed, 2, dual.best, NULL);
+    const int blue = count_pixels(c, c->palette.glass), ink = count_pixels(c, c->palette.ink);
+    const sl_dual_marks marks = {.conflict = &conflict};
+    sl_draw_dual(c->cairo, &c->palette, &f, &dual, crossed, 2, dual.best, &marks);
+    assert_true(count_pixels(c, c->palette.glass) > blue + 100); // thick borders
+    assert_true(count_pixels(c, c->palette.ink) > ink + 100);    // and a frame
+}
+
 static void draw_disc(void *user, cairo_t *cairo) {
     const sl_palette *palette = user;
     cairo_arc(cairo, 20, 20, 10, 0, 6.283185307179586);
@@ -252,6 +355,11 @@ int main(void) {
         CASE(texts_break_into_lines),
         CASE(texts_keep_within_their_width),
         CASE(texts_may_be_of_any_bytes),
+        CASE(conflicts_are_marked_at_their_ends),
+        CASE(portals_that_turn_get_arrows),
+        CASE(contradictions_lie_in_the_frame),
+        CASE(equations_are_those_of_half_planes),
+        CASE(marks_of_the_dual_plane_are_drawn),
         CASE(pages_become_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -113,6 +113,24 @@ SL_API sl_status sl_explain_by_mirror(sl_context *context, const sl_space *space
 SL_API void sl_explanation_destroy(sl_context *context,
                                    sl_explanation *explanation); ///< and zeroes it
 
+/// What keeps lines from a sequence of portals. Zeroed: nothing does.
+typedef struct sl_conflict {
+    sl_stab_verdict verdict; ///< of the sequence, with closed sight and open
+    bool turns;              ///< SL_HIDDEN as no direction crosses all portals forwards
+    /// Where not SL_STABBED: the ends that alone prove it. If the sequence turns, they are those of
+    /// the portals that turn, as in sl_miss. None can be spared otherwise.
+    uint32_t end_count;
+    sl_stab_end ends[SL_CONFLICT_MOST];
+} sl_conflict;
+
+/// Finds what keeps lines from portals crossed in this order, which need not be those of a space.
+/// Exact. The first portals that alone leave no line decide; the others are not looked at.
+SL_API sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals,
+                                  uint32_t count, sl_conflict *out);
+
+/// What the ends of a conflict are to each other, as a clause, like sl_sequence_reason.
+SL_API const char *sl_conflict_reason(const sl_portal_ends *portals, const sl_conflict *conflict);
+
 /// The place of an end of a sequence.
 SL_API sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence,
                                 sl_stab_end end);

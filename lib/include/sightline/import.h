@@ -7,6 +7,8 @@
 
 #include "sightline/map.h"
 
+#include <stdio.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -65,6 +67,23 @@ typedef enum sl_import_takes {
     SL_TAKES_STARTS = 256,
 } sl_import_takes;
 
+/// What a format has a place for, beside walls. sl_map_write() reports what it leaves out.
+typedef enum sl_map_keeps {
+    SL_KEEPS_DOORS = 1, ///< with their names, and whether they are open
+    SL_KEEPS_SOLID = 2, ///< solid ground; else its outlines are written as walls
+    SL_KEEPS_MIRRORS = 4,
+    SL_KEEPS_ONEWAYS = 8,
+    SL_KEEPS_SEAMS = 16,
+    SL_KEEPS_RANGE = 32,
+    SL_KEEPS_STARTS = 64,
+    SL_KEEPS_PATHS = 128,
+    SL_KEEPS_OBJECTS = 256,
+    SL_KEEPS_CELLS = 512, ///< cells of the map's own, and their snap
+    SL_KEEPS_NOTES = 1024,
+    SL_KEEPS_COMMENTS = 2048,
+    SL_KEEPS_ALL = 4095,
+} sl_map_keeps;
+
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read
 /// it. `text` is bytes where the format is binary; a 0 stands behind it.
 typedef struct sl_map_format {
@@ -86,6 +105,9 @@ typedef struct sl_map_format {
     /// Whether the bytes look like this format's: asked where the ending does not tell. NULL:
     /// never.
     bool (*knows)(const char *text, size_t size);
+    /// Writes a map; NULL for a format that is only read. What `keeps` does not name is left out.
+    sl_status (*write)(sl_context *context, const sl_map *map, FILE *stream);
+    unsigned keeps; ///< bits of sl_map_keeps
 } sl_map_format;
 
 /// The formats that the context knows; the first is the map text.
@@ -127,6 +149,21 @@ SL_API sl_status sl_map_choice_read(sl_context *context, const char *path, sl_ma
 SL_API sl_status sl_map_choice_parse(sl_context *context, const char *path, const char *text,
                                      size_t size, sl_map_choice *out);         ///< as sl_map_parse
 SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); ///< and zeroes it
+
+// --- writing
+
+/// The format to write a file in: by its name, or where that is NULL by the ending of `path`; for
+/// "-", a pipe or a device the map text. SL_BAD_ARGUMENT, with the names or endings to choose from,
+/// where no format that can be written fits, or several do. `option` is what messages begin with:
+/// "-o plan.xyz: ...".
+SL_API sl_status sl_map_format_to_write(sl_context *context, const char *option, const char *path,
+                                        const char *name, const sl_map_format **out);
+
+/// Writes a map to a file in this format; "-" is stdout. The target is replaced only after all is
+/// written. Notes, in a sentence each, what the format has no place for. Coordinates read back to
+/// the same doubles.
+SL_API sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
+                              const char *path);
 
 #ifdef __cplusplus
 }
