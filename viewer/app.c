@@ -42,7 +42,9 @@ void app_init(app_state *app, sl_context *context) {
                .text_scale = 1,
                .density = 1,
                .width = 1200,
-               .height = 760},
+               .height = 760,
+               .window_width = 1200,
+               .window_height = 760},
     };
 }
 

@@ -204,8 +204,8 @@ static void random_focus_key(app_state *app, sl_random *random) {
     const hit_area focused = ui_focused(&app->ui);
     const char *key = keys[sl_random_below(random, sizeof keys / sizeof *keys)];
     size_t count;
-    const bool writes =
-        focused.kind == HIT_ACTION && !is_harmless(action_table(&count)[focused.value].name);
+    const bool writes = focused.kind == HIT_ACTION && focused.value >= 0 &&
+                        !is_harmless(action_table(&count)[focused.value].name);
     input_key(app, writes ? "Tab" : key, true);
     input_key(app, key, false);
     if (!sl_random_below(random, 4)) input_text(app, "wall");

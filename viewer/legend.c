@@ -146,11 +146,26 @@ void layers_swatch(ui_state *ui, sl_box box, const legend_row *row) {
     cairo_restore(cairo);
 }
 
+#define LABEL_LEFT 2.8 ///< plain texts
+
+/// Whether the value has room beside the label.
+static bool is_beside(ui_state *ui, double width, const legend_row *row, double *value) {
+    *value = *row->value ? ui_text_width(ui, 0.95, false, row->value) + 0.6 * ui->text : 0;
+    return width - LABEL_LEFT * ui->text - *value > 7 * ui->text;
+}
+
+static double legend_row_height(ui_state *ui, double width, const legend_row *row) {
+    double value;
+    const bool beside = is_beside(ui, width, row, &value);
+    const double room = width - LABEL_LEFT * ui->text - (beside ? value : 0);
+    return ui_lines_height(ui, room, 0.95, false, row->label) + 0.15 * ui->text +
+           (beside ? 0 : ui_lines_height(ui, room, 0.95, false, row->value));
+}
+
 double layers_legend_row(ui_state *ui, double left, double right, double y, const legend_row *row) {
-    const double t = ui->text, words = left + 2.8 * t;
-    const double value = *row->value ? ui_text_width(ui, 0.95, false, row->value) + 0.6 * t : 0;
-    // A narrow legend has the value below the label.
-    const bool beside = right - words - value > 7 * t;
+    double value;
+    const bool beside = is_beside(ui, right - left, row, &value);
+    const double t = ui->text, words = left + LABEL_LEFT * t;
     const double room = right - words - (beside ? value : 0);
     layers_swatch(ui, (sl_box){{left, y + 0.25 * t}, {left + 2.2 * t, y + 1.3 * t}}, row);
     double end = ui_lines(ui, words, y + 1.1 * t, room, 0.95, false, ui->palette.ink, row->label);
@@ -171,9 +186,7 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
     const double t = ui->text, gap = 0.6 * t;
     const double wide = fmin(20 * t, frame->width - 2 * gap);
     double high = gap;
-    for (int i = 0; i < count; i++)
-        high += fmax(ui_lines_height(ui, wide - 4.6 * t, 0.95, false, rows[i].label), 1.33 * t) +
-                (*rows[i].value && wide < 17 * t ? 1.33 * t : 0);
+    for (int i = 0; i < count; i++) high += legend_row_height(ui, wide - 2 * gap, &rows[i]);
     if (!count || high > 0.75 * frame->height || wide < 8 * t) return;
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;

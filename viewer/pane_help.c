@@ -45,6 +45,17 @@ static const char *const by_hand[][2] = {
 };
 enum { BY_HAND = sizeof by_hand / sizeof *by_hand };
 
+/// The first action of a topic; of one without actions, that of the next one.
+static size_t topic_begin(int topic) {
+    size_t count;
+    for (; topic < TOPICS; topic++) {
+        const int first = action_find(topics[topic].first);
+        if (first >= 0) return (size_t)first;
+    }
+    action_table(&count);
+    return count;
+}
+
 static bool has(const char *text, const char *part) {
     const size_t length = strlen(part);
     for (; text && *text; text++) {
@@ -103,8 +114,8 @@ static void help_topic(help_column *c, int topic, const char *filter) {
     const bool all = has(title, filter);
     bool titled = false;
     if (topic < TOPICS) {
-        first = (size_t)action_find(topics[topic].first);
-        end = topic + 1 < TOPICS ? (size_t)action_find(topics[topic + 1].first) : count;
+        first = topic_begin(topic);
+        end = topic_begin(topic + 1);
     }
     for (size_t i = first; topic < TOPICS ? i < end : i < BY_HAND; i++) {
         const char *key = topic < TOPICS ? actions[i].key : by_hand[i][0];
@@ -178,7 +189,7 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
     text[0] = '\0';
     switch (hit->kind) {
     case HIT_ACTION:
-        if (!app->ui.help) write_action(&action_table(&count)[hit->value], text);
+        if (!app->ui.help && hit->value >= 0) write_action(&action_table(&count)[hit->value], text);
         break;
     case HIT_METHOD:
         snprintf(text, UI_TIP_TEXT, "%s", sl_eye_methods(&count)[hit->value].what);

@@ -86,9 +86,10 @@ typedef struct ui_state {
     hit_area hits[HITS_MOST];
     int hit_count;
 
-    int width, height; ///< of the window, pixels
-    double text_scale; ///< chosen by the user
-    double density;    ///< of the screen: pixels where a common one has 1
+    int width, height;               ///< of the window, pixels
+    int window_width, window_height; ///< the same, without fullscreen: what is remembered
+    double text_scale;               ///< chosen by the user
+    double density;                  ///< of the screen: pixels where a common one has 1
     bool dark;
     bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right

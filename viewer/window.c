@@ -134,6 +134,10 @@ static sl_status fit_texture(app_window *w) {
     w->height = height;
     w->app->ui.width = width;
     w->app->ui.height = height;
+    if (!w->fullscreen) {
+        w->app->ui.window_width = width;
+        w->app->ui.window_height = height;
+    }
     if (!w->app->steady) w->app->ui.density = find_density(w);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,

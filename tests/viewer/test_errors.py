@@ -50,7 +50,7 @@ def main():
         fails(2, "ends in .png", office, "--screenshot", folder / "out.gif")
         fails(2, "missing.txt", office, "--script", folder / "missing.txt")
         for line, words in [("dance", "no command is called 'dance'"),
-                            ("key F7", "no action has the key 'F7'"),
+                            ("key F24", "no action has the key 'F24'"),
                             ("action dance", "no action is called"),
                             ("click 1", "wrong operands"), ("click 1 2 3", "wrong operands"),
                             ("size 1 1", "a size is"), ("screenshot", "needs an operand"),

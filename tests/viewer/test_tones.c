@@ -165,6 +165,23 @@ static void lines_stand_out_from_fills(void **state) {
     }
 }
 
+/// Walls and the stab tree lie on fills without a rim.
+static void walls_stand_out_from_solid_fills(void **state) {
+    (void)state;
+    for (int dark = 0; dark < 2; dark++) {
+        const sl_palette p = sl_palette_make(dark);
+        for (int i = 0; i < EYES; i++)
+            for (int k = 0; k < TONES; k++) {
+                const tone_row *row = &tone_table()[k];
+                const sl_colour fill = tone_colour(dark, (tone)k);
+                if (row->pattern != PATTERN_SOLID) continue;
+                expect(&eyes[i], dark, "a wall", p.wall, row->label, fill, 3);
+                expect(&eyes[i], dark, "the stab tree", p.tree, row->label, fill, 3);
+                expect_line(&eyes[i], dark, &p, "a portal", p.portal, fill);
+            }
+    }
+}
+
 /// The order of the heat map holds for every eye.
 static void the_heat_map_has_one_direction(void **state) {
     (void)state;
@@ -212,6 +229,7 @@ int main(void) {
         cmocka_unit_test(tones_stand_out_from_the_ground),
         cmocka_unit_test(tones_of_a_group_differ_by_pattern),
         cmocka_unit_test(lines_stand_out_from_fills),
+        cmocka_unit_test(walls_stand_out_from_solid_fills),
         cmocka_unit_test(the_heat_map_has_one_direction),
         cmocka_unit_test(patterns_are_drawn),
     };
