@@ -119,6 +119,7 @@ typedef struct view_state {
     uint32_t scene_version, scene_show; ///< of what the scene was made
     uint32_t tree_version, tree_cell;   ///< of what the tree was made
     bool tree_dark;
+    double pen_size; ///< that lines of the plan are drawn for; it stays while something is dragged
     double draw_seconds;      ///< that a frame takes to draw, smoothed
     kept_picture under, over; ///< below and above what changes from frame to frame
     account_picture account;

@@ -66,8 +66,8 @@ static const mode_row modes[] = {
                       quiz_draw_below, quiz_draw_above, true, true},
     [MODE_LEARN] = {"Left and Right step, Space plays, . chooses the line or an end", pane_learn,
                     lesson_below, lesson_above, true, false},
-    [MODE_DRAW] = {"Drag to draw a wall or to move one; Ctrl+Z undoes", pane_draw, NULL, edit_draw,
-                   true, false},
+    [MODE_DRAW] = {"Drag to draw a wall, or to move a wall, a corner or a door; Ctrl+Z undoes",
+                   pane_draw, NULL, edit_draw, true, false},
     [MODE_QUIZ] = {"Y or N answers, Space asks again", pane_quiz, quiz_draw_below, quiz_draw_above,
                    false, false},
 };

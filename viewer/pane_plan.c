@@ -40,6 +40,8 @@ static bool make_scene(app_state *app) {
     const sl_status status =
         sl_scene_create(app->context, app->document.baked, &options, NULL, &app->view.scene);
     app_check(app, status);
+    if (!app->document.live) app->view.pen_size = 0;
+    if (status == SL_OK) plan_keep_pens(app->view.scene, &app->view.pen_size);
     app->view.scene_version = app->document.version;
     app->view.scene_show = key;
     return status == SL_OK;

@@ -601,7 +601,8 @@ void pane_draw(app_state *app, sl_box box) {
     heading(&app->ui, &c, "Walls", NULL);
     c.y += 0.7 * app->ui.text;
     rule(&app->ui, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
-    rule(&app->ui, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
+    rule(&app->ui, &c, "Drag a wall, a corner or a door: moves it. Esc takes that back.");
+    rule(&app->ui, &c, "Click a wall: chooses it. Delete: deletes it.");
     snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
              app->document.map.wall_count, app->document.history.done_count,
              app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);

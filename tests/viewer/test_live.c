@@ -317,6 +317,53 @@ static void test_taken_back(void **state) {
     }
 }
 
+/// How many pixels of a picture differ from another one, as a share.
+static double difference(cairo_surface_t *a, cairo_surface_t *b) {
+    const int width = cairo_image_surface_get_width(a), height = cairo_image_surface_get_height(a);
+    size_t count = 0;
+    assert_int_equal(width, cairo_image_surface_get_width(b));
+    assert_int_equal(height, cairo_image_surface_get_height(b));
+    for (int y = 0; y < height; y++) {
+        const size_t row = (size_t)y * (size_t)cairo_image_surface_get_stride(a);
+        const unsigned char *p = cairo_image_surface_get_data(a) + row;
+        const unsigned char *q = cairo_image_surface_get_data(b) + row;
+        for (int x = 0; x < width; x++) {
+            int most = 0;
+            for (int k = 0; k < 4; k++) most |= abs(p[4 * x + k] - q[4 * x + k]) > 24;
+            count += most != 0;
+        }
+    }
+    return (double)count / width / height;
+}
+
+/// The pictures that a drag has mended are those that are drawn as a whole, but for dashes.
+static void test_mended(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%s/%s", MAPS, maps[i]);
+        app_state *app = start(true);
+        open_map(app, path);
+        const sl_wall *wall = &app->document.map.walls[app->document.map.wall_count / 2];
+        assert_true(drag(app, wall->a, 30, 20, false) > 0);
+        kept_picture *const kept[] = {&app->view.under, &app->view.over};
+        cairo_surface_t *mended[2];
+        for (int k = 0; k < 2; k++) {
+            assert_true(kept[k]->items.count > 0);
+            mended[k] = kept[k]->surface;
+            kept[k]->surface = NULL;
+            kept[k]->items.count = 0;
+        }
+        script_frame(app);
+        for (int k = 0; k < 2; k++) {
+            const double share = difference(mended[k], kept[k]->surface);
+            if (share > 0.004) fail_msg("%s: %.2f %% differ", maps[i], 100 * share);
+            cairo_surface_destroy(mended[k]);
+        }
+        end(app);
+    }
+}
+
 /// A wall that is drawn shows while it is drawn.
 static void test_new_wall(void **state) {
     (void)state;
@@ -381,7 +428,8 @@ int main(void) {
         cmocka_unit_test(test_maps),       cmocka_unit_test(test_turned),
         cmocka_unit_test(test_corner),     cmocka_unit_test(test_door),
         cmocka_unit_test(test_taken_back), cmocka_unit_test(test_new_wall),
-        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_mended),     cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
