@@ -19,7 +19,7 @@ PATIENCE = 30
 DROP = pathlib.Path(sys.argv[2]).with_name("drop_file")
 
 # Where the cone's slider stands in a window of 1200 x 760: its knob at 90 degrees, and farther on.
-CONE, WIDER = (1045, 477), (1090, 477)
+CONE, WIDER = (1045, 496), (1090, 496)
 
 # name, what is done in the window (a list of acts), and the same for the script.
 # Acts: a key by its name for X; ("drag", X, Y, X2, Y2); ("wheel", X, Y, TURNS); ("drop", MAP).
