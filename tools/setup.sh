@@ -72,6 +72,7 @@ is_there() {
     gmp) links gmp.h gmp ;;
     zlib) links zlib.h z ;;
     cairo | cmocka | jansson) module "$1" ;;
+    pango) module pangocairo ;;
     libpng) module libpng ;;
     libxml2) module libxml-2.0 ;;
     libyaml) module yaml-0.1 ;;
@@ -100,6 +101,7 @@ package() { # system thing
     apt:glpk) echo libglpk-dev ;;
     apt:gmp) echo libgmp-dev ;;
     apt:cairo) echo libcairo2-dev ;;
+    apt:pango) echo libpango1.0-dev ;;
     apt:cmocka) echo libcmocka-dev ;;
     apt:jansson) echo libjansson-dev ;;
     apt:zlib) echo zlib1g-dev ;;
@@ -122,7 +124,7 @@ package() { # system thing
     dnf:font) echo dejavu-sans-fonts ;;
     dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
     dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
-    dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
+    dnf:glpk | dnf:gmp | dnf:cairo | dnf:pango | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
     dnf:zstd) echo libzstd-devel ;;
     dnf:sdl2) echo SDL2-devel ;;
     dnf:mpi) echo openmpi-devel ;;
@@ -191,7 +193,7 @@ install_packages() { # system package...
 
 # ---- What to do ----
 
-things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
+things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
 [ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff"
 
 missing=
@@ -209,7 +211,7 @@ done
 if [ -z "$system" ]; then
     echo "setup: this system's package manager is none of apt, dnf, pacman, brew. Please install:" >&2
     echo "  a C and a C++ compiler (gcc or clang), cmake 3.20 or newer, ninja, pkg-config, python3," >&2
-    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, SDL2, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
+    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, Pango, SDL2, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
     exit 1
 fi
 

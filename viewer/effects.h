@@ -10,7 +10,7 @@
 
 enum { CALLS_TEXT = 160 };
 
-/// "calls for doors (6), mirrors (2)"; for a map without effects, a sentence that says so.
+/// "calls for doors (6), mirrors (2)"; "" for a map without effects.
 void effects_in_words(const sl_map *map, char text[CALLS_TEXT]);
 
 /// The effects that the map does not need: "mirrors, a view range"; empty if it needs all.

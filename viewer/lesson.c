@@ -166,8 +166,8 @@ void lesson_tick(lesson_state *lesson, const document_state *document, double se
 // --- the portal ends and the line, changed by hand
 
 void lesson_keep(lesson_state *lesson, uint32_t what) {
-    if (lesson->change_count == CHANGES_MOST) {
-        memmove(lesson->changes, lesson->changes + 1, (CHANGES_MOST - 1) * sizeof *lesson->changes);
+    if (lesson->change_count == UNDO_MOST) {
+        memmove(lesson->changes, lesson->changes + 1, (UNDO_MOST - 1) * sizeof *lesson->changes);
         lesson->change_count--;
         lesson->changes_dropped = true;
     }

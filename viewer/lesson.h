@@ -17,7 +17,7 @@
 typedef struct app_state app_state;
 typedef struct lesson_state lesson_state;
 
-enum { SENTENCE = 512, PASSES = 4, CHANGES_MOST = 64 };
+enum { SENTENCE = 512, PASSES = 4, UNDO_MOST = 64 };
 
 /// A subject: one file (lesson_search.c, lesson_subdivision.c, ...) and one row of the table in
 /// lesson.c. Its record stands in lesson_state. Functions from `code` on may be NULL. All but the
@@ -104,10 +104,10 @@ struct lesson_state {
     /// The portals of the sequence at hand; their ends may have been dragged.
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST];
     uint32_t end_count;
-    bool dragged;                        ///< ends are not where the map has them
-    sl_dual dual, before;                ///< with all portals, and without the last
-    sl_dual_line line;                   ///< the one chosen
-    lesson_change changes[CHANGES_MOST]; ///< for undo, the last one last
+    bool dragged;                     ///< ends are not where the map has them
+    sl_dual dual, before;             ///< with all portals, and without the last
+    sl_dual_line line;                ///< the one chosen
+    lesson_change changes[UNDO_MOST]; ///< for undo, the last one last
     size_t change_count;
     bool changes_dropped; ///< the oldest ones: they cannot be undone
     uint32_t chosen_next; ///< chosen by keys, as CHOSEN_... but from 1; 0: nothing

@@ -66,8 +66,8 @@ static const mode_row modes[] = {
                       quiz_draw_below, quiz_draw_above, true, true},
     [MODE_LEARN] = {"Left and Right step, Space plays, . chooses the line or an end", pane_learn,
                     lesson_below, lesson_above, true, false},
-    [MODE_DRAW] = {"Drag to draw a wall or to move one; Ctrl+Z undoes", pane_draw, NULL, edit_draw,
-                   true, false},
+    [MODE_DRAW] = {"Drag to draw a wall, or to move a wall, a corner or a door; Ctrl+Z undoes",
+                   pane_draw, NULL, edit_draw, true, false},
     [MODE_QUIZ] = {"Y or N answers, Space asks again", pane_quiz, quiz_draw_below, quiz_draw_above,
                    false, false},
 };
@@ -87,13 +87,14 @@ static void draw_rock_note(app_state *app, const sl_frame *frame) {
     static const char text[] = "The eye is in solid ground and sees nothing. Click in a room.";
     ui_state *ui = &app->ui;
     const double t = ui->text, middle = frame->left + frame->width / 2;
-    const double half = fmin(ui_text_width(ui, 1, true, text), frame->width - 3 * t) / 2;
-    const double base = frame->top + frame->height - 1.4 * t;
-    ui_fill_round(ui,
-                  (sl_box){{middle - half - 0.6 * t, base - 1.3 * t},
-                           {middle + half + 0.6 * t, base + 0.6 * t}},
-                  0.3 * t, ui->palette.page);
-    sl_text_show_within(ui->cairo, ui->palette.ink, middle - half, base, 2 * half, t, true, text);
+    const double wide = fmin(ui_text_width(ui, 1, true, text) + 1, frame->width - 3 * t);
+    const double high = ui_lines_height(ui, wide, 1, true, text);
+    if (high > 0.5 * frame->height) return; // the panel says it too
+    const double bottom = frame->top + frame->height - 0.8 * t, left = middle - wide / 2;
+    ui_fill_round(
+        ui, (sl_box){{left - 0.6 * t, bottom - high - 0.5 * t}, {left + wide + 0.6 * t, bottom}},
+        0.3 * t, ui->palette.page);
+    ui_lines(ui, left, bottom - high + 0.75 * t, wide, 1, true, ui->palette.ink, text);
 }
 
 void modes_draw_above(app_state *app, const sl_frame *frame) {
@@ -103,13 +104,13 @@ void modes_draw_above(app_state *app, const sl_frame *frame) {
     draw_kept(app, frame);
     if (mode->cone)
         sl_draw_cone(app->ui.cairo, frame, app->view.eye.at, app->view.eye.heading,
-                     app->view.eye.fov, 6 * app->ui.text, palette->start);
+                     app->view.eye.fov, 78 * ui_scale(&app->ui), palette->start);
     if (mode->eye) range_draw(app, frame);
     if (mode->eye) mirror_draw(app, frame);
     if (app->tool.mode == MODE_EXPLORE) object_draw(app, frame);
     if (mode->eye)
         sl_draw_eye_mark(app->ui.cairo, palette, frame, app->view.eye.at, app->view.eye.heading,
-                         0.5 * app->ui.text);
+                         6.5 * ui_scale(&app->ui));
     if (mode->eye && app_is_solid(app, app->view.eye.at)) draw_rock_note(app, frame);
 }
 

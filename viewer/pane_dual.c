@@ -27,36 +27,36 @@ static void write_line(sl_dual_line line, char text[64]) {
              fabs(line.slope), line.height < 0 ? "\xe2\x88\x92" : "+", fabs(line.height));
 }
 
+/// The title, then the line, then the words, as far as each has room.
 static void draw_heading(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
-    const double t = ui->text;
+    const double t = ui->text, y = box.min.y + 1.5 * t;
     const lesson_state *lesson = &app->tool.lesson;
     char text[160], line[64] = "";
-    const double x = box.min.x + 1.7 * t +
-                     ui_text(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, 1, true, ui->palette.ink,
-                             "Lines as points");
+    const double left = box.min.x + 0.9 * t, right = box.max.x - 0.9 * t;
+    const double x = left + ui_text_width(ui, 1, true, "Lines as points") + 0.8 * t;
     if (lesson->end_count)
         snprintf(text, sizeof text, "%u half-planes: %s", 2 * lesson->end_count,
                  lesson->dual.corner_count ? "what all leave is green" : "nothing is left");
     else
         snprintf(text, sizeof text, "no portal is crossed yet: every line counts");
     if (lesson->end_count) write_line(lesson->line, line);
-    const double used = *line ? ui_text_width(ui, 0.95, false, line) + 1.5 * t : 0;
-    const double room = box.max.x - 0.9 * t - used - x;
-    if (room > 6 * t)
-        sl_text_show_within(ui->cairo, ui->palette.faint, x, box.min.y + 1.5 * t, room, 0.95 * t,
-                            false, text);
-    if (*line && room > 0)
-        ui_text_right(ui, box.max.x - 0.9 * t, box.min.y + 1.5 * t, 0.95, ui->palette.ink, line);
+    const double used = ui_text_width(ui, 0.95, false, line);
+    if (x > right)
+        ui_text_within(ui, left, y, right - left, 1, ui->palette.ink, "Lines as points");
+    else
+        ui_text(ui, left, y, 1, true, ui->palette.ink, "Lines as points");
+    if (*line && x + used <= right) ui_text_right(ui, right, y, 0.95, ui->palette.ink, line);
+    const double end = *line ? right - used - 1.5 * t : right;
+    if (x + ui_text_width(ui, 0.95, false, text) <= end)
+        ui_text(ui, x, y, 0.95, false, ui->palette.faint, text);
 }
 
-void pane_dual(app_state *app, sl_box box) {
+static void draw_dual(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const double t = ui->text;
     lesson_state *lesson = &app->tool.lesson;
-    ui_fill(ui, box, ui->palette.page);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
+    if (box_height(box) < 3 * t) return; // too low for anything
     draw_heading(app, box);
     if (!lesson->end_count) return;
     const sl_dual_frame frame = frame_of(app, box);
@@ -82,8 +82,17 @@ void pane_dual(app_state *app, sl_box box) {
             ? "a: slope \xe2\x86\x92   b: height \xe2\x86\x91"
             : "a: slope \xe2\x86\x92   b: height \xe2\x86\x91   L: left ends, from above   "
               "R: right ends, from below   bar: the best line and its margin");
-    ui_hit(ui, HIT_DUAL, 0,
-           (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
+    ui_hit_focus(
+        ui, HIT_DUAL, 0,
+        (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
+}
+
+void pane_dual(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    ui_begin_area(ui, box);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
+    draw_dual(app, box);
+    ui_end_area(ui);
 }
 
 void pane_dual_drag(app_state *app, sl_box box, sl_point to) {

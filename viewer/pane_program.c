@@ -12,8 +12,8 @@
 #include <string.h>
 
 /// A table in a wide or in a narrow pane. The narrow one leaves out what is 1 or -1 in each row,
-/// and the values.
-enum { COLUMNS = 8, NUMBER = 24, OUT = -1 };
+/// and the values; it is at least NARROWEST plain texts wide.
+enum { COLUMNS = 8, NUMBER = 24, OUT = -1, NARROWEST = 17 };
 
 typedef struct table {
     ui_state *ui;
@@ -112,29 +112,34 @@ static void draw_table(app_state *app, sl_box box, const sl_program *program) {
         if (any && !fixed && row->portal == marked.portal && row->left == marked.left)
             ui_fill(ui, place, sl_colour_mix(ui->palette.page, ui->palette.source, 0.45));
         draw_row(&rows, y, program, row);
-        if (!fixed) ui_hit(ui, HIT_END, (int)(2 * row->portal + !row->left), place);
+        if (!fixed) ui_hit_focus(ui, HIT_END, (int)(2 * row->portal + !row->left), place);
     }
 }
 
-void pane_program(app_state *app, sl_box box) {
+static void draw_program(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
-    const double t = ui->text, left = box.min.x + 0.9 * t;
+    const double t = ui->text, left = box.min.x + 0.9 * t, room = box_width(box) - 1.8 * t;
     lesson_state *lesson = &app->tool.lesson;
-    ui_fill(ui, box, ui->palette.page);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    ui_text(ui, left, box.min.y + 1.5 * t, 1, true, ui->palette.ink, "Linear program");
+    ui_text_within(ui, left, box.min.y + 1.5 * t, room, 1, ui->palette.ink, "Linear program");
     if (!lesson->end_count) return;
-    cairo_save(ui->cairo);
-    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
-    cairo_clip(ui->cairo);
     sl_status status;
     const sl_program *program = lesson_program(app->context, lesson, &status);
     if (program)
         draw_table(app, box, program);
     else
-        ui_paragraph(ui, left, box.min.y + 3.1 * t, box_width(box) - 1.8 * t, 0.95, ui->palette.ink,
+        ui_paragraph(ui, left, box.min.y + 3.1 * t, room, 0.95, ui->palette.ink,
                      sl_context_message(app->context));
-    cairo_restore(ui->cairo);
+}
+
+void pane_program(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    ui_begin_area(ui, box);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
+    ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
+    // The columns keep their places: where they have no room, all is set smaller.
+    ui->text = fmin(t, box_width(box) / NARROWEST);
+    draw_program(app, box);
+    ui->text = t;
+    ui_end_area(ui);
 }

@@ -161,14 +161,18 @@ void quiz_words(const app_state *app, char *text, size_t room) {
 
 void quiz_draw_below(app_state *app, const sl_frame *frame) {
     const quiz_state *q = &app->tool.quiz;
-    const sl_palette *palette = &app->ui.palette;
     if (!q->asked) return;
-    const sl_space *space = &app->document.baked->space;
     // In other modes the colours of what is kept stay.
-    const double opacity = app->tool.mode == MODE_QUIZ ? 0.5 : 0.15;
-    sl_draw_cell(app->ui.cairo, space, frame, q->from, palette->source_edge, opacity,
+    if (app->tool.mode == MODE_QUIZ) {
+        layers_draw_cell(app, frame, q->from, TONE_FROM);
+        layers_draw_cell(app, frame, q->to, TONE_TO);
+        return;
+    }
+    const sl_space *space = &app->document.baked->space;
+    sl_draw_cell(app->ui.cairo, space, frame, q->from, tone_colour(app->ui.dark, TONE_FROM), 0.15,
                  2 * frame->unit);
-    sl_draw_cell(app->ui.cairo, space, frame, q->to, palette->door, opacity, 3 * frame->unit);
+    sl_draw_cell(app->ui.cairo, space, frame, q->to, tone_colour(app->ui.dark, TONE_TO), 0.15,
+                 3 * frame->unit);
 }
 
 void quiz_draw_above(app_state *app, const sl_frame *frame) {

@@ -522,13 +522,18 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
                          sli_show((sli_word){missing, strlen(missing)}).text);
 }
 
+/// Whether nothing that was read is solid by what the map itself says.
+static bool says_nothing(const sli_tiled_reader *reader) {
+    return !reader->solid_layers && !reader->solid_tiles && !reader->shapes && !reader->objects;
+}
+
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
     SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
     if (!reader->solid_layers && !reader->options->layers) {
         if (reader->unknown_tiles) return fail_missing(reader);
-        if (!reader->solid_tiles && !reader->shapes && !reader->objects) SL_TRY(guess(reader));
+        if (says_nothing(reader)) SL_TRY(guess(reader));
     }
     SL_TRY(sli_tiled_add_tile_walls(reader));
     if (!reader->pen.map->wall_count) return fail_no_walls(reader);
@@ -540,23 +545,32 @@ static sl_status read_map(sli_tiled_reader *reader) {
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);
 }
 
+static sli_tiled_reader begin_reader(sl_context *context, const sli_json *root,
+                                     const sl_import_options *options, sl_map *map) {
+    const char *name = root->file->name;
+    return (sli_tiled_reader){
+        .context = context,
+        .options = options,
+        .map = root,
+        .things = {.context = context, .file = name, .options = options},
+        .pen = {.context = context, .name = name, .map = map, .tolerance = options->tolerance}};
+}
+
+static void end_reader(sl_context *context, sli_tiled_reader *reader) {
+    sli_tiles_destroy(context, &reader->tiles);
+    sli_tiled_destroy_sets(context, &reader->sets);
+    sli_tiled_destroy_templates(context, &reader->templates);
+    sli_things_destroy(&reader->things);
+}
+
 /// Reads a tree, and closes its file.
 static sl_status read_tree(sl_context *context, sli_json_file *file,
                            const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     const sli_json root = sli_json_root(file);
-    sli_tiled_reader reader = {
-        .context = context,
-        .options = options,
-        .map = &root,
-        .things = {.context = context, .file = file->name, .options = options},
-        .pen = {
-            .context = context, .name = file->name, .map = &read, .tolerance = options->tolerance}};
+    sli_tiled_reader reader = begin_reader(context, &root, options, &read);
     const sl_status status = read_map(&reader);
-    sli_tiles_destroy(context, &reader.tiles);
-    sli_tiled_destroy_sets(context, &reader.sets);
-    sli_tiled_destroy_templates(context, &reader.templates);
-    sli_things_destroy(&reader.things);
+    end_reader(context, &reader);
     sli_json_close(file);
     // The map's lines are numbers of shapes, if it has any: doors and starts are none of them.
     for (size_t i = 0; i < read.door_count && read.lines_are_items; i++) read.doors[i].line = 0;
@@ -565,6 +579,37 @@ static sl_status read_tree(sl_context *context, sli_json_file *file,
         *map = read;
     else
         sl_map_destroy(context, &read);
+    return status;
+}
+
+static sl_status list_names(sl_context *context, const sli_json *parent, sl_map_list *list) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = text_of(&layer, "name"), *type = text_of(&layer, "type");
+        if (strcmp(type, "group") == 0) SL_TRY(list_names(context, &layer, list));
+        if (strcmp(type, "objectgroup") == 0 || strcmp(type, "tilelayer") == 0)
+            SL_TRY(sl_map_list_add(context, list, name, strlen(name)));
+    }
+    return SL_OK;
+}
+
+/// Lists the layers of a tree, reads it to find out what it says is solid, and closes its file.
+static sl_status list_tree(sl_context *context, sli_json_file *file, sl_map_list *list,
+                           bool *unsaid) {
+    sl_map read = {0};
+    const sl_import_options options = sl_import_options_default();
+    const sli_json root = sli_json_root(file);
+    sli_tiled_reader reader = begin_reader(context, &root, &options, &read);
+    sl_status status = read_head(&reader);
+    if (status == SL_OK) status = sli_tiled_read_sets(reader.map, &reader.sets);
+    if (status == SL_OK) status = read_layers(&reader, reader.map, &(sli_tiled_place){0});
+    if (status == SL_OK) status = list_names(context, &root, list);
+    if (status != SL_OK) sl_map_list_destroy(context, list);
+    *unsaid = !reader.solid_layers && (reader.unknown_tiles || says_nothing(&reader));
+    end_reader(context, &reader);
+    sl_map_destroy(context, &read);
+    sli_json_close(file);
     return status;
 }
 
@@ -580,4 +625,18 @@ sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *tex
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     return read_tree(context, &file, options, map);
+}
+
+sl_status sl_map_layers_tmx(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map_list *list, bool *unsaid) {
+    sli_json_file file;
+    SL_TRY(sli_tiled_from_xml(context, name, "map", text, size, &file));
+    return list_tree(context, &file, list, unsaid);
+}
+
+sl_status sl_map_layers_tmj(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map_list *list, bool *unsaid) {
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    return list_tree(context, &file, list, unsaid);
 }

@@ -228,6 +228,7 @@ sl_status sl_map_read(sl_context *context, const char *path, const sl_import_opt
 
 void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice) {
     sl_map_list_destroy(context, &choice->maps);
+    sl_map_list_destroy(context, &choice->layers);
     *choice = (sl_map_choice){0};
 }
 
@@ -239,6 +240,8 @@ sl_status sl_map_choice_parse(sl_context *context, const char *path, const char 
     if (format->list) status = format->list(context, path, text, size, &read.maps);
     if (status == SL_OK && format->heights)
         status = format->heights(context, path, text, size, &read.lowest, &read.highest);
+    if (status == SL_OK && format->layers)
+        status = format->layers(context, path, text, size, &read.layers, &read.layers_unsaid);
     if (status == SL_OK)
         *out = read;
     else
@@ -258,6 +261,8 @@ sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *l
     sl_map_choice choice;
     SL_TRY(sl_map_choice_read(context, path, &choice));
     *list = choice.maps;
+    choice.maps = (sl_map_list){0};
+    sl_map_choice_destroy(context, &choice);
     return SL_OK;
 }
 

@@ -14,7 +14,7 @@ PACKAGES = {
     "io": {"libxml2", "libjansson", "libpng", "libyaml", "libz", "libzstd"},
     "study": set(),
     "glpk": {"libglpk"},
-    "draw": {"libcairo"},
+    "draw": {"libcairo", "libpangocairo", "libpango", "libgobject", "libglib"},
 }
 # Any library may link these.
 ALWAYS = {"libc", "libm", "libpthread", "ld", "libsightline"}

@@ -130,6 +130,81 @@ static void places_of_the_dual_plane_are_lines(void **state) {
     assert_true(corner.slope < -1 && corner.height < -1);
 }
 
+static void texts_grow_with_their_size(void **state) {
+    const canvas *c = *state;
+    sl_text_font(c->cairo, 10, false);
+    const double small = sl_text_width(c->cairo, "Visible region");
+    sl_text_font(c->cairo, 30, false);
+    const double large = sl_text_width(c->cairo, "Visible region");
+    assert_true(small > 40 && fabs(large - 3 * small) < 0.02 * large);
+    sl_text_font(c->cairo, 10, true);
+    assert_true(sl_text_width(c->cairo, "Visible region") > small);
+    assert_true(sl_text_width(c->cairo, "") == 0);
+    // Hundreds of other texts later it is as wide as before.
+    for (int i = 0; i < 5000; i++) {
+        char text[16];
+        snprintf(text, sizeof text, "%d", i);
+        assert_true(sl_text_width(c->cairo, text) > 0);
+    }
+    sl_text_font(c->cairo, 10, false);
+    assert_true(sl_text_width(c->cairo, "Visible region") == small);
+}
+
+static void texts_break_into_lines(void **state) {
+    const canvas *c = *state;
+    static const char words[] = "The eye's cell sees it, the eye does not.";
+    sl_text_font(c->cairo, 12, false);
+    const double wide = sl_text_width(c->cairo, words);
+    assert_int_equal(sl_text_lines(c->cairo, 1.01 * wide, words), 1);
+    assert_int_equal(sl_text_lines(c->cairo, 0.7 * wide, words), 2);
+    assert_int_equal(sl_text_lines(c->cairo, 1.01 * wide, "a\nb"), 2);
+    assert_true(sl_text_lines(c->cairo, wide / 8, "a_word_that_is_far_wider_than_that") > 2);
+    assert_int_equal(sl_text_lines(c->cairo, wide, ""), 0);
+    assert_int_equal(sl_text_show_lines(c->cairo, c->palette.ink, 0, 12, 0.7 * wide, 16, words), 2);
+}
+
+/// The columns of the surface that are not blank, from the first to one past the last.
+static void find_ink(const canvas *c, int *first, int *end) {
+    cairo_surface_flush(c->surface);
+    const unsigned char *data = cairo_image_surface_get_data(c->surface);
+    const size_t stride = (size_t)cairo_image_surface_get_stride(c->surface);
+    *first = WIDTH;
+    *end = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            uint32_t value;
+            memcpy(&value, data + (size_t)y * stride + 4 * (size_t)x, sizeof value);
+            if (!(value & 0xffffff)) continue;
+            if (x < *first) *first = x;
+            if (x >= *end) *end = x + 1;
+        }
+}
+
+/// A text that has too little room is cut, and what is drawn keeps within its width.
+static void texts_keep_within_their_width(void **state) {
+    const canvas *c = *state;
+    int first, end;
+    sl_text_show_within(c->cairo, c->palette.page, 100, 50, 80, 20, false,
+                        "far too many words for such a place");
+    find_ink(c, &first, &end);
+    assert_true(first >= 99 && first < 110 && end > 140 && end <= 181);
+}
+
+/// Names come from files: they may be in any script, or not be UTF-8 at all.
+static void texts_may_be_of_any_bytes(void **state) {
+    const canvas *c = *state;
+    static const char *const texts[] = {"\xd0\x9a\xd0\xb0\xd1\x80\xd1\x82\xd0\xb0",
+                                        "\xe5\x9c\xb0\xe5\x9b\xb3", "\xd9\x85\xd9\x83",
+                                        "\xff\xfe caf\xe9", "tab\there\nline"};
+    sl_text_font(c->cairo, 14, false);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        assert_true(sl_text_width(c->cairo, texts[i]) > 0);
+        sl_text_show(c->cairo, c->palette.ink, 10, 100, texts[i]);
+        assert_true(sl_text_lines(c->cairo, 50, texts[i]) > 0);
+    }
+    assert_int_equal(cairo_status(c->cairo), CAIRO_STATUS_SUCCESS);
+}
+
 /// Left ends at both sides of right ones: the segments between them cross at (20, 5).
 static const sl_portal_ends crossed[2] = {{{15, 5}, {20, 2}}, {{25, 5}, {20, 8}}};
 
@@ -276,6 +351,10 @@ int main(void) {
         CASE(unknown_cells_are_refused),
         CASE(sets_leave_out_what_is_in_another),
         CASE(places_of_the_dual_plane_are_lines),
+        CASE(texts_grow_with_their_size),
+        CASE(texts_break_into_lines),
+        CASE(texts_keep_within_their_width),
+        CASE(texts_may_be_of_any_bytes),
         CASE(conflicts_are_marked_at_their_ends),
         CASE(portals_that_turn_get_arrows),
         CASE(contradictions_lie_in_the_frame),

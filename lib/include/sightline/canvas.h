@@ -91,7 +91,8 @@ SL_API sl_colour sl_colour_mix(sl_colour a, sl_colour b, double share);
 /// Makes a colour the context's source.
 SL_API void sl_set_colour(cairo_t *cairo, sl_colour colour);
 
-// --- text
+// --- text, UTF-8. Letters that the font lacks come from other fonts. A surface keeps the last
+// texts that were set on it: draw on one surface in one thread alone.
 
 /// Sets the font and its size. Letters are not fitted to pixels, so that pictures of any width and
 /// kind are laid out alike.
@@ -107,6 +108,15 @@ SL_API void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, c
 /// cut.
 SL_API void sl_text_show_within(cairo_t *cairo, sl_colour colour, double x, double y, double width,
                                 double size, bool bold, const char *text);
+
+/// The number of lines that a text takes in the font that is set, where none is wider than `width`.
+/// Lines break between words, and within a word that is wider; '\n' begins a new one.
+SL_API unsigned sl_text_lines(cairo_t *cairo, double width, const char *text);
+
+/// Draws a text in such lines, from the left end of the first base line; the next ones are
+/// `spacing` apart. Returns their number.
+SL_API unsigned sl_text_show_lines(cairo_t *cairo, sl_colour colour, double x, double y,
+                                   double width, double spacing, const char *text);
 
 /// The longest text of sl_text_count, its 0 included.
 #define SL_COUNT_TEXT 64

@@ -97,6 +97,11 @@ typedef struct sl_map_format {
     /// Between which heights a 3D model lies; NULL for a format of plans.
     sl_status (*heights)(sl_context *context, const char *name, const char *text, size_t size,
                          double *lowest, double *highest);
+    /// Lists the layers that options->layers may name into an empty list. *unsaid is set where the
+    /// file does not say which of them are solid: the reader then guesses, or refuses. NULL for a
+    /// format that does not list its layers.
+    sl_status (*layers)(sl_context *context, const char *name, const char *text, size_t size,
+                        sl_map_list *list, bool *unsaid);
     /// Whether the bytes look like this format's: asked where the ending does not tell. NULL:
     /// never.
     bool (*knows)(const char *text, size_t size);
@@ -135,6 +140,8 @@ typedef struct sl_map_choice {
     const sl_map_format *format; ///< by which sl_map_read reads it
     sl_map_list maps;            ///< none for a format of one map a file
     double lowest, highest;      ///< of a 3D model; equal for all else
+    sl_map_list layers;          ///< none where the format does not list them
+    bool layers_unsaid;          ///< the file does not say which layers are solid
 } sl_map_choice;
 
 /// Fails as sl_map_read does where the file is broken; `out` then stays as it was.

@@ -84,6 +84,14 @@ SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const ch
 SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
+/// Lists the layers of tiles and objects of a map of Tiled into an empty list. *unsaid is set where
+/// nothing in the map says what is solid.
+SL_API sl_status sl_map_layers_tmx(sl_context *context, const char *name, const char *text,
+                                   size_t size, sl_map_list *list, bool *unsaid);
+/// As sl_map_layers_tmx, from JSON.
+SL_API sl_status sl_map_layers_tmj(sl_context *context, const char *name, const char *text,
+                                   size_t size, sl_map_list *list, bool *unsaid);
+
 /// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
 /// the world's name): the cells of its IntGrid layers, and entities named as starts or doors. Unit:
 /// pixels. What was taken is noted. SL_BAD_ARGUMENT as sl_map_read_tmx.
