@@ -43,7 +43,8 @@ typedef struct room_points {
 
 static bool room_holds(const sl_outline *o, uint32_t room, sl_point point) {
     for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++)
-        if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0) return false;
+        if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
+            return false;
     return true;
 }
 
@@ -248,8 +249,8 @@ static sl_status look_around_room(sl_context *context, looker *l, uint32_t room,
 
 static sl_status look(sl_context *context, looker *l, uint32_t eye) {
     l->eye = l->grid->points[eye];
-    SL_TRY(find_touching(context, l->outline, l->room_of, l->by_room->home[eye], l->eye,
-                         &l->at_eye));
+    SL_TRY(
+        find_touching(context, l->outline, l->room_of, l->by_room->home[eye], l->eye, &l->at_eye));
     for (size_t k = 0; k < l->at_eye.rooms.count; k++) {
         const uint32_t room = l->at_eye.rooms.items[k];
         see_all(l, room);
@@ -321,8 +322,8 @@ static uint64_t count_edges(const sl_vga_graph *graph) {
     return edges;
 }
 
-static sl_status connect(sl_context *context, const job *j, unsigned threads) {
-    const sl_work work = {.job = (void *)j,
+static sl_status connect(sl_context *context, job *j, unsigned threads) {
+    const sl_work work = {.job = j,
                           .begin = begin,
                           .unit = look_from_unit,
                           .end = end,
@@ -344,10 +345,9 @@ sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline, cons
         graph.rows = sl_alloc_array(context, graph.count * graph.words, sizeof *graph.rows);
         if (!graph.rows) status = SL_NO_MEMORY;
     }
-    const job j = {
-        .like = {.outline = outline, .grid = grid, .by_room = &by_room, .room_of = room_of},
-        .range = range,
-        .graph = &graph};
+    job j = {.like = {.outline = outline, .grid = grid, .by_room = &by_room, .room_of = room_of},
+             .range = range,
+             .graph = &graph};
     if (status == SL_OK) status = connect(context, &j, threads);
     room_points_destroy(context, &by_room);
     sl_free(context, room_of);

@@ -8,28 +8,15 @@
 ///
 /// Cost: a local measure O(connectivity * points / 64) for a point, a search O(points^2 / 64) at
 /// most. Points are independent, so threads take bundles of them.
-#include "sightline/support.h"
-#include "sightline/vga.h"
+#include "visibility_graph/measures.h"
 
 #include <math.h>
 #include <string.h>
-
-typedef struct job {
-    const sl_vga_grid *grid;
-    const sl_vga_graph *graph;
-    uint32_t radius;
-    const uint32_t *degree; ///< by point: its connectivity
-    sl_vga_measures *measures;
-} job;
 
 /// What a thread needs: sets of points, and the points of a level.
 typedef struct scratch {
     sl_bits *seen, *level, *next;
 } scratch;
-
-static const sl_bits *row_of(const sl_vga_graph *graph, uint32_t point) {
-    return graph->rows + point * graph->words;
-}
 
 static uint64_t count_bits(const sl_bits *set, size_t words) {
     uint64_t count = 0;
@@ -45,19 +32,19 @@ static uint64_t count_common(const sl_bits *a, const sl_bits *b, size_t words) {
 
 // --- local
 
-static void measure_local(const job *j, scratch *s, uint32_t point, sl_vga_measures *out) {
+static void measure_local(const sli_vga_job *j, scratch *s, uint32_t point, sl_vga_measures *out) {
     const sl_vga_graph *graph = j->graph;
-    const sl_bits *row = row_of(graph, point);
+    const sl_bits *row = sli_vga_row(graph, point);
     const double degree = j->degree[point];
     const sl_point at = j->grid->points[point];
     uint64_t triangles = 0;
     memset(s->seen, 0, graph->words * sizeof *s->seen);
+    out->point_first_moment = out->point_second_moment = out->visual_control = 0;
     for (size_t w = 0; w < graph->words; w++) {
         for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
             const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
-            const sl_bits *other = row_of(graph, q);
-            const double distance =
-                hypot(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
+            const sl_bits *other = sli_vga_row(graph, q);
+            const double distance = hypot(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
             out->point_first_moment += distance;
             out->point_second_moment += distance * distance;
             out->visual_control += 1.0 / j->degree[q];
@@ -66,13 +53,12 @@ static void measure_local(const job *j, scratch *s, uint32_t point, sl_vga_measu
         }
     }
     out->connectivity = degree;
-    out->visual_clustering_coefficient =
-        degree > 1 ? (double)triangles / (degree * (degree - 1)) : -1;
-    if (degree == 0) {
-        out->visual_control = out->visual_controllability = -1;
-        return;
-    }
-    out->visual_controllability = degree / (double)count_bits(s->seen, graph->words);
+    if (degree > 1)
+        out->visual_clustering_coefficient = (double)triangles / (degree * (degree - 1));
+    if (degree > 0)
+        out->visual_controllability = degree / (double)count_bits(s->seen, graph->words);
+    else
+        out->visual_control = NAN;
 }
 
 // --- global
@@ -86,16 +72,16 @@ typedef struct depths {
 } depths;
 
 /// Joins the rows of a level. Returns how many points of the result are new; `seen` gets them.
-static uint64_t next_level(const sl_vga_graph *graph, scratch *s, uint64_t left) {
+static uint64_t next_level(const sl_vga_graph *graph, scratch *s) {
     const size_t words = graph->words;
     memset(s->next, 0, words * sizeof *s->next);
     for (size_t w = 0; w < words; w++) {
         for (sl_bits rest = s->level[w]; rest; rest &= rest - 1) {
-            const sl_bits *row = row_of(graph, (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest));
+            const sl_bits *row =
+                sli_vga_row(graph, (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest));
             for (size_t k = 0; k < words; k++) s->next[k] |= row[k];
         }
     }
-    (void)left;
     uint64_t found = 0;
     for (size_t k = 0; k < words; k++) {
         s->next[k] &= ~s->seen[k];
@@ -118,7 +104,7 @@ static void search(const sl_vga_graph *graph, uint32_t point, uint32_t radius, s
     out->deepest = 0;
     uint64_t left = graph->count - 1;
     for (uint32_t depth = 1; left && (radius == 0 || depth <= radius); depth++) {
-        const uint64_t found = next_level(graph, s, left);
+        const uint64_t found = next_level(graph, s);
         if (!found) break;
         const uint32_t entry = depth < DEPTHS ? depth : DEPTHS - 1;
         if (entry > out->deepest) out->points[entry] = 0;
@@ -144,9 +130,6 @@ static void measure_depths(const depths *d, sl_vga_measures *out) {
         total += (double)k * (double)d->points[k];
     }
     out->visual_node_count = nodes;
-    out->visual_mean_depth = out->visual_entropy = out->visual_relativised_entropy = -1;
-    out->visual_integration_hh = out->visual_integration_pvalue = -1;
-    out->visual_integration_tekl = -1;
     if (nodes < 2) return;
     const double mean = total / (nodes - 1);
     out->visual_mean_depth = mean;
@@ -181,7 +164,7 @@ static void scratch_end(sl_context *context, void *all, void *state) {
 }
 
 static sl_status scratch_begin(sl_context *context, void *all, void **state) {
-    const size_t words = ((const job *)all)->graph->words;
+    const size_t words = ((const sli_vga_job *)all)->graph->words;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
     s->seen = sl_alloc_array(context, words, sizeof *s->seen);
@@ -198,43 +181,63 @@ static sl_status scratch_begin(sl_context *context, void *all, void **state) {
 enum { POINTS_A_UNIT = 16 };
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const job *j = all;
+    const sli_vga_job *j = all;
     const uint32_t first = (uint32_t)unit * POINTS_A_UNIT, count = j->graph->count;
     for (uint32_t p = first; p < count && p < first + POINTS_A_UNIT; p++) {
         depths d;
         SL_TRY(sl_check_cancelled(context));
-        j->measures[p] = (sl_vga_measures){0};
-        measure_local(j, state, p, &j->measures[p]);
-        search(j->graph, p, j->radius, state, &d);
+        if (j->options->parts & SL_VGA_LOCAL) measure_local(j, state, p, &j->measures[p]);
+        if (!(j->options->parts & SL_VGA_GLOBAL)) continue;
+        search(j->graph, p, j->options->radius, state, &d);
         measure_depths(&d, &j->measures[p]);
     }
     return SL_OK;
 }
 
-sl_status sl_vga_measure(sl_context *context, const sl_vga_grid *grid, const sl_vga_graph *graph,
-                         uint32_t radius, unsigned threads, sl_vga_measures *measures) {
-    uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
-    if (!degree) return SL_NO_MEMORY;
-    for (uint32_t p = 0; p < graph->count; p++)
-        degree[p] = (uint32_t)count_bits(row_of(graph, p), graph->words);
-    job j = {grid, graph, radius, degree, measures};
-    const sl_work work = {.job = &j,
+static sl_status measure_visual(sl_context *context, sli_vga_job *job) {
+    const sl_work work = {.job = job,
                           .begin = scratch_begin,
                           .unit = measure_unit,
                           .end = scratch_end,
                           .stage = "measures",
                           .units = "bundles of points"};
-    const sl_status status =
-        sl_work_run(context, &work, (graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT, threads);
+    return sl_work_run(context, &work, (job->graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT,
+                       job->options->threads);
+}
+
+sl_vga_options sl_vga_options_default(void) {
+    return (sl_vga_options){.parts = SL_VGA_LOCAL | SL_VGA_GLOBAL};
+}
+
+sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
+                         const sl_vga_graph *graph, const sl_vga_options *options,
+                         sl_vga_measures *measures) {
+    uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
+    if (!degree) return SL_NO_MEMORY;
+    for (uint32_t p = 0; p < graph->count; p++) {
+        degree[p] = (uint32_t)count_bits(sli_vga_row(graph, p), graph->words);
+        double *all = (double *)&measures[p];
+        for (size_t k = 0; k < sizeof *measures / sizeof *all; k++) all[k] = NAN;
+    }
+    sl_bits *turning = NULL;
+    sl_status status = sli_vga_find_turning(context, outline, grid, &turning);
+    sli_vga_job job = {grid, graph, options, degree, turning, measures};
+    if (status == SL_OK && options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL))
+        status = measure_visual(context, &job);
+    if (status == SL_OK && options->parts & SL_VGA_THROUGH)
+        status = sli_vga_measure_through(context, &job);
+    if (status == SL_OK && options->parts & (SL_VGA_METRIC | SL_VGA_ANGULAR))
+        status = sli_vga_measure_paths(context, &job);
+    sl_free(context, turning);
     sl_free(context, degree);
     return status;
 }
 
 sl_status sl_vga_step_depth(sl_context *context, const sl_vga_graph *graph, const uint32_t *from,
                             size_t from_count, uint32_t *depths_out) {
-    const job j = {.graph = graph};
+    sli_vga_job j = {.graph = graph};
     void *state;
-    SL_TRY(scratch_begin(context, (void *)&j, &state));
+    SL_TRY(scratch_begin(context, &j, &state));
     scratch *s = state;
     for (uint32_t p = 0; p < graph->count; p++) depths_out[p] = UINT32_MAX;
     for (size_t i = 0; i < from_count; i++) {
@@ -242,7 +245,7 @@ sl_status sl_vga_step_depth(sl_context *context, const sl_vga_graph *graph, cons
         sl_bits_add(s->level, from[i]);
         depths_out[from[i]] = 0;
     }
-    for (uint32_t depth = 1; next_level(graph, s, 0); depth++)
+    for (uint32_t depth = 1; next_level(graph, s); depth++)
         for (uint32_t p = 0; p < graph->count; p++)
             if (sl_bits_has(s->level, p)) depths_out[p] = depth;
     scratch_end(context, NULL, s);
