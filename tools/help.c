@@ -103,7 +103,7 @@ static void print_text(const command_usage *usage, const option_spec *options, s
     printf("\nexamples:\n%s\n", usage->examples);
     if (!all && rare)
         printf("\n'sightline %s --help all' lists %zu more options%s.\n", usage->name, rare,
-               usage->tables ? ", and the names to choose from" : "");
+               usage->tables ? " and their values" : "");
 }
 
 void help_name(const char *name, int width, const char *what) {

@@ -2,8 +2,8 @@
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
-# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, aspell, groff,
-# and the Python package jsonschema.
+# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
+# groff, and the Python package jsonschema.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -84,7 +84,7 @@ is_there() {
     groff) has groff ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer) has "$1" ;;
+    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
     jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
@@ -112,6 +112,7 @@ package() { # system thing
     apt:clang-sanitizers) echo libclang-rt-dev ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
+    apt:node | dnf:node | pacman:node) echo nodejs ;;
     *:llvm-symbolizer) echo llvm ;;
 
     dnf:c) echo gcc ;;
@@ -191,7 +192,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi jsonschema aspell groff"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

@@ -68,6 +68,11 @@ def sources(root, folders, endings):
                 yield path
 
 
+def library_sources(root, folders, endings):
+    """Without examples: programs of their own, which include what their users do and print."""
+    return (path for path in sources(root, folders, endings) if path.parent.name != "examples")
+
+
 def header_folder(name):
     """The folder that a public header belongs to; None for none."""
     name = HEADERS.get(name, name)
@@ -107,7 +112,7 @@ def check_layers(root):
         if folder not in FOLDERS:
             yield f"lib/{folder}: unknown to check.py: give it its place in FOLDERS"
     for folder in filter(FOLDERS.__contains__, there):
-        for path in sources(lib, [folder], {".c", ".h"}):
+        for path in library_sources(lib, [folder], {".c", ".h"}):
             for line, how, name in includes(path):
                 fault = include_fault(folder, how, name)
                 if fault:
@@ -160,7 +165,7 @@ def check_sources(root):
     lib = root / "lib"
     text = re.sub(r"#[^\n]*", "", (lib / "CMakeLists.txt").read_text(encoding="utf-8"))
     told = set(re.findall(r"[\w/]+\.c\b", text))
-    there = {path.relative_to(lib).as_posix() for path in lib.rglob("*.c")}
+    there = {path.relative_to(lib).as_posix() for path in library_sources(root, ["lib"], {".c"})}
     for name in sorted(there - told):
         yield f"lib/CMakeLists.txt: does not name {name}"
     for name in sorted(told - there):
@@ -190,7 +195,7 @@ PRINTS = re.compile(r"\b(?:v?printf|puts|putchar|perror|getenv)\s*\(")
 
 
 def check_silent(root):
-    for path in sources(root, ["lib"], {".c", ".h"}):
+    for path in library_sources(root, ["lib"], {".c", ".h"}):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             if found := PRINTS.search(line):
                 yield f"{path.relative_to(root)}:{number}: {found[0]}...) in the library"
