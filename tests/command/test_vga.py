@@ -85,10 +85,10 @@ class Reference(unittest.TestCase):
         self.assertGreaterEqual(compared, 30)
 
 
-# A plan whose walls all lie at quarters: points at whole numbers are never on one.
+# Walls lie at quarters, so that no point is on one. No line passes where walls meet.
 SMALL = [(0.25, 0.25, 8.75, 0.25), (8.75, 0.25, 8.75, 5.75), (8.75, 5.75, 0.25, 5.75),
          (0.25, 5.75, 0.25, 0.25), (3.25, 0.25, 3.25, 2.25), (3.25, 3.75, 3.25, 5.75),
-         (6.25, 1.75, 6.25, 5.75), (3.25, 3.75, 5.25, 4.25)]
+         (6.25, 1.75, 6.25, 5.75), (4.25, 3.75, 5.25, 4.25)]
 
 
 def side(a, b, c):
