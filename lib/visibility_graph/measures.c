@@ -1,62 +1,87 @@
 /// Measures of a visibility graph, by the formulas of depthmapX (vgavisuallocal.cpp,
 /// vgavisualglobal.cpp of its salalib), after Turner et al. 2001 and Hillier and Hanson 1984.
 ///
-/// Local measures look at the neighbours of a point and theirs: bit rows are intersected and
-/// joined. Global measures search from each point, level by level: the points of a level are those
-/// that a row of the level before has, and no earlier level. A search ends when all points have
-/// been reached, so rows of the last level are rarely looked at.
+/// Local measures look at the neighbours of a point and theirs. Global measures search from each
+/// point, level by level: the points of a level are those that the level before sees, and no
+/// earlier level. Both work on tiles of the graph (tiles.h), so sets are by slot here.
 ///
-/// Cost: a local measure O(connectivity * points / 64) for a point, a search O(points^2 / 64) at
-/// most. Points are independent, so threads take bundles of them.
+/// Cost: a local measure O(connectivity * bundles in sight) for a point. A search takes the tiles
+/// of all bundles, and few rows of them. Points are independent, so threads take bundles of them.
 #include "visibility_graph/measures.h"
+#include "visibility_graph/tiles.h"
 
 #include <math.h>
 #include <string.h>
 
-/// What a thread needs: sets of points, and the points of a level.
+/// What the threads share, and what each needs: sets of points, and the points of a level.
+typedef struct visual_job {
+    const sli_vga_job *all;
+    sli_vga_tiles tiles;
+} visual_job;
+
 typedef struct scratch {
     sl_bits *seen, *level, *next;
 } scratch;
 
-static uint64_t count_bits(const sl_bits *set, size_t words) {
-    uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(set[i]);
-    return count;
+/// Without a call, as processors that count bits themselves are not taken for granted.
+static inline uint64_t count_bits(uint64_t bits) {
+    bits -= bits >> 1 & 0x5555555555555555;
+    bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+    return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
 }
 
-static uint64_t count_common(const sl_bits *a, const sl_bits *b, size_t words) {
+static uint64_t count_set(const sl_bits *set, size_t words) {
     uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(a[i] & b[i]);
+    for (size_t i = 0; i < words; i++) count += count_bits(set[i]);
     return count;
 }
 
 // --- local
 
-static void measure_local(const sli_vga_job *j, scratch *s, uint32_t point, sl_vga_measures *out) {
-    const sl_vga_graph *graph = j->graph;
-    const sl_bits *row = sli_vga_row(graph, point);
+/// Ordered pairs of neighbours of a point that see each other.
+static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbours) {
+    uint64_t count = 0;
+    for (size_t b = 0; b < t->bundles; b++) {
+        if (!neighbours[b]) continue;
+        for (size_t i = t->first[b]; i < t->first[b + 1]; i++) {
+            const sli_vga_tile *tile = &t->tiles.items[i];
+            const sl_bits others = neighbours[tile->bundle] & tile->any;
+            if (!others) continue;
+            for (sl_bits rest = neighbours[b]; rest; rest &= rest - 1)
+                count += count_bits(tile->rows[__builtin_ctzll(rest)] & others);
+        }
+    }
+    return count;
+}
+
+static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vga_measures *out) {
+    const sli_vga_job *j = v->all;
+    const sli_vga_tiles *t = &v->tiles;
     const double degree = j->degree[point];
     const sl_point at = j->grid->points[point];
-    uint64_t triangles = 0;
-    memset(s->seen, 0, graph->words * sizeof *s->seen);
+    const size_t slot = t->slots[point], bytes = t->bundles * sizeof *s->level;
+    memset(s->level, 0, bytes);
+    memset(s->seen, 0, bytes);
+    memset(s->next, 0, bytes);
+    for (size_t i = t->first[slot / 64]; i < t->first[slot / 64 + 1]; i++)
+        s->level[t->tiles.items[i].bundle] = t->tiles.items[i].rows[slot % 64];
     out->point_first_moment = out->point_second_moment = out->visual_control = 0;
-    for (size_t w = 0; w < graph->words; w++) {
-        for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-            const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
-            const sl_bits *other = sli_vga_row(graph, q);
+    for (size_t b = 0; b < t->bundles; b++) {
+        for (sl_bits rest = s->level[b]; rest; rest &= rest - 1) {
+            const uint32_t q = t->points[b * 64 + (size_t)__builtin_ctzll(rest)];
             const double distance = hypot(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
             out->point_first_moment += distance;
             out->point_second_moment += distance * distance;
             out->visual_control += 1.0 / j->degree[q];
-            triangles += count_common(row, other, graph->words);
-            for (size_t k = 0; k < graph->words; k++) s->seen[k] |= other[k];
         }
     }
     out->connectivity = degree;
     if (degree > 1)
-        out->visual_clustering_coefficient = (double)triangles / (degree * (degree - 1));
+        out->visual_clustering_coefficient =
+            (double)count_triangles(t, s->level) / (degree * (degree - 1));
+    sli_vga_tiles_step(t, s->level, s->seen, s->next);
     if (degree > 0)
-        out->visual_controllability = degree / (double)count_bits(s->seen, graph->words);
+        out->visual_controllability = degree / (double)count_set(s->next, t->bundles);
     else
         out->visual_control = NAN;
 }
@@ -71,22 +96,14 @@ typedef struct depths {
     uint32_t deepest;
 } depths;
 
-/// Joins the rows of a level. Returns how many points of the result are new; `seen` gets them.
-static uint64_t next_level(const sl_vga_graph *graph, scratch *s) {
-    const size_t words = graph->words;
-    memset(s->next, 0, words * sizeof *s->next);
-    for (size_t w = 0; w < words; w++) {
-        for (sl_bits rest = s->level[w]; rest; rest &= rest - 1) {
-            const sl_bits *row =
-                sli_vga_row(graph, (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest));
-            for (size_t k = 0; k < words; k++) s->next[k] |= row[k];
-        }
-    }
+/// Returns how many points are new; `seen` gets them.
+static uint64_t next_level(const sli_vga_tiles *t, scratch *s) {
     uint64_t found = 0;
-    for (size_t k = 0; k < words; k++) {
-        s->next[k] &= ~s->seen[k];
+    memset(s->next, 0, t->bundles * sizeof *s->next);
+    sli_vga_tiles_step(t, s->level, s->seen, s->next);
+    for (size_t k = 0; k < t->bundles; k++) {
         s->seen[k] |= s->next[k];
-        found += (uint64_t)__builtin_popcountll(s->next[k]);
+        found += count_bits(s->next[k]);
     }
     sl_bits *swap = s->level;
     s->level = s->next;
@@ -94,17 +111,17 @@ static uint64_t next_level(const sl_vga_graph *graph, scratch *s) {
     return found;
 }
 
-static void search(const sl_vga_graph *graph, uint32_t point, uint32_t radius, scratch *s,
+static void search(const sli_vga_tiles *t, uint32_t point, uint32_t radius, scratch *s,
                    depths *out) {
-    memset(s->seen, 0, graph->words * sizeof *s->seen);
-    memset(s->level, 0, graph->words * sizeof *s->level);
-    sl_bits_add(s->seen, point);
-    sl_bits_add(s->level, point);
+    memset(s->seen, 0, t->bundles * sizeof *s->seen);
+    memset(s->level, 0, t->bundles * sizeof *s->level);
+    sl_bits_add(s->seen, t->slots[point]);
+    sl_bits_add(s->level, t->slots[point]);
     out->points[0] = 1;
     out->deepest = 0;
-    uint64_t left = graph->count - 1;
+    uint64_t left = t->count - 1;
     for (uint32_t depth = 1; left && (radius == 0 || depth <= radius); depth++) {
-        const uint64_t found = next_level(graph, s);
+        const uint64_t found = next_level(t, s);
         if (!found) break;
         const uint32_t entry = depth < DEPTHS ? depth : DEPTHS - 1;
         if (entry > out->deepest) out->points[entry] = 0;
@@ -164,7 +181,7 @@ static void scratch_end(sl_context *context, void *all, void *state) {
 }
 
 static sl_status scratch_begin(sl_context *context, void *all, void **state) {
-    const size_t words = ((const sli_vga_job *)all)->graph->words;
+    const size_t words = ((const visual_job *)all)->tiles.bundles;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
     s->seen = sl_alloc_array(context, words, sizeof *s->seen);
@@ -181,28 +198,34 @@ static sl_status scratch_begin(sl_context *context, void *all, void **state) {
 enum { POINTS_A_UNIT = 16 };
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const sli_vga_job *j = all;
+    const visual_job *v = all;
+    const sli_vga_job *j = v->all;
     const uint32_t first = (uint32_t)unit * POINTS_A_UNIT, count = j->graph->count;
     for (uint32_t p = first; p < count && p < first + POINTS_A_UNIT; p++) {
         depths d;
         SL_TRY(sl_check_cancelled(context));
-        if (j->options->parts & SL_VGA_LOCAL) measure_local(j, state, p, &j->measures[p]);
+        if (j->options->parts & SL_VGA_LOCAL) measure_local(v, state, p, &j->measures[p]);
         if (!(j->options->parts & SL_VGA_GLOBAL)) continue;
-        search(j->graph, p, j->options->radius, state, &d);
+        search(&v->tiles, p, j->options->radius, state, &d);
         measure_depths(&d, &j->measures[p]);
     }
     return SL_OK;
 }
 
-static sl_status measure_visual(sl_context *context, sli_vga_job *job) {
-    const sl_work work = {.job = job,
+static sl_status measure_visual(sl_context *context, const sli_vga_job *job) {
+    visual_job v = {.all = job};
+    SL_TRY(sli_vga_tiles_make(context, job->grid, job->graph, &v.tiles));
+    const sl_work work = {.job = &v,
                           .begin = scratch_begin,
                           .unit = measure_unit,
                           .end = scratch_end,
                           .stage = "measures",
                           .units = "bundles of points"};
-    return sl_work_run(context, &work, (job->graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT,
-                       job->options->threads);
+    const sl_status status =
+        sl_work_run(context, &work, (job->graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT,
+                    job->options->threads);
+    sli_vga_tiles_destroy(context, &v.tiles);
+    return status;
 }
 
 sl_vga_options sl_vga_options_default(void) {
@@ -215,7 +238,7 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
     uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
     if (!degree) return SL_NO_MEMORY;
     for (uint32_t p = 0; p < graph->count; p++) {
-        degree[p] = (uint32_t)count_bits(sli_vga_row(graph, p), graph->words);
+        degree[p] = (uint32_t)count_set(sli_vga_row(graph, p), graph->words);
         double *all = (double *)&measures[p];
         for (size_t k = 0; k < sizeof *measures / sizeof *all; k++) all[k] = NAN;
     }
@@ -235,19 +258,34 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
 
 sl_status sl_vga_step_depth(sl_context *context, const sl_vga_graph *graph, const uint32_t *from,
                             size_t from_count, uint32_t *depths_out) {
-    sli_vga_job j = {.graph = graph};
-    void *state;
-    SL_TRY(scratch_begin(context, &j, &state));
-    scratch *s = state;
-    for (uint32_t p = 0; p < graph->count; p++) depths_out[p] = UINT32_MAX;
-    for (size_t i = 0; i < from_count; i++) {
-        sl_bits_add(s->seen, from[i]);
-        sl_bits_add(s->level, from[i]);
-        depths_out[from[i]] = 0;
+    uint32_t *queue = sl_alloc_array(context, graph->count, sizeof *queue);
+    sl_bits *unseen = sl_alloc_array(context, graph->words, sizeof *unseen);
+    sl_status status = queue && unseen ? SL_OK : SL_NO_MEMORY;
+    size_t head = 0, tail = 0;
+    for (uint32_t p = 0; p < graph->count && status == SL_OK; p++) {
+        depths_out[p] = UINT32_MAX;
+        sl_bits_add(unseen, p);
     }
-    for (uint32_t depth = 1; next_level(graph, s); depth++)
-        for (uint32_t p = 0; p < graph->count; p++)
-            if (sl_bits_has(s->level, p)) depths_out[p] = depth;
-    scratch_end(context, NULL, s);
-    return SL_OK;
+    for (size_t i = 0; i < from_count && status == SL_OK; i++) {
+        if (!sl_bits_has(unseen, from[i])) continue;
+        sl_bits_flip(unseen, from[i]);
+        depths_out[from[i]] = 0;
+        queue[tail++] = from[i];
+    }
+    while (status == SL_OK && head < tail) {
+        const uint32_t p = queue[head++];
+        const sl_bits *row = sli_vga_row(graph, p);
+        if (head % 4096 == 0) status = sl_check_cancelled(context);
+        for (size_t w = 0; w < graph->words; w++) {
+            for (sl_bits rest = row[w] & unseen[w]; rest; rest &= rest - 1) {
+                const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
+                depths_out[q] = depths_out[p] + 1;
+                queue[tail++] = q;
+            }
+            unseen[w] &= ~row[w];
+        }
+    }
+    sl_free(context, queue);
+    sl_free(context, unseen);
+    return status;
 }
