@@ -48,7 +48,7 @@ static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbour
             const sl_bits others = neighbours[tile->bundle] & tile->any;
             if (!others) continue;
             for (sl_bits rest = neighbours[b]; rest; rest &= rest - 1)
-                count += count_bits(tile->rows[__builtin_ctzll(rest)] & others);
+                count += count_bits(t->rows.items[i].rows[__builtin_ctzll(rest)] & others);
         }
     }
     return count;
@@ -64,7 +64,7 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
     memset(s->seen, 0, bytes);
     memset(s->next, 0, bytes);
     for (size_t i = t->first[slot / 64]; i < t->first[slot / 64 + 1]; i++)
-        s->level[t->tiles.items[i].bundle] = t->tiles.items[i].rows[slot % 64];
+        s->level[t->tiles.items[i].bundle] = t->rows.items[i].rows[slot % 64];
     out->point_first_moment = out->point_second_moment = out->visual_control = 0;
     for (size_t b = 0; b < t->bundles; b++) {
         for (sl_bits rest = s->level[b]; rest; rest &= rest - 1) {

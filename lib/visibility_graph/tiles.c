@@ -10,7 +10,7 @@
 ///      8  9 | ...       the whole bundle, that word is the answer. Else the points' own rows are
 ///                       joined, until nothing is missing.
 ///
-/// Cost of a step: the tiles of the level's bundles, and a few rows of some of them. Memory: 520
+/// Cost of a step: the tiles of the level's bundles, and a few rows of some of them. Memory: 528
 /// bytes a tile.
 #include "visibility_graph/tiles.h"
 
@@ -22,6 +22,7 @@ void sli_vga_tiles_destroy(sl_context *context, sli_vga_tiles *t) {
     sl_free(context, t->points);
     sl_free(context, t->first);
     sl_free(context, t->tiles.items);
+    sl_free(context, t->rows.items);
     *t = (sli_vga_tiles){0};
 }
 
@@ -79,10 +80,12 @@ static sl_status cut(sl_context *context, const sl_vga_graph *graph, size_t bund
                 size_t at = place[slot / 64];
                 if (at < first || at >= t->tiles.count || t->tiles.items[at].bundle != slot / 64) {
                     SL_TRY(SL_ARRAY_ROOM(context, &t->tiles, 1));
+                    SL_TRY(SL_ARRAY_ROOM(context, &t->rows, 1));
                     at = place[slot / 64] = t->tiles.count++;
                     t->tiles.items[at] = (sli_vga_tile){.bundle = slot / 64};
+                    t->rows.items[t->rows.count++] = (sli_vga_tile_rows){{0}};
                 }
-                t->tiles.items[at].rows[i] |= bit;
+                t->rows.items[at].rows[i] |= bit;
                 t->tiles.items[at].any |= bit;
             }
         }
@@ -130,7 +133,7 @@ void sli_vga_tiles_step(const sli_vga_tiles *t, const sl_bits *level, const sl_b
             }
             uint64_t found = 0;
             for (sl_bits rest = level[b]; rest && missing; rest &= rest - 1) {
-                const uint64_t more = tile->rows[__builtin_ctzll(rest)] & missing;
+                const uint64_t more = t->rows.items[i].rows[__builtin_ctzll(rest)] & missing;
                 found |= more;
                 missing &= ~more;
             }

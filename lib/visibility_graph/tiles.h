@@ -5,12 +5,16 @@
 #include "sightline/support.h"
 #include "sightline/vga.h"
 
-/// 64 points, near each other, as seen from 64 points.
+/// What 64 points, near each other, see of 64 others.
 typedef struct sli_vga_tile {
-    uint32_t bundle;   ///< of the points that are seen
-    uint64_t any;      ///< those that one of the points sees
-    uint64_t rows[64]; ///< by point: those that it sees
+    uint32_t bundle; ///< of the points that are seen
+    uint64_t any;    ///< those that one of the points sees
 } sli_vga_tile;
+
+/// By point: those that it sees. Kept apart from the tiles, as most tiles are passed over.
+typedef struct sli_vga_tile_rows {
+    uint64_t rows[64];
+} sli_vga_tile_rows;
 
 /// The points in bundles of 64. A point has a slot: 64 * bundle + place.
 typedef struct sli_vga_tiles {
@@ -20,6 +24,7 @@ typedef struct sli_vga_tiles {
     uint32_t *points; ///< by slot
     size_t *first;    ///< by bundle, and one more: into `tiles`
     SL_ARRAY(sli_vga_tile) tiles;
+    SL_ARRAY(sli_vga_tile_rows) rows; ///< by tile
 } sli_vga_tiles;
 
 sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
