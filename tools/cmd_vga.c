@@ -12,7 +12,8 @@
 #include <string.h>
 
 typedef struct vga_plan {
-    const char *input, *output, *picture, *shut;
+    const char *input, *output, *picture;
+    door_choice doors;
     map_pipeline pipeline;
     option_list at, from;
     double step, range;
@@ -236,7 +237,7 @@ static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
                                &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
-    SL_TRY(doors_shut(context, plan->shut, &w->baked));
+    SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
     SL_TRY(check_area(context, plan, &w->baked.space));
@@ -269,6 +270,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
                      .drawing = sl_draw_options_default()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"grid", 0, "STEP", "distance between neighbouring points", .number = &plan.step,
          .over_0 = true, .given = &plan.step_given},
@@ -289,8 +291,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"measures", 0, "GROUP,...",
          "what to compute: visual (default), through, metric, angular, isovist, all",
          .choices = &plan.parts, .names = vga_parts(), .given = &plan.parts_given},
-        {"shut", 0, "NAME,...", "doors that are shut, or none (default: as in the map)",
-         .text = &plan.shut},
+        {.group = &doors},
         {"from", 0, "X,Y",
          "add the column visual_step_depth: steps from here; may be given several times",
          .list = &plan.from, .rare = true},
