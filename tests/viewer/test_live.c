@@ -452,6 +452,12 @@ static void wait_for_pictures(app_state *app) {
     assert_null(app->exports);
 }
 
+/// Saves the way, and answers the question of how many pictures that are.
+static void save_way(app_state *app) {
+    action_run(app, action_find("export_series"));
+    press_key(app, "S");
+}
+
 static void test_exported(void **state) {
     (void)state;
     app_state *app = start(false);
@@ -461,17 +467,17 @@ static void test_exported(void **state) {
     press_key(app, "F9");
     const size_t frames = app->tool.recorder.frames.count;
     assert_true(frames > 10);
-    press_key(app, "F11");
+    save_way(app);
     assert_non_null(app->exports);
     wait_for_pictures(app);
     assert_int_equal(take_away("sightline-frames"), (frames + 1) / 2);
     // Stopped: each picture is whole or not there.
-    press_key(app, "F11");
+    save_way(app);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
     press_key(app, "Escape");
     assert_null(app->exports);
     assert_true(take_away("sightline-frames") <= 3);
-    static const char *const keys[] = {"Ctrl+S", "Ctrl+G", "Ctrl+P"};
+    static const char *const keys[] = {"Ctrl+E", "Ctrl+G", "Ctrl+P"};
     for (int i = 0; i < 3; i++) {
         press_key(app, keys[i]);
         wait_for_pictures(app);
@@ -479,7 +485,7 @@ static void test_exported(void **state) {
         assert_int_equal(remove(app->ui.message + 6), 0);
     }
     // Closed while a picture is being written.
-    press_key(app, "F11");
+    save_way(app);
     app_tick(app, 0.001);
     end(app);
     take_away("sightline-frames");

@@ -186,7 +186,7 @@ def drive(viewer, window):
 
 def export(viewer, window):
     """A recorded way becomes numbered pictures in the background: keys work meanwhile."""
-    for act in ["F9", "w", "F9", "F11"]:
+    for act in ["F9", "w", "F9", "ctrl+m", "End", "Up", "Return", "s"]:
         window.act(act)
         time.sleep(0.3)
     window.act("m")
