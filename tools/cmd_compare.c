@@ -234,16 +234,38 @@ static sl_status write_eye_files(sl_context *context, const eye_comparison *comp
     return SL_OK;
 }
 
+/// Doors as the map has them: walls of the space where they are shut.
+static sl_status settle_doors(sl_context *context, comparing *all) {
+    const sl_map *map = &all->map;
+    if (!map->door_count) return SL_OK;
+    bool *shut = sl_alloc_array(context, map->door_count, sizeof *shut);
+    if (!shut) return SL_NO_MEMORY;
+    const door_choice as_they_are = {0};
+    const sl_filtered_space filtered = {.shut = shut};
+    sl_space settled;
+    sl_status status = doors_read(context, &as_they_are, map, shut);
+    if (status == SL_OK)
+        status = sl_filtered_space_make(context, &all->space, &filtered, NULL, &settled);
+    sl_free(context, shut);
+    SL_TRY(status);
+    sl_space_destroy(context, &all->space);
+    all->space = settled;
+    sl_effects_note_doors(context, map);
+    return SL_OK;
+}
+
 /// `folder` is NULL without -o.
 static sl_status compare_eye(command_console *console, comparing *all, const output_folder *folder,
                              eye_comparison *out) {
     sl_context *context = console->context;
     const map_pipeline *pipeline = &all->plan->pipeline;
     SL_TRY(pipeline_read_clean(context, pipeline, &all->map, NULL));
-    SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
+    if (all->map.mirror_count) sl_note(context, "mirrors are walls here: direct sight is compared");
     SL_TRY(pipeline_subdivide(context, pipeline, &all->map, &all->space));
     SL_TRY(pipeline_note_inside(context, pipeline, &all->map, &all->space));
-    SL_TRY(compare_eye_run(console, &all->plan->eye_plan, &all->space, all->plan->see.sight, out));
+    SL_TRY(settle_doors(context, all));
+    SL_TRY(compare_eye_run(console, &all->plan->eye_plan, &all->map, &all->space,
+                           all->plan->see.sight, out));
     out->input = pipeline->path;
     return folder ? write_eye_files(context, out, all->plan->dark, folder) : SL_OK;
 }

@@ -381,7 +381,9 @@ static sl_status inform_of_baked(command_console *console, const info_request *r
     pvs_means mean;
     SL_TRY(input_refuse_options(console->context, request->path, &request->input));
     SL_TRY(input_parse_baked(console->context, request->path, &request->bytes, &baked));
-    sl_status status = request->shut ? doors_shut(console->context, request->shut, &baked) : SL_OK;
+    sl_status status =
+        request->shut ? doors_shut(console->context, &(door_choice){.shut = request->shut}, &baked)
+                      : SL_OK;
     if (status == SL_OK) status = mean_pvs_of(console->context, &baked, &mean);
     progress_line_clear(&console->line);
     if (status == SL_OK && request->json)

@@ -409,7 +409,8 @@ static sl_status read_space(sl_context *context, viewcells_plan *plan, view_run 
     sl_baked *baked = &run->baked;
     const double start = sl_seconds();
     SL_TRY(pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
-    SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
+    SL_TRY(sl_effects_check_because(context, &baked->map, "viewcells", 0,
+                                    "the lines that it samples end at walls alone"));
     const double read = sl_seconds();
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
@@ -464,6 +465,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
         .objects = SL_VIEW_WALLS,
     };
     view_run_options *run = &plan.run;
+    plan.pipeline.settles_doors = true;
     run->evaluation = 2 * run->sampling.samples;
     size_t count;
     const sl_view_method *methods = sl_view_methods(&count);
@@ -538,7 +540,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     };
     const command_usage usage = {
         .name = "viewcells",
-        .synopsis = "MAP [--cells N | --memory BYTES | --tolerance X] [options]",
+        .synopsis = "MAP [--cells N | --memory BYTES] [options]",
         .operands = {"MAP"},
         .what =
             "Makes view cells that adapt to what is seen (Mattausch et al. 2006): regions of the "

@@ -217,37 +217,63 @@ size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
 
 // --- doors
 
-/// Marks the doors of one name.
-static bool shut_named(const sl_map *map, const char *name, size_t length, bool *shut) {
+option_table door_option_table(door_choice *doors) {
+    const option_spec options[] = {
+        {"shut", 0, "NAME,...",
+         "shut these doors, open all others; 'none' opens all (default: as the map says)",
+         .text = &doors->shut},
+        {"open", 0, "NAME,...", "open these doors, the others as the map says; 'all' opens all",
+         .text = &doors->open},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    return table;
+}
+
+/// Sets the doors of one name.
+static bool set_named(const sl_map *map, const char *name, size_t length, bool to, bool *shut) {
     bool found = false;
     for (size_t i = 0; i < map->door_count; i++) {
         if (strlen(map->doors[i].name) != length || memcmp(map->doors[i].name, name, length) != 0)
             continue;
-        shut[i] = found = true;
+        shut[i] = to;
+        found = true;
     }
     return found;
 }
 
-static sl_status fail_door(sl_context *context, const sl_map *map, const char *name,
-                           size_t length) {
+static sl_status fail_door(sl_context *context, const sl_map *map, const char *name, size_t length,
+                           bool open) {
     const name_table doors = {"door", map->doors, sizeof *map->doors, map->door_count, NULL};
+    const char *all = open ? "; 'all' opens all" : "; 'none' leaves all open";
     char names[NAME_LIST];
     name_list(&doors, names);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--shut: there is no door '%.*s'; the map's doors: %s%s",
-                   (int)(length < 64 ? length : 64), name, names,
-                   map->door_count ? "; 'none' leaves all open" : "");
+    return sl_fail(context, SL_BAD_ARGUMENT, "--%s: there is no door '%.*s'; the map's doors: %s%s",
+                   open ? "open" : "shut", (int)(length < 64 ? length : 64), name, names,
+                   map->door_count ? all : "");
 }
 
-static sl_status read_names(sl_context *context, const char *text, const sl_map *map, bool *shut) {
-    if (strcmp(text, "none") == 0) return SL_OK;
+static sl_status read_names(sl_context *context, const char *text, bool open, const sl_map *map,
+                            bool *shut) {
     while (*text) {
         const size_t length = strcspn(text, ",");
-        if (!shut_named(map, text, length, shut)) return fail_door(context, map, text, length);
+        if (!set_named(map, text, length, !open, shut))
+            return fail_door(context, map, text, length, open);
         text += length;
         if (*text) text++;
     }
     return SL_OK;
+}
+
+sl_status doors_read(sl_context *context, const door_choice *doors, const sl_map *map, bool *shut) {
+    const char *text = doors->shut ? doors->shut : doors->open;
+    if (doors->shut && doors->open)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--shut says it of all doors: give either --shut or --open");
+    const bool all_open = text && strcmp(text, doors->open ? "all" : "none") == 0;
+    for (size_t i = 0; i < map->door_count; i++)
+        shut[i] = !all_open && !doors->shut && !map->doors[i].open;
+    return text && !all_open ? read_names(context, text, doors->open, map, shut) : SL_OK;
 }
 
 /// Replaces the space and the visible sets by those with the doors shut.
@@ -262,13 +288,12 @@ static sl_status shut_doors(sl_context *context, sl_baked *baked, const bool *sh
     return SL_OK;
 }
 
-sl_status doors_shut(sl_context *context, const char *text, sl_baked *baked) {
+sl_status doors_shut(sl_context *context, const door_choice *doors, sl_baked *baked) {
     const sl_map *map = &baked->map;
-    if (!map->door_count) return text ? read_names(context, text, map, NULL) : SL_OK;
+    if (!map->door_count) return doors_read(context, doors, map, NULL);
     bool *shut = sl_alloc_array(context, map->door_count, sizeof *shut);
     if (!shut) return SL_NO_MEMORY;
-    for (size_t i = 0; i < map->door_count && !text; i++) shut[i] = !map->doors[i].open;
-    sl_status status = text ? read_names(context, text, map, shut) : SL_OK;
+    sl_status status = doors_read(context, doors, map, shut);
     if (status == SL_OK) status = shut_doors(context, baked, shut);
     for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
         baked->map.doors[i].open = !shut[i];

@@ -122,7 +122,7 @@ sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
-    return SL_OK;
+    return pipeline->settles_doors ? sl_effects_settle_doors(context, map) : SL_OK;
 }
 
 sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map) {

@@ -15,6 +15,7 @@
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 #include "space/index.h"
+#include "stab/funnel.h"
 
 #include <math.h>
 #include <string.h>
@@ -136,32 +137,54 @@ static sl_segment shown_segment(const sl_space *space, const sl_sequence *sequen
 
 // --- distances
 
-/// Breadth first from the target. Portals lead both ways, so that the ways there are the ways back.
-sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
-                             uint32_t **out) {
-    const uint32_t count = space->cell_count;
-    uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
-    uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
-    *out = distance;
-    if (!distance || !queue) {
-        sl_free(context, queue);
-        return SL_NO_MEMORY;
+/// The cells from which a directed portal leads into a cell: from[first[c] .. first[c + 1]).
+typedef struct ways_back {
+    uint32_t *first, *from;
+} ways_back;
+
+static sl_status find_ways_back(sl_context *context, const sl_space *space, ways_back *out) {
+    out->first = sl_alloc_array(context, (size_t)space->cell_count + 2, sizeof *out->first);
+    out->from = sl_alloc_array(context, space->directed_count, sizeof *out->from);
+    if (!out->first || !out->from) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->directed_count; i++) out->first[space->directed[i].cell + 2]++;
+    for (uint32_t c = 1; c <= space->cell_count; c++) out->first[c + 1] += out->first[c];
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        const sl_cell *cell = &space->cells[c];
+        for (uint32_t i = 0; i < cell->directed_count; i++)
+            out->from[out->first[space->directed[cell->first_directed + i].cell + 1]++] = c;
     }
-    for (uint32_t i = 0; i < count; i++) distance[i] = SL_NO_WAY;
+    return SL_OK;
+}
+
+/// Breadth first from the target, backwards.
+static void spread_back(const ways_back *back, uint32_t to, uint32_t *distance, uint32_t *queue) {
     uint32_t end = 0;
     queue[end++] = to;
     distance[to] = 0;
-    for (uint32_t begin = 0; begin < end; begin++) {
-        const sl_cell *cell = &space->cells[queue[begin]];
-        for (uint32_t i = 0; i < cell->directed_count; i++) {
-            const uint32_t next = space->directed[cell->first_directed + i].cell;
+    for (uint32_t begin = 0; begin < end; begin++)
+        for (uint32_t i = back->first[queue[begin]]; i < back->first[queue[begin] + 1]; i++) {
+            const uint32_t next = back->from[i];
             if (distance[next] != SL_NO_WAY) continue;
             distance[next] = distance[queue[begin]] + 1;
             queue[end++] = next;
         }
-    }
+}
+
+sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
+                             uint32_t **out) {
+    const uint32_t count = space->cell_count;
+    ways_back back = {0};
+    uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
+    uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
+    sl_status status = distance && queue ? SL_OK : SL_NO_MEMORY;
+    *out = distance;
+    if (status == SL_OK) status = find_ways_back(context, space, &back);
+    for (uint32_t i = 0; i < count && status == SL_OK; i++) distance[i] = SL_NO_WAY;
+    if (status == SL_OK) spread_back(&back, to, distance, queue);
+    sl_free(context, back.first);
+    sl_free(context, back.from);
     sl_free(context, queue);
-    return SL_OK;
+    return status;
 }
 
 // --- sequences to be told
@@ -187,6 +210,7 @@ static sl_status note_found(sl_context *context, search *s, uint32_t last, bool 
     SL_TRY(copy_sequence(context, s, last, &out->sequence));
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
     out->witness = solver->witness(s->search.solver_state);
+    if (s->options->range > 0) out->length = sli_funnel_shortest(s->search.solver_state);
     if (grazing) {
         s->grazed = out->sequence.directed_count;
         return solver->conflict(context, s->search.solver_state, out->sequence.ends,
@@ -312,6 +336,14 @@ static sl_status count_test(sl_context *context, search *s) {
     return SL_OK;
 }
 
+/// Whether no more than the range lies between the first portal and the last of some line, as in a
+/// bake.
+bool sli_explain_in_range(const sl_explain_options *options, const void *solver_state) {
+    const double range = options->range;
+    if (!(range > 0)) return true;
+    return sli_funnel_shortest(solver_state) <= range + SLI_SHORTEST_ERROR * range;
+}
+
 /// Decides on the sequence with the directed portal of `to`, which the solver holds. `enters`: it
 /// is followed into the next cell, and the solver keeps it.
 static sl_status judge(sl_context *context, search *s, const step *to, sl_stab_verdict verdict,
@@ -338,10 +370,11 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
-    bool enters;
+    bool enters = false;
     SL_TRY(sli_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
     to->grazing = verdict == SL_GRAZING;
-    SL_TRY(judge(context, s, to, verdict, &enters));
+    if (verdict == SL_HIDDEN || sli_explain_in_range(s->options, s->search.solver_state))
+        SL_TRY(judge(context, s, to, verdict, &enters));
     if (enters)
         s->search.count++;
     else
@@ -411,6 +444,9 @@ static sl_status check(sl_context *context, const sl_space *space,
     if (!solver || solver->guarantee != SL_EXACT || !solver->conflict)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "explaining needs an exact solver that tells conflicts");
+    if (options->range > 0 && strcmp(solver->name, sl_funnel()->name) != 0)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "explaining within a range needs the solver 'funnel'");
     return SL_OK;
 }
 

@@ -789,13 +789,16 @@ static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
     dxf->pen.map->precision =
         sli_marked_precision(dxf->pen.map, dxf->pen.finest, mark, dxf->pen.sum);
     sl_free(dxf->context, mark);
-    sl_note(dxf->context,
-            "%s: %zu entities give %zu walls (unit: %s%s%s); left out: %zu on other layers, %zu of "
-            "other kinds, %zu on the paper, %zu out of the plan's plane, %zu lines of no length",
-            dxf->name, dxf->drawn, dxf->pen.walls, unit_name(dxf->unit),
-            dxf->options->unit ? ", turned into " : "",
-            dxf->options->unit ? dxf->options->unit : "", dxf->other_layers, dxf->other_kinds,
-            dxf->on_paper, dxf->out_of_plane, dxf->pen.points);
+    const sli_tally left[] = {{dxf->other_layers, "on another layer", "on other layers"},
+                              {dxf->other_kinds, "of another kind", "of other kinds"},
+                              {dxf->on_paper, "on the paper", "on the paper"},
+                              {dxf->out_of_plane, "out of the plane", "out of the plane"},
+                              {dxf->pen.points, "line of no length", "lines of no length"}};
+    char without[SLI_TALLY_TEXT];
+    sl_note(dxf->context, "%s: %zu entities give %zu walls%s; unit: %s%s%s", dxf->name, dxf->drawn,
+            dxf->pen.walls, sli_tally_write("; left out: ", left, 5, without), unit_name(dxf->unit),
+            dxf->options->unit ? ", converted to " : "",
+            dxf->options->unit ? dxf->options->unit : "");
     sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
     return SL_OK;
 }

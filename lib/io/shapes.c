@@ -352,7 +352,7 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
 }
 
 sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
-                              const sli_tiles_options *options, sl_map *map, size_t *grids) {
+                              const sli_tiles_options *options, sl_map *map) {
     size_t count = 0;
     for (size_t i = 0; i < tiles->blocks.count; i++) {
         if (tiles->blocks.items[i].done) continue;
@@ -364,6 +364,5 @@ sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char 
         SL_TRY(add_grid(context, tiles, name, &all, options, closed, map));
         count++;
     }
-    *grids = count;
     return SL_OK;
 }

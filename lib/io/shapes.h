@@ -108,9 +108,9 @@ typedef struct sli_tiles_options {
 } sli_tiles_options;
 
 /// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then
-/// each grid gives its walls, few and long. `*grids` counts the grids. SL_BAD_INPUT where a grid is
+/// each grid gives its walls, few and long. SL_BAD_INPUT where a grid is
 /// larger than 2^26 squares, or 2^20 on a side, or there are more than 4096.
 sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
-                              const sli_tiles_options *options, sl_map *map, size_t *grids);
+                              const sli_tiles_options *options, sl_map *map);
 
 #endif

@@ -834,10 +834,12 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
-    sl_note(s->context,
-            "%s: %zu shapes give %zu walls; left out: %zu hidden elements or groups, %zu texts and "
-            "pictures, %zu lines of no length",
-            s->pen.name, s->shapes, s->pen.walls, s->hidden, s->other, s->pen.points);
+    const sli_tally left[] = {{s->hidden, "hidden element or group", "hidden elements or groups"},
+                              {s->other, "text or picture", "texts and pictures"},
+                              {s->pen.points, "line of no length", "lines of no length"}};
+    char without[SLI_TALLY_TEXT];
+    sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
+            sli_tally_write("; left out: ", left, 3, without));
     sli_layers_note(s->context, s->pen.name, s->pen.map);
     return SL_OK;
 }

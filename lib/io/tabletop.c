@@ -265,14 +265,20 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
-    sl_note(reader->context,
-            "%s: %zu walls of line_of_sight, %zu of objects_line_of_sight; %zu closed portals "
-            "taken as %s, %zu open ones %s; left out: %zu lines of no length, %zu lights; unit: "
-            "grid squares, y = %s - the file's y",
-            root->file->name, of_lines, reader->walls - of_lines, reader->closed,
-            reader->options->doors ? "doors" : "walls", reader->open,
-            reader->options->doors ? "as doors" : "left out", reader->points,
-            json_array_size(lights.value), top);
+    const bool doors = reader->options->doors;
+    const sli_tally taken[] = {
+        {of_lines, "wall of line_of_sight", "walls of line_of_sight"},
+        {reader->walls - of_lines, "of objects_line_of_sight", "of objects_line_of_sight"},
+        {reader->closed, doors ? "shut door" : "shut door (a wall)",
+         doors ? "shut doors" : "shut doors (walls)"},
+        {reader->open, doors ? "open door" : "open door (a gap)",
+         doors ? "open doors" : "open doors (gaps)"}};
+    const sli_tally left[] = {{reader->points, "line of no length", "lines of no length"},
+                              {json_array_size(lights.value), "light", "lights"}};
+    char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %s%s; unit: grid squares, y = %s - the file's y",
+            root->file->name, sli_tally_write("", taken, 4, with),
+            sli_tally_write("; left out: ", left, 2, without), top);
     return SL_OK;
 }
 
@@ -481,14 +487,23 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     sl_number_write(reader->top, top);
     sl_number_write(reader->pixels, pixels);
     if (reader->pixels != 1) snprintf(unit, sizeof unit, "%s pixels", pixels);
-    sl_note(reader->context,
-            "%s: %zu walls, %zu one-way; doors: %zu shut, taken as %s, %zu open, %s (%zu of all "
-            "secret); left out: %zu that do not stop sight, %zu that stop it only behind another, "
-            "%zu that stop it by distance, %zu of no length; unit: %s, y = %s - the file's y",
-            walls->file->name, reader->walls, reader->oneways, reader->shut,
-            reader->options->doors ? "doors" : "walls", reader->open,
-            reader->options->doors ? "taken as doors" : "left out", reader->secret, reader->unseen,
-            reader->limited, reader->near, reader->points, unit, top);
+    const bool doors = reader->options->doors;
+    const sli_tally taken[] = {{reader->walls, "wall", "walls"},
+                               {reader->oneways, "of them one-way", "of them one-way"},
+                               {reader->shut, doors ? "shut door" : "shut door (a wall)",
+                                doors ? "shut doors" : "shut doors (walls)"},
+                               {reader->open, doors ? "open door" : "open door (a gap)",
+                                doors ? "open doors" : "open doors (gaps)"},
+                               {reader->secret, "of them secret", "of them secret"}};
+    const sli_tally left[] = {
+        {reader->unseen, "that does not stop sight", "that do not stop sight"},
+        {reader->limited, "that stops it behind another", "that stop it behind another"},
+        {reader->near, "that stops it by distance", "that stop it by distance"},
+        {reader->points, "of no length", "of no length"}};
+    char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %s%s; unit: %s, y = %s - the file's y", walls->file->name,
+            sli_tally_write("", taken, 5, with), sli_tally_write("; left out: ", left, 4, without),
+            unit, top);
     if (reader->mirrors || reader->seams)
         sl_note(reader->context, "%s: taken by their flags: %zu mirror%s, %zu seam%s",
                 walls->file->name, reader->mirrors, reader->mirrors == 1 ? "" : "s", reader->seams,

@@ -487,18 +487,23 @@ static sl_status fail_no_walls(const sli_tiled_reader *reader) {
         layers.count ? "--layers NAME chooses; layers: " : "it has no layers", layers.text);
 }
 
-static void give_account(const sli_tiled_reader *reader, size_t grids) {
+static void give_account(const sli_tiled_reader *reader) {
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->lattice.height, top);
-    sl_note(reader->context,
-            "%s: taken: %zu layers solid as a whole, %zu tiles and %zu shapes of tiles by their "
-            "tilesets, %zu objects; merged into %zu walls (grids of tiles: %zu); left out: %zu "
-            "layers, %zu objects, %zu shapes of other kinds, %zu lines of no length, %zu tilesets "
-            "not found; unit: pixels, y = %s - the file's y",
-            reader->map->file->name, reader->solid_layers, reader->solid_tiles, reader->shapes,
-            reader->objects, reader->pen.map->wall_count, grids, reader->other_layers,
-            reader->other_objects, reader->other_shapes, reader->pen.points, reader->sets.missing,
-            top);
+    const sli_tally taken[] = {{reader->solid_layers, "solid layer", "solid layers"},
+                               {reader->solid_tiles, "solid tile", "solid tiles"},
+                               {reader->shapes, "shape of a tile", "shapes of tiles"},
+                               {reader->objects, "object", "objects"}};
+    const sli_tally left[] = {
+        {reader->other_layers, "layer", "layers"},
+        {reader->other_objects, "object", "objects"},
+        {reader->other_shapes, "shape of another kind", "shapes of other kinds"},
+        {reader->pen.points, "line of no length", "lines of no length"},
+        {reader->sets.missing, "tileset that is missing", "tilesets that are missing"}};
+    char from[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %s%s%zu walls%s; unit: pixels, y = %s - the file's y",
+            reader->map->file->name, sli_tally_write("", taken, 4, from), *from ? " give " : "",
+            reader->pen.map->wall_count, sli_tally_write("; left out: ", left, 5, without), top);
     if (reader->doors_left_out)
         sl_note(reader->context,
                 "%s: left out: %zu tile%s of doors; in hexagonal maps only objects are doors",
@@ -530,12 +535,11 @@ static sl_status read_map(sli_tiled_reader *reader) {
         if (reader->unknown_tiles) return fail_missing(reader);
         if (says_nothing(reader)) SL_TRY(guess(reader));
     }
-    size_t grids;
-    SL_TRY(sli_tiled_add_tile_walls(reader, &grids));
+    SL_TRY(sli_tiled_add_tile_walls(reader));
     if (!reader->pen.map->wall_count) return fail_no_walls(reader);
     check_guess(reader);
     strcpy(reader->pen.map->unit, "px");
-    give_account(reader, grids);
+    give_account(reader);
     sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);

@@ -349,7 +349,8 @@ static sl_status check_covered(const checker *c, const bool *passed, sl_segment 
 static sl_status check_seams(const checker *c) {
     const sl_space *s = c->space;
     SL_TRY(sli_seams_check(c->context, s, false));
-    if (s->loose || !s->seam_count) return SL_OK;
+    // Portals on seams that boxes cut are parts of them, and bent.
+    if (s->loose || s->cut_walls || !s->seam_count) return SL_OK;
     bool *passed = sl_alloc_array(c->context, s->seam_count, sizeof *passed);
     sl_segment *walls = sl_alloc_array(c->context, s->wall_count, sizeof *walls);
     sl_status status = passed && walls ? check_seam_portals(c, passed) : SL_NO_MEMORY;

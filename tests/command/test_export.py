@@ -321,7 +321,7 @@ ENTRY {
         self.export()
         self.box.path("m.slv.json").rename(self.box.path("office.json"))
         scripts = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        lines = re.findall(r"```sh\n(jq .*?)\n```", text)
+        lines = re.findall(r"```sh run-by-test\n(jq .*?)\n```", text)
         self.assertEqual((len(scripts), len(lines)), (1, 2))
         done = subprocess.run([sys.executable, "-c", scripts[0]], cwd=self.box.folder, check=True,
                               stdout=subprocess.PIPE, universal_newlines=True)

@@ -41,7 +41,7 @@ class Help(unittest.TestCase):
             options = [row[0] for row in words(self.run_of(name, "--help", "words"))]
             self.assertIn("--help", options)
             self.assertLessEqual(short, set(options))
-            self.assertLessEqual(len(short), 20, name)
+            self.assertLessEqual(len(short), 22, name)
             for option in options:
                 self.assertRegex(everything, rf"(?m)^  (-\w, )?{option}\b")
                 self.assertIn(option.replace("-", "\\-"), manual)

@@ -44,7 +44,7 @@ class Command:
         self.many = "...] -o" in usage  # operands
         self.options = re.findall(r"^  (?:-\w, )?--([\w-]+)(?: (\S+))?", text, re.MULTILINE)
         self.repeat = [each.split()[0] for each in re.split(r"^  (?:-\w, )?--", text, flags=re.MULTILINE)
-                       if "may be given several times" in each]
+                       if "may be given several times" in " ".join(each.split())]
         self.output = dict(self.options).get("output")
         if "-o" in words:  # what follows it is no operand
             self.operands.remove(words[words.index("-o") + 1])

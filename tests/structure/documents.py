@@ -1,7 +1,8 @@
 """The documents, held against the tree: documents.py SUBJECT ROOT [FOLDER_OF_THE_COMMAND]
 
-run    every line of a block `sh` that begins with `sightline` runs, in a folder that has maps/ and the maps
-       beside the document. A block `sh not-run` is marked as not run: it needs files that are not here.
+run    every command of a block `sh` runs, in a folder that has maps/ and the maps beside the document. They are
+       commands of `sightline`. Other blocks say what becomes of them: `sh not-run` (it needs files that are not
+       here, or takes long), `sh run-by-ci`, `sh run-by-test` (a test of its own runs it).
 links  every link to a file or to a heading leads somewhere.
 """
 import os
@@ -27,7 +28,7 @@ def commands(text):
     """The commands of the blocks that are run, with lines joined that end in a backslash."""
     for block in re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
         for line in block.replace("\\\n", " ").split("\n"):
-            if re.match(r"sightline\s", line):
+            if line and not line.startswith("#"):
                 yield line
 
 
@@ -45,6 +46,9 @@ def run(root, command):
             (pathlib.Path(scratch) / "maps").symlink_to(root / "maps")
             for line in lines:
                 print(f"{name}: {line}", flush=True)
+                if not line.startswith("sightline "):
+                    yield f"{name}: mark the block as not-run, run-by-ci or run-by-test: {line}"
+                    continue
                 count += 1
                 done = subprocess.run(line, shell=True, cwd=scratch, env={**os.environ, "PATH": path},
                                       stdout=subprocess.DEVNULL, check=False)

@@ -27,7 +27,7 @@ def prose_of_c(text):
 def words(prose):
     """Words with the line's other text gone: no identifiers, numbers or options."""
     prose = re.sub(r"--?[\w-]+|\S*[_/\\<>=@#$%^*{}()\[\].]+\w\S*|\b\w*\d\w*\b", " ", prose)
-    return {re.sub(r"'s?$", "", each) for each in re.findall(r"(?<![\w-])[A-Za-z][a-z']+(?![\w-]*[A-Z_\d])", prose)}
+    return {re.sub(r"'s?$", "", each) for each in re.findall(r"(?<![\w-])[A-Za-z][a-z']{2,}(?![\w-]*[A-Z_\d])", prose)}
 
 
 def main():
