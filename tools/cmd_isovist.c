@@ -1,6 +1,7 @@
 /// `sightline isovist`: visible regions of many points, their measures, heat maps.
 #include "commands.h"
 #include "eye_run.h"
+#include "heat_map.h"
 #include "isovist.h"
 #include "json_print.h"
 #include "outputs.h"
@@ -138,26 +139,6 @@ static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isov
     return eyes_add_grid(context, space, step, plan->like, &w->eyes);
 }
 
-/// The name of a measure in words.
-static void write_measure(size_t measure, char *text, size_t size) {
-    const name_table measures = isovist_measures();
-    snprintf(text, size, "%s", name_table_at(&measures, measure));
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
-}
-
-/// "office: area", or "doom.wad E1M1: area" for one of several maps.
-static void write_title(const isovist_plan *plan, const char *measure, char *text, size_t size) {
-    const char *slash = strrchr(plan->input, '/'), *map = plan->pipeline.input.import.map;
-    char name[256], readable[256];
-    snprintf(name, sizeof name, "%s", slash ? slash + 1 : plan->input);
-    char *ending = strrchr(name, '.');
-    if (ending && ending != name && !map) *ending = '\0';
-    text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);
-    const char *known = map && sl_text_is_utf8(map) ? map : "";
-    snprintf(text, size, "%s%s%.64s: %s", readable, *known ? " " : "", known, measure);
-}
-
 static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
     const eye_places *eyes = &w->eyes;
     const size_t count = eyes->columns * eyes->rows;
@@ -166,23 +147,23 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     for (size_t i = 0; i < count; i++) values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count; i++)
         values[eyes->squares.items[i]] = isovist_value(&w->isovists[i], plan->measure);
-    char measure[64], title[512], unit[ISOVIST_UNIT];
-    write_measure(plan->measure, measure, sizeof measure);
-    write_title(plan, measure, title, sizeof title);
+    char unit[ISOVIST_UNIT];
     isovist_unit(plan->measure, w->baked.map.unit, unit);
-    sl_draw_options drawing = plan->drawing;
-    if (!drawing.title) drawing.title = title;
-    const sl_field field = {.name = measure,
-                            .unit = *unit ? unit : NULL,
-                            .corner = eyes->corner,
-                            .step = eyes->step,
-                            .columns = eyes->columns,
-                            .rows = eyes->rows,
-                            .values = values,
-                            .least = plan->scale.x,
-                            .most = plan->scale.y};
-    const sl_status status =
-        sl_draw_field_file(context, &w->baked, &field, &drawing, plan->picture);
+    const name_table measures = isovist_measures();
+    const heat_map heat = {.input = plan->input,
+                           .map = plan->pipeline.input.import.map,
+                           .measure = name_table_at(&measures, plan->measure),
+                           .drawing = &plan->drawing,
+                           .path = plan->picture};
+    sl_field field = {.unit = *unit ? unit : NULL,
+                      .corner = eyes->corner,
+                      .step = eyes->step,
+                      .columns = eyes->columns,
+                      .rows = eyes->rows,
+                      .values = values,
+                      .least = plan->scale.x,
+                      .most = plan->scale.y};
+    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
     sl_free(context, values);
     return status;
 }

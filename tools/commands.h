@@ -22,6 +22,7 @@ sl_status cmd_merge(command_console *console, int argc, char **argv);
 sl_status cmd_isovist(command_console *console, int argc, char **argv);
 sl_status cmd_reject(command_console *console, int argc, char **argv);
 sl_status cmd_regions(command_console *console, int argc, char **argv);
+sl_status cmd_vga(command_console *console, int argc, char **argv);
 sl_status cmd_viewcells(command_console *console, int argc, char **argv);
 sl_status cmd_walk(command_console *console, int argc, char **argv);
 

@@ -27,6 +27,7 @@ static const command commands[] = {
     {"draw", "draw a baked file", cmd_draw, NULL},
     {"eye", "show what one viewpoint sees", cmd_eye, "questions"},
     {"isovist", "compute visible regions, their measures and heat maps", cmd_isovist, NULL},
+    {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
     {"explain", "show why a cell does or does not see another", cmd_explain, NULL},
     {"compare", "run every method on one map: accuracy against time", cmd_compare, "studies"},
     {"walk", "cull frame by frame, without visible sets", cmd_walk, NULL},

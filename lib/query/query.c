@@ -373,6 +373,33 @@ static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view
     return status;
 }
 
+/// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
+/// cell is on, which directed portals do not know.
+static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
+    const sl_map *map = &q->baked->map;
+    for (size_t i = 0; i < map->oneway_count; i++)
+        if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
+    return false;
+}
+
+/// Looks from such an eye: glass that is dark for it is a wall, all other is open.
+static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
+                              const sl_eye_method *method, uint64_t *cells,
+                              sl_eye_account *account) {
+    const sl_filtered_space filtered = {.eye = &view->eye};
+    sl_space space;
+    sl_eye_search *search = NULL;
+    SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &space));
+    sl_status status = sl_eye_search_create(context, &space, q->glass.visibility, &search);
+    if (status == SL_OK) {
+        sl_eye_search_limit(search, q->range);
+        status = method->cull(context, search, view, cells, account);
+    }
+    sl_eye_search_destroy(context, search);
+    sl_space_destroy(context, &space);
+    return status;
+}
+
 sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *view,
                         const sl_eye_method *method, uint64_t *cells, sl_eye_account *account) {
     sl_eye_account own;
@@ -381,6 +408,8 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
     SL_TRY(make_layers(context, query));
     if (query->box_count && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
+    if (!has_mirrors(query) && is_in_line_with_glass(query, view->eye))
+        return look_in_line(context, query, view, method, cells, account);
     SL_TRY(make_search(context, query));
     return method->cull(context, query->search, view, cells, account);
 }

@@ -19,7 +19,7 @@ from wad import make_wad, rooms
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
           "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels",
-          "IN.wad": "rooms.wad"}
+          "IN.wad": "rooms.wad", "STEP": "1"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT": "out.map",
            "OUT.map": "out.map", "OUT.wad": "out.wad",
            "FILE": "out.json", "TABLE": "out.geojson", "PICTURE|TABLE": "out.geojson",
@@ -29,8 +29,9 @@ SHORT = {"viewcells": {"--samples": "1000", "--evaluate": "1000"}, "walk": {"--s
 # What no number, point, size or share is; each option is given some of them, the next the next.
 NO_NUMBERS = ["", "nan", "-1e999", "0x10", "1 2", "1,", "1\n", "9" * 600]
 NUMBERS_EACH = 3
-NUMBERS = {"N", "Z", "PX", "SIZE", "SHARE", "X,Y", "DEG", "PERCENT", "SECONDS"}
-NAMES = {"NAME", "closed|open", "RULE,...", "EFFECT,...", "LAYER,..."}
+NUMBERS = {"N", "Z", "PX", "SIZE", "SHARE", "X,Y", "DEG", "PERCENT", "SECONDS",
+           "STEP"}
+NAMES = {"NAME", "closed|open", "RULE,...", "EFFECT,...", "LAYER,...", "GROUP,..."}
 
 
 class Command:

@@ -26,7 +26,8 @@ import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "query", "io", "runtime", "draw"]
+           "from_region", "eye_to_cell", "visibility_graph", "walk", "view_cells", "bake", "query",
+           "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
@@ -38,6 +39,7 @@ HEADERS = {"context": "base", "json_write": "base", "support": "base", "version"
            "steps": "cell_to_cell",
            "mirrored": "eye_to_cell", "moving": "eye_to_cell", "region": "eye_to_cell",
            "sees": "eye_to_cell", "view": "eye_to_cell",
+           "vga": "visibility_graph",
            "geojson": "bake", "reject": "io", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
