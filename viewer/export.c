@@ -1,4 +1,4 @@
-/// Pictures that are written in the background.
+/// PNG pictures that are written in the background.
 ///
 /// A picture is drawn in the main thread, since that changes the state of the app. What takes long
 /// is to compress and to write it: that is the work of a thread, which owns the surface. Lines of
@@ -15,7 +15,6 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 enum { WRITERS = 2, EXPORT_PATH = 4096 };
@@ -70,15 +69,6 @@ static void *run(void *user) {
 
 // --- a picture
 
-/// A surface for a picture by the ending of its name.
-static cairo_surface_t *surface_for(const char *path, int width, int height) {
-    const char *dot = strrchr(path, '.');
-    const cairo_rectangle_t all = {0, 0, width, height};
-    return dot && strcasecmp(dot, ".png") == 0
-               ? cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)
-               : cairo_recording_surface_create(CAIRO_CONTENT_COLOR, &all);
-}
-
 static sl_status begin(app_state *app, writer *w, const char *path, int width, int height,
                        void (*draw)(void *user, cairo_t *cairo)) {
     export_job *job = app->exports;
@@ -87,7 +77,7 @@ static sl_status begin(app_state *app, writer *w, const char *path, int width, i
     w->height = height;
     atomic_store(&w->done, false);
     snprintf(w->path, sizeof w->path, "%s", path);
-    w->surface = surface_for(path, width, height);
+    w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     cairo_t *cairo = cairo_create(w->surface);
     sl_context *const drawing = app->drawing;
     job->draws = true;

@@ -1,4 +1,4 @@
-/// Pictures that are written in the background: the plan, and the recorded way as a series.
+/// PNG pictures that are written in the background: the plan, and the recorded way as a series.
 #ifndef VIEWER_EXPORT_H
 #define VIEWER_EXPORT_H
 

@@ -60,10 +60,11 @@ static void draw_dual(app_state *app, sl_box box) {
     draw_heading(app, box);
     if (!lesson->end_count) return;
     const sl_dual_frame frame = frame_of(app, box);
+    const double least = fmin(frame.height, 0.5 * frame.width); // labels leave room for the lines
     sl_status status;
     sl_stab_end end;
     sl_dual_marks marks = {.conflict = lesson_conflict(app->context, lesson, &status),
-                           .text = 0.85 * t};
+                           .text = fmin(0.85 * t, fmax(least / 9, 8))};
     if (lesson_marked(lesson, &end)) marks.end = &end;
     sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
                  lesson->line, &marks);

@@ -13,7 +13,7 @@
 
 /// A table in a wide or in a narrow pane. The narrow one leaves out what is 1 or -1 in each row,
 /// and the values; it is at least NARROWEST plain texts wide.
-enum { COLUMNS = 8, NUMBER = 24, OUT = -1, NARROWEST = 17 };
+enum { COLUMNS = 8, NUMBER = 24, OUT = -1, NARROWEST = 21 };
 
 typedef struct table {
     ui_state *ui;
@@ -22,7 +22,7 @@ typedef struct table {
 } table;
 
 static const double wide[COLUMNS] = {0, 3, 7.2, 11.4, 13.9, 16.4, 19.4, 23.7};
-static const double narrow[COLUMNS] = {0, 2.4, 6.2, OUT, OUT, 10, OUT, 12.6};
+static const double narrow[COLUMNS] = {0, 2.4, 6.7, OUT, OUT, 11, OUT, 14.2};
 
 static void write_number(double value, char text[NUMBER]) {
     if (fabs(value) < 1e-12) value = 0;
@@ -85,50 +85,53 @@ static void write_optimum(const sl_program *program, char *text, size_t room) {
         snprintf(text + used, room - used, "and %u of %u rows.", rows, program->row_count);
 }
 
-static void draw_table(app_state *app, sl_box box, const sl_program *program) {
+/// Scrolls to a row that is marked elsewhere.
+static void reveal(ui_state *ui, sl_box box, sl_box row) {
+    const double above = box.min.y - row.min.y, below = row.max.y - box.max.y;
+    if (above > 0 || below > 0)
+        ui_scroll_by(&ui->scrolls[SCROLL_PROGRAM], above > 0 ? -above : below);
+}
+
+/// Draws words and rows from y on; returns where they end.
+static double draw_table(app_state *app, sl_box box, double y, const sl_program *program) {
     ui_state *ui = &app->ui;
     const lesson_state *lesson = &app->tool.lesson;
     const double t = ui->text, left = box.min.x + 0.9 * t, high = 1.25 * t;
     static const char *const titles[] = {"row", "ux", "uy", "c", "d", "bound", "value", "price"};
     char text[512];
     write_optimum(program, text, sizeof text);
-    double y = ui_paragraph(ui, left, box.min.y + 3.1 * t, box_width(box) - 1.8 * t, 0.9,
-                            ui->palette.ink, text) +
-               0.2 * t;
+    y = ui_paragraph(ui, left, y, box_width(box) - 1.8 * t, 0.9, ui->palette.ink, text) + 0.2 * t;
     const table rows = {ui, left, box_width(box) < 31 * t ? narrow : wide};
     for (int i = 0; i < COLUMNS; i++) cell(&rows, i, y, false, ui->palette.faint, titles[i]);
     sl_stab_end marked = {0};
     const bool any = lesson_marked(lesson, &marked);
-    const size_t fit = (size_t)fmax((box.max.y - y - 0.6 * t) / high, 1);
-    // The row that is marked stays in sight.
-    size_t first = 0;
-    const size_t wanted = any ? 1 + 2 * (size_t)marked.portal + !marked.left : 0;
-    if (program->row_count > fit && wanted >= fit) first = wanted - fit + 1;
-    for (size_t i = first; i < program->row_count && i < first + fit; i++) {
+    for (size_t i = 0; i < program->row_count; i++) {
         const sl_program_row *row = &program->rows[i];
         y += high;
         const sl_box place = {{box.min.x, y - 0.95 * t}, {box.max.x, y + 0.3 * t}};
         const bool fixed = row->portal == SL_PROGRAM_FIXED;
-        if (any && !fixed && row->portal == marked.portal && row->left == marked.left)
+        if (any && !fixed && row->portal == marked.portal && row->left == marked.left) {
             ui_fill(ui, place, sl_colour_mix(ui->palette.page, ui->palette.source, 0.45));
+            if (!box_has(box, ui->pointer)) reveal(ui, box, place);
+        }
         draw_row(&rows, y, program, row);
         if (!fixed) ui_hit_focus(ui, HIT_END, (int)(2 * row->portal + !row->left), place);
     }
+    return y + 0.6 * t;
 }
 
-static void draw_program(app_state *app, sl_box box) {
+/// Returns where it ends, from y on.
+static double draw_program(app_state *app, sl_box box, double y) {
     ui_state *ui = &app->ui;
     const double t = ui->text, left = box.min.x + 0.9 * t, room = box_width(box) - 1.8 * t;
     lesson_state *lesson = &app->tool.lesson;
-    ui_text_within(ui, left, box.min.y + 1.5 * t, room, 1, ui->palette.ink, "Linear program");
-    if (!lesson->end_count) return;
+    ui_text_within(ui, left, y + 1.5 * t, room, 1, ui->palette.ink, "Linear program");
+    y += 3.1 * t;
+    if (!lesson->end_count) return y;
     sl_status status;
     const sl_program *program = lesson_program(app->context, lesson, &status);
-    if (program)
-        draw_table(app, box, program);
-    else
-        ui_paragraph(ui, left, box.min.y + 3.1 * t, room, 0.95, ui->palette.ink,
-                     sl_context_message(app->context));
+    if (program) return draw_table(app, box, y, program);
+    return ui_paragraph(ui, left, y, room, 0.95, ui->palette.ink, sl_context_message(app->context));
 }
 
 void pane_program(app_state *app, sl_box box) {
@@ -138,8 +141,11 @@ void pane_program(app_state *app, sl_box box) {
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
     ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
     // The columns keep their places: where they have no room, all is set smaller.
+    const sl_box room = {{box.min.x + 1, box.min.y + 1}, box.max};
+    const double y = ui_begin_scroll(ui, SCROLL_PROGRAM, room);
     ui->text = fmin(t, box_width(box) / NARROWEST);
-    draw_program(app, box);
+    const double bottom = draw_program(app, room, y);
     ui->text = t;
+    ui_end_scroll(ui, room, bottom);
     ui_end_area(ui);
 }

@@ -113,6 +113,9 @@ sl_status save_plan(app_state *app, const char *path) {
 void save_numbered(app_state *app, const char *ending) {
     char path[64], chart[64], said[160];
     if (app->file.locked) return;
+    // Lines are drawn straight into their file; only pixels can be drawn here and written
+    // elsewhere.
+    const bool now = app->steady || strcmp(ending, "png") != 0;
     if (!export_is_free(app)) {
         ui_say(&app->ui, true, "pictures are being written; Esc stops that");
         return;
@@ -124,9 +127,8 @@ void save_numbered(app_state *app, const char *ending) {
         snprintf(said, sizeof said, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
                  app->ui.accounts ? chart : "");
         sl_status status = app->ui.accounts ? account_save(app, chart) : SL_OK;
-        if (status == SL_OK)
-            status = app->steady ? save_plan(app, path) : export_plan(app, path, said);
-        if (status == SL_OK && app->steady) ui_say(&app->ui, false, "%s", said);
+        if (status == SL_OK) status = now ? save_plan(app, path) : export_plan(app, path, said);
+        if (status == SL_OK && now) ui_say(&app->ui, false, "%s", said);
         app_check(app, status);
         return;
     }

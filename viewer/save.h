@@ -49,7 +49,8 @@ sl_status save_plan(app_state *app, const char *path);
 void save_draw_window(void *user, cairo_t *cairo);
 void save_draw_plan(void *user, cairo_t *cairo);
 
-/// Saves the plan under a free name in the present folder, in the background: NAME-1.ENDING.
+/// Saves the plan under a free name in the present folder: NAME-1.ENDING. A .png is written in the
+/// background.
 void save_numbered(app_state *app, const char *ending);
 
 /// One picture of so many frames is enough for a film of 30 a second.

@@ -45,6 +45,7 @@ enum ui_scrolls {
     SCROLL_LIST,
     SCROLL_EFFECTS,
     SCROLL_TIME,
+    SCROLL_PROGRAM,
     SCROLL_DIALOG,
     SCROLLS
 };

@@ -501,9 +501,10 @@ static void give_account(const sli_tiled_reader *reader) {
         {reader->pen.points, "line of no length", "lines of no length"},
         {reader->sets.missing, "tileset that is missing", "tilesets that are missing"}};
     char from[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
-    sl_note(reader->context, "%s: %s%s%zu walls%s; unit: pixels, y = %s - the file's y",
-            reader->map->file->name, sli_tally_write("", taken, 4, from), *from ? " give " : "",
-            reader->pen.map->wall_count, sli_tally_write("; left out: ", left, 5, without), top);
+    sl_note(reader->context, "%s: %zu walls%s%s; unit: pixels, y = %s - the file's y",
+            reader->map->file->name, reader->pen.map->wall_count,
+            sli_tally_write(" from ", taken, 4, from),
+            sli_tally_write("; left out: ", left, 5, without), top);
     if (reader->doors_left_out)
         sl_note(reader->context,
                 "%s: left out: %zu tile%s of doors; in hexagonal maps only objects are doors",

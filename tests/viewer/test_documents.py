@@ -200,7 +200,7 @@ class Cases:
         asked = f"drop {tiles}\nexpect Open tiles.tmx\n"
         self.run("layers", path, asked + "key Down\nkey Space\nkey Return\n"
                  "expect tiles.tmx - Sightline\nexpect what was read\nkey Ctrl+J\n"
-                 "expect taken: 1 layers solid as a whole\n")
+                 "expect 6 walls from 1 solid layer; left out: 1 layer\n")
         # Without a choice the reader says what it needs; the way back keeps the layers in sight.
         self.run("no layer", path, asked + "key Return\nexpect nothing in it says what is solid\n"
                  "key O\nexpect Open tiles.tmx\nkey Down\nkey Space\nkey Return\n"

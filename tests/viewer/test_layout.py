@@ -20,6 +20,8 @@ SCENES = {
     "rock": ("dungeon.txt", "eye 7.5 14.5 0\n"),
     "layers": ("office.map", "key Q\nkey F5\nkey B\nkey K\n"),
     "search": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 4),
+    "program": ("office.map", "eye 53 20 160\nkey F2\nkey R\nkey R\nkey Ctrl+L\n"),
+    "why": ("office.map", "eye 53 20 160 90\nright 100 200\n"),
     "subdivision": ("maze.map", "key F2\nkey U\nkey Right\n"),
     "pass": ("maze.map", "key F2\nkey U\nkey U\nkey Right\n"),
     "draw": ("office.map", "key F3\n"),

@@ -11,6 +11,7 @@
 #include "sightline/generate.h"
 #include "sightline/io.h"
 
+#include <dirent.h>
 #include <math.h>
 #include <time.h>
 #include <unistd.h>
@@ -423,13 +424,80 @@ static void test_closed(void **state) {
     remove("large.map");
 }
 
+/// Counts the pictures of a folder, and removes it with them. Nothing else may be in it.
+static size_t take_away(const char *folder) {
+    size_t count = 0;
+    DIR *dir = opendir(folder);
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));) {
+        char path[512];
+        if (entry->d_name[0] == '.') continue;
+        assert_int_equal(strncmp(entry->d_name, "frame-", 6), 0);
+        assert_string_equal(strrchr(entry->d_name, '.'), ".png");
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        assert_int_equal(remove(path), 0);
+        count++;
+    }
+    closedir(dir);
+    assert_int_equal(rmdir(folder), 0);
+    return count;
+}
+
+static void wait_for_pictures(app_state *app) {
+    for (int i = 0; i < 60000 && app->exports; i++) {
+        const struct timespec pause = {0, 1000000};
+        nanosleep(&pause, NULL);
+        app_tick(app, 0.001);
+    }
+    assert_null(app->exports);
+}
+
+/// Saves the way, and answers the question of how many pictures that are.
+static void save_way(app_state *app) {
+    action_run(app, action_find("export_series"));
+    press_key(app, "S");
+}
+
+static void test_exported(void **state) {
+    (void)state;
+    app_state *app = start(false);
+    open_map(app, MAPS "/office.map");
+    press_key(app, "F9");
+    for (int i = 0; i < 20; i++) app_tick(app, 1.0 / 60);
+    press_key(app, "F9");
+    const size_t frames = app->tool.recorder.frames.count;
+    assert_true(frames > 10);
+    save_way(app);
+    assert_non_null(app->exports);
+    wait_for_pictures(app);
+    assert_int_equal(take_away("sightline-frames"), (frames + 1) / 2);
+    // Stopped: each picture is whole or not there.
+    save_way(app);
+    for (int i = 0; i < 3; i++) app_tick(app, 0.001);
+    press_key(app, "Escape");
+    assert_null(app->exports);
+    assert_true(take_away("sightline-frames") <= 3);
+    static const char *const keys[] = {"Ctrl+E", "Ctrl+G", "Ctrl+P"};
+    for (int i = 0; i < 3; i++) {
+        press_key(app, keys[i]);
+        wait_for_pictures(app);
+        assert_int_equal(strncmp(app->ui.message, "saved ", 6), 0);
+        assert_int_equal(remove(app->ui.message + 6), 0);
+    }
+    // Closed while a picture is being written.
+    save_way(app);
+    app_tick(app, 0.001);
+    end(app);
+    take_away("sightline-frames");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_maps),       cmocka_unit_test(test_turned),
         cmocka_unit_test(test_corner),     cmocka_unit_test(test_door),
         cmocka_unit_test(test_taken_back), cmocka_unit_test(test_new_wall),
-        cmocka_unit_test(test_mended),     cmocka_unit_test(test_stopped),
-        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_mended),     cmocka_unit_test(test_exported),
+        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,10 +122,10 @@ class Window:
             getattr(self, act[0])(*act[1:])
 
     def save(self):
-        """The picture that is saved next. The pointer rests on the panel, where it changes nothing."""
+        """The picture that is saved next. The pointer rests on the bar, where it changes nothing."""
         self.saved += 1
         path = self.folder / f"sightline-{self.saved}.png"
-        self.do("mousemove", "--window", self.id, 1100, 600)
+        self.do("mousemove", "--window", self.id, 1150, 15)
         self.do("key", "ctrl+e")
         self.viewer.check(wait_for_file(path), f"{path.name} was not saved")
         return path
@@ -186,7 +186,7 @@ def drive(viewer, window):
 
 def export(viewer, window):
     """A recorded way becomes numbered pictures in the background: keys work meanwhile."""
-    for act in ["F9", "w", "F9", "F11"]:
+    for act in ["F9", "w", "F9", "ctrl+m", "End", "Up", "Return", "s"]:
         window.act(act)
         time.sleep(0.3)
     window.act("m")
@@ -207,6 +207,8 @@ def open_wrong(viewer, folder, shown, path):
         window.do("windowfocus", window.id)
         time.sleep(0.5)
         viewer.check(program.poll() is None, f"{path.name}: the window did not stay")
+        window.do("key", "Return")  # the message that says why
+        time.sleep(0.3)
         window.do("key", "ctrl+q")
     try:
         _, said = program.communicate(timeout=PATIENCE)
@@ -221,7 +223,7 @@ def draw_expected(viewer, folder):
     script = "size 1200 760\n"
     for name, _, commands in steps():
         commands = commands.replace("{maps}", str(viewer.root / "maps"))
-        script += f"{commands}move 1100 600\nsave {name}.png\n"
+        script += f"{commands}move 1150 15\nsave {name}.png\n"
     viewer.script(folder, "office.map", script)
 
 
