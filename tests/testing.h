@@ -5,6 +5,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -15,9 +16,11 @@
 
 #include "sightline/sightline.h"
 
-/// An allocator that counts live blocks and can be told to fail from its Nth call on (0: never).
+/// An allocator that counts live blocks, of all threads, and can be told to fail from its Nth call
+/// on (0: never).
 typedef struct testing_memory {
-    long live, calls, fail_at;
+    atomic_long live, calls;
+    long fail_at;
 } testing_memory;
 
 static inline void *testing_resize(void *user, void *block, size_t bytes) {

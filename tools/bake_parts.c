@@ -47,27 +47,22 @@ static const char *reason(const bake_parts *parts) {
 option_table bake_parts_option_table(bake_parts *parts) {
     const option_spec options[] = {
         {"time-limit", 0, "SECONDS",
-         "look no longer than that, from the start on, and\nwrite what there is: a partial set, in "
-         "which all\nthat is not decided counts as seen (bounding it\ntakes a quarter more at "
-         "most)",
+         "stop after this time and write a partial file: pairs that are not decided count as seen",
          .number = &parts->time_limit, .over_0 = true, .needs = "seconds, more than 0"},
         {"keep-partial", 0, NULL,
-         "the first Ctrl-C writes what there is, as\n--time-limit does; the second stops all "
-         "(without\nit the first does, and nothing is written)",
+         "write a partial file at the first Ctrl-C (default: write nothing)",
          .flag = &parts->keep_partial},
-        {"resume", 0, "FILE.slv",
-         "go on with a partial file of the same map and\noptions: in the end the same bytes",
+        {"resume", 0, "FILE.slv", "go on with a partial file of the same map and options",
          .text = &parts->resume},
-        {"previous", 0, "FILE.slv",
-         "take over what changed walls cannot affect from\nan older bake of the map: the same "
-         "bytes, sooner",
+        {"previous", 0, "FILE.slv", "take from an older bake what the changed walls cannot affect",
          .text = &parts->previous},
-        {"shard", 0, "K/N",
-         "do the Kth of N parts of the work, 1 to N, and\nwrite them for sightline merge",
+        {"shard", 0, "K/N", "compute part K of N (1 <= K <= N), for 'sightline merge'",
          .text = &parts->shard_text},
     };
     option_table table = {0};
     option_table_add(&table, options, sizeof options / sizeof *options);
+    option_table_topic(&table, "working in parts (the bytes stay the same)");
+    for (size_t i = 0; i < table.count; i++) table.items[i].rare = true;
     return table;
 }
 

@@ -146,19 +146,28 @@ static void print_parts(const bake_report *report) {
 static void print_effect_work(const sl_visibility *visibility) {
     const sl_see_account *account = &visibility->account;
     const sl_door_sets *doors = &visibility->doors;
-    if (visibility->mirrored.cell_count)
-        printf("  mirrored  %" PRIu64 " pairs seen by mirror; %" PRIu64 " places rounded\n",
-               account->mirrored_pairs, account->rounded_places);
-    if (doors->cell_count)
-        printf("  doors     %" PRIu64 " bytes of door sets, %.2f a pair; %" PRIu64
-               " pairs with more than kept: they count as seen\n",
-               sl_door_sets_bytes(doors),
-               account->pairs ? (double)sl_door_sets_bytes(doors) / (double)account->pairs : 0,
-               account->door_fallbacks);
-    if (account->range_tests)
-        printf("  in range  %" PRIu64 " sequences measured, %" PRIu64
-               " within rounding of the range: they count as seen\n",
-               account->range_tests, account->close_calls);
+    if (visibility->mirrored.cell_count) {
+        printf("  mirrored  %" PRIu64 " pairs seen by mirror", account->mirrored_pairs);
+        if (account->rounded_places)
+            printf("; %" PRIu64 " places were rounded", account->rounded_places);
+        putchar('\n');
+    }
+    if (doors->cell_count) {
+        char size[SIZE_TEXT];
+        size_write(sl_door_sets_bytes(doors), size);
+        printf("  doors     %s of door sets", size);
+        if (account->door_fallbacks)
+            printf("; %" PRIu64 " pairs have too many sets and count as seen (--door-sets)",
+                   account->door_fallbacks);
+        putchar('\n');
+    }
+    if (account->range_tests) {
+        printf("  in range  %" PRIu64 " sequences measured", account->range_tests);
+        if (account->close_calls)
+            printf("; %" PRIu64 " end within rounding of the range and count as seen",
+                   account->close_calls);
+        putchar('\n');
+    }
 }
 
 static void print_visibility(const sl_baked *baked) {
@@ -168,7 +177,7 @@ static void print_visibility(const sl_baked *baked) {
            sight_name(visibility->sight), baked->method, baked->solver[0] ? " with " : "",
            baked->solver, sl_guarantee_name(visibility->guarantee));
     if (account->doubtful_pairs)
-        printf("  doubtful  %" PRIu64 " of them, of which rounding decided\n",
+        printf("  doubtful  %" PRIu64 " of them were decided by rounding\n",
                account->doubtful_pairs);
     if (account->tests)
         printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
@@ -179,10 +188,13 @@ static void print_visibility(const sl_baked *baked) {
                account->pieces, account->deepest);
     print_effect_work(visibility);
     const sl_stab_trees *trees = &visibility->trees;
-    if (trees->cell_count)
-        printf("  trees     %" PRIu64 " nodes kept, %" PRIu32 " of %" PRIu32
-               " trees left out by --tree-memory\n",
-               trees->offsets[trees->cell_count], trees->left_out, trees->cell_count);
+    if (trees->cell_count) {
+        printf("  trees     %" PRIu64 " nodes kept", trees->offsets[trees->cell_count]);
+        if (trees->left_out)
+            printf("; %" PRIu32 " of %" PRIu32 " trees are left out (--tree-memory)",
+                   trees->left_out, trees->cell_count);
+        putchar('\n');
+    }
 }
 
 static void print_seconds(const bake_report *report) {
@@ -203,8 +215,9 @@ sl_status bake_report_print(sl_context *context, const bake_report *report) {
     printf("%s: %s, baked from %s\n", report->output, file, report->input);
     printf("  walls     %" PRIu32, space->wall_count);
     cleaning_print(&report->account.cleaning);
-    printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside", space->cell_count,
-           space->inside_count);
+    printf("  cells     %" PRIu32, space->cell_count);
+    if (space->inside_count < space->cell_count)
+        printf(", %" PRIu32 " inside", space->inside_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');
     ground_print(space);
@@ -347,9 +360,7 @@ static sl_status bake_and_report(command_console *console, bake_plan *plan) {
 
 static void print_tables(void) {
     pipeline_print_subdivisions();
-    pipeline_print_methods("; sweep is the default, but dfs where stab trees or a solver are "
-                           "asked for,\nand prune where the map has mirrors",
-                           " (the first is the default)");
+    pipeline_print_methods();
     pipeline_print_effects();
     input_print_formats();
 }
@@ -361,53 +372,57 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table parts = bake_parts_option_table(&plan.parts);
     const option_spec options[] = {
-        {"output", 'o', "FILE.slv",
-         "where to write; without it in the current folder,\nby the map's name",
+        {"output", 'o', "FILE.slv", "the baked file (default: in this folder, named after the map)",
          .text = &plan.output, .check = CHECK_BAKED},
-        {.group = &pipeline},
-        {"method", 0, "NAME", "how to find what a cell sees", .choice = &plan.method,
-         .names = method_table(), .given = &plan.method_given},
-        {"solver", 0, "NAME", "what stabs portal sequences", .choice = &plan.solver,
-         .names = solver_table(), .given = &plan.solver_given},
-        {"sight", 0, "closed|open",
-         "closed (the default): lines that only touch\nwall ends count; open: they do not",
-         .sight = &see->sight},
-        {"threads", 0, "N",
-         "0, the default, for one a core;\nthe result is the same for any number",
-         .count32 = &see->threads, .most = MAX_THREADS},
-        {"samples", 0, "N", "lines from each cell, for sampling", .count32 = &see->samples,
-         .given = &plan.samples_given},
-        {"seed", 0, "N", "of random numbers, for sampling", .count = &see->seed,
-         .given = &plan.seed_given},
-        {"memory", 0, "SIZE",
-         "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
-         "told",
-         .bytes = &see->row_bytes, .given = &plan.memory_given},
-        {"passes", 0, "N",
-         "sectors that multipass cuts directions into, at most\n(default 8; 0: at all portals' "
-         "own)",
-         .count32 = &see->sectors, .given = &plan.passes_given},
-        {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
-        {"tree-memory", 0, "SIZE", "for them at most, as 64K, 256M (the default), 2G",
-         .bytes = &see->tree_bytes, .given = &plan.tree_memory_given},
-        {"inside", 0, NULL,
-         "look from and at inside cells only: those that a\nstart leads to or that walls enclose",
+        {"inside", 0, NULL, "compute inside cells only: a smaller file for a game",
          .flag = &see->inside_only},
-        {"mirror-depth", 0, "N",
-         "reflections of a sightline, at most (1 without it, up\nto 16; 0: mirrors are walls)",
-         .count32 = &bake_options->mirror_depth, .most = 16},
-        {"door-sets", 0, "N",
-         "sets of doors kept of a pair, at most (16 without\nit); a pair with more counts as seen",
-         .count32 = &bake_options->door_limit, .most = 65535},
+        {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
+        {"method", 0, "NAME",
+         "how to find what a cell sees (default: sweep; dfs for stab trees and solvers; prune for "
+         "mirrors)",
+         .choice = &plan.method, .names = method_table(), .given = &plan.method_given},
+        {"solver", 0, "NAME",
+         "what decides if a line passes a sequence of portals (default: funnel)",
+         .choice = &plan.solver, .names = solver_table(), .given = &plan.solver_given},
+        {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &see->threads,
+         .most = MAX_THREADS},
         {"json", 0, NULL, "print the statistics as one JSON object", .flag = &plan.json},
+        {.group = &pipeline},
+        {"sight", 0, "closed|open",
+         "whether lines that only touch wall ends count: closed (default): yes; open: no",
+         .sight = &see->sight, .topic = "computing visibility", .rare = true},
+        {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1; 0: none)",
+         .count32 = &bake_options->mirror_depth, .most = 16, .topic = "computing visibility",
+         .rare = true},
+        {"door-sets", 0, "N",
+         "largest number of sets of doors kept for a pair (default 16); a pair with more counts as "
+         "seen",
+         .count32 = &bake_options->door_limit, .most = 65535, .topic = "computing visibility",
+         .rare = true},
+        {"memory", 0, "SIZE",
+         "memory for the visible sets while they grow: 64M, 2G (default: half of the machine's)",
+         .bytes = &see->row_bytes, .given = &plan.memory_given, .topic = "computing visibility",
+         .rare = true},
+        {"tree-memory", 0, "SIZE", "memory for stab trees: 64K, 256M (default), 2G",
+         .bytes = &see->tree_bytes, .given = &plan.tree_memory_given,
+         .topic = "computing visibility", .rare = true},
+        {"passes", 0, "N",
+         "number of direction sectors of multipass (default 8; 0: one per portal)",
+         .count32 = &see->sectors, .given = &plan.passes_given, .topic = "computing visibility",
+         .rare = true},
+        {"samples", 0, "N", "number of lines from each cell, for the method sampling",
+         .count32 = &see->samples, .given = &plan.samples_given, .topic = "computing visibility",
+         .rare = true},
+        {"seed", 0, "N", "seed of the random lines, for the method sampling", .count = &see->seed,
+         .given = &plan.seed_given, .topic = "computing visibility", .rare = true},
         {.group = &parts},
     };
     const command_usage usage = {
         .name = "bake",
         .synopsis = "MAP [-o FILE.slv] [options]",
         .operands = {"MAP"},
-        .what = "Cuts a map into convex cells joined by portals, finds which cells can see which,\n"
-                "and writes both into a file. The time for reading includes cleaning the walls.",
+        .what = "Cuts a map into convex cells joined by portals. Computes which cells see which. "
+                "Writes both into a file.",
         .tables = print_tables,
         .examples = "  sightline bake office.map -o office.slv\n"
                     "  sightline bake tower.ug --slice 1040 --start 1400,1600 --inside --json\n"

@@ -640,35 +640,36 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_spec options[] = {
         {"gap", 0, "SIZE",
-         "list gaps up to this width (default: 1/1000 of the\nmap's diagonal, at most 1/8 of a "
+         "list gaps up to this width (default: 1/1000 of the map's diagonal, at most 1/8 of a "
          "usual wall)",
          .number = &plan.faults.gap, .over_0 = true},
         {"thin", 0, "SIZE", "list cells thinner than this (same default)",
-         .number = &plan.faults.thin, .over_0 = true},
+         .number = &plan.faults.thin, .over_0 = true, .rare = true},
         {"snap", 0, "FIXED.map", "close such gaps, and write the result as map text",
          .text = &plan.snap, .check = CHECK_FILE, .endings = ".map"},
         {"output", 'o', "PICTURE", "draw the plan with all faults: .png, .svg or .pdf",
          .text = &plan.output, .check = CHECK_PICTURE},
         {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
-         .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
-        {"dark", 0, NULL, "light on dark", .flag = &plan.drawing.dark},
+         .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX,
+         .rare = true},
+        {"dark", 0, NULL, "draw light on dark", .flag = &plan.drawing.dark, .rare = true},
         {"most", 0, "N", "print up to N faults of each kind (default 10)", .count = &plan.most,
-         .most = UINT32_MAX},
-        {.group = &pipeline},
+         .most = UINT32_MAX, .rare = true},
         {"strict", 0, NULL, "exit with status 3 if there is a fault", .flag = &plan.strict},
         {"json", 0, NULL, "print all faults as one JSON object", .flag = &plan.json},
+        {.group = &pipeline},
     };
     const command_usage usage = {
         .name = "check",
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP"},
-        .what = "Lists what may be wrong with a map: leaks (openings through which a start leads\n"
-                "out of the map), gaps between walls, overlaps, crossings, thin cells, and rooms\n"
-                "that no start leads to. A fault has its place and the names of its walls in the\n"
-                "file: line, layer, handle, id. The last line is the next command to run.\n"
+        .what = "Lists what may be wrong with a map: leaks (openings through which a start leads "
+                "out of the map), gaps between walls, overlaps, crossings, thin cells, and rooms "
+                "that no start reaches. Each fault has its place and the names of its walls in "
+                "the file: line, layer, handle, id. The last line is the next command to run.\n"
                 "\n"
-                "--snap moves ends of walls by up to --gap. What it cannot close is marked as\n"
-                "'needs a decision': a corner near the side of a wall, for example.",
+                "--snap moves ends of walls by up to --gap. Faults that it cannot mend are marked "
+                "with 'needs a decision'.",
         .tables = print_tables,
         .examples = "  sightline check office.map -o office-check.png\n"
                     "  sightline check plan.dxf --start 3,5\n"

@@ -234,16 +234,38 @@ static sl_status write_eye_files(sl_context *context, const eye_comparison *comp
     return SL_OK;
 }
 
+/// Doors as the map has them: walls of the space where they are shut.
+static sl_status settle_doors(sl_context *context, comparing *all) {
+    const sl_map *map = &all->map;
+    if (!map->door_count) return SL_OK;
+    bool *shut = sl_alloc_array(context, map->door_count, sizeof *shut);
+    if (!shut) return SL_NO_MEMORY;
+    const door_choice as_they_are = {0};
+    const sl_filtered_space filtered = {.shut = shut};
+    sl_space settled;
+    sl_status status = doors_read(context, &as_they_are, map, shut);
+    if (status == SL_OK)
+        status = sl_filtered_space_make(context, &all->space, &filtered, NULL, &settled);
+    sl_free(context, shut);
+    SL_TRY(status);
+    sl_space_destroy(context, &all->space);
+    all->space = settled;
+    sl_effects_note_doors(context, map);
+    return SL_OK;
+}
+
 /// `folder` is NULL without -o.
 static sl_status compare_eye(command_console *console, comparing *all, const output_folder *folder,
                              eye_comparison *out) {
     sl_context *context = console->context;
     const map_pipeline *pipeline = &all->plan->pipeline;
     SL_TRY(pipeline_read_clean(context, pipeline, &all->map, NULL));
-    SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
+    if (all->map.mirror_count) sl_note(context, "mirrors are walls here: direct sight is compared");
     SL_TRY(pipeline_subdivide(context, pipeline, &all->map, &all->space));
     SL_TRY(pipeline_note_inside(context, pipeline, &all->map, &all->space));
-    SL_TRY(compare_eye_run(console, &all->plan->eye_plan, &all->space, all->plan->see.sight, out));
+    SL_TRY(settle_doors(context, all));
+    SL_TRY(compare_eye_run(console, &all->plan->eye_plan, &all->map, &all->space,
+                           all->plan->see.sight, out));
     out->input = pipeline->path;
     return folder ? write_eye_files(context, out, all->plan->dark, folder) : SL_OK;
 }
@@ -272,7 +294,7 @@ static sl_status compare_eye_and_report(command_console *console, const compare_
 static void print_tables(void) {
     compare_print_columns();
     compare_eye_print_columns();
-    pipeline_print_methods("", "");
+    pipeline_print_methods();
     pipeline_print_subdivisions();
     pipeline_print_effects();
     input_print_formats();
@@ -291,45 +313,44 @@ sl_status cmd_compare(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_spec options[] = {
         {"output", 'o', "DIR",
-         "a folder for compare.csv, compare.png, compare.svg\nand pairs.csv; made if missing",
+         "write compare.csv, compare.png, compare.svg and pairs.csv to this folder",
          .text = &plan.output},
-        {"methods", 0, "NAME,...", "only these (without it: all)", .choices = &plan.methods,
-         .names = method_table(), .given = for_cells},
-        {"solvers", 0, "NAME,...", "only these (without it: all)", .choices = &plan.solvers,
-         .names = solver_table(), .given = for_cells},
-        {"sight", 0, "closed|open",
-         "closed (the default): lines that only touch\nwall ends count; open: they do not",
-         .sight = &plan.see.sight},
-        {"inside", 0, NULL,
-         "look from and at inside cells only: those that a\nstart leads to or that walls enclose",
-         .flag = &plan.see.inside_only, .given = for_cells},
-        {"repeat", 0, "N",
-         "time each run N times; 0, the default: three times\nand 0.2 s at least, until 5 s",
-         .count32 = &plan.timing.repeat, .most = MAX_REPEAT, .given = for_cells},
-        {"time-limit", 0, "S",
-         "give up on a run that takes longer, in seconds\n(the default is 60)",
-         .number = &plan.timing.limit, .over_0 = true, .most = MAX_LIMIT,
-         .needs = "a number of seconds over 0 is needed", .given = for_cells},
+        {"methods", 0, "NAME,...", "run only these methods (default: all)",
+         .choices = &plan.methods, .names = method_table(), .given = for_cells},
+        {"solvers", 0, "NAME,...", "run only these solvers (default: all)",
+         .choices = &plan.solvers, .names = solver_table(), .given = for_cells},
         {"eye", 0, NULL,
-         "compare what culling for an eye keeps instead, over\nmany viewpoints, as Teller & Sequin "
-         "1991 do; -o then\nwrites eye.csv, eye.png and eye.svg",
+         "compare the methods that cull for one eye, over many viewpoints, as Teller & Sequin 1991 "
+         "do; writes eye.csv, eye.png and eye.svg",
          .flag = &plan.eye},
-        {"viewpoints", 0, "N", "how many; 10000 without it", .count = &plan.eye_plan.viewpoints,
-         .least = 1, .most = MAX_VIEWPOINTS, .needs = "one at least is needed", .given = for_eye},
-        {"seed", 0, "S", "what they are drawn from; 1 without it", .count = &plan.eye_plan.seed,
-         .given = for_eye},
-        {"fov", 0, "DEG,...", "view cones in degrees; 360,60 without it", .text = &plan.fov,
-         .given = for_eye},
-        {"dark", 0, NULL, "the chart light on dark", .flag = &plan.dark},
-        {"json", 0, NULL, "print one JSON object instead of the table", .flag = &plan.json},
+        {"json", 0, NULL, "print one JSON object in place of the table", .flag = &plan.json},
+        {"sight", 0, "closed|open",
+         "whether lines that only touch wall ends count: closed (default): yes; open: no",
+         .sight = &plan.see.sight, .rare = true},
+        {"inside", 0, NULL, "compute inside cells only", .flag = &plan.see.inside_only,
+         .given = for_cells, .rare = true},
+        {"repeat", 0, "N", "time each run N times (default: three times and for 0.2 s, up to 5 s)",
+         .count32 = &plan.timing.repeat, .most = MAX_REPEAT, .given = for_cells, .rare = true},
+        {"time-limit", 0, "S", "stop a run after this many seconds (default 60)",
+         .number = &plan.timing.limit, .over_0 = true, .most = MAX_LIMIT,
+         .needs = "a number of seconds over 0 is needed", .given = for_cells, .rare = true},
+        {"viewpoints", 0, "N", "number of viewpoints for --eye (default 10000)",
+         .count = &plan.eye_plan.viewpoints, .least = 1, .most = MAX_VIEWPOINTS,
+         .needs = "one at least is needed", .given = for_eye, .rare = true},
+        {"seed", 0, "S", "seed of the viewpoints (default 1)", .count = &plan.eye_plan.seed,
+         .given = for_eye, .rare = true},
+        {"fov", 0, "DEG,...", "view cones for --eye, in degrees (default 360,60)",
+         .text = &plan.fov, .given = for_eye, .rare = true},
+        {"dark", 0, NULL, "draw the chart light on dark", .flag = &plan.dark, .rare = true},
         {.group = &pipeline},
     };
     const command_usage usage = {
         .name = "compare",
         .synopsis = "MAP [-o DIR] [options]",
         .operands = {"MAP"},
-        .what = "Shows what accuracy costs in time: runs every method with every solver on one\n"
-                "map, each on one thread, and holds what it sees against the first exact answer.",
+        .what =
+            "Shows what accuracy costs in time: runs every method with every solver on one map, "
+            "on one thread, and compares each answer with the first exact one.",
         .tables = print_tables,
         .examples = "  sightline compare office.map\n"
                     "  sightline compare office.map -o out --sight open --time-limit 10\n"

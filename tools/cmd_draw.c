@@ -22,6 +22,7 @@ static const layer layers[] = {
     {"stab-tree", "the chosen cell's stab tree, from portal to portal", SL_LAYER_STAB_TREE},
     {"starts", "starts with their heading, and paths", SL_LAYER_STARTS},
     {"legend", "what the colours mean, and the counts", SL_LAYER_LEGEND},
+    {"numbers", "the numbers of cells and portals, where they have room", SL_LAYER_NUMBERS},
 };
 enum { LAYER_COUNT = sizeof layers / sizeof *layers };
 static const name_table layer_names = {"layer", layers, sizeof *layers, LAYER_COUNT, NULL};
@@ -104,17 +105,16 @@ sl_status cmd_draw(command_console *console, int argc, char **argv) {
     draw_plan plan = {.drawing = sl_draw_options_default()};
     const option_table picture = picture_option_table(&plan.drawing, true);
     const option_spec options[] = {
-        {"output", 'o', "PICTURE", "where to draw: .png, .svg or .pdf, by the ending",
-         .text = &plan.output, .check = CHECK_PICTURE},
-        {"cell", 0, "N",
-         "choose a cell by its number; none for an overview:\nhow much each cell sees",
+        {"output", 'o', "PICTURE", "the picture: .png, .svg or .pdf", .text = &plan.output,
+         .check = CHECK_PICTURE},
+        {"cell", 0, "N", "show what this cell sees; 'none': how much each cell sees",
          .text = &plan.cell},
-        {"at", 0, "X,Y",
-         "choose the cell at a point; with neither, the cell\nof the map's first start, if any",
+        {"at", 0, "X,Y", "show what the cell at a point sees (default: at the map's first start)",
          .point = &plan.at, .text = &plan.at_text},
-        {"layers", 0, "LAYER,...", "what to draw", .choices = &plan.layers, .names = layer_names,
-         .given = &plan.layers_given},
-        {"stab-tree", 0, NULL, "draw the chosen cell's stab tree too", .flag = &plan.stab_tree},
+        {"layers", 0, "LAYER,...", "what to draw (see '--help all')", .choices = &plan.layers,
+         .names = layer_names, .given = &plan.layers_given},
+        {"stab-tree", 0, NULL, "draw the stab tree of the chosen cell too",
+         .flag = &plan.stab_tree},
         {.group = &picture},
     };
     const command_usage usage = {

@@ -1,6 +1,7 @@
 /// `sightline export`: a baked file for other programs.
 #include "built.h"
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "sightline/support.h"
@@ -22,7 +23,7 @@ static void print_formats(void) {
     size_t count;
     const sl_export_format *formats = sl_export_formats(context, &count);
     puts("\nformats (the first is the default):");
-    for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
+    for (size_t i = 0; i < count; i++) help_name(formats[i].name, 10, formats[i].what, NULL);
     sl_context_destroy(context);
 }
 
@@ -34,6 +35,9 @@ static sl_status check_options(sl_context *context, const sl_export_format *form
                        given->wad ? "wad" : "map", format->name);
     if (given->json_version && format->write != sl_export_json)
         return sl_fail(context, SL_BAD_ARGUMENT, "--json-version: the format %s has no use for it",
+                       format->name);
+    if (given->prefix && format->write != sl_export_c)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--prefix: the format %s has no use for it",
                        format->name);
     return SL_OK;
 }
@@ -53,15 +57,19 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     size_t chosen = 0, count;
     sl_export_options given = {0};
     const option_spec options[] = {
-        {"output", 'o', "FILE", "where to write; stdout, or -, without it", .text = &output,
+        {"output", 'o', "FILE", "the file (default: standard output)", .text = &output,
          .check = CHECK_FILE},
-        {"format", 0, "NAME", "what to write (default: by the ending of FILE, else json)",
+        {"format", 0, "NAME", "the format (default: by the ending of FILE, else json)",
          .choice = &chosen, .names = format_table(console->context), .given = &format_given},
+        {"prefix", 0, "NAME",
+         "c: the beginning of all names (default: " SL_PREFIX_DEFAULT
+         "), so that a program can hold several maps",
+         .text = &given.prefix},
+        {"json-version", 0, "N", "json: the version of the format, 1 or 2 (default 2)",
+         .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
         {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad,
          .is_input = true},
         {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
-        {"json-version", 0, "N", "json: the version to write, 1 or 2 (default: 2)",
-         .count32 = &given.json_version, .least = 1, .most = SL_JSON_VERSION},
     };
     const command_usage usage = {
         .name = "export",
@@ -71,7 +79,8 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
         .tables = print_formats,
         .examples =
             "  sightline export office.slv --format json -o office.json\n"
-            "  sightline export e1m1.slv --format reject --wad doom.wad --map E1M1 -o new.wad",
+            "  sightline export office.slv --prefix office -o office.h\n"
+            "  sightline export e1m1.slv --format reject --wad doom.wad --map E1M1 -o a.wad",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

@@ -1,6 +1,8 @@
 /// `sightline eye`: what one viewpoint sees, by every culling method.
 #include "commands.h"
+#include "eye_files.h"
 #include "eye_run.h"
+#include "help.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
@@ -155,7 +157,8 @@ static sl_status eye_print_json(sl_context *context, const sl_baked *baked, cons
 // --- the command
 
 typedef struct eye_plan {
-    const char *input, *at_text, *shut, *output;
+    const char *input, *at_text, *output;
+    door_choice doors;
     sl_point at;
     double look, fov, range;
     const char *look_given, *fov_given, *range_given, *picture_given;
@@ -187,8 +190,8 @@ static sl_status add_objects(sl_context *context, const sl_space *space, const e
     return seen_parts_add_region(context, space, objects->count ? &objects->region : region, parts);
 }
 
-static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
-                      const eye_run *run, const eye_objects *objects) {
+static sl_status draw_space(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                            const eye_run *run, const eye_objects *objects) {
     sl_draw_options options = plan->drawing;
     sl_eye_layer layers[SL_EYE_LAYERS_MOST];
     size_t count;
@@ -214,9 +217,26 @@ static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked 
     return status;
 }
 
+/// In the picture, one-way glass that is dark for the eye is a wall.
+static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                      const eye_run *run, const eye_objects *objects) {
+    const sl_filtered_space filtered = {.eye = &plan->at};
+    sl_baked dark = *baked;
+    if (!baked->map.oneway_count) return draw_space(context, plan, baked, run, objects);
+    dark.space = (sl_space){0};
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &dark.space));
+    const sl_status status = draw_space(context, plan, &dark, run, objects);
+    sl_space_destroy(context, &dark.space);
+    return status;
+}
+
 static sl_status tell(command_console *console, const eye_plan *plan, const sl_baked *baked,
                       const eye_run *run, const eye_objects *objects) {
-    if (plan->output) SL_TRY(draw(console->context, plan, baked, run, objects));
+    if (plan->output && output_has_ending(plan->output, EYE_FILES))
+        SL_TRY(eye_files_write(console->context, baked, run, objects, plan->look, plan->fov,
+                               plan->output));
+    else if (plan->output)
+        SL_TRY(draw(console->context, plan, baked, run, objects));
     progress_line_clear(&console->line);
     if (plan->json) return eye_print_json(console->context, baked, run, objects);
     if (console->quiet && plan->output) return SL_OK;
@@ -225,25 +245,7 @@ static sl_status tell(command_console *console, const eye_plan *plan, const sl_b
     return SL_OK;
 }
 
-/// Makes walls of the one-way glass that blocks the eye, so that the picture shows it.
-static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
-    const sl_filtered_space filtered = {.eye = &eye};
-    sl_space walled;
-    if (!baked->map.oneway_count) return SL_OK;
-    if (baked->visibility.mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "glass that is dark from an eye may not be so in a mirror: bake the map "
-                       "--without mirror or --without oneway");
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
-    sl_space_destroy(context, &baked->space);
-    baked->space = walled;
-    sl_visibility trees = {.trees = baked->visibility.trees};
-    baked->visibility.trees = (sl_stab_trees){0};
-    sl_visibility_destroy(context, &trees);
-    return SL_OK;
-}
-
-/// Shut doors and blocking glass are walls of `baked` by now.
+/// Shut doors are walls of `baked` by now.
 static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
                      sl_query *query) {
     sl_context *context = console->context;
@@ -266,7 +268,6 @@ static sl_status look(command_console *console, const eye_plan *plan, sl_baked *
     sl_context *context = console->context;
     sl_query *query;
     SL_TRY(check_view(context, plan, &baked->space));
-    SL_TRY(darken(context, baked, plan->at));
     SL_TRY(sl_query_create(context, baked, &query));
     const sl_view view = sl_query_view(query, plan->at, plan->look, plan->fov);
     const sl_status status = ask(console, plan, &view, query);
@@ -279,50 +280,49 @@ static void print_methods(void) {
     const sl_eye_method *methods = sl_eye_methods(&count);
     puts("\nmethods, each within the one before:");
     for (size_t i = 0; i < count; i++)
-        printf("  %-20s%s; %s\n", methods[i].name, methods[i].what,
-               sl_guarantee_name(methods[i].guarantee));
+        help_name(methods[i].name, 20, methods[i].what, sl_guarantee_name(methods[i].guarantee));
 }
 
 sl_status cmd_eye(command_console *console, int argc, char **argv) {
     eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = sl_draw_options_default()};
     option_table picture = picture_option_table(&plan.drawing, false);
     for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
-        {"at", 0, "X,Y", "where the eye is", .point = &plan.at, .text = &plan.at_text},
-        {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
-         .text = &plan.shut},
-        {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
-         .count32 = &plan.mirror_depth, .most = 16},
+        {"at", 0, "X,Y", "the viewpoint", .point = &plan.at, .text = &plan.at_text},
+        {"look", 0, "DEG", "heading in degrees, counter-clockwise from +x", .number = &plan.look,
+         .given = &plan.look_given},
+        {"fov", 0, "DEG", "width of the view cone in degrees (default: 360)", .number = &plan.fov,
+         .most = 360, .needs = "degrees from 0 to 360 are needed", .given = &plan.fov_given},
+        {"output", 'o', "PICTURE|TABLE",
+         "a picture (.png, .svg, .pdf), or regions and cells (.geojson, .csv)",
+         .text = &plan.output, .check = CHECK_PICTURE, .endings = EYE_FILES},
+        {"json", 0, NULL, "print one JSON object: the cells that each method keeps",
+         .flag = &plan.json},
+        {.group = &doors},
         {"range", 0, "R",
-         "how far the exact method and the region see, 0 for no\nlimit; without it as far as the "
-         "map says",
+         "see no farther than R, 0: no limit (default: the map's range); for the exact method and "
+         "the region",
          .number = &plan.range, .needs = "must not be negative", .given = &plan.range_given},
+        {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
+         .count32 = &plan.mirror_depth, .most = 16},
         {"object", 0, "BOX",
-         "X0,Y0,X1,Y1 or the name of the map's object: something\nthat stands or moves where the "
-         "bake knows nothing of\nit: is it seen? With ',block' behind it, it blocks sight;\nmay "
-         "be given several times",
+         "a box X0,Y0,X1,Y1 that is not in the map, or an object of the map by name: is it seen? "
+         "',block' behind it lets it block sight; may be given several times",
          .list = &plan.objects},
-        {"look", 0, "DEG", "which way it looks, in degrees counter-clockwise\nfrom +x",
-         .number = &plan.look, .given = &plan.look_given},
-        {"fov", 0, "DEG", "how wide, 0 to 360 degrees in all; without --look\nand --fov all round",
-         .number = &plan.fov, .most = 360, .needs = "degrees from 0 to 360 are needed",
-         .given = &plan.fov_given},
-        {"output", 'o', "PICTURE", "draw it too: .png, .svg or .pdf, by the ending",
-         .text = &plan.output, .check = CHECK_PICTURE},
         {.group = &picture},
-        {"json", 0, NULL, "print JSON: the cells that each method keeps", .flag = &plan.json},
     };
     const command_usage usage = {
         .name = "eye",
         .synopsis = "FILE.slv --at X,Y [--look DEG --fov DEG] [options]",
         .operands = {"FILE.slv"},
-        .what = "Shows what one viewpoint sees: the cells that each culling method keeps, their "
-                "share of\nthe area, and what it costs.",
+        .what =
+            "Shows what one viewpoint sees: the cells that each culling method keeps, their share "
+            "of the area, and the time.",
         .tables = print_methods,
         .examples = "  sightline eye office.slv --at 53,20\n"
                     "  sightline eye office.slv --at 53,20 --look 180 --fov 60 -o eye.png\n"
+                    "  sightline eye office.slv --at 53,20 -o eye.geojson\n"
                     "  sightline eye office.slv --at 53,20 --object 40,18,41,21,block -o eye.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
@@ -330,7 +330,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
-    if (plan.picture_given && !plan.output)
+    if (plan.picture_given && (!plan.output || output_has_ending(plan.output, EYE_FILES)))
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
@@ -338,7 +338,7 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     sl_status status =
         sl_effects_check(console->context, &baked.map, "eye",
                          SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK) status = doors_shut(console->context, plan.shut, &baked);
+    if (status == SL_OK) status = doors_shut(console->context, &plan.doors, &baked);
     if (status == SL_OK) status = look(console, &plan, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;

@@ -1,5 +1,6 @@
 /// `sightline generate`: procedural maps.
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "options.h"
 #include "sightline/generate.h"
@@ -18,9 +19,12 @@ static void print_kinds(void) {
     size_t count;
     const sl_map_kind *kinds = sl_map_kinds(&count);
     puts("\nkinds, and what --size counts (defaults in parentheses):");
-    for (size_t i = 0; i < count; i++)
-        printf("  %-9s %s\n            %s (%llu)\n", kinds[i].name, kinds[i].what, kinds[i].size_is,
-               (unsigned long long)kinds[i].usual_size);
+    for (size_t i = 0; i < count; i++) {
+        char size[80];
+        snprintf(size, sizeof size, "%s (%llu)", kinds[i].size_is,
+                 (unsigned long long)kinds[i].usual_size);
+        help_name(kinds[i].name, 10, kinds[i].what, size);
+    }
 }
 
 static sl_status generate(sl_context *context, const char *name, const sl_generate_options *options,
@@ -43,31 +47,28 @@ sl_status cmd_generate(command_console *console, int argc, char **argv) {
     char walls[48];
     snprintf(walls, sizeof walls, "at least %d are needed", SL_GENERATE_WALLS_LEAST);
     const option_spec table[] = {
-        {"output", 'o', "OUT.map", "map text; without it, or for -, on stdout", .text = &output,
+        {"output", 'o', "OUT.map", "the map text (default: standard output)", .text = &output,
          .check = CHECK_FILE, .endings = ".map"},
-        {"seed", 0, "N", "the same map for the same number, on every machine;\n1 unless told",
+        {"seed", 0, "N", "seed (default 1); a seed gives the same map on every machine",
          .count = &options.seed},
-        {"size", 0, "N", "how large, as the kind counts it", .count = &options.size, .least = 1,
+        {"size", 0, "N", "size, in the unit of the kind", .count = &options.size, .least = 1,
          .most = UINT32_MAX},
-        {"walls", 0, "N", "as large as to have about so many walls, 100 to 10^7",
-         .count = &options.walls, .least = 1, .most = SL_GENERATE_WALLS_MOST, .needs = walls},
-        {"open", 0, "PERCENT",
-         "tunnels: the share that is open, 40 unless told; of one\nseed the same network",
+        {"walls", 0, "N", "choose the size for about N walls, 100 to 10^7", .count = &options.walls,
+         .least = 1, .most = SL_GENERATE_WALLS_MOST, .needs = walls},
+        {"open", 0, "PERCENT", "tunnels: share of open ground (default 40)",
          .number = &options.open, .needs = "0 to 100 percent are needed"},
         {"turned", 0, "DEG",
-         "turn the plan counter-clockwise, in doubles: walls are\nthen oblique, and in line but "
-         "for rounding",
+         "turn the map counter-clockwise, in doubles: walls in line stay so but for rounding",
          .number = &options.turned, .flag = &turned},
-        {"turned-exact", 0, "DEG", "turn it so that walls in line stay in line to the\nlast bit",
+        {"turned-exact", 0, "DEG", "turn the map so that walls in line stay exactly in line",
          .number = &options.turned, .flag = &options.in_line},
     };
     const command_usage usage = {
         .name = "generate",
         .synopsis = "KIND [-o OUT.map] [options]",
         .operands = {"KIND"},
-        .what =
-            "Makes a map by chance, walls clean and starts inside. A door is 1 wide. What a cell\n"
-            "sees does not grow with the map.",
+        .what = "Generates a random map with clean walls and a start in each part. Doors are 1 "
+                "wide. What a cell sees does not grow with the map.",
         .tables = print_kinds,
         .examples = "  sightline generate office -o office.map\n"
                     "  sightline generate tunnels --open 10 --seed 7 -o tunnels.map\n"

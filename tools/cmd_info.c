@@ -163,12 +163,7 @@ static sl_status print_map_json(sl_context *context, const info_request *request
 }
 
 static void print_effects(const sl_map *map) {
-    const name_table effects = effect_table();
-    const unsigned called_for = sl_plan_make(map).effects;
-    printf("  effects  ");
-    for (size_t i = 0; i < effects.count; i++)
-        if (called_for >> i & 1) printf(" %s", name_table_at(&effects, i));
-    puts(called_for ? " (bake --without NAME leaves one out)" : " none");
+    if (!sl_plan_make(map).effects) puts("  effects   none");
     plan_print(map);
 }
 
@@ -302,7 +297,8 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
         {"cells", space->cell_count, space->cell_count * sizeof *space->cells},
         {"vertices", space->vertex_count, space->vertex_count * sizeof *space->vertices},
         {"portals", space->portal_count, space->portal_count * sizeof *space->portals},
-        {"exits", space->directed_count, space->directed_count * sizeof *space->directed},
+        {"directed portals", space->directed_count,
+         space->directed_count * sizeof *space->directed},
         {"nodes", space->node_count, space->node_count * sizeof *space->nodes},
         {"buckets", (uint64_t)space->grid.columns * space->grid.rows, grid_bytes(&space->grid)},
         {"pairs", visibility->account.pairs, baked->by_views ? 0 : pvs_bytes(&visibility->pvs)},
@@ -385,7 +381,9 @@ static sl_status inform_of_baked(command_console *console, const info_request *r
     pvs_means mean;
     SL_TRY(input_refuse_options(console->context, request->path, &request->input));
     SL_TRY(input_parse_baked(console->context, request->path, &request->bytes, &baked));
-    sl_status status = request->shut ? doors_shut(console->context, request->shut, &baked) : SL_OK;
+    sl_status status =
+        request->shut ? doors_shut(console->context, &(door_choice){.shut = request->shut}, &baked)
+                      : SL_OK;
     if (status == SL_OK) status = mean_pvs_of(console->context, &baked, &mean);
     progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
@@ -411,16 +409,17 @@ sl_status cmd_info(command_console *console, int argc, char **argv) {
     const option_table input = input_option_table(&request.input);
     const option_spec options[] = {
         {"json", 0, NULL, "print one JSON object", .flag = &request.json},
-        {"shut", 0, "NAME,...", "of a baked file: with these doors shut", .text = &request.shut},
+        {"shut", 0, "NAME,...", "shut these doors of a baked file (it counts what is still seen)",
+         .text = &request.shut},
         {.group = &input},
     };
     const command_usage usage = {
         .name = "info",
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Prints what a map holds, what cleaning its walls would do and which effects it\n"
-                "calls for; of a baked file (by its ending, .slv) its parts, how it was baked and\n"
-                "how much a cell sees.",
+        .what = "Shows what a map holds: walls, doors, starts, effects, and what cleaning would "
+                "change. Of a baked file it shows the parts, how it was baked, and how much a cell "
+                "sees.",
         .tables = input_print_formats,
         .examples = "  sightline info office.map\n"
                     "  sightline info office.slv --json",

@@ -1,6 +1,7 @@
 /// `sightline isovist`: visible regions of many points, their measures, heat maps.
 #include "commands.h"
 #include "eye_run.h"
+#include "heat_map.h"
 #include "isovist.h"
 #include "json_print.h"
 #include "outputs.h"
@@ -15,6 +16,7 @@
 typedef struct isovist_plan {
     const char *input, *path, *csv, *output, *picture;
     map_pipeline pipeline;
+    door_choice doors;
     option_list at;
     eye_place like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
@@ -30,6 +32,7 @@ typedef struct isovist_plan {
 /// The space, and what its eyes see.
 typedef struct isovist_work {
     sl_baked baked;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_outline outline;
     sl_room_mirrors mirrors;
     isovist_scene scene;
@@ -136,26 +139,6 @@ static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isov
     return eyes_add_grid(context, space, step, plan->like, &w->eyes);
 }
 
-/// The name of a measure in words.
-static void write_measure(size_t measure, char *text, size_t size) {
-    const name_table measures = isovist_measures();
-    snprintf(text, size, "%s", name_table_at(&measures, measure));
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
-}
-
-/// "office: area", or "doom.wad E1M1: area" for one of several maps.
-static void write_title(const isovist_plan *plan, const char *measure, char *text, size_t size) {
-    const char *slash = strrchr(plan->input, '/'), *map = plan->pipeline.input.import.map;
-    char name[256], readable[256];
-    snprintf(name, sizeof name, "%s", slash ? slash + 1 : plan->input);
-    char *ending = strrchr(name, '.');
-    if (ending && ending != name && !map) *ending = '\0';
-    text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);
-    const char *known = map && sl_text_is_utf8(map) ? map : "";
-    snprintf(text, size, "%s%s%.64s: %s", readable, *known ? " " : "", known, measure);
-}
-
 static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
     const eye_places *eyes = &w->eyes;
     const size_t count = eyes->columns * eyes->rows;
@@ -164,21 +147,23 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     for (size_t i = 0; i < count; i++) values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count; i++)
         values[eyes->squares.items[i]] = isovist_value(&w->isovists[i], plan->measure);
-    char measure[64], title[512];
-    write_measure(plan->measure, measure, sizeof measure);
-    write_title(plan, measure, title, sizeof title);
-    sl_draw_options drawing = plan->drawing;
-    if (!drawing.title) drawing.title = title;
-    const sl_field field = {.name = measure,
-                            .corner = eyes->corner,
-                            .step = eyes->step,
-                            .columns = eyes->columns,
-                            .rows = eyes->rows,
-                            .values = values,
-                            .least = plan->scale.x,
-                            .most = plan->scale.y};
-    const sl_status status =
-        sl_draw_field_file(context, &w->baked, &field, &drawing, plan->picture);
+    char unit[ISOVIST_UNIT];
+    isovist_unit(plan->measure, w->baked.map.unit, unit);
+    const name_table measures = isovist_measures();
+    const heat_map heat = {.input = plan->input,
+                           .map = plan->pipeline.input.import.map,
+                           .measure = name_table_at(&measures, plan->measure),
+                           .drawing = &plan->drawing,
+                           .path = plan->picture};
+    sl_field field = {.unit = *unit ? unit : NULL,
+                      .corner = eyes->corner,
+                      .step = eyes->step,
+                      .columns = eyes->columns,
+                      .rows = eyes->rows,
+                      .values = values,
+                      .least = plan->scale.x,
+                      .most = plan->scale.y};
+    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
     sl_free(context, values);
     return status;
 }
@@ -221,16 +206,28 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
     return status;
 }
 
+/// One outline serves all eyes: glass is a wall on its dark side alone.
+static sl_status make_outline(sl_context *context, isovist_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sl_space *space = &w->baked.space;
+    if (w->baked.map.oneway_count) {
+        SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &w->dark));
+        space = &w->dark;
+    }
+    return sl_outline_make(context, space, &w->outline);
+}
+
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
-                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR, &w->baked));
+    SL_TRY(pipeline_read_space(
+        context, &plan->pipeline, "isovist",
+        SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
-    SL_TRY(doors_shut(context, NULL, &w->baked));
+    SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
-    SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
+    SL_TRY(make_outline(context, w));
     w->scene = (isovist_scene){&w->outline, NULL, plan->range, plan->mirror_depth};
     if (w->baked.map.mirror_count) {
         SL_TRY(sl_room_mirrors_make(context, &w->outline, &w->baked.map, &w->mirrors));
@@ -262,52 +259,54 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                          .drawing = sl_draw_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"at", 0, "X,Y", "look from a point; may be given several times", .list = &plan.at},
-        {"grid", 0, "STEP", "look from a grid over the map's inside", .number = &plan.grid,
+        {"grid", 0, "STEP", "look from all points of a grid that are inside", .number = &plan.grid,
          .over_0 = true},
-        {"cells", 0, "N", "likewise, N squares along the map's longer side", .count32 = &plan.cells,
-         .least = 1, .most = 8192, .given = &plan.cells_given},
-        {"path", 0, "NAME", "look from the points of a path of the map", .text = &plan.path},
-        {"step", 0, "STEP", "look every STEP along the path instead", .number = &plan.step,
-         .over_0 = true},
-        {"csv", 0, "FILE", "look from a table: x, y, and maybe angle, field of\nview, in degrees",
-         .text = &plan.csv, .is_input = true},
-        {"look", 0, "DEGREES", "heading, counter-clockwise from +x", .number = &plan.like.look,
-         .given = &plan.look_given},
-        {"fov", 0, "DEGREES", "width of the view cone; 360 without it", .number = &plan.like.fov,
-         .most = 360, .needs = "0 to 360 degrees are needed"},
-        {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
-         .count32 = &plan.mirror_depth, .most = 16},
-        {"range", 0, "R", "see no farther; without it the map's range, if any",
-         .number = &plan.range, .over_0 = true, .given = &plan.range_given},
-        {"output", 'o', "FILE.csv",
-         "where the table goes; without it to stdout,\nor nowhere where there is a --picture",
-         .text = &plan.output, .check = CHECK_TABLE},
-        {"picture", 0, "PICTURE",
-         "draw what the points see, or a heat map of the\ngrid: .png, .svg or .pdf, by the ending",
+        {"output", 'o', "TABLE",
+         "the table: .csv, or .geojson with the regions (default: CSV to standard output)",
+         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
+        {"picture", 0, "PICTURE", "draw the regions, or a heat map of the grid: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
-        {"measure", 0, "NAME", "what the heat map shows; area without it", .choice = &plan.measure,
-         .names = isovist_measures(), .given = &plan.measure_given},
+        {"measure", 0, "NAME", "the measure of the heat map (default: area)",
+         .choice = &plan.measure, .names = isovist_measures(), .given = &plan.measure_given},
         {"scale", 0, "MIN,MAX",
-         "the ends of the heat map's colour scale, to compare\npictures (default: smallest and "
-         "largest value)",
+         "the ends of the colour scale, to compare pictures (default: smallest and largest value)",
          .point = &plan.scale, .given = &plan.scale_given},
+        {"look", 0, "DEGREES", "heading in degrees, counter-clockwise from +x",
+         .number = &plan.like.look, .given = &plan.look_given},
+        {"fov", 0, "DEGREES", "width of the view cone (default: 360)", .number = &plan.like.fov,
+         .most = 360, .needs = "0 to 360 degrees are needed", .rare = true},
+        {"range", 0, "R", "see no farther than R (default: the map's range)", .number = &plan.range,
+         .over_0 = true, .given = &plan.range_given},
+        {"cells", 0, "N", "look from a grid with N squares along the map's longer side",
+         .count32 = &plan.cells, .least = 1, .most = 8192, .given = &plan.cells_given,
+         .rare = true},
+        {"path", 0, "NAME", "look from the points of a path of the map", .text = &plan.path,
+         .rare = true},
+        {"step", 0, "STEP", "with --path: look from a point every STEP along it",
+         .number = &plan.step, .over_0 = true, .rare = true},
+        {"csv", 0, "FILE", "look from the points of a table: x,y or x,y,angle or x,y,angle,fov",
+         .text = &plan.csv, .is_input = true, .rare = true},
+        {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
+         .count32 = &plan.mirror_depth, .most = 16, .rare = true},
+        {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &plan.threads,
+         .most = 1024, .rare = true},
+        {.group = &doors},
         {.group = &picture},
-        {"threads", 0, "N", "0, as without it: one a core", .count32 = &plan.threads, .most = 1024},
         {.group = &pipeline},
     };
     const command_usage usage = {
         .name = "isovist",
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Finds the region that is seen from each of many points, exactly, and prints its "
-                "measures\nas CSV, under the names that depthmapX gives them. Without a word on "
-                "where to look\nfrom, that is from the map's starts.",
+        .what = "Computes the region that is visible from each of many points, exactly, and its "
+                "measures under the names of depthmapX. Default viewpoints: the map's starts.",
         .tables = print_tables,
         .examples = "  sightline isovist office.map --at 53,20 --picture seen.png\n"
-                    "  sightline isovist office.map --grid 0.5 --measure occlusivity --picture "
-                    "heat.png -o all.csv",
+                    "  sightline isovist office.map --grid 0.5 --picture heat.png -o all.csv\n"
+                    "  sightline isovist office.map --grid 2 -o seen.geojson",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
@@ -321,6 +320,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     eyes_destroy(console->context, &w.eyes);
     sl_room_mirrors_destroy(console->context, &w.mirrors);
     sl_outline_destroy(console->context, &w.outline);
+    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }

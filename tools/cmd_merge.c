@@ -142,15 +142,16 @@ static sl_status merge_and_report(command_console *console, merge_plan *plan) {
 sl_status cmd_merge(command_console *console, int argc, char **argv) {
     merge_plan plan = {0};
     const option_spec options[] = {
-        {"output", 'o', "FILE.slv", "where to write", .text = &plan.output, .check = CHECK_BAKED},
+        {"output", 'o', "FILE.slv", "the baked file", .text = &plan.output, .check = CHECK_BAKED},
     };
     const command_usage usage = {
         .name = "merge",
         .synopsis = "PART.slv [PART.slv ...] -o FILE.slv",
         .operands = {"PART.slv"},
-        .what = "Puts the shards of a bake together, in any order: the same file, byte for byte, "
-                "as\none bake would have written. Shards that are missing, there twice, not "
-                "finished or\nof another map or other options are told by name.",
+        .what =
+            "Joins the shards of a bake, in any order. The file is the same, byte for byte, as "
+            "one bake would write. Names the shards that are missing, doubled, not finished, or "
+            "of another map.",
         .examples = "  sightline bake city.map --shard 1/2 -o city.1.slv\n"
                     "  sightline bake city.map --shard 2/2 -o city.2.slv\n"
                     "  sightline merge city.1.slv city.2.slv -o city.slv",

@@ -1,5 +1,6 @@
 /// `sightline regions`: what view cells see, by every from-region method (Laine 2005).
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "pipeline.h"
@@ -170,7 +171,9 @@ static sl_status measure_map(sl_context *context, const regions_plan *plan, cons
     const char *base = input_base_name(path, &length);
     snprintf(name, sizeof name, "%.*s", (int)length, base);
     sl_status status = pipeline_read_clean(context, &pipeline, &map, NULL);
-    if (status == SL_OK) status = sl_effects_check(context, &map, "regions", 0);
+    if (status == SL_OK)
+        status = sl_effects_check_because(context, &map, "regions", 0,
+                                          "the methods that it compares know walls alone");
     if (status == SL_OK) status = note_inside(context, &pipeline, &map);
     if (status == SL_OK) status = regions_measure(context, &map, name, &what, &plan->how, rows);
     sl_map_destroy(context, &map);
@@ -216,12 +219,11 @@ static void print_tables(void) {
     size_t count;
     puts("\nmethods, all of which run:");
     const sl_from_region_method *methods = sl_from_region_methods(&count);
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    for (size_t i = 0; i < count; i++) help_name(methods[i].name, 12, methods[i].what, NULL);
     puts("\nsolvers (the first is the default):");
     const sl_from_region_solver *solvers = sl_from_region_solvers(&count);
     for (size_t i = 0; i < count; i++)
-        printf("  %-12s%s; %s\n", solvers[i].name, solvers[i].what,
-               sl_guarantee_name(solvers[i].guarantee));
+        help_name(solvers[i].name, 12, solvers[i].what, sl_guarantee_name(solvers[i].guarantee));
     pipeline_print_effects();
     input_print_formats();
 }
@@ -231,6 +233,7 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
                          .what = sl_regions_options_default(),
                          .how = sl_from_region_options_default(),
                          .grid = "2,4,8"};
+    plan.pipeline.settles_doors = true;
     plan.view_cells = plan.what.view_cells;
     plan.objects = plan.what.objects;
     plan.how.sight = SL_CLOSED;
@@ -244,39 +247,37 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
     const option_table without = pipeline_without_table(&plan.pipeline);
     const char **sampling = &plan.for_sampling, **stabs = &plan.for_stabs;
     const option_spec options[] = {
-        {"output", 'o', "DIR",
-         "a folder for regions.csv and the charts refine and work\n(.png, .svg); made if missing",
+        {"output", 'o', "DIR", "write regions.csv and charts (.png, .svg) to this folder",
          .text = &plan.output},
-        {"also", 0, "MAP", "a map beside; may be given several times", .list = &plan.also},
-        {"grid", 0, "N,...", "N x N view cells, for each number; 2,4,8 without it",
-         .text = &plan.grid, .given = &plan.grid_given},
+        {"also", 0, "MAP", "another map; may be given several times", .list = &plan.also},
+        {"grid", 0, "N,...", "use N x N view cells, for each N (default 2,4,8)", .text = &plan.grid,
+         .given = &plan.grid_given},
         {"view-cells", 0, "KIND",
-         "grid (the default), leaves of the kd-tree, or the map's\n'object' boxes, those of one "
-         "name together",
+         "what view cells are: grid (default), leaves of the kd-tree, or the map's 'object' boxes",
          .choice = &plan.view_cells, .names = cell_kinds},
-        {"cut", 0, NULL, "cut view cells that depend on each other round a cycle",
-         .flag = &plan.what.cut_cycles},
         {"objects", 0, "KIND",
-         "groups of walls (the default), walls, the map's 'object'\nboxes, or cells of the "
-         "kd-tree",
+         "what is seen: groups of walls (default), walls, the map's 'object' boxes, or cells",
          .choice = &plan.objects, .names = kinds},
-        {"groups", 0, "N", "how many; 1800 without it", .count32 = &plan.what.groups,
-         .given = &plan.groups_given},
-        {"solver", 0, "NAME", "what decides on what is seen", .choice = &plan.solver,
-         .names = solvers},
-        {"points", 0, "N", "sampling: points along the map's longer side; 256",
-         .count32 = &plan.how.points, .most = 1u << 20, .given = sampling},
-        {"pixels", 0, "N", "sampling: lines from a point in half a quadrant; 32",
-         .count32 = &plan.how.pixels, .most = 1u << 16, .given = sampling},
-        {"seed", 0, "S", "sampling: what lines are drawn from; 1", .count = &plan.how.seed,
-         .given = sampling},
-        {"stab", 0, "NAME", "stabs: the stabbing solver; funnel", .choice = &plan.stab,
-         .names = solver_table(), .given = stabs},
-        {"sight", 0, "closed|open", "stabs: whether grazing lines count; closed",
-         .sight = &plan.how.sight, .given = stabs},
-        {"threads", 0, "N", "0, the default, for one a core", .count32 = &plan.how.threads,
-         .most = 1024},
-        {"dark", 0, NULL, "charts light on dark", .flag = &plan.dark},
+        {"solver", 0, "NAME", "how to decide what is seen (default: sampling)",
+         .choice = &plan.solver, .names = solvers},
+        {"threads", 0, "N", "number of threads (default: one per core)",
+         .count32 = &plan.how.threads, .most = 1024},
+        {"cut", 0, NULL, "cut view cells that depend on each other in a cycle",
+         .flag = &plan.what.cut_cycles, .rare = true},
+        {"groups", 0, "N", "number of groups of walls (default 1800)", .count32 = &plan.what.groups,
+         .given = &plan.groups_given, .rare = true},
+        {"points", 0, "N", "sampling: points along the map's longer side (default 256)",
+         .count32 = &plan.how.points, .most = 1u << 20, .given = sampling, .rare = true},
+        {"pixels", 0, "N", "sampling: lines from a point in half a quadrant (default 32)",
+         .count32 = &plan.how.pixels, .most = 1u << 16, .given = sampling, .rare = true},
+        {"seed", 0, "S", "sampling: seed of the lines (default 1)", .count = &plan.how.seed,
+         .given = sampling, .rare = true},
+        {"stab", 0, "NAME", "stabs: the stabbing solver (default: funnel)", .choice = &plan.stab,
+         .names = solver_table(), .given = stabs, .rare = true},
+        {"sight", 0, "closed|open",
+         "stabs: whether lines that only touch wall ends count (default: closed, they do)",
+         .sight = &plan.how.sight, .given = stabs, .rare = true},
+        {"dark", 0, NULL, "draw charts light on dark", .flag = &plan.dark, .rare = true},
         {.group = &input_table},
         {.group = &without},
     };
@@ -284,14 +285,14 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
         .name = "regions",
         .synopsis = "MAP [--also MAP ...] [-o DIR] [options]",
         .operands = {"MAP"},
-        .what = "Which objects are seen from which view cells, by every method with the same\n"
-                "solver under it: what the refine sets come to, and the time (Laine 2005). Walls\n"
-                "must be axial. Methods must find the same: where they do not, the command fails.",
+        .what =
+            "Computes which objects are seen from which view cells, by every method with the same "
+            "solver: sizes of refine sets, and times (Laine 2005). Walls must be axial. The "
+            "command fails if the methods differ.",
         .tables = print_tables,
         .examples = "  sightline regions office.map --objects walls --grid 4\n"
                     "  sightline regions t10.map --also t100.map -o out --threads 1\n"
-                    "  sightline regions office.map --view-cells leaves --objects cells --solver "
-                    "stabs",
+                    "  sightline regions a.map --view-cells leaves --objects cells --solver stabs",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

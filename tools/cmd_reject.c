@@ -104,18 +104,16 @@ sl_status cmd_reject(command_console *console, int argc, char **argv) {
     reject_plan plan = {.options = sl_reject_options_default()};
     plan.options.row_bytes = sl_machine_memory() / 2;
     const option_spec options[] = {
-        {"output", 'o', "OUT.wad", "where to write the copy; - for stdout", .text = &plan.output,
+        {"output", 'o', "OUT.wad", "the copy; '-': standard output", .text = &plan.output,
          .check = CHECK_FILE, .endings = ".wad"},
         {"map", 0, "NAME", "only this map; may be given several times", .list = &plan.maps},
         {"sight", 0, "closed|open",
-         "open (the default): lines that only touch wall ends\nhide; closed: they count as seen",
+         "whether lines that only touch wall ends count: open (default): no; closed: yes",
          .sight = &plan.options.sight},
-        {"threads", 0, "N",
-         "0, the default, for one a core;\nthe result is the same for any number",
+        {"threads", 0, "N", "number of threads (default: one per core)",
          .count32 = &plan.options.threads, .most = MAX_THREADS},
         {"memory", 0, "SIZE",
-         "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
-         "told",
+         "memory for the visible sets while they grow: 64M, 2G (default: half of the machine's)",
          .bytes = &plan.options.row_bytes},
         {"json", 0, NULL, "print the statistics as one JSON object", .flag = &plan.json},
     };
@@ -124,12 +122,9 @@ sl_status cmd_reject(command_console *console, int argc, char **argv) {
         .synopsis = "IN.wad -o OUT.wad [--map NAME ...] [options]",
         .operands = {"IN.wad"},
         .what =
-            "Makes the REJECT of all maps of a Doom WAD anew, in one go, in a copy of the WAD:\n"
-            "which sectors never see each other. Nothing is hidden that a line past all lines "
-            "with\n"
-            "one side joins, doors being open. All other lumps stay as they are. The copy is\n"
-            "written when all maps are done; what fails or is stopped leaves an older OUT.wad as\n"
-            "it was.",
+            "Computes the REJECT tables of all maps of a Doom WAD: which sectors never see each "
+            "other. Writes a copy of the WAD. Doors count as open, and no pair is hidden that a "
+            "free line joins. All other lumps stay as they are.",
         .examples = "  sightline reject mine.wad -o mine-reject.wad\n"
                     "  sightline reject doom2.wad -o out.wad --map MAP01 --map MAP07",
         .options = options,

@@ -1,10 +1,13 @@
 /// `sightline viewcells`: view cells that adapt to what is seen (Mattausch et al. 2006).
 #include "commands.h"
+#include "help.h"
+#include "inputs.h"
 #include "json_print.h"
 #include "outputs.h"
 #include "pipeline.h"
 #include "report.h"
 #include "sightline/draw.h"
+#include "sightline/geojson.h"
 #include "sightline/support.h"
 #include "view_run.h"
 
@@ -168,40 +171,107 @@ static sl_point middle_of(const sl_view_tree *tree, uint32_t leaf) {
     return sum;
 }
 
-/// The elementary cells of a view cell: their number, and the one with the largest mass.
+/// The elementary cells of view cells.
 typedef struct members {
-    uint32_t count, largest;
+    uint32_t *first;   ///< by view cell, and one more: list[first[i] .. first[i + 1])
+    uint32_t *list;    ///< elementary cells, ascending for each view cell
+    uint32_t *largest; ///< by view cell: the one with the largest mass
 } members;
 
-static sl_status write_rows(sl_context *context, const view_run *run, FILE *out) {
-    const sl_view_hierarchy *h = view_run_told(run);
-    members *of = sl_alloc_array(context, run->cell_count, sizeof *of);
-    if (!of) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < h->cell_count; i++) {
-        members *m = &of[run->view_cells[i]];
-        if (!m->count++ || run->tree.mass[i] > run->tree.mass[m->largest]) m->largest = i;
+static void members_destroy(sl_context *context, members *of) {
+    sl_free(context, of->first);
+    sl_free(context, of->list);
+    sl_free(context, of->largest);
+}
+
+static sl_status members_find(sl_context *context, const view_run *run, members *of) {
+    const uint32_t all = view_run_told(run)->cell_count, count = run->cell_count;
+    *of = (members){sl_alloc_array(context, (size_t)count + 2, sizeof *of->first),
+                    sl_alloc_array(context, all, sizeof *of->list),
+                    sl_alloc_array(context, count, sizeof *of->largest)};
+    if (!of->first || !of->list || !of->largest) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < all; i++) of->first[run->view_cells[i] + 2]++;
+    for (uint32_t i = 0; i < count; i++) of->first[i + 2] += of->first[i + 1];
+    for (uint32_t i = 0; i < all; i++) of->list[of->first[run->view_cells[i] + 1]++] = i;
+    for (uint32_t cell = 0; cell < count; cell++) {
+        of->largest[cell] = of->list[of->first[cell]];
+        for (uint32_t i = of->first[cell]; i < of->first[cell + 1]; i++)
+            if (run->tree.mass[of->list[i]] > run->tree.mass[of->largest[cell]])
+                of->largest[cell] = of->list[i];
     }
-    fputs("view_cell,probability,cost,objects,bytes,elementary_cells,x,y\n", out);
-    for (uint32_t i = 0; i < run->cell_count; i++) {
-        const uint32_t number = run->numbers[i];
-        const sl_point at = middle_of(&run->tree, of[i].largest);
-        fprintf(out, "%u,", i);
-        put(out, h->mass[number], ',');
-        put(out, h->cost[number], ',');
-        fprintf(out, "%u,%" PRIu64 ",%u,", h->objects[number], h->bytes[number], of[i].count);
-        put(out, at.x, ',');
-        put(out, at.y, '\n');
-    }
-    sl_free(context, of);
     return SL_OK;
 }
 
-/// Writes one row for each view cell: number, probability, cost, objects, bytes, number of
-/// elementary cells, and a point in the largest of them.
-static sl_status view_report_write_csv(sl_context *context, const view_run *run, const char *path) {
+static uint32_t members_count(const members *of, uint32_t view_cell) {
+    return of->first[view_cell + 1] - of->first[view_cell];
+}
+
+static sl_status write_rows(const view_run *run, const members *of, FILE *out) {
+    const sl_view_hierarchy *h = view_run_told(run);
+    fputs("view_cell,probability,cost,objects,bytes,elementary_cells,x,y\n", out);
+    for (uint32_t i = 0; i < run->cell_count; i++) {
+        const uint32_t number = run->numbers[i];
+        const sl_point at = middle_of(&run->tree, of->largest[i]);
+        fprintf(out, "%u,", i);
+        put(out, h->mass[number], ',');
+        put(out, h->cost[number], ',');
+        fprintf(out, "%u,%" PRIu64 ",%u,", h->objects[number], h->bytes[number],
+                members_count(of, i));
+        put(out, at.x, ',');
+        put(out, at.y, '\n');
+    }
+    return SL_OK;
+}
+
+static void put_members(sl_json_writer *json, const members *of, uint32_t view_cell) {
+    sl_json_put_key(json, "members");
+    sl_json_put_list(json);
+    for (uint32_t i = of->first[view_cell]; i < of->first[view_cell + 1]; i++)
+        sl_json_put_integer(json, of->list[i]);
+    sl_json_put_end(json, ']');
+}
+
+/// Each view cell as its shape, with the columns of its line in the table and its members.
+static sl_status write_places(sl_context *context, const view_run *run, const members *of,
+                              FILE *file) {
+    const sl_view_hierarchy *h = view_run_told(run);
+    sl_shapes shapes;
+    SL_TRY(sl_view_shapes(context, &run->tree, run->view_cells, run->cell_count, &shapes));
+    sl_geojson_writer out = sl_geojson_begin(file);
+    for (uint32_t i = 0; i < run->cell_count && !ferror(file); i++) {
+        const uint32_t number = run->numbers[i];
+        const sl_point at = middle_of(&run->tree, of->largest[i]);
+        sl_geojson_put_shape(&out, "view_cell", &shapes, i);
+        sl_geojson_add_count(&out, "view_cell", i);
+        sl_geojson_add_real(&out, "probability", h->mass[number]);
+        sl_geojson_add_real(&out, "cost", h->cost[number]);
+        sl_geojson_add_count(&out, "objects", h->objects[number]);
+        sl_geojson_add_count(&out, "bytes", h->bytes[number]);
+        sl_geojson_add_count(&out, "elementary_cells", members_count(of, i));
+        sl_geojson_add_real(&out, "x", at.x);
+        sl_geojson_add_real(&out, "y", at.y);
+        put_members(&out.json, of, i);
+        sl_geojson_end_feature(&out);
+    }
+    sl_geojson_end(&out);
+    sl_view_shapes_free(context, &shapes);
+    return SL_OK;
+}
+
+/// Writes a row or a feature for each view cell: number, probability, cost, objects, bytes, number
+/// of elementary cells, and a point in the largest of them.
+static sl_status view_report_write(sl_context *context, const view_run *run, const char *path) {
+    members of;
     sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, write_rows(context, run, output.stream));
+    sl_status status = members_find(context, run, &of);
+    if (status == SL_OK) status = sl_output_open(context, path, &output);
+    if (status == SL_OK)
+        status = sl_output_close(context, &output,
+                                 input_ends_with(path, ".geojson")
+                                     ? write_places(context, run, &of, output.stream)
+                                     : write_rows(run, &of, output.stream));
+    members_destroy(context, &of);
+    return status;
 }
 
 /// Draws the view cells, coloured by cost.
@@ -339,7 +409,8 @@ static sl_status read_space(sl_context *context, viewcells_plan *plan, view_run 
     sl_baked *baked = &run->baked;
     const double start = sl_seconds();
     SL_TRY(pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
-    SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
+    SL_TRY(sl_effects_check_because(context, &baked->map, "viewcells", 0,
+                                    "the lines that it samples end at walls alone"));
     const double read = sl_seconds();
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
@@ -360,7 +431,7 @@ static sl_status work(command_console *console, viewcells_plan *plan, view_run *
     const sl_subdivision *way = asked ? asked : sl_subdivision_for(&run->baked.map);
     const view_report report = {
         .input = plan->input, .subdivide = way->name, .options = &plan->run, .run = run};
-    if (plan->output) SL_TRY(view_report_write_csv(context, run, plan->output));
+    if (plan->output) SL_TRY(view_report_write(context, run, plan->output));
     if (plan->picture) SL_TRY(view_report_draw(context, &report, &plan->drawing, plan->picture));
     if (plan->slv) {
         SL_TRY(view_run_see(context, &plan->run,
@@ -378,7 +449,7 @@ static void print_tables(void) {
     size_t count;
     const sl_view_method *methods = sl_view_methods(&count);
     puts("\nmethods:");
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    for (size_t i = 0; i < count; i++) help_name(methods[i].name, 12, methods[i].what, NULL);
     pipeline_print_subdivisions();
     pipeline_print_effects();
     input_print_formats();
@@ -394,6 +465,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
         .objects = SL_VIEW_WALLS,
     };
     view_run_options *run = &plan.run;
+    plan.pipeline.settles_doors = true;
     run->evaluation = 2 * run->sampling.samples;
     size_t count;
     const sl_view_method *methods = sl_view_methods(&count);
@@ -401,74 +473,80 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
     const option_spec options[] = {
-        {"cells", 0, "N", "so many view cells", .count = &run->cells, .least = 1, .most = MAX_COUNT,
-         .given = &plan.cells_given},
-        {"memory", 0, "BYTES", "as many as their visible sets fit into: 4096, 64K, 2M",
+        {"cells", 0, "N", "make this number of view cells", .count = &run->cells, .least = 1,
+         .most = MAX_COUNT, .given = &plan.cells_given},
+        {"memory", 0, "BYTES", "make as many as their visible sets fit into: 4096, 64K, 2M",
          .bytes = &run->bytes, .given = &plan.memory_given},
         {"tolerance", 0, "X",
-         "as few as cost no more than 1 + X times the least;\nwithout a word 0.1",
+         "make the fewest whose cost is within a factor 1 + X of the minimum (default 0.1)",
          .number = &run->tolerance, .needs = "0 or more is needed", .given = &plan.tolerance_given},
-        {"method", 0, "NAME", "how to make them; av-m without it", .choice = &plan.method,
+        {"method", 0, "NAME", "how to make view cells (default: av-m)", .choice = &plan.method,
          .names = method_names},
-        {"elementary", 0, "N",
-         "elementary view cells to divide into first: 2000,\nor four times as many as --cells",
-         .count32 = &plan.elementary, .least = 1, .most = MAX_COUNT,
-         .given = &plan.elementary_given},
-        {"samples", 0, "N", "lines to sample visibility by, 200000 unless told",
-         .count = &run->sampling.samples, .most = UINT32_MAX},
-        {"evaluate", 0, "N",
-         "other lines to tell costs by: 400000; 0, as without it\nfor hybrid: by what cells were "
-         "merged by",
-         .count = &run->evaluation, .most = UINT32_MAX, .given = &plan.evaluate_given},
-        {"exact", 0, NULL,
-         "merge by, and tell costs by, the exact sets of all\nelementary cells, in cells of the "
-         "space",
-         .flag = &run->exact},
-        {"objects", 0, "KIND",
-         "what is seen: walls, at the ends of lines, or cells\nof the space, along them",
-         .choice = &plan.objects, .names = object_table, .given = &plan.objects_given},
-        {"render", 0, "A,B,C",
-         "an object costs max(A, B * walls, C * share of the\nfull circle); 1,0,0 unless told",
-         .text = &plan.render},
-        {"paths", 0, NULL, "viewpoints are along the map's paths", .flag = &run->paths},
-        {"step", 0, "STEP", "how far apart on them", .number = &run->step, .over_0 = true,
-         .given = &plan.step_given},
-        {"density", 0, "PICTURE",
-         "viewpoints are where a picture over the map's bounds\nis light: .png, .pgm",
-         .text = &run->density},
-        {"candidates", 0, "N",
-         "splits tried for a cell, drawn at random; 0, as\nwithout it: all that can be best",
-         .count32 = &run->subdivision.candidates, .most = MAX_COUNT},
-        {"wall-splits", 0, "N", "walls' own lines tried for a cell; 0 without it",
-         .count32 = &run->subdivision.wall_splits, .most = MAX_COUNT},
-        {"seed", 0, "N", "of what is drawn at random, 1 without it", .count = &run->sampling.seed},
-        {"threads", 0, "N", "0, as without it: one a core", .count32 = &run->sampling.threads,
-         .most = 1024},
-        {"output", 'o', "FILE.csv", "a table of the view cells; - for stdout", .text = &plan.output,
-         .check = CHECK_TABLE},
+        {"output", 'o', "TABLE", "table of the view cells: .csv, or .geojson with their shapes",
+         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
         {"picture", 0, "PICTURE", "draw the cells by their cost: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
-        {"slv", 0, "FILE.slv",
-         "bake the map with these view cells: exact sets, for\nthe tools and for games",
+        {"slv", 0, "FILE.slv", "bake the map with these view cells: exact sets, for games",
          .text = &plan.slv, .check = CHECK_BAKED},
-        {"by-views", 0, NULL,
-         "leave out of it what single cells see: each then sees\nwhat its view cell does, and the "
-         "file is smaller",
-         .flag = &plan.by_views},
-        {"see", 0, "NAME", "the method of bake for that; sweep without it", .choice = &plan.see,
-         .names = method_table(), .given = &plan.see_given},
-        {.group = &picture},
         {"json", 0, NULL, "print the report as one JSON object", .flag = &plan.json},
+        {"by-views", 0, NULL,
+         "with --slv: leave out the sets of single cells; the file is smaller, and a cell sees "
+         "what "
+         "its view cell does",
+         .flag = &plan.by_views, .rare = true},
+        {"see", 0, "NAME", "with --slv: the method of the bake (default: sweep)",
+         .choice = &plan.see, .names = method_table(), .given = &plan.see_given, .rare = true},
+        {"elementary", 0, "N",
+         "number of elementary view cells to begin with (default: 2000, or four times --cells)",
+         .count32 = &plan.elementary, .least = 1, .most = MAX_COUNT,
+         .given = &plan.elementary_given, .topic = "sampling", .rare = true},
+        {"samples", 0, "N", "number of lines that sample visibility (default 200000)",
+         .count = &run->sampling.samples, .most = UINT32_MAX, .topic = "sampling", .rare = true},
+        {"evaluate", 0, "N",
+         "number of other lines that measure the cost (default 400000; 0: none, the cost is that "
+         "of "
+         "merging)",
+         .count = &run->evaluation, .most = UINT32_MAX, .given = &plan.evaluate_given,
+         .topic = "sampling", .rare = true},
+        {"exact", 0, NULL, "merge and measure by exact sets of all elementary cells",
+         .flag = &run->exact, .topic = "sampling", .rare = true},
+        {"objects", 0, "KIND",
+         "what is seen: walls (at the ends of lines), or cells of the space (along lines)",
+         .choice = &plan.objects, .names = object_table, .given = &plan.objects_given,
+         .topic = "sampling", .rare = true},
+        {"render", 0, "A,B,C",
+         "cost of an object: max(A, B * walls, C * share of the full circle) (default 1,0,0)",
+         .text = &plan.render, .topic = "sampling", .rare = true},
+        {"paths", 0, NULL, "take viewpoints from the map's paths", .flag = &run->paths,
+         .topic = "sampling", .rare = true},
+        {"step", 0, "STEP", "distance of the viewpoints on them", .number = &run->step,
+         .over_0 = true, .given = &plan.step_given, .topic = "sampling", .rare = true},
+        {"density", 0, "PICTURE",
+         "take viewpoints where a picture over the map's bounds is light: .png, .pgm",
+         .text = &run->density, .topic = "sampling", .rare = true},
+        {"candidates", 0, "N",
+         "number of random splits to try for a cell (default: all that count)",
+         .count32 = &run->subdivision.candidates, .most = MAX_COUNT, .topic = "sampling",
+         .rare = true},
+        {"wall-splits", 0, "N", "number of walls whose lines are tried for a cell (default 0)",
+         .count32 = &run->subdivision.wall_splits, .most = MAX_COUNT, .topic = "sampling",
+         .rare = true},
+        {"seed", 0, "N", "seed of all random numbers (default 1)", .count = &run->sampling.seed,
+         .topic = "sampling", .rare = true},
+        {"threads", 0, "N", "number of threads (default: one per core)",
+         .count32 = &run->sampling.threads, .most = 1024, .topic = "sampling", .rare = true},
+        {.group = &picture},
         {.group = &pipeline},
     };
     const command_usage usage = {
         .name = "viewcells",
-        .synopsis = "MAP [--cells N | --memory BYTES | --tolerance X] [options]",
+        .synopsis = "MAP [--cells N | --memory BYTES] [options]",
         .operands = {"MAP"},
-        .what = "Finds view cells that adapt to what is seen (Mattausch et al. 2006): regions of "
-                "the map,\neach with one visible set, such that rendering these costs least for "
-                "their number.\nVisibility is sampled by lines, the map divided where that pays "
-                "most, and neighbours\nare merged where that costs least.",
+        .what =
+            "Makes view cells that adapt to what is seen (Mattausch et al. 2006): regions of the "
+            "map with one visible set each, so that rendering costs least for their number. "
+            "Lines sample visibility; the map is divided where that saves most, and neighbours "
+            "are merged where that costs least.",
         .tables = print_tables,
         .examples = "  sightline viewcells office.map --cells 60 --picture cells.png\n"
                     "  sightline viewcells office.map --memory 4K -o cells.csv --json\n"

@@ -1,5 +1,6 @@
 /// `sightline walk`: culling frame by frame without visible sets (Bittner and Havran 2002).
 #include "commands.h"
+#include "help.h"
 #include "inputs.h"
 #include "names.h"
 #include "outputs.h"
@@ -207,7 +208,8 @@ static sl_status walk_draw_chances(sl_context *context, const walk_rows *rows, c
 // --- the command
 
 typedef struct walk_plan {
-    const char *input, *path, *csv, *frames, *output, *shut;
+    const char *input, *path, *csv, *frames, *output;
+    door_choice doors;
     map_pipeline pipeline;
     uint64_t steps; ///< of a whole path at speed 1
     double step;    ///< 0: by the number of steps
@@ -222,6 +224,7 @@ typedef struct walk_plan {
 /// The space, the way through it, and the results.
 typedef struct walk_work {
     sl_baked baked;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_hierarchy hierarchy;
     walk_way way;
     double step; ///< at speed 1
@@ -315,7 +318,9 @@ static sl_status add_row(command_console *console, const walk_plan *plan, walk_w
                          const walk_choice *choice, double speed, const eye_places *eyes,
                          double **frames) {
     sl_context *context = console->context;
-    const walk_scene scene = {&w->baked, &w->hierarchy, 1e-9 * plan->wall_cost, plan->repeat};
+    const sl_space *through = w->baked.map.oneway_count ? &w->dark : &w->baked.space;
+    const walk_scene scene = {&w->baked, &w->hierarchy, through, 1e-9 * plan->wall_cost,
+                              plan->repeat};
     walk_row row = {.choice = *choice, .speed = speed, .steps = eyes->list.count};
     SL_TRY(SL_ARRAY_ROOM(context, &w->rows, 1));
     if (frames) {
@@ -460,13 +465,33 @@ static sl_status study(command_console *console, const walk_plan *plan, walk_wor
     return folder_close(context, &folder, status);
 }
 
+/// What a walk makes of effects. Its own methods know walls alone, and so keep more, never less.
+static void note_effects(sl_context *context, const sl_map *map) {
+    if (map->mirror_count)
+        sl_note(context, "mirrors are walls here: a walk looks at what is seen directly");
+    if (map->oneway_count)
+        sl_note(context, "one-way glass is open both ways to the walk's own methods: they keep "
+                         "what is dark, too");
+    if (map->range > 0)
+        sl_note(context, "the walk's own methods keep what is farther than the view range, too");
+}
+
+/// The space that culling by baked sets looks through.
+static sl_status make_dark(sl_context *context, walk_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    if (!w->baked.map.oneway_count) return SL_OK;
+    return sl_filtered_space_make(context, &w->baked.space, &filtered, NULL, &w->dark);
+}
+
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
-    SL_TRY(
-        pipeline_read_space(console->context, &plan->pipeline, "walk", SL_EFFECT_DOOR, &w->baked));
+    const unsigned all = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE;
+    SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, &w->baked));
+    note_effects(console->context, &w->baked.map);
     if (!input_ends_with(plan->pipeline.path, ".slv"))
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
-    SL_TRY(doors_shut(console->context, plan->shut, &w->baked));
+    SL_TRY(doors_shut(console->context, &plan->doors, &w->baked));
+    SL_TRY(make_dark(console->context, w));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);
@@ -476,14 +501,17 @@ static void print_tables(void) {
     size_t count;
     const sl_walk_method *methods = sl_walk_methods(&count);
     puts("\nmethods, as Bittner & Havran 2002 have them, and beyond:");
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    for (size_t i = 0; i < count; i++) help_name(methods[i].name, 12, methods[i].what, NULL);
     const sl_node_test *tests = sl_node_tests(&count);
     puts("\ntests:");
-    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", tests[i].name, tests[i].what);
-    puts("\nThe table: node visibility tests a frame, what share the method saves of them, tests "
-         "against\nthe view cone, states taken from neighbours, tests skipped, cells and walls "
-         "drawn, and the\ntimes to find the cells, to draw their walls (into a row of 640 pixels "
-         "with a depth buffer),\nand both. Of a baked file culling by its visible sets follows.");
+    for (size_t i = 0; i < count; i++) help_name(tests[i].name, 12, tests[i].what, NULL);
+    putchar('\n');
+    help_wrap("The table shows for each frame: node visibility tests, the share of them that the "
+              "method saves, tests against the view cone, states taken from neighbours, tests "
+              "skipped, cells and walls drawn, the time to find the cells, the time to draw their "
+              "walls (into a row of 640 pixels with a depth buffer), and the sum of both. For a "
+              "baked file, culling by its visible sets follows.",
+              0, 0);
 }
 
 sl_status cmd_walk(command_console *console, int argc, char **argv) {
@@ -498,59 +526,56 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
                       .repeat = 3,
                       .options = sl_walk_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
+    const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"path", 0, "P.txt|NAME",
-         "a path of the map by its name, or a file with a line\n'x y' a point; without it a tour "
-         "from the map's start",
+         "a path of the map, or a file with a line 'x y' for each point (default: a tour from the "
+         "start)",
          .text = &plan.path, .is_input = true},
-        {"shut", 0, "NAME,...",
-         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says",
-         .text = &plan.shut},
-        {"steps", 0, "N", "frames of the whole way at speed 1; 980 without it",
+        {"method", 0, "NAME,...", "walk with these methods (default: all)",
+         .choices = &plan.methods, .names = walk_methods},
+        {"steps", 0, "N", "number of frames of the whole path at speed 1 (default 980)",
          .count = &plan.steps, .least = 1, .most = 1000000, .given = &plan.steps_given},
-        {"step", 0, "LENGTH", "instead: how far a frame goes at speed 1", .number = &plan.step,
-         .over_0 = true, .given = &plan.step_given},
-        {"speed", 0, "S", "relative speed; 1 without it", .number = &plan.speed, .over_0 = true},
-        {"fov", 0, "DEGREES", "width of the view cone; 60 without it", .number = &plan.fov,
+        {"speed", 0, "S", "relative speed (default 1)", .number = &plan.speed, .over_0 = true},
+        {"fov", 0, "DEGREES", "width of the view cone (default 60)", .number = &plan.fov,
          .over_0 = true, .most = 360, .needs = "over 0 to 360 degrees are needed"},
-        {"ahead", 0, "STEPS",
-         "the eye looks at the point of the way so many steps\non; 10 without it",
-         .number = &plan.ahead, .needs = "steps, 0 or more, are needed"},
-        {"method", 0, "NAME,...", "these methods; all without it", .choices = &plan.methods,
-         .names = walk_methods},
-        {"test", 0, "NAME,...", "these node visibility tests; all without it",
-         .choices = &plan.tests, .names = tests},
-        {"occluders", 0, "N", "chosen for each frame; 16 without it",
-         .count32 = &plan.options.occluders, .most = SL_WALK_OCCLUDERS_MOST},
-        {"cheap", 0, "WALLS", "draw a node of no more walls without a test",
-         .count32 = &plan.options.cheap},
-        {"p-vp", 0, "P", "the chance to try propagation; 0.5 without it",
-         .number = &plan.options.p_vp, .most = 1},
-        {"p-skip", 0, "P", "the chance to skip a test; 0.5 without it",
-         .number = &plan.options.p_skip, .most = 1},
-        {"seed", 0, "N", "of chances and tours; 1 without it", .count = &plan.options.seed},
-        {"repeat", 0, "N", "walk so often; times are the least. 3 without it",
-         .count32 = &plan.repeat, .least = 1, .most = MOST_REPEATS},
-        {"wall-cost", 0, "NS",
-         "count so many nanoseconds for drawing a wall instead\nof what it takes here",
-         .number = &plan.wall_cost, .over_0 = true},
-        {"csv", 0, "FILE.csv", "all figures of the table", .text = &plan.csv, .check = CHECK_TABLE},
-        {"frames", 0, "FILE.csv", "all figures of each frame", .text = &plan.frames,
+        {"csv", 0, "FILE.csv", "write all figures of the table", .text = &plan.csv,
+         .check = CHECK_TABLE},
+        {"frames", 0, "FILE.csv", "write all figures of each frame", .text = &plan.frames,
          .check = CHECK_TABLE},
         {"output", 'o', "DIR",
-         "instead of one walk: speeds from 0.25 to 8 and chances\nfrom 0 to 0.9, as tables and "
-         "charts",
+         "a study: speeds 0.25 to 8 and probabilities 0 to 0.9, as tables and charts",
          .text = &plan.output},
+        {.group = &doors},
+        {"step", 0, "LENGTH", "length of a frame at speed 1, in place of --steps",
+         .number = &plan.step, .over_0 = true, .given = &plan.step_given, .rare = true},
+        {"ahead", 0, "STEPS", "the eye looks at the point this many steps ahead (default 10)",
+         .number = &plan.ahead, .needs = "steps, 0 or more, are needed", .rare = true},
+        {"test", 0, "NAME,...", "use these node visibility tests (default: all)",
+         .choices = &plan.tests, .names = tests, .rare = true},
+        {"occluders", 0, "N", "number of occluders in a frame (default 16)",
+         .count32 = &plan.options.occluders, .most = SL_WALK_OCCLUDERS_MOST, .rare = true},
+        {"cheap", 0, "WALLS", "draw nodes with up to this number of walls without a test",
+         .count32 = &plan.options.cheap, .rare = true},
+        {"p-vp", 0, "P", "probability of propagation (default 0.5)", .number = &plan.options.p_vp,
+         .most = 1, .rare = true},
+        {"p-skip", 0, "P", "probability of skipping a test (default 0.5)",
+         .number = &plan.options.p_skip, .most = 1, .rare = true},
+        {"seed", 0, "N", "seed of all random choices (default 1)", .count = &plan.options.seed,
+         .rare = true},
+        {"repeat", 0, "N", "number of walks; times are the least of them (default 3)",
+         .count32 = &plan.repeat, .least = 1, .most = MOST_REPEATS, .rare = true},
+        {"wall-cost", 0, "NS", "count NS nanoseconds for drawing a wall (default: measured)",
+         .number = &plan.wall_cost, .over_0 = true, .rare = true},
         {.group = &pipeline},
     };
     const command_usage usage = {
         .name = "walk",
         .synopsis = "MAP|FILE.slv [--path P.txt|NAME] [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Walks a path and culls frame by frame, without visible sets: down the hierarchy, "
-                "each node\nagainst a few large occluders, with what the frame before tells. "
-                "Counts and times what each\nmethod does. No method misses anything that is seen.",
+        .what = "Walks along a path and culls frame by frame, without visible sets: down the "
+                "hierarchy, each node against a few large occluders, with what is known from the "
+                "frame before (Bittner and Havran 2002). No method misses anything that is seen.",
         .tables = print_tables,
         .examples = "  sightline walk office.map\n"
                     "  sightline walk office.slv --path tour.txt --speed 2 --frames frames.csv\n"
@@ -567,6 +592,7 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     sl_free(console->context, w.rows.items);
     sl_free(console->context, w.way.items);
     sl_hierarchy_destroy(console->context, &w.hierarchy);
+    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }

@@ -4,6 +4,9 @@
 
 #include "console.h"
 
+/// What a command does, in a few words; NULL for a name that is none.
+const char *command_summary(const char *name);
+
 /// argv[0] is the name of the command. The message of a failure is in the console's context.
 sl_status cmd_bake(command_console *console, int argc, char **argv);
 sl_status cmd_check(command_console *console, int argc, char **argv);
@@ -19,6 +22,7 @@ sl_status cmd_merge(command_console *console, int argc, char **argv);
 sl_status cmd_isovist(command_console *console, int argc, char **argv);
 sl_status cmd_reject(command_console *console, int argc, char **argv);
 sl_status cmd_regions(command_console *console, int argc, char **argv);
+sl_status cmd_vga(command_console *console, int argc, char **argv);
 sl_status cmd_viewcells(command_console *console, int argc, char **argv);
 sl_status cmd_walk(command_console *console, int argc, char **argv);
 

@@ -160,7 +160,7 @@ typedef struct eye_comparison {
 
 /// Viewpoints are spread evenly over the area of the inside cells, with random headings. Shares are
 /// of that area. `out` refers to the plan and the space. The caller frees out->rows (sl_free).
-sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan,
+sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan, const sl_map *map,
                           const sl_space *space, sl_sight sight, eye_comparison *out);
 
 /// The paper's figures for a method. False where it has none.

@@ -35,7 +35,9 @@ typedef struct viewpoint {
 typedef struct comparing {
     sl_context *context;
     const compare_eye_plan *plan;
+    const sl_map *map;
     const sl_space *space;
+    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_visibility visibility;
     sl_eye_search *search;
     sl_outline outline;
@@ -63,7 +65,7 @@ static sl_status ask_method(comparing *all, const contender *me, const sl_view *
 /// The exact visible region: what is seen of each cell, and no more.
 static sl_status ask_region(comparing *all, const contender *me, const sl_view *view, answer *out) {
     (void)me;
-    SL_TRY(sl_region_make(all->context, &all->outline, view, 0, &all->region));
+    SL_TRY(sl_region_make(all->context, &all->outline, view, all->map->range, &all->region));
     out->has_area = true;
     out->area = sl_region_area(&all->region);
     out->account = (sl_eye_account){.nodes = all->region.portals_passed};
@@ -272,16 +274,31 @@ static sl_status run_cones(comparing *all, eye_comparison *out) {
     return status;
 }
 
-static sl_status see(comparing *all, sl_sight sight, double *seconds) {
+/// The space that eyes look through: with glass, a wall stands on its dark side.
+static sl_status look_through(comparing *all, const sl_space **out) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    *out = all->space;
+    if (!all->map->oneway_count) return SL_OK;
+    *out = &all->dark;
+    return sl_filtered_space_make(all->context, all->space, &filtered, NULL, &all->dark);
+}
+
+/// The visible sets, with glass and the range. Mirrors are walls, and shut doors are by now.
+static sl_status see(comparing *all, const sl_space *through, sl_sight sight, double *seconds) {
     size_t count;
+    sl_plan plan = sl_plan_make(all->map);
+    plan.effects &= ~(unsigned)(SL_EFFECT_MIRROR | SL_EFFECT_DOOR);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.sight = sight;
     options.inside_only = true;
+    options.plan = &plan;
     const double start = sl_seconds();
     SL_TRY(sl_see_methods(&count)->see(all->context, all->space, &options, &all->visibility));
     *seconds = sl_seconds() - start;
-    return sl_eye_search_create(all->context, all->space, &all->visibility, &all->search);
+    SL_TRY(sl_eye_search_create(all->context, through, &all->visibility, &all->search));
+    sl_eye_search_limit(all->search, all->map->range);
+    return SL_OK;
 }
 
 static sl_status make_answers(comparing *all) {
@@ -293,21 +310,24 @@ static sl_status make_answers(comparing *all) {
     return SL_OK;
 }
 
-sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan,
+sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan, const sl_map *map,
                           const sl_space *space, sl_sight sight, eye_comparison *out) {
     sl_context *context = console->context;
-    comparing all = {.context = context, .plan = plan, .space = space};
+    comparing all = {.context = context, .plan = plan, .map = map, .space = space};
+    const sl_space *through;
     eye_comparison result = {.space = space, .sight = sight, .plan = plan};
     sl_status status = draw_viewpoints(context, &all);
     if (status == SL_OK) status = make_answers(&all);
-    if (status == SL_OK) status = see(&all, sight, &result.pvs_seconds);
-    if (status == SL_OK) status = sl_outline_make(context, space, &all.outline);
+    if (status == SL_OK) status = look_through(&all, &through);
+    if (status == SL_OK) status = see(&all, through, sight, &result.pvs_seconds);
+    if (status == SL_OK) status = sl_outline_make(context, through, &all.outline);
     if (status == SL_OK) status = run_cones(&all, &result);
     for (size_t i = 0; i < BATCH; i++) sl_free(context, all.answers[i].cells);
     sl_region_destroy(context, &all.region);
     sl_outline_destroy(context, &all.outline);
     sl_eye_search_destroy(context, all.search);
     sl_visibility_destroy(context, &all.visibility);
+    sl_space_destroy(context, &all.dark);
     sl_free(context, all.area);
     sl_free(context, all.viewpoints);
     if (status == SL_OK)

@@ -169,7 +169,7 @@ sl_status compare_write_csv(sl_context *context, const compare_result *compariso
 void compare_print_columns(void) {
     size_t count;
     const compare_column *columns = compare_columns(&count);
-    puts("\ncolumns of compare.csv, a line a run (empty where not known), and fields of --json:");
+    puts("\ncolumns of compare.csv (a line for each run), and fields of --json:");
     for (size_t i = 0; i < count; i++) printf("  %-20s%s\n", columns[i].name, columns[i].what);
     puts("\ncolumns of pairs.csv, a line for each ordered pair on which two runs disagree:\n"
          "  a, b                the cells, by number\n"

@@ -365,15 +365,46 @@ void eye_objects_add_json(json_fields *fields, const sl_baked *baked, const eye_
 /// A share of the map's width plus height. It is too small to see in a picture.
 #define TOLERANCE 1e-4
 
+/// A share of the largest coordinate. Points of regions are rounded by less.
+#define ROUNDING 0x1p-42
+
+/// Whether the outline does not go on at a point, or goes back where it came from: slits, which a
+/// corner makes that hides nothing beside itself, and needles, up to rounding.
+static bool is_needless(sl_point before, sl_point p, sl_point behind, double rounding) {
+    const sl_point in = {p.x - before.x, p.y - before.y}, out = {behind.x - p.x, behind.y - p.y};
+    const double come = hypot(in.x, in.y), go = hypot(out.x, out.y);
+    if (come <= rounding || go <= rounding) return come <= rounding;
+    return in.x * out.x + in.y * out.y < 0 &&
+           fabs(in.x * out.y - in.y * out.x) <= rounding * fmax(come, go);
+}
+
+/// Leaves such points out, so that the polygon touches itself nowhere. Returns how many are left.
+static size_t drop_needless(sl_point *points, size_t count, double rounding) {
+    for (size_t before = count + 1; count < before && count;) {
+        size_t kept = 0;
+        before = count;
+        for (size_t i = 0; i < count; i++) {
+            const sl_point last = points[kept ? kept - 1 : count - 1];
+            if (!is_needless(last, points[i], points[i + 1 < count ? i + 1 : 0], rounding))
+                points[kept++] = points[i];
+        }
+        count = kept;
+    }
+    return count;
+}
+
 static sl_status add(sl_context *context, const sl_space *space, const sl_region *region,
                      sl_point eye, uint32_t depth, seen_parts *parts) {
     const sl_box *b = &space->bounds;
     const double tolerance = (b->max.x - b->min.x + b->max.y - b->min.y) * TOLERANCE;
-    const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
+    const double largest =
+        fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
+    size_t count = sl_region_flatten(region, tolerance, NULL, 0);
     SL_TRY(SL_ARRAY_ROOM(context, parts, 1));
     sl_point *points = sl_alloc_array(context, count, sizeof *points);
     if (!points) return SL_NO_MEMORY;
     sl_region_flatten(region, tolerance, points, count);
+    count = drop_needless(points, count, ROUNDING * largest);
     parts->items[parts->count++] =
         (sl_drawn_region){.eye = eye, .points = points, .count = count, .depth = depth};
     return SL_OK;
@@ -391,6 +422,21 @@ sl_status seen_parts_add(sl_context *context, const sl_space *space,
 sl_status seen_parts_add_region(sl_context *context, const sl_space *space, const sl_region *region,
                                 seen_parts *parts) {
     return add(context, space, region, region->view.eye, 0, parts);
+}
+
+void seen_parts_put_mirrored(sl_geojson_writer *out, const sl_mirrored_region *region,
+                             const sl_drawn_region *parts) {
+    const sl_point eye = region->direct.view.eye;
+    for (size_t i = 0; i < region->part_count; i++) {
+        const sl_mirror_part *part = &region->parts[i];
+        sl_geojson_put_polygon(out, "mirrored", parts[i].points, parts[i].count);
+        sl_geojson_add_real(out, "x", eye.x);
+        sl_geojson_add_real(out, "y", eye.y);
+        sl_geojson_add_count(out, "mirror", part->mirror);
+        sl_geojson_add_count(out, "reflections", part->depth);
+        sl_geojson_add_real(out, "area", sl_region_area(&part->region));
+        sl_geojson_end_feature(out);
+    }
 }
 
 void seen_parts_destroy(sl_context *context, seen_parts *parts) {

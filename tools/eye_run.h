@@ -6,6 +6,7 @@
 #include "json_print.h"
 #include "options.h"
 #include "sightline/draw.h"
+#include "sightline/geojson.h"
 #include "sightline/moving.h"
 #include "sightline/query.h"
 
@@ -100,6 +101,10 @@ sl_status seen_parts_add(sl_context *context, const sl_space *space,
 /// Adds one region that is seen directly.
 sl_status seen_parts_add_region(sl_context *context, const sl_space *space, const sl_region *region,
                                 seen_parts *parts);
+/// Puts what is seen by mirror as features of kind "mirrored". `parts` are those of the region, in
+/// its order.
+void seen_parts_put_mirrored(sl_geojson_writer *out, const sl_mirrored_region *region,
+                             const sl_drawn_region *parts);
 void seen_parts_destroy(sl_context *context, seen_parts *parts);
 
 #endif

@@ -1,6 +1,7 @@
 #include "inputs.h"
 
 #include "built.h"
+#include "help.h"
 #include "names.h"
 #include "sightline/support.h"
 
@@ -56,33 +57,33 @@ option_table input_option_table(input_options *input) {
         {"map", 0, "NAME", "which map of a file that holds several", .text = &to->map,
          .given = given},
         {"slice", 0, "Z", "cut a 3D model at this height", .number = &to->slice,
-         .flag = &to->has_slice, .given = given},
-        {"layers", 0, "LAYER,...", "the layers of a drawing or tile map to take",
+         .flag = &to->has_slice, .given = given, .rare = true},
+        {"layers", 0, "LAYER,...", "which layers of a drawing or a tile map to read",
          .text = &to->layers, .given = given},
         {"start-names", 0, "NAME,...",
-         "objects of a game map that are starts;\n'none': no starts (default: Player, "
-         "Spawn, "
-         "Start ...)",
-         .text = &to->start_names, .given = given},
-        {"tolerance", 0, "T", "how far curves may be from their walls", .number = &to->tolerance,
-         .over_0 = true, .given = given},
-        {"unit", 0, "UNIT", "of a drawing, turned into this: mm cm m km in ft yd",
-         .text = &to->unit, .given = given},
+         "which objects of a game map are starts (default: Player, Spawn, Start ...; 'none': no "
+         "starts)",
+         .text = &to->start_names, .given = given, .rare = true},
+        {"tolerance", 0, "T", "largest distance of a curve from its walls",
+         .number = &to->tolerance, .over_0 = true, .given = given, .rare = true},
+        {"unit", 0, "UNIT", "convert a drawing to this unit: mm cm m km in ft yd",
+         .text = &to->unit, .given = given, .rare = true},
         {"weld", 0, "T",
-         "join wall ends up to this far apart, in map units;\n0: none (default: on oblique maps, "
-         "2^-46 of the\nlargest coordinate; in drawings, 5 units of the\nlast digit, if larger)",
+         "join wall ends up to T apart, in map units; 0 joins none (default: 2^-46 of the largest "
+         "coordinate on oblique maps, or 5 units of the last digit of a drawing)",
          .number = &input->clean.weld, .needs = "0 or a number over 0 is needed", .given = given},
         {"threshold", 0, "T", "darkness from which a pixel is solid, up to 1",
          .number = &to->threshold, .over_0 = true, .most = 1,
-         .needs = "a number over 0, at most 1, is needed", .given = given},
-        {"sectors", 0, NULL,
-         "cut cells between the sectors of a Doom map too: for\na REJECT that hides more",
-         .flag = &to->sectors, .given = given},
-        {"doors", 0, NULL, "take doors as doors; without it as what they are\nwhen the map begins",
+         .needs = "a number over 0, at most 1, is needed", .given = given, .rare = true},
+        {"sectors", 0, NULL, "end cells at the sectors of a Doom map: its REJECT hides more then",
+         .flag = &to->sectors, .given = given, .rare = true},
+        {"doors", 0, NULL,
+         "keep the doors of the format as doors (default: walls if shut, gaps if open)",
          .flag = &to->doors, .given = given},
     };
     option_table table = {0};
     option_table_add(&table, options, sizeof options / sizeof *options);
+    option_table_topic(&table, "reading a map");
     return table;
 }
 
@@ -182,8 +183,8 @@ void input_print_formats(void) {
     (void)built_use_formats(context); // with no memory: the formats that are always there
     const sl_map_format *formats = sl_map_formats(context, &count);
     puts("\nmaps, by the ending of the file's name:");
-    for (size_t i = 0; i < count; i++) printf("  %-28s%s\n", formats[i].endings, formats[i].what);
-    printf("  %-28s%s\n", "-", "standard input, by its first bytes, else as the map text");
+    for (size_t i = 0; i < count; i++) help_name(formats[i].endings, 28, formats[i].what, NULL);
+    help_name("-", 28, "standard input, by its first bytes, else as the map text", NULL);
     sl_context_destroy(context);
 }
 
@@ -216,37 +217,63 @@ size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
 
 // --- doors
 
-/// Marks the doors of one name.
-static bool shut_named(const sl_map *map, const char *name, size_t length, bool *shut) {
+option_table door_option_table(door_choice *doors) {
+    const option_spec options[] = {
+        {"shut", 0, "NAME,...",
+         "shut these doors, open all others; 'none' opens all (default: as the map says)",
+         .text = &doors->shut},
+        {"open", 0, "NAME,...", "open these doors, the others as the map says; 'all' opens all",
+         .text = &doors->open},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    return table;
+}
+
+/// Sets the doors of one name.
+static bool set_named(const sl_map *map, const char *name, size_t length, bool to, bool *shut) {
     bool found = false;
     for (size_t i = 0; i < map->door_count; i++) {
         if (strlen(map->doors[i].name) != length || memcmp(map->doors[i].name, name, length) != 0)
             continue;
-        shut[i] = found = true;
+        shut[i] = to;
+        found = true;
     }
     return found;
 }
 
-static sl_status fail_door(sl_context *context, const sl_map *map, const char *name,
-                           size_t length) {
+static sl_status fail_door(sl_context *context, const sl_map *map, const char *name, size_t length,
+                           bool open) {
     const name_table doors = {"door", map->doors, sizeof *map->doors, map->door_count, NULL};
+    const char *all = open ? "; 'all' opens all" : "; 'none' leaves all open";
     char names[NAME_LIST];
     name_list(&doors, names);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--shut: there is no door '%.*s'; the map's doors: %s%s",
-                   (int)(length < 64 ? length : 64), name, names,
-                   map->door_count ? "; 'none' leaves all open" : "");
+    return sl_fail(context, SL_BAD_ARGUMENT, "--%s: there is no door '%.*s'; the map's doors: %s%s",
+                   open ? "open" : "shut", (int)(length < 64 ? length : 64), name, names,
+                   map->door_count ? all : "");
 }
 
-static sl_status read_names(sl_context *context, const char *text, const sl_map *map, bool *shut) {
-    if (strcmp(text, "none") == 0) return SL_OK;
+static sl_status read_names(sl_context *context, const char *text, bool open, const sl_map *map,
+                            bool *shut) {
     while (*text) {
         const size_t length = strcspn(text, ",");
-        if (!shut_named(map, text, length, shut)) return fail_door(context, map, text, length);
+        if (!set_named(map, text, length, !open, shut))
+            return fail_door(context, map, text, length, open);
         text += length;
         if (*text) text++;
     }
     return SL_OK;
+}
+
+sl_status doors_read(sl_context *context, const door_choice *doors, const sl_map *map, bool *shut) {
+    const char *text = doors->shut ? doors->shut : doors->open;
+    if (doors->shut && doors->open)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--shut says it of all doors: give either --shut or --open");
+    const bool all_open = text && strcmp(text, doors->open ? "all" : "none") == 0;
+    for (size_t i = 0; i < map->door_count; i++)
+        shut[i] = !all_open && !doors->shut && !map->doors[i].open;
+    return text && !all_open ? read_names(context, text, doors->open, map, shut) : SL_OK;
 }
 
 /// Replaces the space and the visible sets by those with the doors shut.
@@ -261,13 +288,12 @@ static sl_status shut_doors(sl_context *context, sl_baked *baked, const bool *sh
     return SL_OK;
 }
 
-sl_status doors_shut(sl_context *context, const char *text, sl_baked *baked) {
+sl_status doors_shut(sl_context *context, const door_choice *doors, sl_baked *baked) {
     const sl_map *map = &baked->map;
-    if (!map->door_count) return text ? read_names(context, text, map, NULL) : SL_OK;
+    if (!map->door_count) return doors_read(context, doors, map, NULL);
     bool *shut = sl_alloc_array(context, map->door_count, sizeof *shut);
     if (!shut) return SL_NO_MEMORY;
-    for (size_t i = 0; i < map->door_count && !text; i++) shut[i] = !map->doors[i].open;
-    sl_status status = text ? read_names(context, text, map, shut) : SL_OK;
+    sl_status status = doors_read(context, doors, map, shut);
     if (status == SL_OK) status = shut_doors(context, baked, shut);
     for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
         baked->map.doors[i].open = !shut[i];

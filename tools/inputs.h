@@ -66,9 +66,18 @@ sl_status input_locate(sl_context *context, const char *name, const char *text,
 /// The map's first start from the given one on that is in no solid ground; start_count for none.
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from);
 
-/// Shuts the doors of a baked file that --shut names: "a,b", or "none". NULL: those that the map
-/// says are shut. Sets the state of the map's doors too, for pictures. SL_BAD_ARGUMENT for a name
-/// that no door has.
-sl_status doors_shut(sl_context *context, const char *text, sl_baked *baked);
+/// Which doors are shut: the arguments of --shut and --open. Zeroed: as the map says.
+typedef struct door_choice {
+    const char *shut, *open;
+} door_choice;
+
+/// --shut and --open
+option_table door_option_table(door_choice *doors);
+
+/// By door of the map, whether it is shut. SL_BAD_ARGUMENT for a name that no door has.
+sl_status doors_read(sl_context *context, const door_choice *doors, const sl_map *map, bool *shut);
+
+/// Shuts doors of a baked file. Sets the state of the map's doors too, for pictures.
+sl_status doors_shut(sl_context *context, const door_choice *doors, sl_baked *baked);
 
 #endif

@@ -1,5 +1,7 @@
 #include "isovist.h"
 
+#include "eye_run.h"
+#include "inputs.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -145,22 +147,25 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
 typedef struct measure {
     const char *name;
     size_t offset; ///< in sl_region_measures
+    int power;     ///< of the map's unit; ANGLE for degrees
 } measure;
 
-#define MEASURE(name)                                                                              \
-    { #name, offsetof(sl_region_measures, name) }
+enum { ANGLE = -1 };
+
+#define MEASURE(name, power)                                                                       \
+    { #name, offsetof(sl_region_measures, name), power }
 static const measure measures[] = {
-    MEASURE(area),
-    MEASURE(perimeter),
-    MEASURE(compactness),
-    MEASURE(occlusivity),
-    MEASURE(drift_magnitude),
-    MEASURE(drift_angle),
-    MEASURE(min_radial),
-    MEASURE(max_radial),
-    MEASURE(mean_radial),
-    MEASURE(radial_variance),
-    MEASURE(radial_skewness),
+    MEASURE(area, 2),
+    MEASURE(perimeter, 1),
+    MEASURE(compactness, 0),
+    MEASURE(occlusivity, 1),
+    MEASURE(drift_magnitude, 1),
+    MEASURE(drift_angle, ANGLE),
+    MEASURE(min_radial, 1),
+    MEASURE(max_radial, 1),
+    MEASURE(mean_radial, 1),
+    MEASURE(radial_variance, 2),
+    MEASURE(radial_skewness, 3),
 };
 enum { MEASURES = sizeof measures / sizeof *measures, EYES_A_BUNDLE = 64 };
 
@@ -168,8 +173,27 @@ name_table isovist_measures(void) {
     return (name_table){"measure", measures, sizeof *measures, MEASURES, NULL};
 }
 
+void isovist_unit(size_t which, const char *unit, char text[ISOVIST_UNIT]) {
+    static const char *const powers[] = {"", "", "\xc2\xb2", "\xc2\xb3"};
+    const int power = measures[which].power;
+    text[0] = '\0';
+    if (power == ANGLE)
+        snprintf(text, ISOVIST_UNIT, "\xc2\xb0");
+    else if (power && *unit)
+        snprintf(text, ISOVIST_UNIT, "%s%s", unit, powers[power]);
+}
+
+static double value_of(const sl_region_measures *all, size_t which) {
+    return *(const double *)((const char *)all + measures[which].offset);
+}
+
 double isovist_value(const isovist_result *isovist, size_t which) {
-    return *(const double *)((const char *)&isovist->measures + measures[which].offset);
+    return value_of(&isovist->measures, which);
+}
+
+void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *all) {
+    for (size_t i = 0; i < MEASURES; i++)
+        sl_geojson_add_real(out, measures[i].name, value_of(all, i));
 }
 
 sl_view eye_view(const sl_space *space, const eye_place *eye) {
@@ -263,11 +287,61 @@ static sl_status write_rows(sl_context *context, bool mirrors, const eye_places 
     return SL_OK;
 }
 
+/// The region of an eye, with the columns of its line in the table.
+static void put_direct(sl_geojson_writer *out, bool mirrors, const eye_place *eye,
+                       const isovist_result *isovist, const sl_drawn_region *part) {
+    sl_geojson_put_polygon(out, "isovist", part->points, part->count);
+    sl_geojson_add_real(out, "x", eye->at.x);
+    sl_geojson_add_real(out, "y", eye->at.y);
+    sl_geojson_add_real(out, "look", eye->look);
+    sl_geojson_add_real(out, "fov", eye->fov);
+    isovist_put_measures(out, &isovist->measures);
+    sl_geojson_add_count(out, "corners", isovist->corners);
+    if (mirrors) sl_geojson_add_real(out, "mirrored_area", isovist->mirrored_area);
+    if (mirrors) sl_geojson_add_count(out, "parts", isovist->parts);
+    sl_geojson_end_feature(out);
+}
+
+static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isovist_scene *scene,
+                         const eye_place *eye, const isovist_result *isovist,
+                         sl_mirrored_region *region) {
+    const sl_space *space = scene->outline->space;
+    const sl_view view = eye_view(space, eye);
+    seen_parts parts = {0};
+    SL_TRY(isovist_look(context, scene, &view, region));
+    const sl_status status = seen_parts_add(context, space, region, true, &parts);
+    if (status == SL_OK) {
+        put_direct(out, scene->mirrors != NULL, eye, isovist, &parts.items[0]);
+        seen_parts_put_mirrored(out, region, parts.items + 1);
+    }
+    seen_parts_destroy(context, &parts);
+    return status;
+}
+
+/// Regions are found anew: those of all eyes at once may take much memory.
+static sl_status write_places(sl_context *context, const isovist_scene *scene,
+                              const eye_places *eyes, const isovist_result *isovists, FILE *file) {
+    sl_geojson_writer out = sl_geojson_begin(file);
+    sl_mirrored_region region = {0};
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < eyes->list.count && status == SL_OK && !ferror(file); i++) {
+        status = sl_check_cancelled(context);
+        if (status == SL_OK)
+            status = put_eye(context, &out, scene, &eyes->list.items[i], &isovists[i], &region);
+        sl_report(context, "write", "regions", i + 1, eyes->list.count);
+    }
+    sl_mirrored_region_destroy(context, &region);
+    sl_geojson_end(&out);
+    return status;
+}
+
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                         const isovist_result *isovists, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(
-        context, &output,
-        write_rows(context, scene->mirrors != NULL, eyes, isovists, output.stream));
+    const sl_status status =
+        input_ends_with(path, ".geojson")
+            ? write_places(context, scene, eyes, isovists, output.stream)
+            : write_rows(context, scene->mirrors != NULL, eyes, isovists, output.stream);
+    return sl_output_close(context, &output, status);
 }

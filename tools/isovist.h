@@ -1,9 +1,10 @@
-/// The eyes of `sightline isovist` (points, a grid, a path, a table from a file), and the measures
-/// of the regions that they see.
+/// The eyes of `sightline isovist` (points, a grid, a path, a table from a file), the measures of
+/// the regions that they see, and the files of both.
 #ifndef ISOVIST_H
 #define ISOVIST_H
 
 #include "names.h"
+#include "sightline/geojson.h"
 #include "sightline/mirrored.h"
 #include "sightline/support.h"
 
@@ -47,9 +48,15 @@ typedef struct isovist_result {
     size_t parts;         ///< of what is seen by mirror
 } isovist_result;
 
+enum { ISOVIST_UNIT = 32 };
+
 /// The measures by name.
 name_table isovist_measures(void);
+/// The unit of a measure of a map whose lengths are in `unit`: "m²"; "" for none.
+void isovist_unit(size_t measure, const char *unit, char text[ISOVIST_UNIT]);
 double isovist_value(const isovist_result *isovist, size_t measure);
+/// Adds all measures of a region as properties.
+void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *measures);
 
 /// The view of an eye.
 sl_view eye_view(const sl_space *space, const eye_place *eye);
@@ -70,7 +77,8 @@ sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                       unsigned threads, isovist_result *out);
 
-/// Writes the table to a file, "-" for stdout. A map with mirrors adds columns for them.
+/// Writes the table to a file, "-" for stdout. A map with mirrors adds columns for them. A name
+/// that ends in .geojson: the regions as GeoJSON, with the columns as properties.
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                         const isovist_result *isovists, const char *path);
 

@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include "help.h"
 #include "outputs.h"
 #include "sightline/support.h"
 
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 64, HELP_COLUMN = 26 };
+enum { MAX_OPTIONS = 64 };
 
 /// All options of a command, with those of its groups, and the argument of each: NULL where the
 /// option is not given, "" for a flag. Arguments are gathered first and read afterwards, so that
@@ -22,6 +23,10 @@ typedef struct parsing {
 } parsing;
 
 // --- tables
+
+void option_table_topic(option_table *table, const char *topic) {
+    for (size_t i = 0; i < table->count; i++) table->items[i].topic = topic;
+}
 
 void option_table_add(option_table *table, const option_spec *items, size_t count) {
     assert(table->count + count <= sizeof table->items / sizeof *table->items);
@@ -38,35 +43,6 @@ static void add_options(parsing *p, const option_spec *options, size_t count) {
         assert(p->count < MAX_OPTIONS);
         p->options[p->count++] = options[i];
     }
-}
-
-// --- help
-
-static void print_option(const option_spec *option) {
-    char head[64], letter[8] = "";
-    if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    const int width =
-        snprintf(head, sizeof head, "  %s--%s%s%s", letter, option->name,
-                 option->argument ? " " : "", option->argument ? option->argument : "");
-    if (width < HELP_COLUMN)
-        printf("%-*s", HELP_COLUMN, head);
-    else
-        printf("%s\n%*s", head, HELP_COLUMN, "");
-    for (const char *line = option->help;;) {
-        const size_t length = strcspn(line, "\n");
-        printf("%.*s\n", (int)length, line);
-        if (!line[length]) return;
-        line += length + 1;
-        printf("%*s", HELP_COLUMN, "");
-    }
-}
-
-static void print_help(const parsing *p) {
-    const command_usage *usage = p->usage;
-    printf("usage: sightline %s %s\n\n%s\n\noptions:\n", usage->name, usage->synopsis, usage->what);
-    for (size_t i = 0; i < p->count; i++) print_option(&p->options[i]);
-    if (usage->tables) usage->tables();
-    printf("\nexamples:\n%s\n", usage->examples);
 }
 
 // --- parsing
@@ -150,7 +126,7 @@ static sl_status take_arguments(parsing *p, int argc, char **argv) {
         i = find_option(p, optopt);
         if (code == ':')
             return sl_fail(p->context, SL_BAD_ARGUMENT,
-                           "--%s needs an argument: %s; 'sightline %s --help' tells more",
+                           "--%s needs an argument: %s; 'sightline %s --help' shows how",
                            p->options[i].name, p->options[i].argument, p->usage->name);
         if (i < p->count)
             return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s takes no argument",
@@ -167,17 +143,17 @@ static sl_status take_operands(const parsing *p, int argc, char **argv, const ch
     const size_t given = (size_t)(argc - optind);
     if (given < wanted)
         return sl_fail(p->context, SL_BAD_ARGUMENT,
-                       "%s is missing; 'sightline %s --help' tells more", usage->operands[given],
+                       "%s is missing; 'sightline %s --help' shows how", usage->operands[given],
                        usage->name);
     if (given > wanted && !usage->more)
         return sl_fail(p->context, SL_BAD_ARGUMENT,
-                       "'%s' is one argument too many; 'sightline %s --help' tells more",
+                       "'%s' is one argument too many; 'sightline %s --help' shows how",
                        argv[optind + (int)wanted], usage->name);
     for (size_t i = 0; i < wanted; i++) {
         operands[i] = argv[optind + (int)i];
         if (!operands[i][0])
             return sl_fail(p->context, SL_BAD_ARGUMENT,
-                           "%s is empty; 'sightline %s --help' tells more", usage->operands[i],
+                           "%s is empty; 'sightline %s --help' shows how", usage->operands[i],
                            usage->name);
     }
     for (size_t i = wanted; i < given; i++) {
@@ -318,12 +294,25 @@ static sl_status read_choices(sl_context *context, const char *label, const char
 
 // --- from arguments to targets
 
+/// SL_BAD_ARGUMENT: "1 or 2 is needed", "a whole number from 1 to 8 is needed".
+static sl_status fail_count(sl_context *context, const char *label, const char *text,
+                            uint64_t least, uint64_t most) {
+    const unsigned long long low = least, high = most;
+    if (high - low == 1)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: %llu or %llu is needed", label, text, low,
+                       high);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a whole number from %llu to %llu is needed",
+                   label, text, low, high);
+}
+
 static sl_status set_count(sl_context *context, const char *label, const char *text,
                            const option_spec *option) {
     const uint64_t any = option->count ? UINT64_MAX : UINT32_MAX;
+    const uint64_t most = option->most > 0 ? (uint64_t)option->most : any;
+    const uint64_t least = (uint64_t)option->least;
     uint64_t count;
-    SL_TRY(
-        read_count(context, label, text, option->most > 0 ? (uint64_t)option->most : any, &count));
+    if (!parse_count(text, strlen(text), most, &count) || (count < least && most - least == 1))
+        return fail_count(context, label, text, least, most);
     SL_TRY(check_range(context, label, text, option, (double)count));
     if (option->count)
         *option->count = count;
@@ -377,9 +366,9 @@ static sl_status check_output(sl_context *context, const option_spec *option, co
     case CHECK_FILE:
         return output_check_file(context, label, text, option->endings);
     case CHECK_TABLE:
-        return output_check_table(context, label, text);
+        return output_check_table(context, label, text, option->endings);
     case CHECK_PICTURE:
-        return output_check_picture(context, label, text);
+        return output_check_picture(context, label, text, option->endings);
     case CHECK_BAKED:
         return output_check_baked(context, label, text);
     }
@@ -423,9 +412,8 @@ static sl_status check_outputs(const parsing *p, const char *input) {
 sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
                         const char **operands, bool *helped) {
     const option_spec common[] = {
-        {"quiet", 'q', NULL, "no notes, no progress, no report of what is written",
-         .flag = &console->quiet},
-        {"help", 'h', NULL, "this text", .flag = helped},
+        {"quiet", 'q', NULL, "print errors and asked-for data only", .flag = &console->quiet},
+        {"help", 'h', NULL, "show this text; '--help all' shows everything", .flag = helped},
     };
     parsing p = {.context = console->context, .usage = usage};
     *helped = false;
@@ -433,7 +421,9 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
     add_options(&p, common, sizeof common / sizeof *common);
     SL_TRY(take_arguments(&p, argc, argv));
     if (*helped) {
-        print_help(&p);
+        help_form form;
+        SL_TRY(help_form_read(p.context, optind < argc ? argv[optind] : NULL, &form));
+        help_print(usage, p.options, p.count, form);
         return SL_OK;
     }
     SL_TRY(take_operands(&p, argc, argv, operands));

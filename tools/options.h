@@ -19,8 +19,8 @@ typedef struct option_list {
 typedef enum output_check {
     CHECK_NONE,
     CHECK_FILE,    ///< any name, or one with one of the option's `endings`
-    CHECK_TABLE,   ///< .csv, .txt, or no ending
-    CHECK_PICTURE, ///< .png, .svg or .pdf
+    CHECK_TABLE,   ///< .csv, .txt, no ending, or one of the option's `endings`
+    CHECK_PICTURE, ///< .png, .svg or .pdf, or one of the option's `endings`
     CHECK_BAKED,   ///< .slv
 } output_check;
 
@@ -33,7 +33,9 @@ typedef struct option_spec {
     const char *name;     ///< without its dashes
     char letter;          ///< its short form, 0 for none
     const char *argument; ///< what --help calls its argument; NULL for a flag
-    const char *help;     ///< lines
+    const char *help;     ///< what it does; --help breaks it into lines
+    const char *topic;    ///< the heading over it in '--help all'; NULL: the first one
+    bool rare;            ///< left out of the short --help
 
     bool *flag;         ///< set to true where the option is given
     const char **given; ///< set to its name, unless another option has set it before
@@ -54,7 +56,7 @@ typedef struct option_spec {
     bool over_0;        ///< a number must be over 0
     const char *needs;  ///< says what is needed; NULL: as least, most and over_0 say
     output_check check;
-    const char *endings; ///< for CHECK_FILE: ".map", ".map .txt"; NULL for any
+    const char *endings; ///< ".map", ".map .txt"; for CHECK_FILE, NULL: any
     bool is_input;       ///< it names a file to read, which no output may replace
 
     const option_table *group; ///< instead of all this: a group's options stand here
@@ -67,6 +69,8 @@ struct option_table {
 };
 
 void option_table_add(option_table *table, const option_spec *items, size_t count);
+/// Gives all options of a table a topic.
+void option_table_topic(option_table *table, const char *topic);
 
 /// Options that were given, in the order of their table. An argument is NULL for a flag.
 typedef struct options_given {
@@ -81,8 +85,8 @@ typedef struct command_usage {
     const char *name;
     const char *synopsis;    ///< what follows the name: "MAP [-o FILE.slv] [options]"
     const char *operands[4]; ///< what is given without an option, by the names that help uses
-    const char *what;        ///< lines
-    void (*tables)(void);    ///< prints what may be chosen from, after the options; NULL: nothing
+    const char *what;        ///< what it does (help_wrap breaks it into lines)
+    void (*tables)(void);    ///< prints the names to choose from, for '--help all'; NULL: nothing
     const char *examples;    ///< lines
     const option_spec *options;
     size_t option_count;

@@ -12,6 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { ENDINGS_TEXT = 96 };
+
 // --- names
 
 /// What a name stands for; "-" is a standard stream.
@@ -93,9 +95,16 @@ sl_status output_check_file(sl_context *context, const char *option, const char 
     return sl_output_try(context, output);
 }
 
-sl_status output_check_table(sl_context *context, const char *option, const char *output) {
-    return output_check_file(context, option, output,
-                             has_some_ending(output) ? OUTPUT_TABLES : NULL);
+/// Two lists of endings as one.
+static void join_endings(const char *first, const char *more, char all[ENDINGS_TEXT]) {
+    snprintf(all, ENDINGS_TEXT, "%s%s%s", first, more ? " " : "", more ? more : "");
+}
+
+sl_status output_check_table(sl_context *context, const char *option, const char *output,
+                             const char *more) {
+    char all[ENDINGS_TEXT];
+    join_endings(OUTPUT_TABLES, more, all);
+    return output_check_file(context, option, output, has_some_ending(output) ? all : NULL);
 }
 
 sl_status output_check_baked(sl_context *context, const char *option, const char *output) {
@@ -106,11 +115,12 @@ sl_status output_check_baked(sl_context *context, const char *option, const char
     return output_check_file(context, option, output, NULL);
 }
 
-sl_status output_check_picture(sl_context *context, const char *option, const char *output) {
-    const char *const endings = ".png .svg .pdf";
-    SL_TRY(built_need_pictures(context));
-    if (!output_has_ending(output, endings))
-        return output_fail_ending(context, option, output, endings);
+sl_status output_check_picture(sl_context *context, const char *option, const char *output,
+                               const char *more) {
+    char all[ENDINGS_TEXT];
+    join_endings(".png .svg .pdf", more, all);
+    if (!more || !output_has_ending(output, more)) SL_TRY(built_need_pictures(context));
+    if (!output_has_ending(output, all)) return output_fail_ending(context, option, output, all);
     return output_check_file(context, option, output, NULL);
 }
 
@@ -146,11 +156,10 @@ sl_status output_choose_export(sl_context *context, const name_table *formats, c
 
 option_table picture_option_table(sl_draw_options *drawing, bool titled) {
     const option_spec options[] = {
-        {"width", 0, "PX", "of the picture, 64 to 20000 pixels or points",
+        {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
          .number = &drawing->width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
-        {"dark", 0, NULL, titled ? "light on dark" : "the picture light on dark",
-         .flag = &drawing->dark},
-        {"title", 0, "TEXT", "a line over the picture", .text = &drawing->title},
+        {"dark", 0, NULL, "draw light on dark", .flag = &drawing->dark},
+        {"title", 0, "TEXT", "write a line over the picture", .text = &drawing->title},
     };
     option_table table = {0};
     option_table_add(&table, options, titled ? 3 : 2);

@@ -14,12 +14,16 @@
 /// device. SL_IO where nothing can be written there.
 sl_status output_check_file(sl_context *context, const char *option, const char *output,
                             const char *endings);
-/// The same for a table, whose name ends in .csv or .txt, or has no ending.
-sl_status output_check_table(sl_context *context, const char *option, const char *output);
+/// The same for a table, whose name ends in .csv or .txt, in one of `more` (NULL: none), or has no
+/// ending.
+sl_status output_check_table(sl_context *context, const char *option, const char *output,
+                             const char *more);
 /// The same for a baked file, whose name must end in .slv.
 sl_status output_check_baked(sl_context *context, const char *option, const char *output);
-/// The same for a picture, whose name must end in .png, .svg or .pdf.
-sl_status output_check_picture(sl_context *context, const char *option, const char *output);
+/// The same for a picture, whose name must end in .png, .svg or .pdf, or in one of `more` (NULL:
+/// none).
+sl_status output_check_picture(sl_context *context, const char *option, const char *output,
+                               const char *more);
 
 #define OUTPUT_TABLES ".csv .txt"
 

@@ -1,5 +1,6 @@
 #include "pipeline.h"
 
+#include "help.h"
 #include "inputs.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
@@ -25,42 +26,55 @@ option_table pipeline_without_table(map_pipeline *p) {
     const option_spec without = {"without",
                                  0,
                                  "EFFECT,...",
-                                 "leave out what the map calls for",
+                                 "ignore effects of the map: door, mirror, oneway, range",
                                  .choices = &p->without,
-                                 .names = effect_table()};
+                                 .names = effect_table(),
+                                 .rare = true};
     option_table table = {0};
     option_table_add(&table, &without, 1);
+    option_table_topic(&table, "reading a map");
+    return table;
+}
+
+/// Options that change how the map is cut into cells.
+static option_table cutting_option_table(map_pipeline *p) {
+    const option_spec options[] = {
+        {"subdivide", 0, "kd|mesh|given",
+         "how to cut the map into cells (default: given if the map brings cells, kd if all walls "
+         "are axial, else mesh)",
+         .choice = &p->subdivide, .names = subdivision_table(), .text = &p->subdivide_text},
+        {"kd-rules", 0, "RULE,...",
+         "rules of the kd-tree to use: spanning, obscured, cleaving, median (default: all)",
+         .choices = &p->kd_rules, .names = kd_rule_names, .given = &p->kd_rules_given},
+        {"kd-obscured", 0, "SHARE",
+         "the rule 'obscured' prefers lines of which walls cover this share, 0 to 1",
+         .number = &p->bake.rules.obscured, .most = 1, .needs = "a share from 0 to 1 is needed",
+         .given = &p->kd_obscured_given},
+        {"check", 0, NULL, "check the graph of cells and portals (a mesh is always checked)",
+         .flag = &p->bake.check},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    option_table_topic(&table, "cutting it into cells");
+    for (size_t i = 0; i < table.count; i++) table.items[i].rare = true;
     return table;
 }
 
 option_table pipeline_option_table(map_pipeline *p) {
-    const option_spec cutting[] = {
-        {"subdivide", 0, "kd|mesh|given",
-         "how to cut the map into cells (default: given where\nthe map brings cells, kd on axial "
-         "maps, else mesh)",
-         .choice = &p->subdivide, .names = subdivision_table(), .text = &p->subdivide_text},
-        {"kd-rules", 0, "RULE,...",
-         "the rules kept, of spanning, obscured, cleaving,\nmedian (the default is all; none: "
-         "none)",
-         .choices = &p->kd_rules, .names = kd_rule_names, .given = &p->kd_rules_given},
-        {"kd-obscured", 0, "SHARE", "prefer lines of which walls cover this share, 0 to 1",
-         .number = &p->bake.rules.obscured, .most = 1, .needs = "a share from 0 to 1 is needed",
-         .given = &p->kd_obscured_given},
-    };
-    const option_spec rest[] = {
-        {"start", 0, "X,Y", "a start beside the map's own: starts tell inside\nfrom outside",
-         .point = &p->start, .text = &p->start_text},
-    };
-    const option_spec check = {"check", 0, NULL,
-                               "check the whole graph of cells and portals (for a\nmesh: always)",
-                               .flag = &p->bake.check};
-    const option_table input = input_option_table(&p->input), without = pipeline_without_table(p);
+    const option_spec start = {"start",
+                               0,
+                               "X,Y",
+                               "add a start: inside is all that starts reach",
+                               .point = &p->start,
+                               .text = &p->start_text,
+                               .topic = "reading a map"};
+    const option_table input = input_option_table(&p->input), without = pipeline_without_table(p),
+                       cutting = cutting_option_table(p);
     option_table table = {0};
-    option_table_add(&table, cutting, sizeof cutting / sizeof *cutting);
     option_table_add(&table, input.items, input.count);
-    option_table_add(&table, rest, 1);
+    option_table_add(&table, &start, 1);
     option_table_add(&table, without.items, without.count);
-    option_table_add(&table, &check, 1);
+    option_table_add(&table, cutting.items, cutting.count);
     return table;
 }
 
@@ -98,7 +112,7 @@ static sl_status add_start(sl_context *context, const map_pipeline *pipeline, sl
     const sl_box b = sl_map_bounds(map);
     if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--start %s: outside the map; sightline info %s tells its bounds",
+                       "--start %s: outside the map; sightline info %s shows its bounds",
                        pipeline->start_text, pipeline->path);
     return sl_map_add_start(context, map, at, 0, 0);
 }
@@ -108,7 +122,7 @@ sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
-    return SL_OK;
+    return pipeline->settles_doors ? sl_effects_settle_doors(context, map) : SL_OK;
 }
 
 sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
@@ -215,13 +229,12 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
 // --- help
 
 void pipeline_print_subdivisions(void) {
-    puts("\nsubdivisions (default: given where a map text brings cells, kd where all\nwalls are "
-         "axial, else mesh):");
+    puts("\nsubdivisions:");
     size_t count;
     const sl_subdivision *subdivisions = sl_subdivisions(&count);
     for (size_t i = 0; i < count; i++)
-        printf("  %-12s%s\n", subdivisions[i].name, subdivisions[i].what);
-    printf("              (kd's rules: spanning, obscured at a share of %g, cleaving, median)\n",
+        help_name(subdivisions[i].name, 12, subdivisions[i].what, NULL);
+    printf("  (default share of the kd-tree's rule 'obscured': %g)\n",
            sl_subdivide_options_default().obscured);
 }
 
@@ -233,16 +246,16 @@ void pipeline_print_effects(void) {
     putchar('\n');
 }
 
-void pipeline_print_methods(const char *on_methods, const char *on_solvers) {
+void pipeline_print_methods(void) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
-    printf("\nmethods%s:\n", on_methods);
+    puts("\nmethods:");
     for (size_t i = 0; i < count; i++)
-        printf("  %-12s%s; %s\n", methods[i].name, methods[i].what,
-               methods[i].stabs ? "as exact as the solver"
-                                : sl_guarantee_name(methods[i].guarantee));
-    printf("\nsolvers%s:\n", on_solvers);
+        help_name(methods[i].name, 12, methods[i].what,
+                  methods[i].stabs ? "as exact as the solver"
+                                   : sl_guarantee_name(methods[i].guarantee));
+    puts("\nsolvers:");
     for (size_t i = 0; solver_at(i); i++)
-        printf("  %-12s%s; %s\n", solver_at(i)->name, solver_at(i)->what,
-               sl_guarantee_name(solver_at(i)->guarantee));
+        help_name(solver_at(i)->name, 12, solver_at(i)->what,
+                  sl_guarantee_name(solver_at(i)->guarantee));
 }

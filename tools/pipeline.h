@@ -13,6 +13,7 @@ typedef struct map_pipeline {
     sl_point start;         ///< beside the map's own, where `start_text` is not NULL
     const char *start_text; ///< as it is given
     unsigned without;       ///< effects to leave out: bits of sl_effects()
+    bool settles_doors;     ///< the command takes doors as they stand (sl_effects_settle_doors)
 
     // What the options of the subdivision say. pipeline_plan() puts it into `bake`.
     size_t subdivide;           ///< of sl_subdivisions()
@@ -31,7 +32,7 @@ option_table pipeline_without_table(map_pipeline *pipeline);
 /// Call it after the options are read and before anything else.
 sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *pipeline);
 
-/// Adds the start of --start to a map and drops the effects of --without.
+/// Adds the start of --start to a map, drops the effects of --without and may settle doors.
 sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl_map *map);
 
 /// Reads the map, adds the start of --start and drops the effects of --without.
@@ -57,7 +58,7 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
 /// For --help: the names that the options take.
 void pipeline_print_subdivisions(void);
 void pipeline_print_effects(void);
-/// Methods and solvers. The remarks follow the headings.
-void pipeline_print_methods(const char *on_methods, const char *on_solvers);
+/// Methods and solvers.
+void pipeline_print_methods(void);
 
 #endif

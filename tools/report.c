@@ -12,21 +12,13 @@ void plan_print(const sl_map *map) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
-    const char *lead = "  plan      ";
+    const char *lead = "  effects   ";
     for (size_t i = 0; i < count; i++) {
         if (!(called_for >> i & 1)) continue;
         printf("%s%s (%zu): %s\n", lead, effects[i]->several, effects[i]->count(map),
                effects[i]->adds);
         lead = "            ";
     }
-    const char *between = called_for ? "nothing calls for " : "walls alone; nothing calls for ";
-    for (size_t i = 0; i < count; i++) {
-        if (called_for >> i & 1) continue;
-        printf("%s%s%s", lead, between, effects[i]->several);
-        lead = "";
-        between = ", ";
-    }
-    if (!*lead) putchar('\n');
 }
 
 void plan_add_json(json_fields *fields, const sl_map *map) {
@@ -127,8 +119,8 @@ sl_status mean_pvs_of(sl_context *context, const sl_baked *baked, pvs_means *out
 }
 
 void mean_pvs_print(const pvs_means *mean) {
-    printf("  a cell    sees %.1f of %" PRIu32 " %scells (%.1f %%), %.1f %% of their area;\n"
-           "            means over those cells, each of the same weight\n",
+    printf("  a cell    sees %.1f of %" PRIu32
+           " %scells (%.1f %%) and %.1f %% of their area, on average\n",
            mean->cells, mean->cell_count, mean->inside_only ? "inside " : "",
            100 * mean->share_of_cells, 100 * mean->share_of_area);
 }

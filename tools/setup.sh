@@ -2,8 +2,8 @@
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
-# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, and the Python
-# package jsonschema.
+# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
+# groff, and the Python package jsonschema.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -72,6 +72,7 @@ is_there() {
     gmp) links gmp.h gmp ;;
     zlib) links zlib.h z ;;
     cairo | cmocka | jansson) module "$1" ;;
+    pango) module pangocairo ;;
     libpng) module libpng ;;
     libxml2) module libxml-2.0 ;;
     libyaml) module yaml-0.1 ;;
@@ -80,9 +81,11 @@ is_there() {
     mpi) has mpirun && has mpicc ;;
     xvfb) has Xvfb ;;
     xdotool) has xdotool ;;
+    aspell) has aspell && aspell dump dicts | grep -q '^en' ;;
+    groff) has groff ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer) has "$1" ;;
+    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
     jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
@@ -98,6 +101,7 @@ package() { # system thing
     apt:glpk) echo libglpk-dev ;;
     apt:gmp) echo libgmp-dev ;;
     apt:cairo) echo libcairo2-dev ;;
+    apt:pango) echo libpango1.0-dev ;;
     apt:cmocka) echo libcmocka-dev ;;
     apt:jansson) echo libjansson-dev ;;
     apt:zlib) echo zlib1g-dev ;;
@@ -108,7 +112,9 @@ package() { # system thing
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
+    apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
+    apt:node | dnf:node | pacman:node) echo nodejs ;;
     *:llvm-symbolizer) echo llvm ;;
 
     dnf:c) echo gcc ;;
@@ -118,7 +124,7 @@ package() { # system thing
     dnf:font) echo dejavu-sans-fonts ;;
     dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
     dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
-    dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
+    dnf:glpk | dnf:gmp | dnf:cairo | dnf:pango | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
     dnf:zstd) echo libzstd-devel ;;
     dnf:sdl2) echo SDL2-devel ;;
     dnf:mpi) echo openmpi-devel ;;
@@ -187,8 +193,8 @@ install_packages() { # system package...
 
 # ---- What to do ----
 
-things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi jsonschema"
+things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done
@@ -205,7 +211,7 @@ done
 if [ -z "$system" ]; then
     echo "setup: this system's package manager is none of apt, dnf, pacman, brew. Please install:" >&2
     echo "  a C and a C++ compiler (gcc or clang), cmake 3.20 or newer, ninja, pkg-config, python3," >&2
-    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, SDL2, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
+    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, Pango, SDL2, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
     exit 1
 fi
 

@@ -1,6 +1,8 @@
-/// The command `sightline`: finds the subcommand and runs it.
+/// The program `sightline`: finds the command and runs it.
+#include "built_with.h"
 #include "commands.h"
 #include "crew.h"
+#include "help.h"
 #include "names.h"
 #include "sightline/support.h"
 
@@ -10,61 +12,107 @@
 typedef struct command {
     const char *name, *summary;
     sl_status (*run)(command_console *console, int argc, char **argv);
+    const char *topic; ///< a heading over it in --help; NULL: as the one before
 } command;
 
 static const command commands[] = {
-    {"info", "what a map or a baked file holds", cmd_info},
-    {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", cmd_bake},
-    {"merge", "the shards of a bake, put together", cmd_merge},
-    {"check", "what is wrong with a map: leaks, gaps, overlaps, thin cells", cmd_check},
-    {"compare", "every method on one map: accuracy against time, as table and chart", cmd_compare},
-    {"export", "a baked file for other programs", cmd_export},
-    {"reject", "the REJECT of all maps of a Doom WAD, made anew in one go", cmd_reject},
-    {"explain", "why a cell does or does not see another", cmd_explain},
-    {"eye", "what one viewpoint sees, by every culling method", cmd_eye},
-    {"isovist", "what is seen from points: regions, their measures, heat maps", cmd_isovist},
-    {"viewcells", "view cells that adapt to what is seen, for a budget", cmd_viewcells},
-    {"walk", "a walk, frame by frame: culling without visible sets, with coherence", cmd_walk},
-    {"regions", "what view cells see: brute force, hierarchy and multipass compared", cmd_regions},
-    {"draw", "a picture of a baked file", cmd_draw},
-    {"convert", "any map that can be read, as map text or ASCII plan", cmd_convert},
-    {"generate", "procedural maps: maze, office, city, pillars, tunnels, tower", cmd_generate},
+    {"info", "show what a map or a baked file holds", cmd_info, "maps"},
+    {"check", "find faults of a map: leaks, gaps, overlaps, thin cells", cmd_check, NULL},
+    {"convert", "write a map in another format", cmd_convert, NULL},
+    {"generate", "generate a maze, office, city, or another map", cmd_generate, NULL},
+    {"bake", "compute cells, portals and cell-to-cell visibility", cmd_bake, "bake"},
+    {"merge", "join the shards of a bake", cmd_merge, NULL},
+    {"reject", "compute the REJECT tables of a Doom WAD", cmd_reject, NULL},
+    {"export", "write a baked file for other programs", cmd_export, NULL},
+    {"draw", "draw a baked file", cmd_draw, NULL},
+    {"eye", "show what one viewpoint sees", cmd_eye, "questions"},
+    {"isovist", "compute visible regions, their measures and heat maps", cmd_isovist, NULL},
+    {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
+    {"explain", "show why a cell does or does not see another", cmd_explain, NULL},
+    {"compare", "run every method on one map: accuracy against time", cmd_compare, "studies"},
+    {"walk", "cull frame by frame, without visible sets", cmd_walk, NULL},
+    {"regions", "compute what view cells see, by several methods", cmd_regions, NULL},
+    {"viewcells", "make view cells that adapt to what is seen", cmd_viewcells, NULL},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
-static void print_help(void) {
-    puts("usage: sightline COMMAND ...\n\n"
-         "2D cell-and-portal visibility: which cells of a map can see which.\n\ncommands:");
+static const command *find_command(const char *name) {
     for (size_t i = 0; i < COMMAND_COUNT; i++)
-        printf("  %-11s%s\n", commands[i].name, commands[i].summary);
-    puts("\n'sightline COMMAND --help', or 'sightline help COMMAND', tells what each takes.\n"
-         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong;\n"
-         "3 'check --strict' found a fault.\n\n"
-         "example:\n"
-         "  sightline bake office.map -o office.slv\n"
-         "  sightline draw office.slv -o office.png");
+        if (strcmp(name, commands[i].name) == 0) return &commands[i];
+    return NULL;
 }
+
+const char *command_summary(const char *name) {
+    const command *found = find_command(name);
+    return found ? found->summary : NULL;
+}
+
+// --- help
+
+#define PURPOSE "Computes what can be seen from where in a 2D map, with cells and portals."
+
+static void print_commands(void) {
+    for (size_t i = 0; i < COMMAND_COUNT; i++) {
+        if (commands[i].topic) printf("\n%s:\n", commands[i].topic);
+        printf("  %-11s%s\n", commands[i].name, commands[i].summary);
+    }
+}
+
+static void print_help(void) {
+    puts("usage: sightline COMMAND ...\n\n" PURPOSE);
+    print_commands();
+    puts("\n'sightline COMMAND --help' shows the options of a command.\n\n"
+         "examples:\n"
+         "  sightline bake office.map -o office.slv\n"
+         "  sightline draw office.slv -o office.png\n\n"
+         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are\n"
+         "wrong; 3 'check --strict' found a fault.");
+}
+
+static void print_manual(void) {
+    puts(".TH SIGHTLINE 1 \"\" \"sightline " SIGHTLINE_VERSION "\" \"Sightline\"\n"
+         ".SH NAME\nsightline \\- 2D cell-and-portal visibility\n"
+         ".SH SYNOPSIS\n.B sightline\nCOMMAND ...\n.SH DESCRIPTION\n" PURPOSE
+         "\n.SH COMMANDS\n.nf");
+    print_commands();
+    puts(".fi\n.SH SEE ALSO");
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        printf(".BR sightline\\-%s (1)%s\n", commands[i].name, i + 1 < COMMAND_COUNT ? "," : "");
+}
+
+static sl_status print_help_form(sl_context *context, const char *word) {
+    help_form form;
+    SL_TRY(help_form_read(context, word, &form));
+    if (form == HELP_MAN)
+        print_manual();
+    else if (form != HELP_WORDS)
+        print_help();
+    for (size_t i = 0; form == HELP_WORDS && i < COMMAND_COUNT; i++)
+        printf("%s\t\t\t%s\n", commands[i].name, commands[i].summary);
+    return SL_OK;
+}
+
+// --- commands
 
 static sl_status run(command_console *console, int argc, char **argv) {
     if (argc < 2)
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "no command is given; 'sightline --help' lists them");
     const char *name = argv[1];
-    if (strcmp(name, "help") == 0 && argc == 3) {
-        char *about[] = {argv[0], argv[2], "--help", NULL};
-        return run(console, 3, about);
+    const bool asks = strcmp(name, "help") == 0;
+    if (asks && argc >= 3 && strcmp(argv[2], "all") != 0) {
+        char *about[] = {argv[0], argv[2], "--help", argc > 3 ? argv[3] : NULL, NULL};
+        return run(console, argc > 3 ? 4 : 3, about);
     }
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
-        print_help();
+    if (asks || strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+        return print_help_form(console->context, argc > 2 ? argv[2] : NULL);
+    if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) {
+        puts("sightline " SIGHTLINE_VERSION "\nbuilt by " BUILT_BY "\nlibraries: " BUILT_WITH
+             "\nlicence: " BUILT_LICENCE);
         return SL_OK;
     }
-    if (strcmp(name, "--version") == 0) {
-        puts("sightline " SIGHTLINE_VERSION);
-        return SL_OK;
-    }
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(name, commands[i].name) == 0)
-            return commands[i].run(console, argc - 1, argv + 1);
+    const command *found = find_command(name);
+    if (found) return found->run(console, argc - 1, argv + 1);
 
     const name_table table = {"command", commands, sizeof *commands, COMMAND_COUNT, NULL};
     const char *near = nearest_name(&table, name);

@@ -359,6 +359,7 @@ typedef struct running {
     sl_eye_search *search;
     uint64_t *cells;
     walk_canvas *canvas;
+    sl_visibility visibility; ///< the baked sets; borrowed, without stab trees past glass
 } running;
 
 static sl_status start(sl_context *context, running *r) {
@@ -368,7 +369,11 @@ static sl_status start(sl_context *context, running *r) {
                               &r->walk);
     r->cells = sl_alloc_array(context, sl_eye_words(space), sizeof *r->cells);
     if (!r->cells) return SL_NO_MEMORY;
-    return sl_eye_search_create(context, space, &r->scene->baked->visibility, &r->search);
+    r->visibility = r->scene->baked->visibility;
+    if (r->scene->through != space) r->visibility.trees = (sl_stab_trees){0};
+    SL_TRY(sl_eye_search_create(context, r->scene->through, &r->visibility, &r->search));
+    sl_eye_search_limit(r->search, r->scene->baked->map.range);
+    return SL_OK;
 }
 
 static void stop(sl_context *context, running *r) {

@@ -21,6 +21,11 @@ static sl_status refuse_list(sl_context *context, const char *name, const char *
     return refuse_map(context, name, text, size, NULL, NULL);
 }
 
+static sl_status refuse_write(sl_context *context, const sl_map *map, FILE *stream) {
+    (void)map, (void)stream;
+    return sl_fail(context, SL_UNSUPPORTED, "%s", refusal);
+}
+
 static sl_status refuse_export(sl_context *context, const sl_baked *baked,
                                const sl_export_options *options, const char *path) {
     (void)baked, (void)options, (void)path;
@@ -34,6 +39,8 @@ static const sl_map_format foreign = {
     .read = refuse_map,
     .takes = UINT32_MAX,
     .list = refuse_list,
+    .write = refuse_write,
+    .keeps = SL_KEEPS_ALL,
 };
 
 static const sl_export_format exports[] = {

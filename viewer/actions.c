@@ -1,15 +1,21 @@
 #include "actions.h"
 
+#include "browser.h"
 #include "edit.h"
 #include "effects.h"
+#include "export.h"
 #include "files.h"
+#include "import_dialog.h"
 #include "layers.h"
 #include "modes.h"
+#include "question.h"
 #include "quiz.h"
 #include "save.h"
 #include "view.h"
+#include "why.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -50,6 +56,7 @@ MODE(quiz, MODE_QUIZ)
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
         app->view.show ^= SHOW_##NAME;                                                             \
+        if (app->view.show & SHOW_FILLS & SHOW_##NAME) app->view.fill = LAYER_##NAME;              \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \
@@ -68,15 +75,19 @@ SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
 SWITCH(dark, ui.dark)
-SWITCH(help, ui.help)
+SWITCH(legend, ui.legend)
+SWITCH(fullscreen, ui.fullscreen)
+SWITCH(present, ui.presents)
 
-static void maps(app_state *app) {
-    app->ui.maps_open = !app->ui.maps_open;
-    if (app->ui.maps_open) shelf_forget_maps(app);
+static void help(app_state *app) {
+    if (app->ui.help)
+        app_shut_help(app);
+    else
+        app_open_help(app);
 }
 
-static bool is_maps(const app_state *app) {
-    return app->ui.maps_open;
+static bool is_help(const app_state *app) {
+    return app->ui.help;
 }
 
 SWITCH(fly, view.eye.flies)
@@ -141,12 +152,25 @@ static void zoom_out(app_state *app) {
     zoom(app, 1 / 1.25);
 }
 
+/// Goes to the next size of text, or back.
+static void text_step(app_state *app, bool larger) {
+    static const double sizes[] = {0.75, 1, 1.25, 1.5, 2, 2.5, 3};
+    const double now = app->ui.text_scale;
+    enum { COUNT_OF_SIZES = sizeof sizes / sizeof *sizes };
+    for (int i = 0; i < COUNT_OF_SIZES; i++) {
+        const double size = sizes[larger ? i : COUNT_OF_SIZES - 1 - i];
+        if (larger ? size <= now + 1e-9 : size >= now - 1e-9) continue;
+        app->ui.text_scale = size;
+        return;
+    }
+}
+
 static void text_larger(app_state *app) {
-    app->ui.text_scale = fmin(app->ui.text_scale * 1.15, 3);
+    text_step(app, true);
 }
 
 static void text_smaller(app_state *app) {
-    app->ui.text_scale = fmax(app->ui.text_scale / 1.15, 0.7);
+    text_step(app, false);
 }
 
 static void narrower(app_state *app) {
@@ -212,8 +236,81 @@ static void step_last(app_state *app) {
 
 SWITCH(play_steps, tool.lesson.plays)
 
+/// Goes to the next step of a kind, or says that there is none.
+static void seek(app_state *app, bool rejects, bool back) {
+    const subject_row *subject = lesson_subject(&app->tool.lesson);
+    const char *name = rejects ? subject->rejected : subject->found;
+    app->tool.lesson.plays = false;
+    if (lesson_seek(&app->tool.lesson, &app->document, rejects, back)) return;
+    if (name)
+        ui_say(&app->ui, false, "no %s step \"%s\"", back ? "earlier" : "later", name);
+    else
+        ui_say(&app->ui, false, "this subject has no such steps");
+}
+
+static void found_next(app_state *app) {
+    seek(app, false, false);
+}
+
+static void found_back(app_state *app) {
+    seek(app, false, true);
+}
+
+static void rejected_next(app_state *app) {
+    seek(app, true, false);
+}
+
+static void set_speed(app_state *app, int by) {
+    lesson_state *lesson = &app->tool.lesson;
+    lesson_set_speed(lesson, lesson->speed + by);
+    ui_say(&app->ui, false, "%g steps a second", ldexp(2, lesson->speed));
+}
+
+static void slower(app_state *app) {
+    set_speed(app, -1);
+}
+
+static void faster(app_state *app) {
+    set_speed(app, 1);
+}
+
+SWITCH(program, ui.program)
+
+static void choose_end(app_state *app, bool back) {
+    lesson_state *lesson = &app->tool.lesson;
+    char name[48] = "the line";
+    if (!lesson->end_count) {
+        ui_say(&app->ui, false, "this step has no portals to choose from");
+        return;
+    }
+    lesson_choose(lesson, back);
+    const uint32_t chosen = lesson_chosen(lesson);
+    if (chosen != CHOSEN_NONE && chosen != CHOSEN_LINE) lesson_name_end(chosen, name);
+    if (chosen == CHOSEN_NONE)
+        ui_say(&app->ui, false, "nothing is chosen: Left and Right step");
+    else
+        ui_say(&app->ui, false, "%s: the arrows move it, Ctrl+Z takes that back", name);
+}
+
+static void choose_next(app_state *app) {
+    choose_end(app, false);
+}
+
+static void choose_back(app_state *app) {
+    choose_end(app, true);
+}
+
+static void reset_ends(app_state *app) {
+    lesson_reset(&app->tool.lesson, &app->document);
+    ui_say(&app->ui, false, "the portal ends and the line are where they were");
+}
+
+static void why_step(app_state *app) {
+    why_go_to_step(app);
+}
+
 static void subject(app_state *app) {
-    lesson_change(app->context, &app->tool.lesson, &app->document);
+    lesson_next_subject(app->context, &app->tool.lesson, &app->document);
     app_tick(app, 0);
 }
 
@@ -222,6 +319,7 @@ static void subject(app_state *app) {
 static void travel(app_state *app, bool redo) {
     sl_status status = SL_OK;
     bool bake = false;
+    if (edit_cancel(app)) return;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
         ui_say(&app->ui, false, redo ? "nothing to redo" : "nothing to undo");
@@ -237,7 +335,11 @@ static void travel(app_state *app, bool redo) {
 }
 
 static void undo(app_state *app) {
-    travel(app, false);
+    const bool learns = app->tool.mode == MODE_LEARN;
+    if (learns && lesson_undo(&app->tool.lesson))
+        ui_say(&app->ui, false, "undone in the lesson");
+    else
+        travel(app, false);
 }
 
 static void redo(app_state *app) {
@@ -303,14 +405,54 @@ static bool is_play(const app_state *app) {
     return app->tool.recorder.plays;
 }
 
-static void export_series(app_state *app) {
-    app_check(app, save_series(app, "sightline-frames", 2));
+static void take_export(app_state *app, int answer) {
+    if (answer == 0 && !app->file.locked)
+        app_check(
+            app, (app->steady ? save_series : export_series)(app, "sightline-frames", SERIES_STEP));
+}
+
+static void export_frames(app_state *app) {
+    static const char *const answers[] = {"S:Save", "C:Cancel"};
+    const size_t count = (app->tool.recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
+    char text[160];
+    if (!count) {
+        ui_say(&app->ui, false, "no way was recorded: record one, or play the map's path");
+        return;
+    }
+    snprintf(text, sizeof text, "%zu picture%s of %d x %d pixels, in the folder sightline-frames",
+             count, count == 1 ? "" : "s", app->ui.width, app->ui.height);
+    question_ask(app, "Save pictures of the way?", text, answers, 2, take_export);
 }
 
 // --- files
 
-static void choose(app_state *app) {
-    if (app->ui.maps_open) shelf_choose(app, app->shelf.at);
+static void file_menu(app_state *app) {
+    menu_open(app);
+}
+
+static void file_new(app_state *app) {
+    map_file_new(app);
+}
+
+static void file_open(app_state *app) {
+    browser_open(app);
+}
+
+static void file_import(app_state *app) {
+    import_open_again(app);
+}
+
+static void file_save(app_state *app) {
+    map_file_save(app);
+}
+
+static void file_save_as(app_state *app) {
+    map_file_save_as(app);
+}
+
+static void file_notes(app_state *app) {
+    const char *notes = app->document.notes;
+    question_tell(app, "What was read", *notes ? notes : "The reader of this file has no notes.");
 }
 
 static bool is_doors(const app_state *app) {
@@ -324,7 +466,7 @@ static void doors(app_state *app) {
         return;
     }
     options.doors = !options.doors;
-    shelf_open_again(app, &options);
+    files_open_again(app, &options);
 }
 
 static void cut_by(app_state *app, double share) {
@@ -332,7 +474,7 @@ static void cut_by(app_state *app, double share) {
     sl_import_options options = source->options;
     const double by = share * (source->highest - source->lowest);
     options.slice = fmin(fmax(options.slice + by, source->lowest), source->highest);
-    if (options.slice != source->options.slice) shelf_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(app, &options);
 }
 
 static void cut_lower(app_state *app) {
@@ -356,17 +498,25 @@ static void save_pdf(app_state *app) {
 }
 
 static void quit(app_state *app) {
-    app->quit = true;
+    map_file_quit(app);
 }
 
 static void escape(app_state *app) {
-    if (app->ui.help || app->ui.maps_open)
-        app->ui.help = app->ui.maps_open = false;
+    if (app->ui.help)
+        app_shut_help(app);
+    else if (map_file_stop(app))
+        ui_say(&app->ui, false, "stopped; the map is not saved");
+    else if (edit_cancel(app))
+        ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
-    } else if (view_layer_stop(app))
+    } else if (export_stop(app))
+        ui_say(&app->ui, false, "stopped; the pictures that are written stay");
+    else if (view_layer_stop(app))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
+    else if (app->tool.mode == MODE_LEARN && app->tool.lesson.chosen_next)
+        app->tool.lesson.chosen_next = 0;
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
     else
@@ -395,17 +545,17 @@ static const action_row actions[] = {
     HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, HOLD_TURN_RIGHT),
     {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
-    {"narrower", ",", NULL, "narrower view cone", 0, 0, narrower, NULL},
-    {"wider", ".", NULL, "wider view cone", 0, 0, wider, NULL},
+    {"narrower", ",", NULL, "narrower view cone", NOT_LEARN, 0, narrower, NULL},
+    {"wider", ".", NULL, "wider view cone", NOT_LEARN, 0, wider, NULL},
     {"range", "Ctrl+R", "Range", "set a view range, or lift it", 0, 0, range, is_range},
     {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
 
     LAYERS(LAYER_ROW){"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
     {"split_more", "]", NULL, "splits deeper", 0, 0, split_more, NULL},
-    {"tree_less", "-", NULL, "stab tree: a portal shorter", 0, 0, tree_less, NULL},
-    {"tree_more", "=", NULL, "stab tree: a portal longer", 0, 0, tree_more, NULL},
-    {"views_merge", "Ctrl+Left", "Merge", "view cells: one fewer", 0, 0, views_merge, NULL},
-    {"views_split", "Ctrl+Right", "Split", "view cells: one more", 0, 0, views_split, NULL},
+    {"tree_less", "-", NULL, "stab tree: a portal shorter", NOT_LEARN, 0, tree_less, NULL},
+    {"tree_more", "=", NULL, "stab tree: a portal longer", NOT_LEARN, 0, tree_more, NULL},
+    {"views_merge", "Ctrl+Left", "Merge", "view cells: one fewer", NOT_LEARN, 0, views_merge, NULL},
+    {"views_split", "Ctrl+Right", "Split", "view cells: one more", NOT_LEARN, 0, views_split, NULL},
     {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
      views_largest, NULL},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
@@ -423,7 +573,21 @@ static const action_row actions[] = {
     {"step_first", "Home", "|\xe2\x97\x80", "learn: to the first step", LEARN, 0, step_first, NULL},
     {"step_last", "End", "\xe2\x96\xb6|", "learn: to the last step", LEARN, 0, step_last, NULL},
     {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
-    {"subject", "U", "Another subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
+    {"found_next", "Ctrl+Right", "Next", "learn: the next new cell", LEARN, 0, found_next, NULL},
+    {"found_back", "Ctrl+Left", "Back", "learn: the new cell before", LEARN, 0, found_back, NULL},
+    {"rejected_next", "R", "Rejection", "learn: the next rejection", LEARN, 0, rejected_next, NULL},
+    {"slower", "-", "Slower", "learn: play slower", LEARN, 0, slower, NULL},
+    {"faster", "=", "Faster", "learn: play faster", LEARN, 0, faster, NULL},
+    {"choose_next", ".", NULL, "learn: choose the line, or a portal end", LEARN, 0, choose_next,
+     NULL},
+    {"choose_back", ",", NULL, "learn: the one before", LEARN, 0, choose_back, NULL},
+    {"reset_ends", "Delete", "Reset", "learn: ends and line as they were", LEARN, 0, reset_ends,
+     NULL},
+    {"program", "Ctrl+L", "Linear program", "learn: the linear program", LEARN, 0, program,
+     is_program},
+    {"subject", "U", "Subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
+    {"why_step", "Ctrl+T", "Show the step", "why: the step of the search that decides", 0, 0,
+     why_step, NULL},
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
@@ -432,20 +596,28 @@ static const action_row actions[] = {
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
      EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
 
-    {"answer_yes", "Y", "Yes", "quiz: seen", QUIZ, 0, answer_yes, NULL},
-    {"answer_no", "N", "No", "quiz: not seen", QUIZ, 0, answer_no, NULL},
-    {"next_question", "Space", "Next", "quiz: the next question", QUIZ, 0, next_question, NULL},
+    {"answer_yes", "Y", "Yes, seen (Y)", "quiz: seen", QUIZ, 0, answer_yes, NULL},
+    {"answer_no", "N", "No (N)", "quiz: not seen", QUIZ, 0, answer_no, NULL},
+    {"next_question", "Space", "Next (Space)", "quiz: the next question", QUIZ, 0, next_question,
+     NULL},
 
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
-    {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_series, NULL},
+    {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_frames, NULL},
 
-    {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
-    {"choose", "Return", NULL, "list: open what is chosen", 0, 0, choose, NULL},
+    {"file", "Ctrl+M", "File", "all that has to do with files", 0, 0, file_menu, NULL},
+    {"new", "Ctrl+N", "New", "a new map", 0, 0, file_new, NULL},
+    {"open", "Ctrl+O", "Open", "open a file", 0, 0, file_open, NULL},
+    {"open_too", "O", NULL, "open a file", 0, 0, file_open, NULL},
+    {"import", "Ctrl+I", "Options", "open the same file with other options", 0, 0, file_import,
+     NULL},
+    {"notes", "Ctrl+J", "Notes", "what the reader took of the file", 0, 0, file_notes, NULL},
+    {"save", "Ctrl+S", "Save", "save the map", 0, 0, file_save, NULL},
+    {"save_as", "Ctrl+Shift+S", "Save as", "save the map under a name", 0, 0, file_save_as, NULL},
     {"doors", "Ctrl+D", "Doors", "doors as doors, or as they begin", 0, 0, doors, is_doors},
     {"cut_lower", "Ctrl+Down", NULL, "3D model: cut it lower", 0, 0, cut_lower, NULL},
     {"cut_higher", "Ctrl+Up", NULL, "3D model: cut it higher", 0, 0, cut_higher, NULL},
-    {"save_png", "Ctrl+S", "Save", "save the plan as PNG", 0, 0, save_png, NULL},
+    {"save_png", "Ctrl+E", "PNG", "save the plan as PNG", 0, 0, save_png, NULL},
     {"save_svg", "Ctrl+G", "SVG", "save the plan as SVG", 0, 0, save_svg, NULL},
     {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},
     {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},
@@ -454,7 +626,13 @@ static const action_row actions[] = {
     {"dark", "T", "Dark", "light or dark", 0, 0, dark, is_dark},
     {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
-    {"side_panel", "Tab", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"side_panel", "Ctrl+B", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"legend", "F7", "Legend", "the legend over the plan, where there is no panel", 0, 0, legend,
+     is_legend},
+    {"fullscreen", "F11", "Fullscreen", "fill the screen, or the window again", 0, 0, fullscreen,
+     is_fullscreen},
+    {"present", "F12", "Present", "for a projector: large text, strong tones, few panels", 0, 0,
+     present, is_present},
     {"help", "?", "?", "this help", 0, 0, help, is_help},
     {"escape", "Escape", "Stop", "stop, close", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},

@@ -5,11 +5,18 @@
 #include "files.h"
 #include "modes.h"
 #include "quiz.h"
+#include "recovery.h"
 #include "sightline/support.h"
 #include "view.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+/// A frame of a drag takes this long, where its space does not come sooner.
+#define DRAG_FRAME_SECONDS 0.014
+/// It waits at least this long: small maps are never late.
+#define DRAG_WAIT_SECONDS 0.003
 
 void app_init(app_state *app, sl_context *context) {
     size_t count;
@@ -19,17 +26,25 @@ void app_init(app_state *app, sl_context *context) {
         .document = {.mirror_depth = 1},
         .view = {.fitted = true,
                  .eye = {.fov = 90},
-                 .show = SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS,
+                 .show =
+                     SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
+                 .fill = LAYER_CULL,
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
         .tool = {.pointer = {-1, -1}, .wall = UINT32_MAX, .quiz = {.random = 1}},
-        .ui = {.side_panel = true,
+        .ui = {.bar_rows = 1,
+               .time_lines = 1,
+               .scrolling = -1,
+               .legend = true,
+               .side_panel = true,
                .effects = true,
                .text_scale = 1,
                .density = 1,
                .width = 1200,
-               .height = 760},
+               .height = 760,
+               .window_width = 1200,
+               .window_height = 760},
     };
 }
 
@@ -40,9 +55,15 @@ static void drop_scenes(app_state *app) {
 }
 
 void app_destroy(app_state *app) {
+    // All jobs are told before any of them is waited for.
+    document_stop_soon(&app->document);
+    export_stop(app);
+    view_layer_stop(app);
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
+    sl_free(app->context, app->view.under.items.items);
+    sl_free(app->context, app->view.over.items.items);
     if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
     node_layer_destroy(app->context, app->view.nodes);
     view_layer_destroy(app->context, app->view.views);
@@ -50,11 +71,13 @@ void app_destroy(app_state *app) {
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
     lesson_destroy(app->context, &app->tool.lesson);
+    map_file_destroy(app);
+    dialog_destroy(app);
     history_clear(app->context, &app->document.history);
     record_destroy(app->context, &app->tool.recorder);
+    sl_free(app->context, app->tool.ends.items);
     sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
     document_close(app->context, &app->document);
-    shelf_empty(app);
 }
 
 void app_check(app_state *app, sl_status status) {
@@ -90,12 +113,42 @@ static void drop_made(app_state *app) {
     app->view.seen.valid = false;
 }
 
+/// Says what was read.
+static void say_document(app_state *app) {
+    const sl_space *space = &app->document.baked->space;
+    char name[TITLE_TEXT], calls[CALLS_TEXT], partial[SL_PARTIAL_TEXT];
+    map_file_name(app, name);
+    effects_in_words(&app->document.map, calls);
+    sl_baked_say_partial(app->document.baked, partial);
+    if (partial[0])
+        ui_say(&app->ui, false, "%s is %s", name, partial);
+    else
+        ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s%s", name, space->cell_count,
+               space->portal_count, space->wall_count, *calls ? "; " : "", calls,
+               *app->document.notes ? "; Ctrl+J: what was read" : "");
+}
+
+/// A wall may change how the whole map is cut into cells. That is said, as all cells are others.
+static void say_subdivision(app_state *app, bool was_mesh) {
+    const bool mesh = app->document.baked->space.neighbour != NULL;
+    if (mesh && !was_mesh)
+        ui_say(&app->ui, false,
+               "A wall is oblique now: the cells are those of a mesh, no longer of a kd-tree");
+    if (!mesh && was_mesh)
+        ui_say(&app->ui, false,
+               "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
+}
+
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
-    app->tool.wall = UINT32_MAX;
     quiz_forget(app);
+    const bool was_mesh = app->view.mesh;
+    if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
+    if (!opened && app->document.baked && app->view.mesh != was_mesh)
+        say_subdivision(app, was_mesh);
     if (!opened || !app->document.baked) return;
+    app->tool.wall = UINT32_MAX;
     app->view.fitted = true;
     app->tool.drag = (drag_state){0};
     app->document.stale = false;
@@ -103,21 +156,8 @@ static void take_document(app_state *app, bool opened) {
     app->tool.recorder.records = app->tool.recorder.plays = false;
     app->tool.recorder.frames.count = 0;
     walk_home(app);
-    const char *path = app->document.source.path;
-    const char *slash = path ? strrchr(path, '/') : NULL;
-    const char *map = app->document.source.options.map;
-    const sl_space *space = &app->document.baked->space;
-    char calls[CALLS_TEXT];
-    effects_in_words(&app->document.map, calls);
-    ui_say(&app->ui, false, "%s%s%s: %u cells, %u portals, %u walls; %s",
-           slash  ? slash + 1
-           : path ? path
-                  : "map",
-           map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
-           space->wall_count, calls);
-    char partial[SL_PARTIAL_TEXT];
-    sl_baked_say_partial(app->document.baked, partial);
-    if (partial[0]) ui_say(&app->ui, false, "%s is %s", slash ? slash + 1 : path, partial);
+    map_file_taken(app);
+    say_document(app);
 }
 
 void app_take_opened(app_state *app) {
@@ -132,30 +172,66 @@ static void follow(app_state *app) {
     if (app->view.present.version != before && app->tool.quiz.answered) quiz_forget(app);
 }
 
-/// While something is dragged, a new bake starts only after the last one has its cells. Bakes that
-/// start at each step would never get that far.
+/// While something is dragged, a new space starts only after the last one is there. Jobs that start
+/// at each step would never get that far.
 static void keep_up(app_state *app) {
     if (!app->document.stale || document_awaits_space(&app->document)) return;
-    app_after_edit(app);
+    app->document.stale = false;
+    app_check(app, document_rebuild(app->context, &app->document, true));
 }
 
-static void poll(app_state *app, bool wait) {
-    keep_up(app);
+/// A frame of a drag waits for its space if that comes soon. So the plan is mostly not late at all,
+/// and else by one frame.
+static void wait_for_drag(const app_state *app) {
+    const double spare = DRAG_FRAME_SECONDS - app->view.draw_seconds;
+    if (app->tool.drag.changed && document_awaits_space(&app->document))
+        document_wait_space(&app->document, fmax(spare, DRAG_WAIT_SECONDS));
+}
+
+/// Takes over what the background has made.
+static void take_results(app_state *app, bool wait) {
     const uint32_t before = app->document.opened, version = app->document.version;
+    const uint32_t read = app->document.read;
+    char opening[PATH_TEXT] = "";
+    const char *file = document_opening(&app->document);
+    if (file) snprintf(opening, sizeof opening, "%s", file);
     bool changed = false;
     const sl_status status = wait ? document_wait(app->context, &app->document, &changed)
                                   : document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
     if (changed) drop_made(app);
-    if (version != app->document.version) take_document(app, before != app->document.opened);
+    if (read != app->document.read) app->tool.drag = (drag_state){0}; // of another map
+    if (version != app->document.version) {
+        take_document(app, before != app->document.opened);
+        // What was said before was of the map before.
+        const bool again = before == app->document.opened && *opening;
+        if (status == SL_OK && again && app->document.baked) say_document(app);
+    }
     follow(app);
-    app_check(app, status);
+    if (*opening)
+        files_check(app, opening, status);
+    else
+        app_check(app, status);
+}
+
+static void poll(app_state *app, bool wait) {
+    do {
+        keep_up(app);
+        if (!wait) wait_for_drag(app);
+        take_results(app, wait);
+    } while (wait && app->document.stale);
+    keep_up(app);
     view_layer_update(app, wait);
+    map_file_tick(app, wait);
+    recovery_tick(app);
 }
 
 job_progress app_progress(const app_state *app) {
     const job_progress document = document_progress(&app->document);
-    return document.running ? document : view_layer_progress(app->view.views);
+    if (document.running) return document;
+    const job_progress file = map_file_progress(app), pictures = export_progress(app->exports);
+    if (file.running) return file;
+    return pictures.running ? pictures : view_layer_progress(app->view.views);
 }
 
 static void look(app_state *app) {
@@ -177,6 +253,7 @@ void app_settle(app_state *app) {
 
 void app_tick(app_state *app, double seconds) {
     poll(app, app->steady);
+    ui_tick(&app->ui, seconds);
     app->view.motion = fmax(app->view.motion - seconds, 0);
     record_frame frame;
     if (record_play(&app->tool.recorder, seconds, &frame)) {
@@ -188,7 +265,9 @@ void app_tick(app_state *app, double seconds) {
     app_check(app, record_tick(app->context, &app->tool.recorder, seconds,
                                (record_frame){app->view.eye.at, app->view.eye.heading}));
     if (app->document.baked) lesson_tick(&app->tool.lesson, &app->document, seconds);
+    export_move(app);
     look(app);
+    export_take(app);
 }
 
 void app_keep(app_state *app) {
@@ -208,7 +287,12 @@ void app_before_edit(app_state *app) {
 
 void app_after_edit(app_state *app) {
     app->document.stale = false;
-    app_check(app, document_rebuild(app->context, &app->document));
+    app_check(app, document_rebuild(app->context, &app->document, false));
+}
+
+void app_after_step(app_state *app) {
+    app->document.stale = true;
+    keep_up(app);
 }
 
 // --- the frame
@@ -217,38 +301,52 @@ static sl_box box(double left, double top, double right, double bottom) {
     return (sl_box){{left, top}, {fmax(right, left + 1), fmax(bottom, top + 1)}};
 }
 
-window_layout app_layout(const app_state *app) {
-    const double t = ui_text_size(&app->ui), w = app->ui.width, h = app->ui.height;
-    window_layout l = {.plan_count = 1};
-    const double bar = 2.3 * t, status = 1.9 * t;
-    const double side = app->ui.side_panel ? fmin(26 * t, 0.5 * w) : 0;
-    l.bar = box(0, 0, w, bar);
-    l.status = box(0, h - status, w, h);
-    l.side = box(w - side, bar, w, h - status);
-    const double right = w - side;
-    double bottom = h - status;
-    if (app->tool.mode == MODE_LEARN) {
-        l.time = box(0, bottom - 4.7 * t, right, bottom);
-        bottom = l.time.min.y;
-    }
+/// In a presentation the plan has the window to itself, but for what was opened since.
+static double side_width(const app_state *app) {
+    const ui_state *ui = &app->ui;
+    const double t = ui_text_size(ui), chosen = ui->edges[EDGE_SIDE];
+    if (!ui->side_panel || ui->presents) return 0;
+    return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
+}
+
+static void place_below(const app_state *app, window_layout *l, double right, double *bottom) {
     int shown = 0, before = 0;
-    const double share = 0.42 * (bottom - bar);
+    const double t = ui_text_size(&app->ui), chosen = app->ui.edges[EDGE_BELOW];
+    const double room = *bottom - l->bar.max.y;
     double high = 0;
     for (int i = 0; i < PANES_BELOW; i++) {
         const pane_below *pane = &panes_below()[i];
         if (!pane->shown(app)) continue;
-        high = fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), share) : share);
+        high =
+            fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), 0.42 * room) : 0.42 * room);
         shown++;
     }
-    if (shown) {
-        const double top = bottom - high;
-        for (int i = 0; i < PANES_BELOW; i++) {
-            if (!panes_below()[i].shown(app)) continue;
-            const double left = right * before / shown;
-            l.below[i] = box(left, top, right * ++before / shown, bottom);
-        }
-        bottom = top;
+    if (!shown) return;
+    if (chosen > 0) high = fmin(fmax(chosen, 0.1), 0.8) * room;
+    const double top = round(*bottom - high);
+    for (int i = 0; i < PANES_BELOW; i++) {
+        if (!panes_below()[i].shown(app)) continue;
+        const double left = right * before / shown;
+        l->below[i] = box(left, top, right * ++before / shown, *bottom);
     }
+    *bottom = top;
+}
+
+window_layout app_layout(const app_state *app) {
+    const double t = ui_text_size(&app->ui), w = app->ui.width, h = app->ui.height;
+    window_layout l = {.plan_count = 1};
+    const double bar = (0.3 + 2 * app->ui.bar_rows) * t, status = 1.9 * t;
+    l.bar = box(0, 0, w, bar);
+    l.status = box(0, h - status, w, h);
+    double bottom = h - status;
+    if (app->tool.mode == MODE_LEARN) {
+        l.time =
+            box(0, fmax(bottom - pane_time_height(app), bar + 0.3 * (bottom - bar)), w, bottom);
+        bottom = l.time.min.y;
+    }
+    const double right = round(w - side_width(app));
+    l.side = box(right, bar, w, bottom);
+    place_below(app, &l, right, &bottom);
     l.plan[0] = box(0, bar, right, bottom);
     if (app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE) {
         l.plan_count = 2;
@@ -258,27 +356,87 @@ window_layout app_layout(const app_state *app) {
     return l;
 }
 
+void app_drag_edge(app_state *app, int edge, double by) {
+    const window_layout l = app_layout(app);
+    if (edge == EDGE_SIDE) {
+        app->ui.edges[edge] = fmax(side_width(app) + by, 1) / ui_text_size(&app->ui);
+        return;
+    }
+    double high = 0, bottom = l.plan[0].max.y;
+    for (int i = 0; i < PANES_BELOW; i++) high = fmax(high, box_height(l.below[i]));
+    const double room = bottom + high - l.bar.max.y;
+    app->ui.edges[edge] = fmin(fmax((high + by) / room, 0.1), 0.8);
+}
+
+/// The borders that can be dragged: over all panes, as they are narrow.
+static void draw_edges(app_state *app, const window_layout *l) {
+    ui_state *ui = &app->ui;
+    const double wide = fmax(0.35 * ui->text, 4);
+    if (side_width(app) > 0)
+        ui_edge(ui, EDGE_SIDE,
+                (sl_box){{l->side.min.x - wide / 2, l->side.min.y},
+                         {l->side.min.x + wide / 2, l->side.max.y}});
+    for (int i = 0; i < PANES_BELOW; i++)
+        if (box_width(l->below[i]) > 0) {
+            ui_edge(ui, EDGE_BELOW,
+                    (sl_box){{0, l->below[i].min.y - wide / 2},
+                             {l->side.min.x, l->below[i].min.y + wide / 2}});
+            break;
+        }
+}
+
+void app_open_help(app_state *app) {
+    app->ui.help = true;
+    app->ui.filter = (ui_field){0};
+    app->ui.field = &app->ui.filter;
+    app->ui.scrolls[SCROLL_HELP] = (ui_scroll){0};
+    app->ui.focus = (ui_focus){0};
+}
+
+void app_shut_help(app_state *app) {
+    app->ui.help = false;
+    if (app->ui.field == &app->ui.filter) app->ui.field = NULL;
+}
+
 void app_fit(app_state *app, sl_box plan) {
     if (app->view.fitted && app->document.baked)
         app->view.camera =
             camera_fit(app->document.baked->space.bounds, box_width(plan), box_height(plan));
 }
 
+/// On a projector pale tones vanish.
+static sl_palette palette_of(const ui_state *ui) {
+    sl_palette p = sl_palette_make(ui->dark);
+    if (!ui->presents) return p;
+    p.faint = sl_colour_mix(p.faint, p.ink, 0.6);
+    p.outline = sl_colour_mix(p.outline, p.ink, 0.4);
+    for (int i = 0; i < SL_TONES; i++) p.floor[i] = sl_colour_mix(p.floor[i], p.floor[0], 0.7);
+    return p;
+}
+
 void app_draw(app_state *app, cairo_t *cairo) {
-    const window_layout l = app_layout(app);
+    const double before = sl_seconds();
     app->ui.cairo = cairo;
-    app->ui.palette = sl_palette_make(app->ui.dark);
+    app->ui.palette = palette_of(&app->ui);
     app->ui.text = ui_text_size(&app->ui);
     app->ui.pointer = app->tool.pointer;
-    app->ui.hit_count = 0;
+    app->ui.over = ui_find(&app->ui, app->tool.pointer);
+    ui_begin(&app->ui);
+    pane_bar_measure(app);
+    pane_time_measure(app);
+    const window_layout l = app_layout(app);
     app_fit(app, l.plan[0]);
+    pane_dual_hover(app);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
         if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);
+    if (side_width(app) > 0) mode_table()[app->tool.mode].panel(app, l.side);
+    draw_edges(app, &l);
     if (box_width(l.time) > 0) pane_time(app, l.time);
-    if (app->ui.side_panel) mode_table()[app->tool.mode].panel(app, l.side);
     pane_bar(app, l.bar);
     pane_status(app, l.status);
-    if (app->ui.maps_open) pane_maps(app);
     if (app->ui.help) pane_help(app);
+    dialog_draw(app);
+    pane_tip(app);
+    app->view.draw_seconds = 0.8 * app->view.draw_seconds + 0.2 * (sl_seconds() - before);
 }

@@ -3,9 +3,13 @@
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
+#include "changes.h"
+#include "dialog.h"
 #include "document.h"
+#include "export.h"
 #include "layers.h"
 #include "lesson.h"
+#include "map_file.h"
 #include "present.h"
 #include "save.h"
 #include "seen.h"
@@ -26,7 +30,8 @@ typedef struct kept_picture {
         uint32_t version, touched, show, depth, dark, views, mark;
         sl_frame frame;
     } key;
-    double seconds; ///< that drawing it took
+    double seconds;   ///< that drawing it took
+    plan_items items; ///< that are in it, while the map is edited
 } kept_picture;
 
 /// The account as it was drawn last.
@@ -36,6 +41,14 @@ typedef struct account_picture {
     bool dark;
     double text, made; ///< when, by the clock
 } account_picture;
+
+/// What the first-person pane shows: wall pieces drawn, and columns of pixels by what is in them.
+typedef struct first_person_counts {
+    uint32_t pieces;
+    uint32_t mirrors, reflected; ///< mirrors, and what is seen in them
+    uint32_t leaves, frames;     ///< doors that are shut, and open ones
+    uint32_t dark, tinted;       ///< one-way glass from its dark side, and from the other
+} first_person_counts;
 
 /// What the pointer does while its button is down.
 typedef enum drag_kind {
@@ -47,6 +60,8 @@ typedef enum drag_kind {
     DRAG_END,  ///< a portal end of the lesson
     DRAG_NEW_WALL,
     DRAG_WALL,
+    DRAG_CORNER,
+    DRAG_DOOR,
     DRAG_MIRROR,
     DRAG_OBJECT,
 } drag_kind;
@@ -64,17 +79,20 @@ typedef struct drag_state {
     bool changed;
 } drag_state;
 
-/// The list that is shown while `maps_open`: files, or the maps of one file.
-typedef struct map_shelf {
-    sl_map_list files;      ///< paths
-    document_source source; ///< whose maps are listed; no path: files are
-    sl_map_list maps;       ///< of that file
-    size_t at, first;       ///< the row that the keys are at, and the first one shown
-} map_shelf;
+/// An end of a wall, a door or glass that is dragged, and where it was.
+typedef struct held_end {
+    int kind; ///< of edit.c
+    size_t index;
+    bool second;
+    sl_point was;
+} held_end;
 
 typedef struct quiz_state {
     uint32_t from, to;
     bool asked, answered, right;
+    bool judged; ///< answered by the user, who said `said`; else only explained
+    bool said;
+    bool seeded; ///< by the clock; under scripts questions are always the same
     unsigned asked_count, right_count;
     uint64_t random;
     sl_explanation explanation; ///< once answered
@@ -86,8 +104,10 @@ typedef struct view_state {
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
     unsigned show; ///< layers, of show_bit
+    unsigned fill; ///< the layer that was switched on last of those that fill the plan
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
+    bool mesh;            ///< the cells are those of a mesh
     comparison compare;
     double motion; ///< seconds for which a moving plan may be drawn by moving the kept picture
 
@@ -99,8 +119,11 @@ typedef struct view_state {
     uint32_t scene_version, scene_show; ///< of what the scene was made
     uint32_t tree_version, tree_cell;   ///< of what the tree was made
     bool tree_dark;
+    double pen_size; ///< that lines of the plan are drawn for; it stays while something is dragged
+    double draw_seconds;      ///< that a frame takes to draw, smoothed
     kept_picture under, over; ///< below and above what changes from frame to frame
     account_picture account;
+    first_person_counts first_person; ///< of the last frame
 
     node_layer *nodes; ///< these three: NULL: none yet
     view_layer *views;
@@ -113,7 +136,8 @@ typedef struct tool_state {
     unsigned held;    ///< keys, of hold_key
     sl_point pointer; ///< negative: outside
     drag_state drag;
-    uint32_t wall; ///< chosen, of the map; UINT32_MAX: none
+    uint32_t wall;           ///< chosen, of the map; UINT32_MAX: none
+    SL_ARRAY(held_end) ends; ///< that are dragged
     lesson_state lesson;
     quiz_state quiz;
     path_recorder recorder;
@@ -125,9 +149,14 @@ struct app_state {
     view_state view;
     tool_state tool;
     ui_state ui;
-    map_shelf shelf;
+    dialog_state dialog;
+    file_state file;
+    export_job *exports;       ///< NULL: no pictures are being written
     sl_import_options options; ///< the command line's, for files opened later too
-    bool steady;               ///< under a script: no clock shows, nothing is remembered
+    /// For pictures that may take longer than a frame has: the window stops them for keys that must
+    /// not wait. NULL: they are drawn to their end.
+    sl_context *drawing;
+    bool steady; ///< under a script: no clock shows, nothing is remembered
     bool quit;
 };
 
@@ -160,6 +189,8 @@ void app_keep(app_state *app);
 /// The same where the change needs a new bake. Call app_after_edit after it: that starts the bake.
 void app_before_edit(app_state *app);
 void app_after_edit(app_state *app);
+/// Call after each step of a drag that changed the map: the space follows, visible sets do not.
+void app_after_step(app_state *app);
 /// Call after a change that needs no new bake.
 void app_after_touch(app_state *app);
 
@@ -170,7 +201,7 @@ bool app_is_solid(const app_state *app, sl_point at);
 uint32_t app_eye_cell(const app_state *app);
 
 /// The panes below the plan, side by side: rows of the table in modes.c.
-enum { PANE_DUAL, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
+enum { PANE_DUAL, PANE_PROGRAM, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
 
 /// Where things are on the page.
 typedef struct window_layout {
@@ -180,5 +211,11 @@ typedef struct window_layout {
 } window_layout;
 
 window_layout app_layout(const app_state *app);
+
+/// Moves a border between panels, of ui_edges, by pixels; positive: the panel grows.
+void app_drag_edge(app_state *app, int edge, double by);
+
+void app_open_help(app_state *app);
+void app_shut_help(app_state *app);
 
 #endif

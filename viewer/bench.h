@@ -24,7 +24,7 @@ typedef struct meter_summary {
 meter_summary meter_sum_up(frame_meter *meter);
 
 /// Walks, turns and pans through the open map. Prints one CSV line for each part:
-/// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine
+/// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,late,machine
 sl_status bench_run(app_state *app, unsigned frames);
 
 /// Sends random keys, clicks, drags, sizes and maps for a number of seconds, without a window.

@@ -4,6 +4,12 @@
 /// A job owns all that it makes until it sets a flag: space_ready, seen_ready, done. After the flag
 /// that part belongs to the main thread. document_poll takes it over and never waits. A change by
 /// hand cancels the job and starts another one. The old map stays until the new one has its space.
+///
+/// While something is dragged, jobs are live: they make the space alone, which is all that the
+/// visible region and the eye's culling need. A live job runs to its end before the next one
+/// starts, with the map as it is then. So the picture is late by one job, however fast the drag.
+/// Cost: one whole bake of the space per frame. That is a few ms for some thousand walls, and
+/// simpler than to mend the old space.
 #include "document.h"
 
 #include "sightline/io.h"
@@ -22,6 +28,12 @@ static void clear(sl_context *context, sl_map *list, size_t *count) {
     while (*count) sl_map_destroy(context, &list[--*count]);
 }
 
+/// Adds the number of a state as push adds its map: `count` is that after push.
+static void push_state(uint64_t *states, size_t count, uint64_t state, bool dropped) {
+    if (dropped) memmove(states, states + 1, (count - 1) * sizeof *states);
+    states[count - 1] = state;
+}
+
 /// The oldest change is dropped for a new one.
 static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl_map *map) {
     sl_map copy = {0};
@@ -36,12 +48,26 @@ static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl
 }
 
 sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map) {
+    const bool full = history->done_count == HISTORY_MOST;
     clear(context, history->undone, &history->undone_count);
-    return push(context, history->done, &history->done_count, map);
+    SL_TRY(push(context, history->done, &history->done_count, map));
+    push_state(history->done_state, history->done_count, history->state, full);
+    history->state = ++history->last_state;
+    return SL_OK;
 }
 
 void history_forget_last(sl_context *context, edit_history *history) {
-    if (history->done_count) sl_map_destroy(context, &history->done[--history->done_count]);
+    if (!history->done_count) return;
+    sl_map_destroy(context, &history->done[--history->done_count]);
+    history->state = history->done_state[history->done_count];
+}
+
+bool history_take_back(sl_context *context, edit_history *history, sl_map *map) {
+    if (!history->done_count) return false;
+    sl_map_destroy(context, map);
+    *map = history->done[--history->done_count];
+    history->state = history->done_state[history->done_count];
+    return true;
 }
 
 static bool same_segment(sl_segment a, sl_segment b) {
@@ -75,10 +101,13 @@ bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool 
     sl_map *to = redo ? history->done : history->undone;
     size_t *from_count = redo ? &history->undone_count : &history->done_count;
     size_t *to_count = redo ? &history->done_count : &history->undone_count;
+    const bool full = *to_count == HISTORY_MOST;
     if (!*from_count) return false;
     *status = push(context, to, to_count, map);
     if (*status != SL_OK) return true;
+    push_state(redo ? history->done_state : history->undone_state, *to_count, history->state, full);
     const sl_map last = from[--*from_count];
+    history->state = (redo ? history->undone_state : history->done_state)[*from_count];
     *bake = !same_bake(map, &last);
     sl_map_destroy(context, map);
     *map = last;
@@ -88,23 +117,35 @@ bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool 
 void history_clear(sl_context *context, edit_history *history) {
     clear(context, history->done, &history->done_count);
     clear(context, history->undone, &history->undone_count);
+    history->state = ++history->last_state;
 }
 
 // --- the job
 
 struct bake_job {
     document_source source; ///< what to read; no path: `map` is what to bake
+    bool begins;            ///< `map` is a new one, and not the open one after a change
+    double wanted_weld;     ///< negative: the usual
     uint32_t mirror_depth;
-    sl_map map;               ///< as drawn; filled by the job where it reads
-    sl_map clean;             ///< the job's, to the end
-    sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
+    sl_map map;         ///< as drawn; filled by the job where it reads
+    sl_map clean;       ///< the job's, to the end
+    sl_baked *baked;    ///< the job's until space_ready, then only its visibility is
+    sl_outline outline; ///< these four as well
+    sli_split *splits;
+    double *areas;
+    sl_eye_search *search;
+    double weld;
     sl_visibility visibility; ///< the job's until seen_ready
     sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
     sl_status status;         ///< when `done`
     char message[1024];
+    char notes[NOTES_TEXT]; ///< the job's until space_ready
     pthread_t thread;
     atomic_bool cancel, space_ready, seen_ready, done;
-    double until; ///< the clock's time at which the job gives up stab trees; 0: never
+    bool live;      ///< the space alone
+    uint32_t edit;  ///< of the document, when the job started
+    double started; ///< by the clock
+    double until;   ///< the clock's time at which the job gives up stab trees; 0: never
     _Atomic(const char *) stage;
     atomic_uint_fast64_t count, total;
     bool taken, seen_taken; ///< the main thread has the space, the visibility
@@ -112,6 +153,9 @@ struct bake_job {
 
 /// Stab trees are kept if all of them fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
+
+/// The progress of a drag's space is shown after this time, seconds.
+#define SOON 0.25
 
 /// The search for stab trees ends after this time: open places have too many sequences.
 #define TREE_SECONDS 20
@@ -128,10 +172,36 @@ static void take_progress(void *user, const sl_progress *progress) {
     atomic_store(&job->total, progress->total);
 }
 
+/// Keeps what the reader says. Notes that come after the space are dropped.
+static void take_note(void *user, const char *message) {
+    bake_job *job = user;
+    const size_t used = strlen(job->notes);
+    if (!atomic_load(&job->space_ready))
+        snprintf(job->notes + used, sizeof job->notes - used, "%s%s", used ? "\n" : "", message);
+}
+
 /// Replaces the walls of a map.
 static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
     map->wall_count = 0;
     return sl_map_add_walls(context, map, walls, count);
+}
+
+static sl_status add_mirrors(sl_context *context, const sl_map *map, uint32_t depth,
+                             sl_eye_search *search) {
+    return map->mirror_count ? sl_eye_search_add_mirrors(context, search, map, depth) : SL_OK;
+}
+
+/// Makes what the plan, the lessons and the eye need of the space.
+static sl_status measure_space(sl_context *context, bake_job *job) {
+    const sl_space *space = &job->baked->space;
+    job->areas = sl_alloc_array(context, space->cell_count, sizeof *job->areas);
+    if (!job->areas) return SL_NO_MEMORY;
+    for (uint32_t cell = 0; cell < space->cell_count; cell++)
+        job->areas[cell] = sl_space_area(space, cell);
+    SL_TRY(sl_outline_make(context, space, &job->outline));
+    SL_TRY(sli_splits_make(context, space, &job->splits));
+    SL_TRY(sl_eye_search_create(context, space, &job->baked->visibility, &job->search));
+    return add_mirrors(context, &job->baked->map, job->mirror_depth, job->search);
 }
 
 /// A baked file has all but the map as drawn: the walls of its space take its place.
@@ -141,6 +211,7 @@ static sl_status read_baked(sl_context *context, bake_job *job) {
     SL_TRY(set_walls(context, &job->map, job->baked->space.walls, job->baked->space.wall_count));
     job->visibility = job->baked->visibility;
     job->baked->visibility = (sl_visibility){0};
+    SL_TRY(measure_space(context, job));
     atomic_store(&job->space_ready, true);
     atomic_store(&job->seen_ready, true);
     return SL_OK;
@@ -185,12 +256,16 @@ static sl_status bake(sl_context *context, bake_job *job) {
     sl_bake_account account = {0};
     sl_map map = {0};
     options.mirror_depth = job->mirror_depth;
+    options.clean.weld = job->wanted_weld;
     SL_TRY(sl_map_copy(context, &job->map, &map));
     const sl_status status = sl_bake_space(context, &map, &options, job->baked, &account);
     sl_map_destroy(context, &map);
     SL_TRY(status);
-    SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
+    job->weld = account.cleaning.tolerance;
+    SL_TRY(measure_space(context, job));
+    if (!job->live) SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
     atomic_store(&job->space_ready, true);
+    if (job->live) return SL_OK;
     SL_TRY(see(context, job, &options, &job->visibility));
     atomic_store(&job->seen_ready, true);
     return see_with_trees(context, job, options);
@@ -204,7 +279,8 @@ static sl_status work(sl_context *context, bake_job *job) {
 
 static void *run(void *user) {
     bake_job *job = user;
-    const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
+    const sl_hooks hooks = {
+        .user = job, .progress = take_progress, .note = take_note, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
     job->status = context ? sl_io_use(context) : SL_NO_MEMORY;
     if (job->status == SL_OK) job->status = work(context, job);
@@ -216,6 +292,12 @@ static void *run(void *user) {
 }
 
 static void free_job(sl_context *context, bake_job *job) {
+    if (!job->taken && job->search) sl_eye_search_destroy(context, job->search);
+    if (!job->taken) {
+        sl_outline_destroy(context, &job->outline);
+        sl_free(context, job->splits);
+        sl_free(context, job->areas);
+    }
     if (!job->taken && job->baked) {
         sl_baked_destroy(context, job->baked);
         sl_free(context, job->baked);
@@ -231,6 +313,7 @@ static void free_job(sl_context *context, bake_job *job) {
 /// Starts the thread. Owns the content of the job also on failure.
 static sl_status bake_job_start(sl_context *context, bake_job *job) {
     atomic_store(&job->stage, "read");
+    job->started = sl_seconds();
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
     if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
     free_job(context, job);
@@ -255,21 +338,24 @@ void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, (char *)(uintptr_t)source->options.map);
     sl_free(context, (char *)(uintptr_t)source->options.layers);
     sl_free(context, (char *)(uintptr_t)source->options.start_names);
+    sl_free(context, (char *)(uintptr_t)source->options.unit);
     *source = (document_source){0};
 }
 
 sl_status document_source_copy(sl_context *context, const document_source *from,
                                document_source *to) {
-    char *path = NULL, *map = NULL, *layers = NULL, *start_names = NULL;
+    char *path = NULL, *map = NULL, *layers = NULL, *start_names = NULL, *unit = NULL;
     sl_status status = copy_text(context, from->path, &path);
     if (status == SL_OK) status = copy_text(context, from->options.map, &map);
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
     if (status == SL_OK) status = copy_text(context, from->options.start_names, &start_names);
+    if (status == SL_OK) status = copy_text(context, from->options.unit, &unit);
     document_source copy = *from;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
     copy.options.start_names = start_names;
+    copy.options.unit = unit;
     if (status == SL_OK)
         *to = copy;
     else
@@ -289,11 +375,19 @@ bool document_is_baked(const char *path) {
     return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
 }
 
+static bake_job *make_job(sl_context *context, const document_state *document,
+                          const document_source *source) {
+    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+    if (!job) return NULL;
+    job->mirror_depth = document->mirror_depth;
+    job->wanted_weld = source && source->has_weld ? source->weld : sl_clean_options_default().weld;
+    return job;
+}
+
 sl_status document_open(sl_context *context, document_state *document,
                         const document_source *source) {
-    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+    bake_job *job = make_job(context, document, source);
     if (!job) return SL_NO_MEMORY;
-    job->mirror_depth = document->mirror_depth;
     const sl_status status = document_source_copy(context, source, &job->source);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -302,10 +396,25 @@ sl_status document_open(sl_context *context, document_state *document,
     return start(context, document, job);
 }
 
-sl_status document_rebuild(sl_context *context, document_state *document) {
-    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status document_begin(sl_context *context, document_state *document, sl_map *map) {
+    bake_job *job = make_job(context, document, NULL);
     if (!job) return SL_NO_MEMORY;
-    job->mirror_depth = document->mirror_depth;
+    job->begins = true;
+    job->map = *map;
+    *map = (sl_map){0};
+    return start(context, document, job);
+}
+
+const char *document_opening(const document_state *document) {
+    return document_awaits_space(document) ? document->job->source.path : NULL;
+}
+
+sl_status document_rebuild(sl_context *context, document_state *document, bool live) {
+    document->edit++;
+    bake_job *job = make_job(context, document, &document->source);
+    if (!job) return SL_NO_MEMORY;
+    job->live = live;
+    job->edit = document->edit;
     const sl_status status = sl_map_copy(context, &document->map, &job->map);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -317,6 +426,10 @@ sl_status document_rebuild(sl_context *context, document_state *document) {
 bool document_has_rows(const document_state *document) {
     const double now = document->map.range, baked = document->baked->map.range;
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
+}
+
+bool document_is_late(const document_state *document) {
+    return document->baked && (document->stale || document->shown != document->edit);
 }
 
 bool document_awaits_space(const document_state *document) {
@@ -363,9 +476,7 @@ static void drop_baked(sl_context *context, document_state *document) {
 
 sl_status document_add_mirrors(sl_context *context, const document_state *document,
                                sl_eye_search *search) {
-    const sl_map *map = &document->baked->map;
-    if (!map->mirror_count) return SL_OK;
-    return sl_eye_search_add_mirrors(context, search, map, document->mirror_depth);
+    return add_mirrors(context, &document->baked->map, document->mirror_depth, search);
 }
 
 static sl_status make_search(sl_context *context, document_state *document) {
@@ -380,44 +491,52 @@ sl_status document_renew_search(sl_context *context, document_state *document) {
     return document->search ? make_search(context, document) : SL_OK;
 }
 
-static sl_status measure_cells(sl_context *context, document_state *document) {
+static void count_cells(document_state *document) {
     const sl_space *space = &document->baked->space;
-    document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
-    if (!document->areas) return SL_NO_MEMORY;
     document->area = 0;
     document->counted = document->solid = 0;
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
-        document->areas[cell] = sl_space_area(space, cell);
         document->solid += space->cells[cell].solid;
         if (!sl_baked_counts(document->baked, cell)) continue;
         document->area += document->areas[cell];
         document->counted++;
     }
-    return SL_OK;
+}
+
+static void take_made(document_state *document, bake_job *job) {
+    document->baked = job->baked;
+    document->baked_depth = job->mirror_depth;
+    document->outline = job->outline;
+    document->splits = job->splits;
+    document->areas = job->areas;
+    document->search = job->search;
+    document->weld = job->weld;
+    document->live = job->live;
+    document->shown = job->edit;
+    job->taken = true;
+    document->version++;
 }
 
 /// Takes over the space: it is shown from now on.
 static sl_status take_space(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     drop_baked(context, document);
-    document->baked = job->baked;
-    document->baked_depth = job->mirror_depth;
-    job->taken = true;
-    document->version++;
-    if (job->source.path) {
+    take_made(document, job);
+    if (job->source.path || job->begins) {
+        document->shown = document->edit; // the file's map takes the place of all changes
         sl_map_destroy(context, &document->map);
         SL_TRY(sl_map_copy(context, &job->map, &document->map));
         SL_TRY(take_objects(context, document));
         document_source_destroy(context, &document->source);
         document->source = job->source;
         job->source = (document_source){0};
+        memcpy(document->notes, job->notes, sizeof document->notes);
         document->opened += !document->source.again;
+        document->read++;
     }
     document_touch(document); // doors may have been turned while the job was at work
-    SL_TRY(measure_cells(context, document));
-    SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
-    SL_TRY(sli_splits_make(context, &document->baked->space, &document->splits));
-    return make_search(context, document);
+    count_cells(document);
+    return job->mirror_depth == document->mirror_depth ? SL_OK : make_search(context, document);
 }
 
 /// Takes over the visible sets. They come a second time, equal but with stab trees.
@@ -468,6 +587,16 @@ sl_status document_poll(sl_context *context, document_state *document, bool *cha
     return finish(context, document);
 }
 
+void document_wait_space(const document_state *document, double seconds) {
+    const double end = sl_seconds() + seconds;
+    const bake_job *job = document->job;
+    while (job && !job->taken && !atomic_load(&job->space_ready) && !atomic_load(&job->done) &&
+           sl_seconds() < end) {
+        const struct timespec pause = {0, 100000};
+        nanosleep(&pause, NULL);
+    }
+}
+
 sl_status document_wait(sl_context *context, document_state *document, bool *changed) {
     bool any = false;
     sl_status status = SL_OK;
@@ -486,11 +615,15 @@ sl_status document_wait(sl_context *context, document_state *document, bool *cha
 
 job_progress document_progress(const document_state *document) {
     const bake_job *job = document->job;
-    if (!job) return (job_progress){0};
+    if (!job || (job->live && sl_seconds() < job->started + SOON)) return (job_progress){0};
     const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
     return (job_progress){.running = true,
                           .stage = atomic_load(&job->stage),
                           .share = total ? (double)count / (double)total : -1};
+}
+
+void document_stop_soon(document_state *document) {
+    if (document->job) atomic_store(&document->job->cancel, true);
 }
 
 void document_cancel(sl_context *context, document_state *document) {
@@ -510,6 +643,7 @@ void document_close(sl_context *context, document_state *document) {
     *document = (document_state){.version = document->version + 1,
                                  .touched = document->touched,
                                  .opened = document->opened,
+                                 .read = document->read,
                                  .history = document->history,
                                  .stale = document->stale};
 }

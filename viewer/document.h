@@ -14,9 +14,11 @@
 
 enum { HISTORY_MOST = 100 };
 
-/// Zeroed to start.
+/// Zeroed to start. Each state of the map has a number of its own, so that it is known again.
 typedef struct edit_history {
     sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
+    uint64_t done_state[HISTORY_MOST], undone_state[HISTORY_MOST];
+    uint64_t state, last_state; ///< that of the map now, and the largest one given
     size_t done_count, undone_count;
 } edit_history;
 
@@ -25,6 +27,10 @@ sl_status history_keep(sl_context *context, edit_history *history, const sl_map 
 
 /// Drops the last change that was kept: nothing changed.
 void history_forget_last(sl_context *context, edit_history *history);
+
+/// Takes the last change back as if it had never been: the map is as it was kept. False where there
+/// is none.
+bool history_take_back(sl_context *context, edit_history *history, sl_map *map);
 
 /// Goes one change back (or forward); false where there is none. *bake says whether the change
 /// needs a new bake.
@@ -42,6 +48,8 @@ typedef struct document_source {
     double lowest, highest; ///< of a 3D model; equal for all else
     unsigned takes;         ///< of sl_import_takes: what the format has a use for
     bool again;             ///< the file that is open with other options: no other one is opened
+    bool has_weld;
+    double weld; ///< as sl_clean_options.weld
 } document_source;
 
 /// A copy. `to` is untouched on failure.
@@ -51,7 +59,7 @@ void document_source_destroy(sl_context *context, document_source *source); ///<
 
 typedef struct bake_job bake_job;
 
-enum { OBJECTS_MOST = 256 };
+enum { OBJECTS_MOST = 256, NOTES_TEXT = 2048 };
 
 /// A document, zeroed to start. Its content stays empty while nothing is open.
 typedef struct document_state {
@@ -75,9 +83,14 @@ typedef struct document_state {
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
-    bake_job *job;    ///< NULL: none runs
-    edit_history history; ///< of changes by hand
-    bool stale;           ///< the map changes while something is dragged: it is to be made anew
+    uint32_t read;    ///< the same, and with every file that is read again
+    char notes[NOTES_TEXT]; ///< what the reader of the file said it took, in lines
+    bake_job *job;          ///< NULL: none runs
+    edit_history history;   ///< of changes by hand
+    bool stale;             ///< the map changes while something is dragged: it is to be made anew
+    bool live;              ///< the space is one of a drag: no visible sets are made for it
+    uint32_t edit, shown;   ///< number of the last change that needs a bake, and of the one shown
+    double weld;            ///< ends of walls this near to each other are one corner
 } document_state;
 
 /// The progress of the work in the background.
@@ -95,8 +108,17 @@ bool document_is_baked(const char *path);
 sl_status document_open(sl_context *context, document_state *document,
                         const document_source *source);
 
-/// Starts to bake the map as it is now.
-sl_status document_rebuild(sl_context *context, document_state *document);
+/// Starts with a map that is in no file, and takes it over. It counts as one that is opened.
+sl_status document_begin(sl_context *context, document_state *document, sl_map *map);
+
+/// The file that is being read; NULL for none.
+const char *document_opening(const document_state *document);
+
+/// Starts to bake the map as it is now. `live`: only its space, for the next frame of a drag.
+sl_status document_rebuild(sl_context *context, document_state *document, bool live);
+
+/// Whether the space that is shown is not that of the map as it is now.
+bool document_is_late(const document_state *document);
 
 /// Whether visible sets are there, and hold all that cells see with the present range.
 bool document_has_rows(const document_state *document);
@@ -118,10 +140,17 @@ void document_touch(document_state *document);
 /// failed gives its status and message, and the old map stays.
 sl_status document_poll(sl_context *context, document_state *document, bool *changed);
 
+/// Waits for the space of a running job, up to this time. The next poll takes it over.
+void document_wait_space(const document_state *document, double seconds);
+
 /// Waits until no job runs.
 sl_status document_wait(sl_context *context, document_state *document, bool *changed);
 
+/// The space of a drag shows no progress, as long as it comes soon.
 job_progress document_progress(const document_state *document);
+
+/// Tells the job to stop, if one runs; whoever cancels it later waits the less.
+void document_stop_soon(document_state *document);
 
 /// Stops the job, if one runs.
 void document_cancel(sl_context *context, document_state *document);

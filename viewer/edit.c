@@ -1,6 +1,8 @@
 #include "edit.h"
 
+#include "effects.h"
 #include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -40,31 +42,208 @@ uint32_t edit_pick(const app_state *app, sl_point at) {
     return found;
 }
 
-void edit_add(app_state *app, sl_point from, sl_point end) {
-    if (end.x == from.x && end.y == from.y) return;
-    if (!sl_coordinate_usable(end.x) || !sl_coordinate_usable(end.y)) return;
-    app_before_edit(app);
-    app_check(app, sl_map_add_wall(app->context, &app->document.map, from, end, 0));
-    ui_say(&app->ui, false, "wall from %g,%g to %g,%g", from.x, from.y, end.x, end.y);
-    app_after_edit(app);
+// --- what is held
+
+/// The kinds of segments whose ends can be held.
+enum { WALLS, DOORS, MIRRORS, ONEWAYS, SEAMS, KINDS };
+
+static size_t count_of(const sl_map *map, int kind) {
+    const size_t counts[KINDS] = {map->wall_count, map->door_count, map->mirror_count,
+                                  map->oneway_count, map->seam_count};
+    return counts[kind];
 }
 
-void edit_move(app_state *app, uint32_t wall, double dx, double dy) {
-    if (wall >= app->document.map.wall_count || (dx == 0 && dy == 0)) return;
-    const sl_wall *old = &app->document.map.walls[wall];
-    const double moved[4] = {old->a.x + dx, old->a.y + dy, old->b.x + dx, old->b.y + dy};
-    for (int i = 0; i < 4; i++)
-        if (!sl_coordinate_usable(moved[i])) return;
+/// The first end of a segment, or its second one.
+static sl_point *end_of(const sl_map *map, int kind, size_t index, bool second) {
+    if (kind == WALLS) return second ? &map->walls[index].b : &map->walls[index].a;
+    sl_segment *at = kind == DOORS     ? &map->doors[index].segment
+                     : kind == MIRRORS ? &map->mirrors[index].segment
+                     : kind == ONEWAYS ? &map->oneways[index].segment
+                                       : &map->seams[index].segment;
+    return second ? &at->b : &at->a;
+}
+
+static bool hold(app_state *app, int kind, size_t index, bool second) {
+    const sl_status status = SL_ARRAY_ROOM(app->context, &app->tool.ends, 1);
+    app_check(app, status);
+    if (status != SL_OK) return false;
+    app->tool.ends.items[app->tool.ends.count++] =
+        (held_end){kind, index, second, *end_of(&app->document.map, kind, index, second)};
+    return true;
+}
+
+/// A baked file has its doors and glass cut to pieces: they stay where they are.
+static int kinds_that_move(const app_state *app) {
+    const char *path = app->document.source.path;
+    return path && document_is_baked(path) ? DOORS : KINDS;
+}
+
+/// The end of a wall or door under a place. Short walls keep room between their corners.
+static bool find_corner(const app_state *app, sl_point at, sl_point *found) {
+    const sl_map *map = &app->document.map;
+    double nearest = INFINITY;
+    for (int kind = WALLS; kind <= DOORS && kind < kinds_that_move(app); kind++)
+        for (size_t i = 0; i < count_of(map, kind); i++) {
+            const sl_point ends[2] = {*end_of(map, kind, i, false), *end_of(map, kind, i, true)};
+            const double length = hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
+            const double room = fmin(1.2 * edit_reach(app), length / 4);
+            for (int k = 0; k < 2; k++) {
+                const double off = hypot(at.x - ends[k].x, at.y - ends[k].y);
+                if (off > room || off >= nearest) continue;
+                nearest = off;
+                *found = ends[k];
+            }
+        }
+    return nearest < INFINITY;
+}
+
+/// Holds all ends at a corner. Ends that cleaning would weld are at one corner.
+static void hold_corner(app_state *app, sl_point at) {
+    const sl_map *map = &app->document.map;
+    for (int kind = 0; kind < kinds_that_move(app); kind++)
+        for (size_t i = 0; i < count_of(map, kind); i++)
+            for (int k = 0; k < 2; k++) {
+                const sl_point end = *end_of(map, kind, i, k);
+                if (hypot(end.x - at.x, end.y - at.y) <= app->document.weld) hold(app, kind, i, k);
+            }
+}
+
+static uint32_t pick_door(const app_state *app, sl_point at) {
+    return kinds_that_move(app) > DOORS ? door_at(app, at) : UINT32_MAX;
+}
+
+drag_kind edit_take(app_state *app, drag_state *drag) {
+    sl_point corner;
+    app->tool.ends.count = 0;
+    drag->segment = (sl_segment){{0, 0}, {0, 0}};
+    if (find_corner(app, drag->at, &corner)) {
+        hold_corner(app, corner);
+        app->tool.wall = UINT32_MAX;
+        return DRAG_CORNER;
+    }
+    const uint32_t door = pick_door(app, drag->at);
+    app->tool.wall = door == UINT32_MAX ? edit_pick(app, drag->at) : UINT32_MAX;
+    drag->index = door == UINT32_MAX ? app->tool.wall : door;
+    if (drag->index == UINT32_MAX) return DRAG_NEW_WALL;
+    const int kind = door == UINT32_MAX ? WALLS : DOORS;
+    hold(app, kind, drag->index, false);
+    hold(app, kind, drag->index, true);
+    return kind == WALLS ? DRAG_WALL : DRAG_DOOR;
+}
+
+static bool is_same(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static bool is_usable(sl_point p) {
+    return sl_coordinate_usable(p.x) && sl_coordinate_usable(p.y);
+}
+
+/// Where a held end is when the drag is at a place: corners on the grid, the rest by whole steps.
+static sl_point place_of(const app_state *app, const drag_state *drag, const held_end *end,
+                         sl_point now) {
+    const double step = edit_step(app);
+    if (drag->kind == DRAG_CORNER || drag->kind == DRAG_NEW_WALL) return edit_snap(app, now);
+    return (sl_point){end->was.x + step * round((now.x - drag->at.x) / step),
+                      end->was.y + step * round((now.y - drag->at.y) / step)};
+}
+
+/// Whether all ends can go there, and one of them is not there yet. No segment may lose its length.
+static bool can_go(const app_state *app, const drag_state *drag, sl_point now) {
+    const sl_map *map = &app->document.map;
+    const bool whole = drag->kind == DRAG_WALL || drag->kind == DRAG_DOOR;
+    bool any = false;
+    for (size_t i = 0; i < app->tool.ends.count; i++) {
+        const held_end *e = &app->tool.ends.items[i];
+        const sl_point to = place_of(app, drag, e, now);
+        if (e->index >= count_of(map, e->kind) || !is_usable(to)) return false;
+        if (!whole && is_same(to, *end_of(map, e->kind, e->index, !e->second))) return false;
+        any |= !is_same(to, *end_of(map, e->kind, e->index, e->second));
+    }
+    return any;
+}
+
+/// Keeps the map for undo. Walls that are moved are no longer the sides of the solid ground that
+/// the file speaks of: where they contradict each other, ground is open from now on.
+static void begin_change(app_state *app, drag_state *drag) {
     app_before_edit(app);
-    sl_wall *w = &app->document.map.walls[wall];
-    w->a = (sl_point){moved[0], moved[1]};
-    w->b = (sl_point){moved[2], moved[3]};
-    ui_say(&app->ui, false, "wall moved by %g,%g", dx, dy);
-    app_after_edit(app);
+    app->document.map.ground_guessed = true;
+    drag->changed = true;
+}
+
+/// A new wall begins where the pointer was pressed. Its second end is held.
+static bool begin_wall(app_state *app, drag_state *drag, sl_point now) {
+    const sl_point from = edit_snap(app, drag->at), to = edit_snap(app, now);
+    if (is_same(from, to) || !is_usable(from) || !is_usable(to)) return false;
+    begin_change(app, drag);
+    const sl_status status = sl_map_add_wall(app->context, &app->document.map, from, to, 0);
+    app_check(app, status);
+    return status == SL_OK && hold(app, WALLS, app->document.map.wall_count - 1, true);
+}
+
+void edit_drag(app_state *app, drag_state *drag, sl_point now) {
+    if (drag->kind == DRAG_NEW_WALL && !drag->changed) {
+        if (begin_wall(app, drag, now)) app_after_step(app);
+        return;
+    }
+    if (!can_go(app, drag, now)) return;
+    if (!drag->changed) begin_change(app, drag);
+    for (size_t i = 0; i < app->tool.ends.count; i++) {
+        const held_end *e = &app->tool.ends.items[i];
+        *end_of(&app->document.map, e->kind, e->index, e->second) = place_of(app, drag, e, now);
+    }
+    app_after_step(app);
+}
+
+/// Says where things are now.
+static void say_moved(app_state *app, const drag_state *drag) {
+    const held_end *e = &app->tool.ends.items[0];
+    const sl_point at = *end_of(&app->document.map, e->kind, e->index, e->second);
+    if (drag->kind == DRAG_NEW_WALL) {
+        const sl_point from = *end_of(&app->document.map, WALLS, e->index, false);
+        ui_say(&app->ui, false, "wall from %g,%g to %g,%g", from.x, from.y, at.x, at.y);
+    } else if (drag->kind == DRAG_CORNER) {
+        ui_say(&app->ui, false, "corner at %g,%g, %zu end%s moved", at.x, at.y,
+               app->tool.ends.count, app->tool.ends.count == 1 ? "" : "s");
+    } else {
+        ui_say(&app->ui, false, "%s moved by %g,%g", drag->kind == DRAG_DOOR ? "door" : "wall",
+               at.x - e->was.x, at.y - e->was.y);
+    }
+}
+
+void edit_drop(app_state *app, const drag_state *drag) {
+    bool moved = drag->kind == DRAG_NEW_WALL;
+    for (size_t i = 0; i < app->tool.ends.count && drag->changed; i++) {
+        const held_end *e = &app->tool.ends.items[i];
+        if (e->index >= count_of(&app->document.map, e->kind)) return;
+        moved |= !is_same(e->was, *end_of(&app->document.map, e->kind, e->index, e->second));
+    }
+    if (drag->changed && app->tool.ends.count) {
+        if (!moved) history_take_back(app->context, &app->document.history, &app->document.map);
+        if (moved) say_moved(app, drag);
+        app->tool.wall = UINT32_MAX;
+        app_after_edit(app);
+    }
+    app->tool.ends.count = 0;
+}
+
+bool edit_cancel(app_state *app) {
+    const drag_state drag = app->tool.drag;
+    if (drag.kind < DRAG_NEW_WALL || drag.kind > DRAG_MIRROR) return false;
+    app->tool.drag = (drag_state){0};
+    app->tool.ends.count = 0;
+    if (drag.changed &&
+        history_take_back(app->context, &app->document.history, &app->document.map)) {
+        app->tool.wall = UINT32_MAX;
+        ui_say(&app->ui, false, "everything is back where it was");
+        app_after_edit(app);
+    }
+    return true;
 }
 
 void edit_delete(app_state *app) {
     sl_map *map = &app->document.map;
+    if (app->tool.drag.changed) return; // what is held stays
     if (app->tool.wall >= map->wall_count) {
         ui_say(&app->ui, false, "no wall is chosen: click on one");
         return;
@@ -74,6 +253,7 @@ void edit_delete(app_state *app) {
         return;
     }
     app_before_edit(app);
+    map->ground_guessed = true;
     map->walls[app->tool.wall] = map->walls[--map->wall_count];
     app->tool.wall = UINT32_MAX;
     ui_say(&app->ui, false, "wall deleted");
@@ -96,26 +276,44 @@ static void draw_grid(app_state *app, const sl_frame *frame) {
     cairo_fill(app->ui.cairo);
 }
 
+/// Marks the corner that is held, or the one under the pointer.
+static void draw_corner(app_state *app, const sl_frame *frame, sl_point pointer) {
+    const drag_state *drag = &app->tool.drag;
+    sl_point corner, at;
+    if (drag->kind == DRAG_CORNER || (drag->kind == DRAG_NEW_WALL && drag->changed)) {
+        const held_end *e = app->tool.ends.items;
+        if (!app->tool.ends.count || e->index >= count_of(&app->document.map, e->kind)) return;
+        corner = *end_of(&app->document.map, e->kind, e->index, e->second);
+    } else if (drag->kind != DRAG_NONE || !find_corner(app, pointer, &corner)) {
+        return;
+    }
+    if (!sl_frame_holds(frame, corner, &at)) return;
+    cairo_new_path(app->ui.cairo);
+    cairo_arc(app->ui.cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
+    sl_set_colour(app->ui.cairo, app->ui.palette.start);
+    cairo_fill(app->ui.cairo);
+}
+
+/// Draws each segment of which an end is held where it is now, however late the plan is.
+static void draw_held(app_state *app, const sl_frame *frame) {
+    const sl_map *map = &app->document.map;
+    for (size_t i = 0; i < app->tool.ends.count && app->tool.drag.changed; i++) {
+        const held_end *e = &app->tool.ends.items[i];
+        if (e->index >= count_of(map, e->kind)) return;
+        sl_draw_line(app->ui.cairo, frame, *end_of(map, e->kind, e->index, false),
+                     *end_of(map, e->kind, e->index, true), app->ui.palette.start, 4 * frame->unit);
+    }
+}
+
 void edit_draw(app_state *app, const sl_frame *frame) {
     const sl_map *map = &app->document.map;
     const sl_colour colour = app->ui.palette.start;
-    const drag_state *drag = &app->tool.drag;
     draw_grid(app, frame);
     const window_layout l = app_layout(app);
-    const sl_point now = camera_point(&app->view.camera, l.plan[0], app->tool.pointer);
     if (app->tool.wall < map->wall_count)
         sl_draw_line(app->ui.cairo, frame, map->walls[app->tool.wall].a,
                      map->walls[app->tool.wall].b, colour, 5 * frame->unit);
-    if (drag->kind == DRAG_NEW_WALL) {
-        const sl_point from = edit_snap(app, drag->at);
-        sl_draw_line(app->ui.cairo, frame, from, edit_snap(app, now), colour, 4 * frame->unit);
-    }
-    if (drag->kind == DRAG_WALL && drag->index < map->wall_count) {
-        const double step = edit_step(app);
-        const double dx = step * round((now.x - drag->at.x) / step);
-        const double dy = step * round((now.y - drag->at.y) / step);
-        const sl_wall *w = &map->walls[drag->index];
-        sl_draw_line(app->ui.cairo, frame, (sl_point){w->a.x + dx, w->a.y + dy},
-                     (sl_point){w->b.x + dx, w->b.y + dy}, colour, 4 * frame->unit);
-    }
+    draw_held(app, frame);
+    if (box_has(l.plan[0], app->tool.pointer))
+        draw_corner(app, frame, camera_point(&app->view.camera, l.plan[0], app->tool.pointer));
 }

@@ -1,4 +1,4 @@
-/// Walls drawn, moved and deleted by hand.
+/// Walls, corners and doors, drawn, moved and deleted by hand.
 #ifndef VIEWER_EDIT_H
 #define VIEWER_EDIT_H
 
@@ -12,12 +12,19 @@ sl_point edit_snap(const app_state *app, sl_point at);
 /// The wall within a few pixels of a place of the map; UINT32_MAX for none.
 uint32_t edit_pick(const app_state *app, sl_point at);
 
-/// Adds a wall, in any direction. Does nothing where it has no length.
-void edit_add(app_state *app, sl_point from, sl_point end);
-void edit_move(app_state *app, uint32_t wall, double dx, double dy);
 void edit_delete(app_state *app);
 
-/// Draws the grid, the chosen wall, and the wall that is being drawn or moved.
+/// What is under the pointer is held from now on: a corner with all ends there, a door, a wall; on
+/// free ground a new wall begins. Returns what it is.
+drag_kind edit_take(app_state *app, drag_state *drag);
+/// Moves what is held, by steps of the grid. The plan follows at once.
+void edit_drag(app_state *app, drag_state *drag, sl_point now);
+/// Lets it go.
+void edit_drop(app_state *app, const drag_state *drag);
+/// Ends a drag, and takes back what it changed. False if nothing that can be edited is held.
+bool edit_cancel(app_state *app);
+
+/// Draws the grid, the chosen wall, and what is held or could be.
 void edit_draw(app_state *app, const sl_frame *frame);
 
 /// How far a point is from a segment.

@@ -31,12 +31,6 @@ void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
-    if (!called_for) {
-        char none[CALLS_TEXT];
-        effects_left_out(map, none);
-        snprintf(text, CALLS_TEXT, "nothing calls for %.120s", none);
-        return;
-    }
     text[0] = '\0';
     for (size_t i = 0; i < count; i++) {
         char counted[64];
@@ -52,7 +46,10 @@ void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
 static double draw_found(app_state *app, sl_box box, double y) {
     ui_state *ui = &app->ui;
     const sl_map *map = &app->document.map;
-    const double t = ui->text, left = box.min.x + 1.1 * t, words = left + 10 * t;
+    const double t = ui->text, left = box.min.x + 1.1 * t, right = box.max.x - t;
+    // A narrow pane has the words below the name.
+    const bool beside = right - left > 24 * t;
+    const double words = beside ? left + 10 * t : left;
     const unsigned called_for = sl_plan_make(map).effects;
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
@@ -60,9 +57,10 @@ static double draw_found(app_state *app, sl_box box, double y) {
         char name[64];
         if (!(called_for >> i & 1)) continue;
         snprintf(name, sizeof name, "%s (%zu)", effects[i]->several, effects[i]->count(map));
-        ui_text(ui, left, y, 0.95, true, ui->palette.ink, name);
-        y = ui_paragraph(ui, words, y, box.max.x - t - words, 0.95, ui->palette.ink,
-                         effects[i]->adds);
+        const double below = ui_lines(ui, left, y, beside ? 9.5 * t : right - left, 0.95, true,
+                                      ui->palette.ink, name);
+        y = fmax(below, ui_paragraph(ui, words, beside ? y : below, right - words, 0.95,
+                                     ui->palette.ink, effects[i]->adds));
     }
     return y;
 }
@@ -94,15 +92,13 @@ static void write_work(const document_state *document, char text[256]) {
 void pane_effects(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const double t = ui->text, left = box.min.x + 1.1 * t, wide = box_width(box) - 2.2 * t;
-    ui_hit(ui, HIT_PANEL, 0, box);
-    cairo_save(ui->cairo);
-    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
-    cairo_clip(ui->cairo);
-    ui_fill(ui, box, ui->palette.page);
+    ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    double y = box.min.y + 1.6 * t;
-    ui_text(ui, left, y, 1, true, ui->palette.ink, "What the map calls for");
-    y = draw_found(app, box, y + 1.6 * t);
+    const sl_box room = {{box.min.x, box.min.y + 1}, box.max};
+    double y = ui_begin_scroll(ui, SCROLL_EFFECTS, room);
+    y = ui_lines(ui, left, y + 1.6 * t, wide, 1, true, ui->palette.ink, "What the map calls for");
+    box.max.x -= ui_bar_width(ui);
+    y = draw_found(app, box, y + 0.2 * t);
     char text[256], none[CALLS_TEXT];
     effects_left_out(&app->document.map, none);
     if (none[0]) {
@@ -110,8 +106,9 @@ void pane_effects(app_state *app, sl_box box) {
         y = ui_paragraph(ui, left, y + 0.2 * t, wide, 0.95, ui->palette.faint, text);
     }
     write_work(&app->document, text);
-    ui_paragraph(ui, left, y + 0.2 * t, wide, 0.95, ui->palette.faint, text);
-    cairo_restore(ui->cairo);
+    y = ui_paragraph(ui, left, y + 0.2 * t, wide, 0.95, ui->palette.faint, text);
+    ui_end_scroll(ui, room, y - 0.6 * t);
+    ui_end_area(ui);
 }
 
 // --- doors
@@ -135,11 +132,19 @@ uint32_t door_at(const app_state *app, sl_point at) {
 void door_toggle(app_state *app, uint32_t door) {
     sl_map *map = &app->document.map;
     if (door >= map->door_count) return;
+    const bool open = !map->doors[door].open;
+    size_t parts = 0;
     app_keep(app);
-    map->doors[door].open = !map->doors[door].open;
+    for (size_t i = 0; i < map->door_count; i++) {
+        if (strcmp(map->doors[i].name, map->doors[door].name) != 0) continue;
+        map->doors[i].open = open;
+        parts++;
+    }
     app_after_touch(app);
-    ui_say(&app->ui, false, "door %s is %s", map->doors[door].name,
-           map->doors[door].open ? "open" : "shut");
+    char several[32] = "";
+    if (parts > 1) snprintf(several, sizeof several, " (%zu parts)", parts);
+    ui_say(&app->ui, false, "door %s is %s%s", map->doors[door].name, open ? "open" : "shut",
+           several);
 }
 
 void door_toggle_nearest(app_state *app) {
@@ -213,7 +218,7 @@ void mirror_move(app_state *app, drag_state *drag, sl_point now) {
     if (!drag->changed) app_before_edit(app);
     drag->changed = true;
     map->mirrors[drag->index].segment = to;
-    app->document.stale = true;
+    app_after_step(app);
 }
 
 void mirror_drop(app_state *app, const drag_state *drag) {

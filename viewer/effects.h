@@ -10,7 +10,7 @@
 
 enum { CALLS_TEXT = 160 };
 
-/// "calls for doors (6), mirrors (2)"; for a map without effects, a sentence that says so.
+/// "calls for doors (6), mirrors (2)"; "" for a map without effects.
 void effects_in_words(const sl_map *map, char text[CALLS_TEXT]);
 
 /// The effects that the map does not need: "mirrors, a view range"; empty if it needs all.
@@ -21,7 +21,7 @@ void effects_left_out(const sl_map *map, char text[CALLS_TEXT]);
 /// The door under a place of the plan; UINT32_MAX for none.
 uint32_t door_at(const app_state *app, sl_point at);
 
-/// Shuts an open door, opens a shut one.
+/// Shuts an open door, opens a shut one, with all doors of its name.
 void door_toggle(app_state *app, uint32_t door);
 
 /// The same for the door nearest to the eye.

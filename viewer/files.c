@@ -1,11 +1,13 @@
-/// Settings that are kept between runs ($XDG_CONFIG_HOME/sightline/view.conf), the files at hand,
-/// and how they are opened.
+/// What is kept between runs in $XDG_CONFIG_HOME/sightline: settings (view.conf) and the files
+/// opened last (recent); and how a file is opened.
 #include "files.h"
 
+#include "import_dialog.h"
+#include "map_file.h"
+#include "question.h"
 #include "sightline/import.h"
 #include "sightline/support.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,24 +17,34 @@
 
 // --- settings
 
-enum { PATH = 4096 };
-
-/// False without a home folder. Makes the folders if `make` is set.
-static bool find_path(char path[PATH], bool make) {
-    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    char folder[PATH - 64];
+bool files_folder(const char *variable, const char *beside_home, char path[PATH_TEXT], bool make) {
+    const char *given = getenv(variable), *home = getenv("HOME");
+    char folder[PATH_TEXT - 64];
     int length;
-    if (config && config[0] == '/')
-        length = snprintf(folder, sizeof folder, "%s", config);
+    if (given && given[0] == '/')
+        length = snprintf(folder, sizeof folder, "%s", given);
     else if (home && home[0] == '/')
-        length = snprintf(folder, sizeof folder, "%s/.config", home);
+        length = snprintf(folder, sizeof folder, "%s/%s", home, beside_home);
     else
         return false;
     if (length < 0 || (size_t)length >= sizeof folder) return false;
+    // Folders on the way are made too: a fresh account has no ~/.local.
+    for (char *at = folder + 1; make && (at = strchr(at, '/')) != NULL; at++) {
+        *at = '\0';
+        mkdir(folder, 0700);
+        *at = '/';
+    }
     if (make) mkdir(folder, 0700);
-    snprintf(path, PATH, "%s/sightline", folder);
+    snprintf(path, PATH_TEXT, "%s/sightline", folder);
     if (make) mkdir(path, 0700);
-    snprintf(path, PATH, "%s/sightline/view.conf", folder);
+    return true;
+}
+
+/// False without a home folder. Makes the folders if `make` is set.
+static bool find_path(const char *name, char path[PATH_TEXT], bool make) {
+    if (!files_folder("XDG_CONFIG_HOME", ".config", path, make)) return false;
+    const size_t length = strlen(path);
+    snprintf(path + length, PATH_TEXT - length, "/%s", name);
     return true;
 }
 
@@ -54,6 +66,10 @@ enum {
     FIRST_PERSON,
     ACCOUNT,
     EFFECTS,
+    FILL,
+    LEGEND,
+    SIDE,
+    BELOW,
     SETTINGS
 };
 
@@ -66,20 +82,25 @@ static void describe(const app_state *app, setting list[SETTINGS]) {
         [SHOW] = {"layers", 0, SHOW_ALL, app->view.show},
         [CONE] = {"cone", 1, 360, app->view.eye.fov},
         [METHOD] = {"method", 0, (double)count - 1, (double)app->view.method},
-        [WIDTH] = {"width", 320, 8192, round(app->ui.width / app->ui.density)},
-        [HEIGHT] = {"height", 240, 8192, round(app->ui.height / app->ui.density)},
+        [WIDTH] = {"width", 320, 8192, round(app->ui.window_width / app->ui.density)},
+        [HEIGHT] = {"height", 240, 8192, round(app->ui.window_height / app->ui.density)},
         [PANEL] = {"panel", 0, 1, app->ui.side_panel},
         [FIRST_PERSON] = {"first_person", 0, 1, app->ui.first_person},
         [ACCOUNT] = {"account", 0, 1, app->ui.accounts},
         [EFFECTS] = {"effects", 0, 1, app->ui.effects},
+        [FILL] = {"fill", 0, LAYER_COUNT, app->view.fill},
+        [LEGEND] = {"legend", 0, 1, app->ui.legend},
+        [SIDE] = {"side", 0, 200, app->ui.edges[EDGE_SIDE]},
+        [BELOW] = {"below", 0, 1, app->ui.edges[EDGE_BELOW]},
     };
     memcpy(list, all, sizeof all);
 }
 
 void settings_load(app_state *app) {
-    char path[PATH];
+    char path[PATH_TEXT];
     sl_bytes bytes;
-    if (!find_path(path, false) || sl_file_read(app->context, path, &bytes) != SL_OK) return;
+    if (!find_path("view.conf", path, false) || sl_file_read(app->context, path, &bytes) != SL_OK)
+        return;
     setting list[SETTINGS];
     describe(app, list);
     for (char *line = bytes.data, *next; line && *line; line = next) {
@@ -105,12 +126,17 @@ void settings_load(app_state *app) {
     app->ui.first_person = list[FIRST_PERSON].value != 0;
     app->ui.accounts = list[ACCOUNT].value != 0;
     app->ui.effects = list[EFFECTS].value != 0;
+    app->view.fill = (unsigned)list[FILL].value;
+    app->ui.legend = list[LEGEND].value != 0;
+    app->ui.edges[EDGE_SIDE] = list[SIDE].value;
+    app->ui.edges[EDGE_BELOW] = list[BELOW].value;
 }
 
 void settings_save(app_state *app) {
-    char path[PATH];
+    char path[PATH_TEXT];
     sl_output output;
-    if (!find_path(path, true) || sl_output_open(app->context, path, &output) != SL_OK) return;
+    if (!find_path("view.conf", path, true) || sl_output_open(app->context, path, &output) != SL_OK)
+        return;
     setting list[SETTINGS];
     describe(app, list);
     for (int i = 0; i < SETTINGS; i++)
@@ -118,80 +144,45 @@ void settings_save(app_state *app) {
     sl_output_close(app->context, &output, SL_OK);
 }
 
-// --- maps at hand
+// --- recent files
 
-enum { FILES_MOST = 200 };
+enum { RECENT_MOST = 12 };
 
-/// Whether a file is a map, by its ending. Text files and pictures can be anything: they are listed
-/// only in folders of maps.
-static bool is_map(const sl_context *context, const char *name, bool with_maps) {
-    const char *dot = strrchr(name, '.');
-    if (!dot) return false;
-    if (strcasecmp(dot, ".slv") == 0) return true;
-    const char *const vague[] = {".txt", ".png", ".svg", ".yaml", ".json", ".xml", ".pgm", ".pbm"};
-    for (size_t i = 0; i < sizeof vague / sizeof *vague; i++)
-        if (strcasecmp(dot, vague[i]) == 0 && (!with_maps || i > 0)) return false;
-    size_t count;
-    const sl_map_format *formats = sl_map_formats(context, &count);
-    for (size_t i = 0; i < count; i++) {
-        for (const char *at = formats[i].endings; *at;) {
-            const size_t length = strcspn(at, " ");
-            if (strlen(dot) == length && strncasecmp(dot, at, length) == 0) return true;
-            for (at += length; *at == ' ';) at++;
+sl_status recent_list(sl_context *context, sl_map_list *list) {
+    char path[PATH_TEXT];
+    sl_bytes bytes;
+    if (!find_path("recent", path, false) || sl_file_read(context, path, &bytes) != SL_OK)
+        return SL_OK;
+    sl_status status = SL_OK;
+    for (char *line = bytes.data, *next; line && *line && status == SL_OK; line = next) {
+        next = strchr(line, '\n');
+        if (next) *next++ = '\0';
+        if (*line == '/' && list->count < RECENT_MOST)
+            status = sl_map_list_add(context, list, line, strlen(line));
+    }
+    sl_free(context, bytes.data);
+    return status;
+}
+
+void recent_add(app_state *app, const char *name) {
+    char path[PATH_TEXT];
+    char *full = realpath(name, NULL);
+    sl_map_list before = {0};
+    sl_output output;
+    if (!app->steady && !app->file.locked && full && !strchr(full, '\n') &&
+        find_path("recent", path, true) && recent_list(app->context, &before) == SL_OK &&
+        sl_output_open(app->context, path, &output) == SL_OK) {
+        fprintf(output.stream, "%s\n", full);
+        size_t kept = 1;
+        for (size_t i = 0; i < before.count && kept < RECENT_MOST; i++) {
+            if (strcmp(before.names[i], full) == 0) continue;
+            fprintf(output.stream, "%s\n", before.names[i]);
+            kept++;
         }
+        sl_output_close(app->context, &output, SL_OK);
     }
-    return false;
-}
-
-static int by_name(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-static void add_folder(app_state *app, const char *folder, bool with_maps) {
-    DIR *dir = opendir(folder);
-    if (!dir) return;
-    sl_map_list *files = &app->shelf.files;
-    const size_t first = files->count;
-    char path[PATH];
-    for (struct dirent *entry; (entry = readdir(dir)) && files->count < FILES_MOST;) {
-        const int length = snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        struct stat info;
-        if (length < 0 || length >= PATH || !is_map(app->context, entry->d_name, with_maps) ||
-            stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-            continue;
-        if (sl_map_list_add(app->context, files, path, (size_t)length) != SL_OK) break;
-    }
-    closedir(dir);
-    if (files->count > first)
-        qsort(files->names + first, files->count - first, sizeof *files->names, by_name);
-}
-
-static bool same_folder(const char *a, const char *b) {
-    struct stat x, y;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
-void shelf_fill(app_state *app, const char *beside) {
-    char folder[PATH] = ".";
-    const char *slash = beside ? strrchr(beside, '/') : NULL;
-    if (slash && slash - beside < PATH - 1)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - beside),
-                 slash == beside ? "/" : beside);
-    add_folder(app, folder, true);
-    if (!same_folder(folder, "maps")) add_folder(app, "maps", true);
-    if (!same_folder(folder, "maps/oblique")) add_folder(app, "maps/oblique", true);
-    if (!same_folder(folder, ".")) add_folder(app, ".", false);
-}
-
-void shelf_forget_maps(app_state *app) {
-    sl_map_list_destroy(app->context, &app->shelf.maps);
-    document_source_destroy(app->context, &app->shelf.source);
-    app->shelf.at = app->shelf.first = 0;
-}
-
-void shelf_empty(app_state *app) {
-    shelf_forget_maps(app);
-    sl_map_list_destroy(app->context, &app->shelf.files);
+    sl_map_list_destroy(app->context, &before);
+    free(full);
 }
 
 // --- opening
@@ -208,81 +199,92 @@ static void keep_useful(sl_import_options *options, unsigned takes) {
     if (!(takes & SL_TAKES_CELLS)) options->cells = false;
 }
 
-/// Reads what kind of file it is, and which choices it offers.
-static sl_status look(sl_context *context, document_source *source, sl_map_choice *choice) {
+sl_status files_look(sl_context *context, document_source *source, sl_map_choice *choice) {
     if (document_is_baked(source->path)) return SL_OK;
     SL_TRY(sl_map_choice_read(context, source->path, choice));
     source->takes = choice->format->takes;
     source->lowest = choice->lowest;
     source->highest = choice->highest;
+    if (source->highest > source->lowest && !source->options.has_slice) {
+        source->options.has_slice = true;
+        source->options.slice = source->lowest + (source->highest - source->lowest) / 2;
+    }
     return SL_OK;
 }
 
-static sl_status open_source(app_state *app, document_source source, bool ask, bool all_meant) {
-    sl_context *context = app->context;
+/// Whether the file has to be asked about.
+static bool is_open_question(const document_source *source, const sl_map_choice *choice) {
+    return (choice->maps.count > 1 && !source->options.map) ||
+           (choice->layers_unsaid && !source->options.layers);
+}
+
+void files_open(app_state *app, const char *path, bool ask) {
+    document_source source = {.path = (char *)(uintptr_t)path, .options = app->options};
     sl_map_choice choice = {0};
-    shelf_forget_maps(app);
-    SL_TRY(look(context, &source, &choice));
-    if (!all_meant) keep_useful(&source.options, source.takes);
-    if (source.highest > source.lowest && !source.options.has_slice) {
-        source.options.has_slice = true;
-        source.options.slice = source.lowest + (source.highest - source.lowest) / 2;
-    }
-    sl_status status = SL_OK;
-    if (ask && choice.maps.count > 1 && !source.options.map) {
-        status = document_source_copy(context, &source, &app->shelf.source);
-        app->shelf.maps = choice.maps;
-        choice.maps = (sl_map_list){0};
-        app->ui.maps_open = true;
-    } else {
-        status = document_open(context, &app->document, &source);
-    }
-    sl_map_choice_destroy(context, &choice);
+    sl_status status = files_look(app->context, &source, &choice);
+    if (choice.format) keep_useful(&source.options, source.takes);
+    if (status == SL_OK && choice.format && (ask || is_open_question(&source, &choice)))
+        status = import_open(app, &source, &choice, ask);
+    else if (status == SL_OK)
+        map_file_start(app, &source);
+    files_check(app, path, status);
+    sl_map_choice_destroy(app->context, &choice);
+}
+
+void files_drop(app_state *app, const char *path) {
+    if (dialog_clear(app))
+        files_open(app, path, false);
+    else
+        ui_say(&app->ui, true, "answer the question first, then drop the file again");
+}
+
+sl_status files_open_source(app_state *app, const document_source *given, bool ask) {
+    document_source source = *given;
+    sl_map_choice choice = {0};
+    SL_TRY(files_look(app->context, &source, &choice));
+    sl_status status;
+    if (ask && choice.format && is_open_question(&source, &choice))
+        status = import_open(app, &source, &choice, false);
+    else
+        status = document_open(app->context, &app->document, &source);
+    sl_map_choice_destroy(app->context, &choice);
     return status;
 }
 
-sl_status shelf_open_source(app_state *app, const document_source *source, bool ask) {
-    return open_source(app, *source, ask, true);
-}
-
-void shelf_open(app_state *app, const char *path) {
-    const document_source source = {.path = (char *)(uintptr_t)path, .options = app->options};
-    app->ui.maps_open = false;
-    app_check(app, open_source(app, source, true, false));
-}
-
-void shelf_open_again(app_state *app, const sl_import_options *options) {
+void files_open_again(app_state *app, const sl_import_options *options) {
     document_source source = app->document.source;
     if (!source.path) return;
     source.options = *options;
     source.again = true;
-    history_clear(app->context, &app->document.history);
-    app_check(app, document_open(app->context, &app->document, &source));
+    map_file_start(app, &source);
 }
 
-const sl_map_list *shelf_list(const map_shelf *shelf) {
-    return shelf->source.path ? &shelf->maps : &shelf->files;
+/// Another try with other options.
+static void take_answer(app_state *app, int answer) {
+    document_source source = app->file.tried;
+    sl_map_choice choice = {0};
+    if (answer != 0) return;
+    sl_status status = files_look(app->context, &source, &choice);
+    if (status == SL_OK) status = import_open(app, &source, &choice, true);
+    files_check(app, source.path, status);
+    sl_map_choice_destroy(app->context, &choice);
 }
 
-void shelf_choose(app_state *app, size_t row) {
-    const sl_map_list *list = shelf_list(&app->shelf);
-    if (row >= list->count) return;
-    if (list == &app->shelf.files) {
-        shelf_open(app, list->names[row]);
+void files_check(app_state *app, const char *path, sl_status status) {
+    static const char *const answers[] = {"O:Options...", "C:Close"};
+    if (status == SL_OK || status == SL_CANCELLED) return;
+    // Options help where the file can be read at all.
+    const char *tried = app->file.tried.path;
+    const bool again =
+        tried && strcmp(tried, path) == 0 && app->file.tried.takes & ~(unsigned)SL_TAKES_CELLS;
+    char text[1200];
+    const char *slash = strrchr(path, '/');
+    snprintf(text, sizeof text, "%s", sl_context_message(app->context));
+    ui_say(&app->ui, true, "%s was not opened", slash ? slash + 1 : path);
+    if (!again) {
+        question_tell(app, "The file was not opened", text);
         return;
     }
-    document_source source = app->shelf.source;
-    source.options.map = list->names[row];
-    app->ui.maps_open = false;
-    app_check(app, document_open(app->context, &app->document, &source));
-    shelf_forget_maps(app);
-}
-
-void shelf_move(app_state *app, int by) {
-    const size_t count = shelf_list(&app->shelf)->count;
-    map_shelf *shelf = &app->shelf;
-    if (by < 0)
-        shelf->at -= shelf->at < (size_t)-by ? shelf->at : (size_t)-by;
-    else if (count)
-        shelf->at = shelf->at + (size_t)by < count ? shelf->at + (size_t)by : count - 1;
+    question_ask(app, "The file was not opened", text, answers, 2, take_answer);
+    app->dialog.focus[app->dialog.depth - 1] = DIALOG_OWN + 1;
 }

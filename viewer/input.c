@@ -3,31 +3,182 @@
 #include "actions.h"
 #include "edit.h"
 #include "effects.h"
-#include "files.h"
 #include "modes.h"
 #include "quiz.h"
 #include "sliders.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-/// The open list takes the keys that move in it.
-static bool list_key(app_state *app, const char *key, bool down) {
+static void click(app_state *app, const hit_area *hit);
+static void input_press_at(app_state *app, button_kind button, sl_point at);
+static void input_point(app_state *app, sl_point to);
+
+// --- the cursor in the plan, moved by keys
+
+static sl_point middle_of(sl_box box) {
+    return (sl_point){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
+}
+
+/// The pointer stays where it is if it is in the plan; else it goes to the eye, or to the middle.
+static void cursor_begin(app_state *app, sl_box plan) {
+    if (box_has(plan, app->tool.pointer)) return;
+    const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
+    const sl_point eye = sl_frame_point(&frame, app->view.eye.at);
+    input_point(app, box_has(plan, eye) ? eye : middle_of(plan));
+}
+
+static void cursor_move(app_state *app, sl_box plan, double dx, double dy) {
+    const sl_point at = app->tool.pointer;
+    input_point(app, (sl_point){fmin(fmax(at.x + dx, plan.min.x), plan.max.x - 1),
+                                fmin(fmax(at.y + dy, plan.min.y), plan.max.y - 1)});
+}
+
+/// Takes hold of what is under the cursor, or lets it go.
+static void cursor_hold(app_state *app) {
+    if (app->tool.drag.kind == DRAG_NONE)
+        input_press_at(app, BUTTON_LEFT, app->tool.pointer);
+    else
+        input_release(app, app->tool.pointer);
+}
+
+static void cursor_click(app_state *app, button_kind button) {
+    input_press_at(app, button, app->tool.pointer);
+    input_release(app, app->tool.pointer);
+}
+
+static bool cursor_key(app_state *app, const char *key, sl_box plan) {
     static const struct {
         const char *key;
-        int by;
-    } moves[] = {{"Up", -1}, {"Down", 1}, {"PageUp", -10}, {"PageDown", 10}};
+        int x, y;
+    } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, -1}, {"Down", 0, 1}};
+    const bool fine = strncmp(key, "Shift+", 6) == 0;
+    const double step = fine ? 1 : 10 * ui_scale(&app->ui);
+    cursor_begin(app, plan);
+    for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
+        if (strcmp(key + (fine ? 6 : 0), arrows[i].key) != 0) continue;
+        cursor_move(app, plan, step * arrows[i].x, step * arrows[i].y);
+        return true;
+    }
+    if (strcmp(key, "Return") == 0)
+        cursor_click(app, BUTTON_LEFT);
+    else if (strcmp(key, "Shift+Return") == 0)
+        cursor_click(app, BUTTON_RIGHT);
+    else if (strcmp(key, "Space") == 0)
+        cursor_hold(app);
+    else
+        return false;
+    return true;
+}
+
+// --- keys
+
+static const slider_row *slider_of(const hit_area *hit) {
+    size_t count;
+    return &slider_table(&count)[hit->value];
+}
+
+static bool slider_key(app_state *app, const hit_area *hit, const char *key) {
+    const double by = strcmp(key, "Left") == 0 ? -0.02 : strcmp(key, "Right") == 0 ? 0.02 : 0;
+    const slider_row *slider = slider_of(hit);
+    if (by == 0) return false;
+    if (slider->begin) slider->begin(app);
+    slider->set(app, fmin(fmax(slider->share(app) + by, 0), 1));
+    if (slider->end) slider->end(app);
+    return true;
+}
+
+static bool edge_key(app_state *app, const hit_area *hit, const char *key) {
+    const bool side = hit->value == EDGE_SIDE;
+    const double by = strcmp(key, side ? "Left" : "Up") == 0      ? 1
+                      : strcmp(key, side ? "Right" : "Down") == 0 ? -1
+                                                                  : 0;
+    if (by != 0) app_drag_edge(app, hit->value, 10 * by * ui_scale(&app->ui));
+    return by != 0;
+}
+
+/// Keys for the focused widget; false: the key is not for it.
+static bool focus_key(app_state *app, const char *key) {
+    const hit_area hit = ui_focused(&app->ui);
+    if (strcmp(key, "Tab") == 0 || strcmp(key, "Shift+Tab") == 0) {
+        ui_focus_move(&app->ui, *key == 'S');
+        if (app->ui.focus.kind == HIT_PLAN) cursor_begin(app, ui_focused(&app->ui).box);
+        app->ui.hover_is_focus = true;
+        return true;
+    }
+    if (hit.kind == HIT_NONE) return false;
+    if (strcmp(key, "Escape") == 0 && app->tool.drag.kind != DRAG_NONE) {
+        app->tool.drag = (drag_state){0};
+        return true;
+    }
+    if (strcmp(key, "Escape") == 0 && !app->ui.help) {
+        app->ui.focus = (ui_focus){0};
+        return true;
+    }
+    if (hit.kind == HIT_PLAN) return cursor_key(app, key, hit.box);
+    if (hit.kind == HIT_SLIDER && slider_key(app, &hit, key)) return true;
+    if (hit.kind == HIT_EDGE && edge_key(app, &hit, key)) return true;
+    if (strcmp(key, "Return") != 0 && strcmp(key, "Space") != 0) return false;
+    if (hit.kind == HIT_SLIDER || hit.kind == HIT_TIME || hit.kind == HIT_EDGE) return false;
+    if (hit.kind == HIT_DUAL) return false;
+    click(app, &hit);
+    return true;
+}
+
+/// Keys that page through what scrolls over all.
+static bool sheet_key(app_state *app, const char *key) {
+    ui_scroll *scroll = &app->ui.scrolls[SCROLL_HELP];
+    static const struct {
+        const char *key;
+        double rows, pages;
+    } moves[] = {{"Up", -3, 0}, {"Down", 3, 0}, {"PageUp", 0, -0.9}, {"PageDown", 0, 0.9}};
     for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
         if (strcmp(key, moves[i].key) != 0) continue;
-        if (down) shelf_move(app, moves[i].by);
+        ui_scroll_by(scroll, moves[i].rows * app->ui.text + moves[i].pages * scroll->room);
         return true;
     }
     return false;
 }
 
+/// What is chosen in the lesson takes the arrows.
+static bool lesson_key(app_state *app, const char *key) {
+    static const struct {
+        const char *key;
+        int x, y;
+    } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}};
+    if (app->tool.mode != MODE_LEARN || lesson_chosen(&app->tool.lesson) == CHOSEN_NONE)
+        return false;
+    for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
+        if (strcmp(key, arrows[i].key) != 0) continue;
+        pane_dual_nudge(app, arrows[i].x, arrows[i].y);
+        return true;
+    }
+    return false;
+}
+
+/// Keys that are not for the table of actions.
+static bool own_key(app_state *app, const char *key, bool down) {
+    ui_state *ui = &app->ui;
+    if (!down) return false;
+    if (ui->field && ui_field_key(ui->field, key)) {
+        ui->scrolls[SCROLL_HELP].at = 0;
+        return true;
+    }
+    if (ui->help && sheet_key(app, key)) return true;
+    return lesson_key(app, key) || focus_key(app, key);
+}
+
 void input_key(app_state *app, const char *key, bool down) {
     size_t count;
-    if (app->ui.maps_open && list_key(app, key, down)) return;
+    const ui_field *before = app->ui.field;
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        dialog_key(app, key, down);
+        return;
+    }
+    if (!down) app->ui.field_mutes = false;
+    if (own_key(app, key, down)) return;
+    if (strcmp(key, "Backspace") == 0) key = "Delete";
     const action_row *actions = action_table(&count);
     const int number = action_of_key(key, app->tool.mode);
     if (number < 0) return;
@@ -38,6 +189,31 @@ void input_key(app_state *app, const char *key, bool down) {
         return;
     }
     if (down) action->run(app);
+    if (down && !before && app->ui.field) app->ui.field_mutes = true;
+    // A letter that opens a dialog comes as text too, which is not meant for the dialog.
+    if (down && dialog_open_now(app) != DIALOG_NONE)
+        snprintf(app->dialog.deaf, sizeof app->dialog.deaf, "%s", key);
+}
+
+bool input_takes(const char *key) {
+    static const char *const own[] = {"Tab",          "Shift+Tab",  "Return",
+                                      "Shift+Return", "Shift+Left", "Shift+Right",
+                                      "Shift+Up",     "Shift+Down", "Backspace"};
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (strcmp(own[i], key) == 0) return true;
+    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
+        if (action_of_key(key, (app_mode)mode) >= 0) return true;
+    return false;
+}
+
+void input_text(app_state *app, const char *text) {
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        dialog_text(app, text);
+        return;
+    }
+    if (!app->ui.field || app->ui.field_mutes) return;
+    ui_field_type(app->ui.field, text);
+    app->ui.scrolls[SCROLL_HELP].at = 0;
 }
 
 // --- dragging
@@ -51,11 +227,6 @@ static double slider_share(const hit_area *hit, const app_state *app, sl_point a
     const double margin = 0.5 * app->ui.text;
     const double low = hit->box.min.x + margin, high = hit->box.max.x - margin;
     return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
-}
-
-static const slider_row *slider_of(const hit_area *hit) {
-    size_t count;
-    return &slider_table(&count)[hit->value];
 }
 
 /// Sliders, the time line and the dual plane follow the pointer.
@@ -74,25 +245,15 @@ static void follow(app_state *app, const hit_area *hit, sl_point at) {
     case HIT_DUAL:
         pane_dual_drag(app, app_layout(app).below[PANE_DUAL], at);
         break;
+    case HIT_BAR:
+        app->ui.scrolls[hit->value].at =
+            (at.y - hit->box.min.y) / box_height(hit->box) * app->ui.scrolls[hit->value].length -
+            app->ui.scrolls[hit->value].room / 2;
+        ui_scroll_by(&app->ui.scrolls[hit->value], 0);
+        break;
     default:
         break;
     }
-}
-
-/// The portal end of the lesson under the pointer: twice its number, plus one for a right end.
-static bool pick_end(const app_state *app, sl_point at, uint32_t *found) {
-    const lesson_state *lesson = &app->tool.lesson;
-    double nearest = 8 * ui_scale(&app->ui) / app->view.camera.scale;
-    bool any = false;
-    for (uint32_t i = 0; i < 2 * lesson->end_count; i++) {
-        const sl_point p = i % 2 ? lesson->ends[i / 2].right : lesson->ends[i / 2].left;
-        const double distance = hypot(p.x - at.x, p.y - at.y);
-        if (distance > nearest) continue;
-        nearest = distance;
-        *found = i;
-        any = true;
-    }
-    return any;
 }
 
 static bool near_line(const app_state *app, sl_point at) {
@@ -106,31 +267,39 @@ static bool near_line(const app_state *app, sl_point at) {
 
 static drag_kind plan_drag(app_state *app, drag_state *drag) {
     const bool searches = app->tool.mode == MODE_LEARN && app->tool.lesson.end_count > 0;
-    if (searches && pick_end(app, drag->at, &drag->index)) return DRAG_END;
+    if (searches) drag->index = pane_plan_end_at(app, drag->at);
+    if (searches && drag->index != UINT32_MAX) return DRAG_END;
     if (searches && near_line(app, drag->at)) return DRAG_LINE;
     const bool moves = app->tool.mode == MODE_EXPLORE || app->tool.mode == MODE_DRAW;
     if (moves && mirror_take(app, drag)) return DRAG_MIRROR;
     if (app->tool.mode == MODE_EXPLORE && object_take(app, drag)) return DRAG_OBJECT;
     if (app->tool.mode != MODE_DRAW) return DRAG_PAN;
-    drag->index = edit_pick(app, drag->at);
-    app->tool.wall = drag->index;
-    return drag->index == UINT32_MAX ? DRAG_NEW_WALL : DRAG_WALL;
+    return edit_take(app, drag);
 }
 
 static void click(app_state *app, const hit_area *hit) {
     if (hit->kind == HIT_ACTION) {
         const bool from_help = app->ui.help;
-        app->ui.help = false;
+        app_shut_help(app);
         if (!from_help || hit->value != action_find("help")) action_run(app, hit->value);
     } else if (hit->kind == HIT_METHOD) {
         if (app->view.compare && (size_t)hit->value != app->view.method)
             app->view.other = app->view.method;
         app->view.method = (size_t)hit->value;
-    } else if (hit->kind == HIT_MAP) {
-        shelf_choose(app, (size_t)hit->value);
-    } else if (hit->kind == HIT_PANEL && hit->value == 1) {
-        app->ui.help = app->ui.maps_open = false;
+    } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
+        app_shut_help(app);
+    } else if (hit->kind == HIT_SUBJECT) {
+        lesson_set_subject(app->context, &app->tool.lesson, (size_t)hit->value);
+        app_tick(app, 0);
+    } else if (hit->kind == HIT_END) {
+        app->tool.lesson.chosen_next = (uint32_t)hit->value + 2;
     }
+}
+
+/// The first move of a drag in the lesson is kept for undo.
+static void keep_once(app_state *app, drag_state *drag, uint32_t what) {
+    if (!drag->changed && app->tool.lesson.end_count) lesson_keep(&app->tool.lesson, what);
+    drag->changed = true;
 }
 
 static void explain_to(app_state *app, sl_point at) {
@@ -146,20 +315,37 @@ static void explain_to(app_state *app, sl_point at) {
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
     quiz_explain(app, from, to);
     if (!app->tool.quiz.answered) return;
-    char text[sizeof app->ui.message];
-    quiz_words(app, text, sizeof text);
-    ui_say(&app->ui, false, "Cell %u: %.440s", to, text);
+    if (app->ui.presents) { // without a panel
+        char text[sizeof app->ui.message];
+        quiz_words(app, text, sizeof text);
+        ui_say(&app->ui, false, "Cell %u: %.440s", to, text);
+        return;
+    }
+    app->ui.side_panel = true;
+    ui_say(&app->ui, false, "why: see the panel; Ctrl+T shows the step that decides");
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {
+    app->ui.focus = (ui_focus){0};
+    app->ui.hover_is_focus = false;
+    app->ui.hover_seconds = -1e9; // no tooltip until the pointer moves on
+    input_press_at(app, button, at);
+}
+
+static void input_press_at(app_state *app, button_kind button, sl_point at) {
     app->tool.pointer = at;
     const hit_area hit = ui_find(&app->ui, at);
     drag_state *drag = &app->tool.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        if (button == BUTTON_LEFT) dialog_press(app, &hit, at);
+        return;
+    }
     if (hit.kind != HIT_PLAN) {
         if (button != BUTTON_LEFT) return;
         drag->kind = DRAG_HIT;
         if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(app);
+        if (hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
         click(app, &hit);
         follow(app, &hit, at);
         return;
@@ -174,19 +360,12 @@ void input_press(app_state *app, button_kind button, sl_point at) {
         drag->kind = button == BUTTON_MIDDLE ? DRAG_LOOK : DRAG_PAN;
 }
 
-static void drag_end(tool_state *tool, uint32_t index, sl_point at) {
-    lesson_state *lesson = &tool->lesson;
-    if (index >= 2 * lesson->end_count) return;
-    sl_portal_ends *ends = &lesson->ends[index / 2];
-    const sl_portal_ends before = *ends;
-    *(index % 2 ? &ends->right : &ends->left) = at;
-    if (ends->left.x == ends->right.x && ends->left.y == ends->right.y) *ends = before;
-    lesson->dragged = true;
-    lesson_refresh(lesson);
-    if (lesson->dual.corner_count) lesson->line = lesson->dual.best;
+void input_move(app_state *app, sl_point to) {
+    app->ui.hover_is_focus = false;
+    input_point(app, to);
 }
 
-void input_move(app_state *app, sl_point to) {
+static void input_point(app_state *app, sl_point to) {
     drag_state *drag = &app->tool.drag;
     app->tool.pointer = to;
     if (drag->kind == DRAG_NONE) return;
@@ -205,13 +384,19 @@ void input_move(app_state *app, sl_point to) {
         app->view.eye.heading = fmod(app->view.eye.heading - 0.4 * dx + 720, 360);
         break;
     case DRAG_HIT:
-        follow(app, &drag->hit, to);
+        if (drag->hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
+        if (drag->hit.kind == HIT_EDGE)
+            app_drag_edge(app, drag->hit.value, drag->hit.value == EDGE_SIDE ? -dx : -dy);
+        else
+            follow(app, &drag->hit, to);
         break;
     case DRAG_LINE:
+        keep_once(app, drag, CHOSEN_LINE);
         pane_plan_drag_line(app, before, now);
         break;
     case DRAG_END:
-        if (drag->moved) drag_end(&app->tool, drag->index, now);
+        if (drag->moved) keep_once(app, drag, drag->index);
+        if (drag->moved) lesson_move_end(&app->tool.lesson, drag->index, now);
         break;
     case DRAG_MIRROR:
         if (drag->moved) mirror_move(app, drag, now);
@@ -221,31 +406,29 @@ void input_move(app_state *app, sl_point to) {
         break;
     case DRAG_NEW_WALL:
     case DRAG_WALL:
+    case DRAG_CORNER:
+    case DRAG_DOOR:
+        if (drag->moved) edit_drag(app, drag, now);
+        break;
     case DRAG_NONE:
         break;
     }
     drag->last = to;
 }
 
-static void finish_wall(app_state *app, const drag_state *drag, sl_point now) {
-    if (drag->kind == DRAG_NEW_WALL) {
-        edit_add(app, edit_snap(app, drag->at), edit_snap(app, now));
-        return;
-    }
-    const double step = edit_step(app);
-    edit_move(app, drag->index, step * round((now.x - drag->at.x) / step),
-              step * round((now.y - drag->at.y) / step));
+static bool is_edit(drag_kind kind) {
+    return kind == DRAG_NEW_WALL || kind == DRAG_WALL || kind == DRAG_CORNER || kind == DRAG_DOOR;
 }
 
 void input_release(app_state *app, sl_point at) {
+    if (is_edit(app->tool.drag.kind)) input_move(app, at);
     const drag_state drag = app->tool.drag;
     app->tool.drag = (drag_state){0};
     app->tool.pointer = at;
+    if (is_edit(drag.kind)) edit_drop(app, &drag);
     if (!app->document.baked) return;
     if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end) slider_of(&drag.hit)->end(app);
     const sl_point now = to_map(app, drag.hit.value, at);
-    if ((drag.kind == DRAG_NEW_WALL || drag.kind == DRAG_WALL) && drag.moved)
-        finish_wall(app, &drag, now);
     if (drag.kind == DRAG_MIRROR) mirror_drop(app, &drag);
     if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(app, drag.index);
     const bool holds =
@@ -264,10 +447,13 @@ void input_release(app_state *app, sl_point at) {
 }
 
 void input_wheel(app_state *app, double steps) {
-    if (app->ui.maps_open) {
-        shelf_move(app, -(int)round(fmin(fmax(steps, -3), 3)));
+    if (dialog_open_now(app) != DIALOG_NONE) {
+        dialog_wheel(app, steps);
         return;
     }
+    const int area = ui_scroll_at(&app->ui, app->tool.pointer);
+    if (area >= 0) ui_scroll_by(&app->ui.scrolls[area], -3 * steps * ui_text_size(&app->ui));
+    if (area >= 0 || app->ui.help) return;
     const window_layout l = app_layout(app);
     for (int i = 0; i < l.plan_count; i++) {
         if (!box_has(l.plan[i], app->tool.pointer) || !(app->view.camera.scale > 0)) continue;

@@ -1,5 +1,5 @@
-/// The nodes of the hierarchy as a walk without visible sets classifies them, frame by frame, in
-/// the colours of Bittner and Havran 2002, Figure 12.
+/// The nodes of the hierarchy as a walk without visible sets classifies them, frame by frame, as in
+/// Bittner and Havran 2002, Figure 12.
 #include "layers.h"
 
 #include "app.h"
@@ -12,16 +12,12 @@
 
 typedef enum kind { OUT, INVISIBLE, PROPAGATED, VISIBLE, PARTIAL, KINDS } kind;
 
-static const struct {
-    const char *label;
-    sl_colour colour;
-    double opacity; ///< partially visible ones stay as they are
-} kinds[KINDS] = {
-    [OUT] = {"outside the view cone", {0.35, 0.66, 0.36}, 0.45},
-    [INVISIBLE] = {"invisible", {0.13, 0.25, 0.56}, 0.7},
-    [PROPAGATED] = {"invisible by propagation", {0.42, 0.70, 0.92}, 0.7},
-    [VISIBLE] = {"visible", {0.96, 0.80, 0.16}, 0.75},
-    [PARTIAL] = {"partially visible", {1, 1, 1}, 0},
+static const tone tones[KINDS] = {
+    [OUT] = TONE_NODE_OUT,
+    [INVISIBLE] = TONE_NODE_INVISIBLE,
+    [PROPAGATED] = TONE_NODE_PROPAGATED,
+    [VISIBLE] = TONE_NODE_VISIBLE,
+    [PARTIAL] = TONE_NODE_PARTIAL,
 };
 
 struct node_layer {
@@ -113,26 +109,35 @@ static sl_status step(app_state *app) {
     return SL_OK;
 }
 
-void layer_nodes_key(app_state *app, const sl_frame *frame) {
+int layer_nodes_legend(const app_state *app, legend_row *rows) {
     const node_layer *layer = app->view.nodes;
-    if (!layer || !layer->stepped) return;
-    legend_row rows[KINDS];
-    for (int k = 0; k < KINDS; k++)
-        rows[k] = (legend_row){kinds[k].label, kinds[k].colour, kinds[k].opacity, layer->counts[k]};
-    char text[96];
+    const bool fills = layers_fill(app) == LAYER_NODES;
+    int at = 0;
+    if (!layer || !layer->stepped) return 0;
+    for (int k = fills ? 0 : VISIBLE; k < KINDS; k++, at++) {
+        rows[at] = (legend_row){.label = tone_table()[tones[k]].label,
+                                .mark = fills ? LEGEND_AREA : LEGEND_LINE,
+                                .which = tones[k]};
+        snprintf(rows[at].value, sizeof rows[at].value, "%u", layer->counts[k]);
+    }
+    return at;
+}
+
+const char *layer_nodes_words(const app_state *app, char text[96]) {
+    const node_layer *layer = app->view.nodes;
+    if (!layer || !layer->stepped || !layers_shows(app, LAYER_NODES)) return NULL;
     const sl_walk_frame *f = &layer->frame;
-    snprintf(text, sizeof text, "%u tests for %u nodes, %u occluders", f->tests, f->visited,
-             f->occluders);
-    layers_draw_key(&app->ui, frame, rows, KINDS, text);
+    snprintf(text, 96, "Nodes: %u tests for %u, %u occluders.", f->tests, f->visited, f->occluders);
+    return text;
 }
 
 void layer_nodes(app_state *app, const sl_frame *frame, int index) {
     const sl_status status = step(app);
+    const bool fills = layers_fill(app) == LAYER_NODES;
+    (void)index;
     app_check(app, status);
     if (status != SL_OK) return;
-    for (int k = 0; k < KINDS; k++)
-        if (kinds[k].opacity > 0)
-            sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame,
-                             app->view.nodes->sets[k], NULL, kinds[k].colour, kinds[k].opacity);
-    (void)index;
+    // Lines go round what is visible: the rest has all of the map in it.
+    for (int k = fills ? 0 : VISIBLE; k < KINDS; k++)
+        layers_draw_set(app, frame, app->view.nodes->sets[k], NULL, tones[k], fills);
 }

@@ -7,6 +7,7 @@
 #include "sightline/canvas.h"
 #include "sightline/support.h"
 
+#include <stdio.h>
 #include <string.h>
 
 typedef enum kind { SEES, MUTUAL, SEEN, KINDS } kind;
@@ -92,33 +93,31 @@ static sl_status follow(app_state *app) {
     return make(app, layer);
 }
 
-static legend_row row_of(const ui_state *ui, const watch_layer *layer, kind k) {
-    const sl_palette *palette = &ui->palette;
-    const legend_row rows[KINDS] = {
-        [SEES] = {"the eye's cell sees them", palette->glass, 0.45, layer->counts[SEES]},
-        [MUTUAL] = {"both see each other", palette->portal, 0.3, layer->counts[MUTUAL]},
-        [SEEN] = {"they see the eye's cell", palette->door, 0.45, layer->counts[SEEN]},
-    };
-    return rows[k];
-}
+static const tone tones[KINDS] = {
+    [SEES] = TONE_WATCH_SEES, [MUTUAL] = TONE_WATCH_MUTUAL, [SEEN] = TONE_WATCH_SEEN};
 
 void layer_watch(app_state *app, const sl_frame *frame, int index) {
+    const bool fills = layers_fill(app) == LAYER_WATCH;
     (void)index;
     const sl_status status = follow(app);
     app_check(app, status);
     if (status != SL_OK) return;
-    for (kind k = 0; k < KINDS; k++) {
-        const legend_row row = row_of(&app->ui, app->view.watch, k);
-        sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame,
-                         app->view.watch->sets[k], NULL, row.colour, row.opacity);
-    }
-    layers_draw_region(app, frame, &app->view.watch->region, app->ui.palette.door);
+    for (kind k = 0; k < KINDS; k++)
+        layers_draw_set(app, frame, app->view.watch->sets[k], NULL, tones[k], fills);
+    layers_draw_region(app, frame, &app->view.watch->region, TONE_WATCH_SEEN, false);
 }
 
-void layer_watch_key(app_state *app, const sl_frame *frame) {
+int layer_watch_legend(const app_state *app, legend_row *rows) {
     const watch_layer *layer = app->view.watch;
-    if (!layer || !layer->made) return;
-    legend_row rows[KINDS];
-    for (kind k = 0; k < KINDS; k++) rows[k] = row_of(&app->ui, layer, k);
-    layers_draw_key(&app->ui, frame, rows, KINDS, "Purple region: from there the eye is seen.");
+    const bool fills = layers_fill(app) == LAYER_WATCH;
+    if (!layer || !layer->made) return 0;
+    for (kind k = 0; k < KINDS; k++) {
+        rows[k] = (legend_row){.label = tone_table()[tones[k]].label,
+                               .mark = fills ? LEGEND_AREA : LEGEND_LINE,
+                               .which = tones[k]};
+        snprintf(rows[k].value, sizeof rows[k].value, "%u", layer->counts[k]);
+    }
+    rows[KINDS] = (legend_row){
+        .label = "from inside it the eye is seen", .mark = LEGEND_LINE, .which = TONE_WATCH_SEEN};
+    return KINDS + 1;
 }

@@ -27,124 +27,217 @@ bool layers_shows(const app_state *app, unsigned layer) {
     return app->view.show >> layer & 1 && layers_lists(app, layer);
 }
 
-void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *key, int count,
-                     const char *line) {
-    const double t = ui->text, left = frame->left + t, row = 1.5 * t;
-    const int lines = count + (line != NULL);
-    const double bottom = frame->top + frame->height - t, top = bottom - lines * row - 0.6 * t;
-    ui_fill_round(ui, (sl_box){{left, top}, {left + 19 * t, bottom}}, 0.3 * t, ui->palette.page);
-    for (int i = 0; i < count; i++) {
-        char text[16];
-        const double base = top + 0.3 * t + (i + 0.8) * row;
-        ui_fill_round(ui,
-                      (sl_box){{left + 0.6 * t, base - 0.8 * t}, {left + 1.6 * t, base + 0.1 * t}},
-                      0.15 * t, sl_colour_mix(ui->palette.floor[0], key[i].colour, key[i].opacity));
-        ui_text(ui, left + 2.1 * t, base, 0.95, false, ui->palette.ink, key[i].label);
-        snprintf(text, sizeof text, "%u", key[i].count);
-        ui_text_right(ui, left + 18.4 * t, base, 0.95, ui->palette.ink, text);
-    }
-    if (line)
-        ui_text(ui, left + 0.6 * t, top + 0.3 * t + (count + 0.8) * row, 0.95, false,
-                ui->palette.faint, line);
+unsigned layers_fill(const app_state *app) {
+    unsigned last = LAYER_COUNT;
+    for (unsigned i = 0; i < LAYER_COUNT; i++)
+        if (SHOW_FILLS >> i & 1 && layers_shows(app, i)) last = i;
+    return app->view.fill < LAYER_COUNT && layers_shows(app, app->view.fill) ? app->view.fill
+                                                                             : last;
 }
 
-void layers_draw_keys(app_state *app, const sl_frame *frame) {
-    if (app->view.seen.valid && layers_shows(app, LAYER_NODES)) layer_nodes_key(app, frame);
-    if (app->view.seen.valid && layers_shows(app, LAYER_WATCH)) layer_watch_key(app, frame);
-    if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS)) view_layer_draw_key(app, frame);
-}
-
+/// What fills comes first: lines stay on top.
 void layers_draw(app_state *app, const sl_frame *frame, int index) {
     const unsigned about_cell = SHOW_PVS | SHOW_CULL | SHOW_TREE;
     unsigned drawn = 0;
     if (!app->view.seen.valid) return;
-    for (unsigned i = 0; i < LAYER_COUNT; i++) {
-        if (!rows[i].draw || !layers_shows(app, i)) continue;
-        rows[i].draw(app, frame, index);
-        drawn |= 1u << i;
-    }
+    const unsigned fill = layers_fill(app);
+    for (int pass = 0; pass < 2; pass++)
+        for (unsigned i = 0; i < LAYER_COUNT; i++) {
+            if (!rows[i].draw || !layers_shows(app, i) || (i == fill) != (pass == 0)) continue;
+            rows[i].draw(app, frame, index);
+            drawn |= 1u << i;
+        }
     if (app->view.seen.cell != SL_NO_CELL && drawn & about_cell)
         sl_draw_cell(app->ui.cairo, &app->document.baked->space, frame, app->view.seen.cell,
                      app->ui.palette.source_edge, 0, 2.4 * frame->unit);
 }
 
-void layer_pvs(app_state *app, const sl_frame *frame, int index) {
-    (void)index;
-    sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->view.seen.pvs, NULL,
-                     app->ui.palette.seen[0], 0.8);
-    sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->view.seen.mirrored,
-                     app->view.seen.pvs, app->ui.palette.mirrored, 0.3);
+// --- sets of cells
+
+static bool in_set(const uint64_t *cells, const uint64_t *without, uint32_t cell) {
+    return cells[cell / 64] >> (cell % 64) & 1 &&
+           !(without && without[cell / 64] >> (cell % 64) & 1);
 }
 
-/// Draws a region as a polygon; arcs are as fine as the eye can tell. `depth` is the number of
-/// mirrors in which the part is seen, 0 for none.
-static void draw_region(app_state *app, const sl_frame *frame, const sl_region *region,
-                        uint32_t depth, sl_colour colour) {
+/// Where on the side from a to b a point lies, from 0 to 1; NAN: beside it.
+static double place_on(sl_point a, sl_point b, sl_point p) {
+    const double x = b.x - a.x, y = b.y - a.y, length = x * x + y * y;
+    const double off = x * (p.y - a.y) - y * (p.x - a.x);
+    return fabs(off) <= 1e-9 * length ? ((p.x - a.x) * x + (p.y - a.y) * y) / length : NAN;
+}
+
+/// Adds a side of a cell but for its portals to other cells of the set.
+static void add_side(app_state *app, const sl_frame *frame, const uint64_t *cells,
+                     const uint64_t *without, const sl_cell *c, sl_point a, sl_point b) {
+    const sl_space *space = &app->document.baked->space;
+    double at = 0;
+    while (at < 1) {
+        // The next portal from here on.
+        double from = 1, to = 1;
+        for (uint32_t i = 0; i < c->directed_count; i++) {
+            const sl_directed_portal *d = &space->directed[c->first_directed + i];
+            const double u = place_on(a, b, d->left), v = place_on(a, b, d->right);
+            if (!in_set(cells, without, d->cell) || isnan(u) || isnan(v)) continue;
+            if (fmax(u, v) > at + 1e-9 && fmin(u, v) < from) {
+                from = fmin(u, v);
+                to = fmax(u, v);
+            }
+        }
+        if (from > at + 1e-9) {
+            const double end = fmin(from, 1);
+            sl_path_segment(app->ui.cairo, frame,
+                            (sl_point){a.x + (b.x - a.x) * at, a.y + (b.y - a.y) * at},
+                            (sl_point){a.x + (b.x - a.x) * end, a.y + (b.y - a.y) * end});
+        }
+        at = fmax(to, at + 1e-9);
+    }
+}
+
+/// Adds the border of the set: sides of its cells that no other cell of it is behind.
+static void add_border(app_state *app, const sl_frame *frame, const uint64_t *cells,
+                       const uint64_t *without) {
+    const sl_space *space = &app->document.baked->space;
+    for (uint32_t cell = 0; cell < space->cell_count; cell++) {
+        const sl_cell *c = &space->cells[cell];
+        if (!in_set(cells, without, cell)) continue;
+        for (uint32_t i = 0; i < c->vertex_count; i++)
+            add_side(app, frame, cells, without, c, space->vertices[c->first_vertex + i],
+                     space->vertices[c->first_vertex + (i + 1) % c->vertex_count]);
+    }
+}
+
+/// Draws the portals of the set once more: a solid fill covers those below it.
+static void draw_portals(app_state *app, const sl_frame *frame, const uint64_t *cells,
+                         const uint64_t *without) {
+    const sl_space *space = &app->document.baked->space;
+    const sl_palette *palette = &app->ui.palette;
+    cairo_new_path(app->ui.cairo);
+    for (uint32_t cell = 0; cell < space->cell_count; cell++) {
+        const sl_cell *c = &space->cells[cell];
+        if (!in_set(cells, without, cell)) continue;
+        for (uint32_t i = 0; i < c->directed_count; i++) {
+            const sl_directed_portal *d = &space->directed[c->first_directed + i];
+            const bool twice = d->cell < cell && in_set(cells, without, d->cell);
+            if (!twice) sl_path_segment(app->ui.cairo, frame, d->left, d->right);
+        }
+    }
+    cairo_save(app->ui.cairo);
+    cairo_set_antialias(app->ui.cairo, CAIRO_ANTIALIAS_FAST);
+    tone_cased(app->ui.cairo, palette, palette->portal, 1.4 * frame->unit, 3);
+    cairo_restore(app->ui.cairo);
+}
+
+/// Patterns are fixed to the map.
+static sl_point origin_of(const sl_frame *frame) {
+    return sl_frame_point(frame, (sl_point){0, 0});
+}
+
+void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cells,
+                     const uint64_t *without, tone which, bool fills) {
+    const sl_space *space = &app->document.baked->space;
+    cairo_t *cairo = app->ui.cairo;
+    cairo_new_path(cairo);
+    if (!fills) {
+        cairo_save(cairo);
+        cairo_set_antialias(cairo, CAIRO_ANTIALIAS_FAST);
+        add_border(app, frame, cells, without);
+        // Wider than walls: it shows on both sides of them.
+        tone_line(cairo, &app->ui.palette, which, 6 * frame->unit);
+        cairo_restore(cairo);
+        return;
+    }
+    for (uint32_t cell = 0; cell < space->cell_count; cell++) {
+        const sl_cell *c = &space->cells[cell];
+        if (in_set(cells, without, cell))
+            sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
+    }
+    tone_fill(cairo, app->ui.dark, which, frame->unit, origin_of(frame));
+    const bool solid = tone_table()[which].pattern == PATTERN_SOLID;
+    if (solid && layers_shows(app, LAYER_PORTALS)) draw_portals(app, frame, cells, without);
+}
+
+void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which) {
+    const sl_space *space = &app->document.baked->space;
+    const sl_cell *c = &space->cells[cell];
+    cairo_new_path(app->ui.cairo);
+    sl_path_polygon(app->ui.cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
+    tone_fill(app->ui.cairo, app->ui.dark, which, frame->unit, origin_of(frame));
+    sl_draw_cell(app->ui.cairo, space, frame, cell, tone_colour(app->ui.dark, which), 0,
+                 2 * frame->unit);
+}
+
+void layer_pvs(app_state *app, const sl_frame *frame, int index) {
+    const bool fills = layers_fill(app) == LAYER_PVS;
+    (void)index;
+    layers_draw_set(app, frame, app->view.seen.pvs, NULL, TONE_SET, fills);
+    layers_draw_set(app, frame, app->view.seen.mirrored, app->view.seen.pvs, TONE_SET_MIRRORED,
+                    fills);
+}
+
+// --- regions
+
+/// Arcs are as fine as the eye can tell.
+void layers_draw_region(app_state *app, const sl_frame *frame, const sl_region *region, tone which,
+                        bool fills) {
+    cairo_t *cairo = app->ui.cairo;
     const double tolerance = fmax(0.2 / frame->scale, 1e-5 * region->range);
     const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
-    sl_region flat = {.points = sl_alloc_array(app->context, count, sizeof *flat.points),
-                      .count = count};
-    if (!flat.points) return;
-    sl_region_flatten(region, tolerance, flat.points, count);
-    const sl_drawn_region part = {region->view.eye, flat.points, count, depth};
-    if (depth)
-        sl_draw_seen(app->ui.cairo, &app->ui.palette, frame, &part);
-    else
-        sl_draw_region(app->ui.cairo, frame, &flat, colour);
-    sl_free(app->context, flat.points);
-}
-
-void layers_draw_region(app_state *app, const sl_frame *frame, const sl_region *region,
-                        sl_colour colour) {
-    draw_region(app, frame, region, 0, colour);
+    sl_point *points = sl_alloc_array(app->context, count, sizeof *points);
+    if (!points) return;
+    sl_region_flatten(region, tolerance, points, count);
+    cairo_new_path(cairo);
+    if (count >= 3) {
+        sl_path_polygon(cairo, frame, points, count);
+        if (fills)
+            tone_fill(cairo, app->ui.dark, which, frame->unit, origin_of(frame));
+        else
+            tone_line(cairo, &app->ui.palette, which, 2.2 * frame->unit);
+    }
+    sl_free(app->context, points);
 }
 
 void layer_region(app_state *app, const sl_frame *frame, int index) {
     const sl_mirrored_region *mirrors = &app->view.seen.in_mirrors;
+    const bool fills = layers_fill(app) == LAYER_REGION;
     (void)index;
     for (size_t i = mirrors->part_count; i-- > 0;)
-        draw_region(app, frame, &mirrors->parts[i].region, mirrors->parts[i].depth,
-                    app->ui.palette.mirrored);
-    layers_draw_region(app, frame, &app->view.seen.region, app->ui.palette.source);
+        layers_draw_region(app, frame, &mirrors->parts[i].region, TONE_REGION_MIRRORED, fills);
+    layers_draw_region(app, frame, &app->view.seen.region, TONE_REGION, fills);
 }
 
 // --- culling
 
-sl_colour pane_method_colour(const ui_state *ui, size_t method) {
-    size_t count;
-    sl_eye_methods(&count);
-    const double share = count > 1 ? (double)method / (double)(count - 1) : 1;
-    return sl_palette_ramp(ui->dark, 0.10 + 0.66 * share);
+tone layers_method_tone(size_t method, size_t chosen) {
+    return method == chosen ? TONE_KEPT : (tone)(TONE_LOOSER + method % 4);
 }
 
-/// All methods up to the chosen one. A cell has the colour of the last method that keeps it.
+/// The two methods that are compared, by guarantee.
+static void pair_of(const app_state *app, size_t *loose, size_t *tight) {
+    const size_t one = app->view.method, other = app->view.other;
+    *loose = one < other ? one : other;
+    *tight = one < other ? other : one;
+}
+
+/// The cells that the chosen method keeps; and those that looser ones keep beside them.
 void layer_cull(app_state *app, const sl_frame *frame, int index) {
-    const sl_space *space = &app->document.baked->space;
-    cairo_t *cairo = app->ui.cairo;
     const seen_state *seen = &app->view.seen;
+    const bool fills = layers_fill(app) == LAYER_CULL;
+    size_t loose, tight;
+    pair_of(app, &loose, &tight);
     if (app->view.compare == COMPARE_DIFFERENCE) {
-        const bool other_is_loose = app->view.other < app->view.method;
-        const size_t loose = other_is_loose ? app->view.other : app->view.method;
-        const size_t tight = other_is_loose ? app->view.method : app->view.other;
-        sl_draw_cell_set(cairo, space, frame, seen->methods[tight].cells, NULL,
-                         pane_method_colour(&app->ui, tight), 0.75);
-        sl_draw_cell_set(cairo, space, frame, seen->methods[loose].cells,
-                         seen->methods[tight].cells, app->ui.palette.start, 0.6);
+        layers_draw_set(app, frame, seen->methods[tight].cells, NULL, TONE_KEPT, fills);
+        layers_draw_set(app, frame, seen->methods[loose].cells, seen->methods[tight].cells,
+                        TONE_ADDED, fills);
         return;
     }
     const size_t last = index ? app->view.other : app->view.method;
-    if (app->view.compare == COMPARE_PANES) {
-        sl_draw_cell_set(cairo, space, frame, seen->methods[last].cells, NULL,
-                         pane_method_colour(&app->ui, last), 0.8);
-        return;
-    }
-    sl_draw_cell_set(cairo, space, frame, seen->methods[last].mirrored, seen->methods[last].cells,
-                     app->ui.palette.mirrored, 0.3);
-    for (size_t i = 0; i <= last; i++)
-        if (seen->methods[i].known || i == last)
-            sl_draw_cell_set(cairo, space, frame, seen->methods[i].cells,
-                             i < last ? seen->methods[i + 1].cells : NULL,
-                             pane_method_colour(&app->ui, i), 0.8);
+    layers_draw_set(app, frame, seen->methods[last].mirrored, seen->methods[last].cells,
+                    TONE_KEPT_MIRRORED, fills);
+    for (size_t i = 0; i < last && fills && app->view.compare == COMPARE_OFF; i++)
+        if (seen->methods[i].known)
+            layers_draw_set(app, frame, seen->methods[i].cells, seen->methods[i + 1].cells,
+                            layers_method_tone(i, last), true);
+    layers_draw_set(app, frame, seen->methods[last].cells, NULL, TONE_KEPT, fills);
 }
 
 // --- the stab tree

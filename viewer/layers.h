@@ -6,6 +6,7 @@
 #include "sightline/canvas.h"
 #include "sightline/effects.h"
 #include "sightline/region.h"
+#include "tones.h"
 #include "ui.h"
 
 typedef struct app_state app_state;
@@ -41,7 +42,11 @@ typedef struct app_state app_state;
     LAYER(STARTS, "starts", "J", "Starts, paths, objects", "starts, paths, objects", IN_ALL_MODES, \
           0, NULL)                                                                                 \
     LAYER(WATCH, "watch", "Y", "Who sees the eye", "through one-way glass: who sees the eye",      \
-          IN_EXPLORE, SL_EFFECT_ONEWAY, layer_watch)
+          IN_EXPLORE, SL_EFFECT_ONEWAY, layer_watch)                                               \
+    LAYER(NUMBERS, "numbers", "0", "Numbers", "numbers of cells, and of portals with a p",         \
+          IN_EXPLORE | IN_DRAW, 0, NULL)                                                           \
+    LAYER(NAMES, "numbers_too", "0", "Numbers", "numbers, as sentences name cells",                \
+          IN_LEARN | IN_QUIZ, 0, NULL)
 
 #define LAYER_NUMBER(NAME, ...) LAYER_##NAME,
 enum { LAYERS(LAYER_NUMBER) LAYER_COUNT };
@@ -51,6 +56,9 @@ enum { LAYERS(LAYER_NUMBER) LAYER_COUNT };
 #define SHOW_BIT(NAME, ...) SHOW_##NAME = 1 << LAYER_##NAME,
 enum show_bit { LAYERS(SHOW_BIT) SHOW_ALL = (1 << LAYER_COUNT) - 1 };
 #undef SHOW_BIT
+
+/// Layers that can fill the plan. One of them does; the others are lines.
+#define SHOW_FILLS (SHOW_VIEWS | SHOW_PVS | SHOW_CULL | SHOW_REGION | SHOW_NODES | SHOW_WATCH)
 
 typedef struct layer_row {
     const char *name;
@@ -72,33 +80,69 @@ bool layers_shows(const app_state *app, unsigned layer);
 /// Draws the layers that are shown.
 void layers_draw(app_state *app, const sl_frame *frame, int index);
 
-/// Draws their keys, over all else in the plan.
-void layers_draw_keys(app_state *app, const sl_frame *frame);
+/// The layer that fills the plan: the one that was switched on last; LAYER_COUNT: none.
+unsigned layers_fill(const app_state *app);
 
-/// A row of a key: a colour, as it looks on a cell, and what it means.
+/// Draws a set of cells without those of another (NULL: none): filled where its layer fills the
+/// plan, else as a line round the set.
+void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cells,
+                     const uint64_t *without, tone which, bool fills);
+
+/// Fills one cell with a tone, and outlines it.
+void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which);
+
+/// Draws a region likewise. Arcs are drawn as arcs.
+void layers_draw_region(app_state *app, const sl_frame *frame, const sl_region *region, tone which,
+                        bool fills);
+
+// --- the legend
+
+/// A row of the legend: a tone as an area or as a line, or a line of its own.
 typedef struct legend_row {
     const char *label;
-    sl_colour colour;
-    double opacity;
-    uint32_t count;
+    enum legend_mark {
+        LEGEND_AREA,
+        LEGEND_LINE,
+        LEGEND_STROKE,
+        LEGEND_DASHED,
+        LEGEND_PLAIN,
+        LEGEND_START, ///< from here on: the marks of things
+        LEGEND_EYE,
+        LEGEND_DOOR,
+        LEGEND_MIRROR,
+        LEGEND_ONEWAY,
+    } mark;
+    tone which;       ///< of an area or a line
+    sl_colour colour; ///< of a stroke, or of an area in a plain colour
+    char value[24];   ///< at the right; may be empty
 } legend_row;
 
-/// Draws a key in the lower left of the plan. `line` is a line under its rows; NULL for none.
-void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *key, int count,
-                     const char *line);
+enum { LEGEND_MOST = 32 };
 
-/// Draws a region. Arcs are drawn as arcs.
-void layers_draw_region(app_state *app, const sl_frame *frame, const sl_region *region,
-                        sl_colour colour);
+/// Writes what is shown now, and how. Returns the number of rows.
+int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]);
+
+/// A sample of a tone in a box, as it looks on a cell.
+void layers_swatch(ui_state *ui, sl_box box, const legend_row *row);
+/// The tone of a culling method, when another one or itself is chosen.
+tone layers_method_tone(size_t method, size_t chosen);
+
+/// A row with its sample; returns the lower edge.
+double layers_legend_row(ui_state *ui, double left, double right, double y, const legend_row *row);
+
+/// Draws the legend over the plan, where no panel has it; and the key of the view cells.
+void layers_draw_keys(app_state *app, const sl_frame *frame);
 
 void layer_pvs(app_state *app, const sl_frame *frame, int index);
 void layer_cull(app_state *app, const sl_frame *frame, int index);
 void layer_region(app_state *app, const sl_frame *frame, int index);
 void layer_tree(app_state *app, const sl_frame *frame, int index);
 void layer_nodes(app_state *app, const sl_frame *frame, int index);
-void layer_nodes_key(app_state *app, const sl_frame *frame); ///< its colours and counts
+int layer_nodes_legend(const app_state *app, legend_row *rows); ///< at most 6
+/// What the walk did, in words; NULL where it is not shown.
+const char *layer_nodes_words(const app_state *app, char text[96]);
 void layer_watch(app_state *app, const sl_frame *frame, int index);
-void layer_watch_key(app_state *app, const sl_frame *frame);
+int layer_watch_legend(const app_state *app, legend_row *rows); ///< at most 4
 
 typedef struct node_layer node_layer;
 

@@ -191,6 +191,20 @@ static void account(const lesson_state *lesson, char text[SENTENCE]) {
              counts[FACT_SEES] + counts[FACT_WATCHED], counts[FACT_DARK] + counts[FACT_RANGE]);
 }
 
+static uint32_t cell_of(const lesson_state *lesson, size_t step) {
+    return lesson->effects.items[step].cell;
+}
+
+/// A step that is not about walls alone.
+static bool finds(const lesson_state *lesson, size_t step) {
+    return lesson->effects.items[step].fact != FACT_SEEN;
+}
+
+static bool rejects(const lesson_state *lesson, size_t step) {
+    const effect_fact fact = lesson->effects.items[step].fact;
+    return fact == FACT_WATCHED || fact == FACT_DARK || fact == FACT_RANGE;
+}
+
 // --- drawing
 
 static sl_colour colour_of(const sl_palette *palette, effect_fact fact) {
@@ -274,6 +288,11 @@ const subject_row lesson_effects = {
     .sentence = say,
     .code = code,
     .account = account,
+    .cell = cell_of,
+    .finds = finds,
+    .rejects = rejects,
+    .found = "Effect",
+    .rejected = "Hidden",
     .below = below,
     .above = above,
 };

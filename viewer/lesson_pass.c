@@ -147,6 +147,16 @@ static void above(app_state *app, const sl_frame *frame) {
     draw_dependences(app, frame, pass->order.nodes[place], palette->start, 2.5 * frame->unit);
 }
 
+static uint32_t cell_of(const lesson_state *lesson, size_t step) {
+    const sli_pass *pass = &lesson->passes[step / lesson->pass_cells];
+    return pass->order.nodes[step % lesson->pass_cells];
+}
+
+/// A cell on a cycle.
+static bool finds(const lesson_state *lesson, size_t step) {
+    return on_cycle(&lesson->passes[step / lesson->pass_cells], cell_of(lesson, step)) > 1;
+}
+
 const subject_row lesson_pass = {
     .title = "Multipass",
     .record = record,
@@ -154,6 +164,9 @@ const subject_row lesson_pass = {
     .sentence = say,
     .code = code,
     .account = account,
+    .cell = cell_of,
+    .finds = finds,
+    .found = "Cycle",
     .below = below,
     .above = above,
 };

@@ -96,9 +96,15 @@ static void say(const lesson_state *lesson, const document_state *document, char
                  here, s->cell);
         return;
     case SL_STEP_HIDDEN:
-        snprintf(text, SENTENCE,
-                 "No line stabs the %u portal%s to cell %u: its half-planes leave nothing.",
-                 s->depth, plural, s->cell);
+        if (s->grazing)
+            snprintf(text, SENTENCE,
+                     "Lines only touch ends of the %u portal%s to cell %u: with open sight they do "
+                     "not count.",
+                     s->depth, plural, s->cell);
+        else
+            snprintf(text, SENTENCE,
+                     "No line stabs the %u portal%s to cell %u: its half-planes leave nothing.",
+                     s->depth, plural, s->cell);
         return;
     case SL_STEP_LEAVE:
         if (s->depth)
@@ -123,6 +129,19 @@ static uint32_t sequence(const lesson_state *lesson, const sl_space *space, sl_p
         ends[i] =
             (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
     return count;
+}
+
+static uint32_t cell_of(const lesson_state *lesson, size_t step) {
+    return lesson->steps.steps[step].cell;
+}
+
+static bool finds(const lesson_state *lesson, size_t step) {
+    return lesson->steps.steps[step].kind == SL_STEP_ENTER && lesson->steps.steps[step].first;
+}
+
+static bool rejects(const lesson_state *lesson, size_t step) {
+    const sl_step_kind kind = lesson->steps.steps[step].kind;
+    return kind == SL_STEP_HIDDEN || kind == SL_STEP_BACKWARDS;
 }
 
 // --- drawing
@@ -204,6 +223,11 @@ const subject_row lesson_search = {
     .code = code,
     .account = account,
     .sequence = sequence,
+    .cell = cell_of,
+    .finds = finds,
+    .rejects = rejects,
+    .found = "New cell",
+    .rejected = "Rejection",
     .below = below,
     .above = above,
 };

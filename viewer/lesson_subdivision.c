@@ -111,7 +111,7 @@ static void say_side(const sli_mesh_steps *mesh, size_t place, char text[SENTENC
     const sli_triangulation *t = &mesh->triangles;
     const sl_point a = t->points.items[t->halves.items[side->half].from];
     const sl_point b = t->points.items[sli_half_end(t, side->half)];
-    const int length = snprintf(text, SENTENCE, "Side %zu of %zu, %.3g long", place + 1,
+    const int length = snprintf(text, SENTENCE, "Side %zu of %zu, %.5g long", place + 1,
                                 mesh->sides.count, hypot(b.x - a.x, b.y - a.y));
     if (side->stuck == SLI_OUTSIDE) {
         snprintf(text + length, SENTENCE - (size_t)length,
@@ -232,6 +232,20 @@ static void above(app_state *app, const sl_frame *frame) {
                              lesson->at - FIRST_SIDE);
 }
 
+/// A side that is taken out: two cells become one.
+static bool finds(const lesson_state *lesson, size_t step) {
+    const size_t place = step - FIRST_SIDE;
+    return lesson->mesh.sides.count && step >= FIRST_SIDE && place < lesson->mesh.sides.count &&
+           lesson->mesh.sides.items[place].stuck == SLI_OUTSIDE;
+}
+
+/// A side that stays.
+static bool rejects(const lesson_state *lesson, size_t step) {
+    const size_t place = step - FIRST_SIDE;
+    return lesson->mesh.sides.count && step >= FIRST_SIDE && place < lesson->mesh.sides.count &&
+           lesson->mesh.sides.items[place].stuck != SLI_OUTSIDE;
+}
+
 const subject_row lesson_subdivision = {
     .title = "Subdivision",
     .fits = fits,
@@ -239,6 +253,10 @@ const subject_row lesson_subdivision = {
     .length = length,
     .sentence = say,
     .code = code,
+    .finds = finds,
+    .rejects = rejects,
+    .found = "Taken out",
+    .rejected = "Stays",
     .below = below,
     .above = above,
 };

@@ -1,7 +1,11 @@
 /// sightline-view: its arguments and its exit status. 0: done; 1: the work failed (no display); 2:
-/// the arguments or an input file are wrong.
+/// the arguments are wrong, or without a window an input file is. A window opens at once, whatever
+/// the map; what is wrong with the file is told in it.
 #include "bench.h"
+#include "browser.h"
 #include "files.h"
+#include "print.h"
+#include "recovery.h"
 #include "save.h"
 #include "script.h"
 #include "sightline/io.h"
@@ -51,7 +55,9 @@ static void print_help(void) {
          "A script has a command a line: open FILE; key NAME; down NAME; up NAME; action NAME;\n"
          "move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS; wait FRAMES; size W H;\n"
          "eye X Y HEADING [CONE]; text SCALE; screenshot FILE; save FILE;\n"
-         "account FILE; export FOLDER.\n\n"
+         "account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT;\n"
+         "print STATE (" PRINT_NAMES ");\n"
+         "fits (fails if a text does not fit its panel).\n\n"
          "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
          "example:\n"
          "  sightline-view maps/office.map");
@@ -190,26 +196,22 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     return SL_OK;
 }
 
-/// Opens the named map and waits for it. A failure ends the program.
+/// Starts to open the named map.
 static sl_status open_map(app_state *app, const arguments *a, bool ask) {
-    app->options = a->options;
     if (!a->map) return SL_OK;
     const document_source source = {.path = (char *)(uintptr_t)a->map,
                                     .options = a->options,
                                     .has_start = a->has_start,
                                     .start = a->start};
-    SL_TRY(shelf_open_source(app, &source, ask));
-    sl_status status = SL_OK;
-    bool changed;
-    // The window's own way, but for the status, which is the program's here.
-    while (app->document.job && !app->document.baked && status == SL_OK)
-        status = document_poll(app->context, &app->document, &changed);
-    return status;
+    return files_open_source(app, &source, ask);
 }
 
+/// Without a window a map that cannot be opened ends the program.
 static sl_status run_headless(app_state *app, const arguments *a) {
     app->steady = true;
     SL_TRY(open_map(app, a, false));
+    bool changed;
+    SL_TRY(document_wait(app->context, &app->document, &changed));
     app_take_opened(app);
     app_settle(app);
     if (a->script) SL_TRY(script_run(app, a->script, NULL, NULL));
@@ -223,12 +225,15 @@ static sl_status run_headless(app_state *app, const arguments *a) {
 
 static sl_status run_window(app_state *app, const arguments *a) {
     app_window *window;
-    SL_TRY(open_map(app, a, true));
-    app_take_opened(app);
     settings_load(app);
     SL_TRY(window_open(app, false, &window));
-    if (!a->map) app->ui.maps_open = true;
-    const sl_status status = window_run(window);
+    if (!a->map) browser_open(app);
+    recovery_begin(app);
+    sl_status status = window_show(window);
+    if (status == SL_OK) {
+        files_check(app, a->map ? a->map : "", open_map(app, a, true));
+        status = window_run(window);
+    }
     window_close(window);
     if (status == SL_OK) settings_save(app);
     return status;
@@ -243,7 +248,7 @@ static sl_status run(sl_context *context, int argc, char **argv) {
     app_state *app = sl_alloc_array(context, 1, sizeof *app);
     if (!app) return SL_NO_MEMORY;
     app_init(app, context);
-    shelf_fill(app, a.map);
+    app->options = a.options;
     const bool headless = a.script || a.screenshot || a.bench || a.soak > 0;
     const sl_status status = headless ? run_headless(app, &a) : run_window(app, &a);
     app_destroy(app);

@@ -18,11 +18,17 @@ void pane_draw(app_state *app, sl_box box);         ///< likewise: walls
 void pane_status(app_state *app, sl_box box);       ///< the line at the bottom
 void pane_time(app_state *app, sl_box box);         ///< the time line of the lesson
 void pane_dual(app_state *app, sl_box box);         ///< lines as points
+void pane_program(app_state *app, sl_box box);      ///< the linear program of the lesson's portals
 void pane_first_person(app_state *app, sl_box box); ///< what the eye sees
 void pane_account(app_state *app, sl_box box);      ///< what accuracy costs
 void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
 void pane_help(app_state *app);                     ///< over all
-void pane_maps(app_state *app);                     ///< over all: the list of maps
+void pane_tip(app_state *app);                      ///< over all: what the pointer is over
+
+/// Work out how many lines the bar and the time line need. Before the layout of a frame.
+void pane_bar_measure(app_state *app);
+void pane_time_measure(app_state *app);
+double pane_time_height(const app_state *app);
 
 /// A pane below the plan. A row of the table in modes.c says when it is shown.
 typedef struct pane_below {
@@ -38,12 +44,15 @@ const pane_below *panes_below(void);
 /// Describes the cell under a point. The caller breaks the text into lines.
 void pane_describe(const app_state *app, sl_point at, char *text, size_t room);
 
-/// The colours of culling methods: steps of the ramp from loose to exact.
-sl_colour pane_method_colour(const ui_state *ui, size_t method);
-
 /// Drags the lesson's line, in the dual plane or in the plan.
 void pane_dual_drag(app_state *app, sl_box box, sl_point to);
 void pane_plan_drag_line(app_state *app, sl_point from, sl_point to);
+/// Moves what keys have chosen by a small step: the line in the dual plane, an end in the plan.
+void pane_dual_nudge(app_state *app, int x, int y);
+/// The portal end of the lesson at a place of the map; UINT32_MAX for none.
+uint32_t pane_plan_end_at(const app_state *app, sl_point at);
+/// Finds what is under the pointer in one pane and is to be marked in the others.
+void pane_dual_hover(app_state *app);
 
 // --- modes
 

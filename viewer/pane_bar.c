@@ -1,7 +1,5 @@
-/// The bars at the top and at the bottom, the time line of the lesson, and the sheets over all: the
-/// help and the list of maps.
+/// The bars at the top and at the bottom, and the time line of the lesson.
 #include "actions.h"
-#include "files.h"
 #include "modes.h"
 #include "sightline/canvas.h"
 
@@ -11,50 +9,84 @@
 
 // --- bars
 
-static double put_button(app_state *app, double x, const char *name) {
+static const action_row *row_of(const char *name) {
     size_t count;
-    const int number = action_find(name);
-    const action_row *a = &action_table(&count)[number];
+    return &action_table(&count)[action_find(name)];
+}
+
+static double put_button(app_state *app, double x, double y, const char *name) {
+    const action_row *a = row_of(name);
     const double t = app->ui.text;
-    return ui_button(&app->ui, x, 0.35 * t, 1.6 * t, a->label, a->on && a->on(app), number) +
+    return ui_button(&app->ui, x, y, 1.6 * t, a->label, a->on && a->on(app), action_find(name)) +
            0.35 * t;
+}
+
+/// Modes and help are always there. The rest has the room that is left in their lines: what finds
+/// none is in the help, where a click does it too.
+static const char *const needed[] = {"explore", "learn", "draw", "quiz", "help"};
+static const char *const others[] = {"file", "open",    "save",       "fit",  "undo",
+                                     "redo", "compare", "side_panel", "dark", "present"};
+enum {
+    NEEDED = sizeof needed / sizeof *needed,
+    OTHERS = sizeof others / sizeof *others,
+};
+
+/// The place of the next button of a width, on this line or the next.
+static void flow(double *x, int *line, double wide, double left, double right) {
+    if (*x > left && *x + wide > right) {
+        *x = left;
+        ++*line;
+    }
+}
+
+/// Lays out the buttons, and draws them with `draw`. Returns the number of lines.
+static int bar_buttons(app_state *app, double right, bool draw) {
+    const double t = app->ui.text, left = 0.6 * t, gap = 0.35 * t;
+    double x = left;
+    int line = 0;
+    for (int i = 0; i < NEEDED; i++) {
+        const double wide = ui_button_width(&app->ui, row_of(needed[i])->label);
+        flow(&x, &line, wide, left, right);
+        if (draw) put_button(app, x, (0.35 + 2 * line) * t, needed[i]);
+        x += wide + gap;
+    }
+    x += 0.8 * t;
+    for (int i = 0; i < OTHERS; i++) {
+        const double wide = ui_button_width(&app->ui, row_of(others[i])->label);
+        if (app->tool.mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
+        if (app->ui.presents && strcmp(others[i], "side_panel") == 0) continue;
+        if (x + wide > right) continue;
+        if (draw) put_button(app, x, (0.35 + 2 * line) * t, others[i]);
+        x += wide + gap;
+    }
+    return line + 1;
+}
+
+void pane_bar_measure(app_state *app) {
+    app->ui.bar_rows = bar_buttons(app, app->ui.width - 0.4 * app->ui.text, false);
 }
 
 void pane_bar(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
-    const double t = ui->text;
-    ui_fill(ui, box, ui->palette.page);
+    ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.max.y - 0.5, box.max.x, box.max.y - 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    static const char *const modes[] = {"explore", "learn", "draw", "quiz"};
-    static const char *const others[] = {"maps", "fit", "undo", "redo", "save_png"};
-    static const char *const right[] = {"dark", "side_panel", "help"};
-    double x = 0.6 * t;
-    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) x = put_button(app, x, modes[i]);
-    x += 0.8 * t;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) x = put_button(app, x, others[i]);
-    if (app->tool.mode == MODE_EXPLORE) x = put_button(app, x, "compare");
-    double from = box.max.x - 0.25 * t;
-    size_t count;
-    for (size_t i = 0; i < sizeof right / sizeof *right; i++) {
-        const char *label = action_table(&count)[action_find(right[i])].label;
-        from -= ui_text_width(ui, 0.95, false, label) + 1.65 * t;
-    }
-    if (from < x) return;
-    for (size_t i = 0; i < sizeof right / sizeof *right; i++)
-        from = put_button(app, from, right[i]);
+    bar_buttons(app, box.max.x - 0.4 * ui->text, true);
+    ui_end_area(ui);
 }
 
-static void draw_progress(app_state *app, sl_box box) {
+/// The work in the background, at the right end of the line. Returns its left end.
+static double draw_progress(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const job_progress p = app_progress(app);
-    const double t = ui->text, wide = 11 * t;
+    const double t = ui->text, wide = fmin(11 * t, 0.2 * box_width(box));
+    const char *label = "Stop (Esc)";
     char text[96];
     snprintf(text, sizeof text, "%s%s", p.stage ? p.stage : "", p.share >= 0 ? "" : " ...");
     for (char *at = text; *at; at++)
         if (*at == '_') *at = ' ';
-    const double middle = (box.min.y + box.max.y) / 2, stop = box.max.x - 7.5 * t;
-    ui_button(ui, stop, box.min.y + 0.15 * t, 1.6 * t, "Stop (Esc)", false, action_find("escape"));
+    const double middle = (box.min.y + box.max.y) / 2;
+    const double stop = box.max.x - ui_button_width(ui, label) - 0.4 * t;
+    ui_button(ui, stop, box.min.y + 0.15 * t, 1.6 * t, label, false, action_find("escape"));
     const double x = stop - wide - 0.6 * t;
     ui_fill_round(ui, (sl_box){{x, middle - 0.3 * t}, {x + wide, middle + 0.3 * t}}, 0.3 * t,
                   ui->palette.outline);
@@ -62,167 +94,159 @@ static void draw_progress(app_state *app, sl_box box) {
         ui_fill_round(
             ui, (sl_box){{x, middle - 0.3 * t}, {x + wide * fmin(p.share, 1), middle + 0.3 * t}},
             0.3 * t, ui->palette.glass);
+    const double left = x - 0.6 * t - ui_text_width(ui, 0.95, false, text);
+    if (left < box.min.x + 0.4 * t) return x;
     ui_text_right(ui, x - 0.6 * t, middle + 0.36 * t, 0.95, ui->palette.ink, text);
+    return left;
+}
+
+/// What the viewer does, at the right end of the line. Returns its left end.
+static double draw_doing(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const sl_baked *baked = app->document.baked;
+    const bool partial = baked && sl_partial_begun(&baked->partial);
+    const char *doing = app->tool.recorder.records ? "recording"
+                        : app->tool.recorder.plays ? "playing"
+                        : partial                  ? "a partial bake"
+                                                   : "";
+    char text[160];
+    if (app->steady || app->ui.frame_seconds <= 0)
+        snprintf(text, sizeof text, "%s", doing);
+    else
+        snprintf(text, sizeof text, "%s   %.1f ms a frame", doing, 1e3 * app->ui.frame_seconds);
+    const double t = ui->text, right = box.max.x - 0.8 * t;
+    ui_text_right(ui, right, box.max.y - 0.62 * t, 0.95, ui->palette.faint, text);
+    return right - ui_text_width(ui, 0.95, false, text);
+}
+
+#define MESSAGE_SECONDS 8
+
+/// A message that is longer than the line grows upwards, over the panes. After some seconds it is
+/// cut to the line, unless it is an error; the tooltip has all of it.
+static void draw_message(app_state *app, sl_box box, double right) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text, left = 0.8 * t, size = 0.95;
+    const sl_colour colour = ui->message_is_error     ? ui->palette.start
+                             : ui->message_is_working ? ui->palette.faint
+                                                      : ui->palette.ink;
+    if (!*ui->message) return;
+    if (ui_text_width(ui, size, ui->message_is_error, ui->message) <= right - left) {
+        ui_text(ui, left, box.max.y - 0.62 * t, size, ui->message_is_error, colour, ui->message);
+        return;
+    }
+    if (!ui->message_is_error && ui->message_seconds > MESSAGE_SECONDS) {
+        sl_text_show_within(ui->cairo, colour, left, box.max.y - 0.62 * t, right - left, size * t,
+                            false, ui->message);
+        return;
+    }
+    const double wide = box.max.x - 2 * left;
+    const double high =
+        ui_lines_height(ui, wide, size, ui->message_is_error, ui->message) + 0.5 * t;
+    // The line itself is free unless something stands at its right end.
+    const double bottom = right > box.max.x - 2 * t ? box.max.y : box.min.y;
+    const sl_box over = {{box.min.x, fmax(bottom - high, 0)}, {box.max.x, bottom}};
+    ui_begin_area(ui, over);
+    ui_line(ui, over.min.x, over.min.y + 0.5, over.max.x, over.min.y + 0.5, ui->palette.outline);
+    ui_lines(ui, left, over.min.y + 1.25 * t, wide, size, ui->message_is_error, colour,
+             ui->message);
+    ui_end_area(ui);
 }
 
 void pane_status(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
-    const double t = ui->text, base = box.max.y - 0.62 * t;
-    ui_fill(ui, box, ui->palette.page);
+    ui_begin_area(ui, box);
+    ui_hit(ui, HIT_PANEL, PANEL_STATUS, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    char text[160];
-    const bool works = app_progress(app).running;
-    if (works) {
-        draw_progress(app, box);
-    } else {
-        const sl_baked *baked = app->document.baked;
-        const bool partial = baked && sl_partial_begun(&baked->partial);
-        const char *doing = app->tool.recorder.records ? "recording"
-                            : app->tool.recorder.plays ? "playing"
-                            : partial                  ? "a partial bake"
-                                                       : "";
-        if (app->steady || app->ui.frame_seconds <= 0)
-            snprintf(text, sizeof text, "%s", doing);
-        else
-            snprintf(text, sizeof text, "%s   %.1f ms a frame", doing, 1e3 * app->ui.frame_seconds);
-        ui_text_right(ui, box.max.x - 0.8 * t, base, 0.95, ui->palette.faint, text);
+    const double left = app_progress(app).running ? draw_progress(app, box) : draw_doing(app, box);
+    ui_end_area(ui);
+    draw_message(app, box, left - 0.8 * ui->text);
+}
+
+// --- the time line
+
+static const char *const step_buttons[] = {"step_first", "step_back", "play_steps", "step_next",
+                                           "step_last"};
+enum { STEP_BUTTONS = sizeof step_buttons / sizeof *step_buttons };
+#define SENTENCE_SIZE 1.12
+
+static void write_count(const lesson_state *lesson, char text[48]) {
+    const size_t length = lesson_length(lesson);
+    snprintf(text, 48, "%zu of %zu", length ? lesson->at + 1 : 0, length);
+}
+
+static double buttons_width(app_state *app) {
+    double wide = 0.7 * app->ui.text;
+    for (int i = 0; i < STEP_BUTTONS; i++)
+        wide += ui_button_width(&app->ui, row_of(step_buttons[i])->label) + 0.35 * app->ui.text;
+    return wide;
+}
+
+/// Marks the steps about the cell under the pointer, if not too many are.
+static void draw_ticks(app_state *app, sl_box line) {
+    enum { TICKS_MOST = 400 };
+    const lesson_state *lesson = &app->tool.lesson;
+    const subject_row *subject = lesson_subject(lesson);
+    const size_t length = lesson_length(lesson);
+    if (!subject->cell || length < 2 || app->ui.over.kind != HIT_PLAN) return;
+    const sl_point at = camera_point(&app->view.camera, app_layout(app).plan[0], app->tool.pointer);
+    const uint32_t cell = sl_space_locate(&app->document.baked->space, at);
+    int ticks = 0;
+    for (size_t i = 0; i < length && cell != SL_NO_CELL && ticks < TICKS_MOST; i++) {
+        if (subject->cell(lesson, i) != cell) continue;
+        const double x = line.min.x + (double)i / (double)(length - 1) * (line.max.x - line.min.x);
+        ui_fill(&app->ui, (sl_box){{x - 1, line.min.y + 1}, {x + 1, line.max.y - 1}},
+                app->ui.palette.start);
+        ticks++;
     }
-    const sl_colour colour = app->ui.message_is_error ? ui->palette.start : ui->palette.ink;
-    sl_text_show_within(ui->cairo, colour, 0.8 * t, base, box.max.x - (works ? 30 : 15) * t,
-                        0.95 * t, false, app->ui.message);
+}
+
+/// The line stands beside the buttons where it has room there, else below them.
+void pane_time_measure(app_state *app) {
+    ui_state *ui = &app->ui;
+    char text[SENTENCE];
+    if (app->tool.mode != MODE_LEARN) return;
+    lesson_sentence(&app->tool.lesson, &app->document, text);
+    const double high = ui_lines_height(ui, ui->width - 1.8 * ui->text, SENTENCE_SIZE, false, text);
+    ui->time_lines = (int)fmax(round(high / (1.4 * SENTENCE_SIZE * ui->text)), 1);
+    ui->time_rows = buttons_width(app) + 14 * ui->text > ui->width ? 2 : 1;
+}
+
+double pane_time_height(const app_state *app) {
+    return (0.9 + 1.4 * SENTENCE_SIZE * app->ui.time_lines + 2 * fmax(app->ui.time_rows, 1)) *
+           ui_text_size(&app->ui);
 }
 
 void pane_time(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
     const double t = ui->text;
     const lesson_state *lesson = &app->tool.lesson;
-    ui_fill(ui, box, ui->palette.page);
+    ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    char text[SENTENCE];
+    char text[SENTENCE], count[48];
     lesson_sentence(lesson, &app->document, text);
-    sl_text_show_within(ui->cairo, ui->palette.ink, box.min.x + 0.9 * t, box.min.y + 1.55 * t,
-                        box_width(box) - 1.8 * t, 1.12 * t, false, text);
-    const double y = box.min.y + 2.5 * t;
-    static const char *const buttons[] = {"step_first", "step_back", "play_steps", "step_next",
-                                          "step_last"};
+    const sl_box room = {{box.min.x, box.min.y + 1}, box.max};
+    double y = ui_begin_scroll(ui, SCROLL_TIME, room);
+    y = ui_lines(ui, box.min.x + 0.9 * t, y + 1.6 * t, box_width(box) - 1.8 * t, SENTENCE_SIZE,
+                 false, ui->palette.ink, text) -
+        0.8 * t;
     double x = box.min.x + 0.7 * t;
-    size_t count;
-    for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
-        const int number = action_find(buttons[i]);
-        const action_row *a = &action_table(&count)[number];
-        x = ui_button(ui, x, y, 1.6 * t, a->label, a->on && a->on(app), number) + 0.35 * t;
+    for (int i = 0; i < STEP_BUTTONS; i++) x = put_button(app, x, y, step_buttons[i]);
+    if (ui->time_rows > 1) {
+        x = box.min.x + 0.3 * t;
+        y += 2 * t;
     }
     const size_t length = lesson_length(lesson);
-    snprintf(text, sizeof text, "%zu of %zu", length ? lesson->at + 1 : 0, length);
-    // A narrow window has room for the buttons, then for the count, then for the line.
-    const double left = box.max.x - 0.9 * t - ui_text_width(ui, 0.95, false, text);
-    if (left < x) return;
-    ui_text_right(ui, box.max.x - 0.9 * t, y + 1.15 * t, 0.95, ui->palette.faint, text);
+    write_count(lesson, count);
+    box.max.x -= ui_bar_width(ui);
+    const double left = box.max.x - 0.9 * t - ui_text_width(ui, 0.95, false, count);
+    ui_text_right(ui, left + ui_text_width(ui, 0.95, false, count), y + 1.15 * t, 0.95,
+                  ui->palette.faint, count);
     const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
-    if (box_width(line) < 3 * t) return;
-    ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME, 0);
-}
-
-// --- over all
-
-static sl_box begin_sheet(ui_state *ui, double width, double height, const char *title) {
-    const double t = ui->text;
-    const sl_box all = {{0, 0}, {ui->width, ui->height}};
-    ui_hit(ui, HIT_PANEL, 1, all);
-    const sl_colour dim = ui->palette.dark ? ui->palette.page : ui->palette.ink;
-    cairo_set_source_rgba(ui->cairo, dim.red, dim.green, dim.blue, 0.45);
-    cairo_paint(ui->cairo);
-    const double w = fmin(width, ui->width - 2 * t), h = fmin(height, ui->height - 2 * t);
-    const sl_box sheet = {{floor((ui->width - w) / 2), floor((ui->height - h) / 2)},
-                          {floor((ui->width + w) / 2), floor((ui->height + h) / 2)}};
-    ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
-    ui_text(ui, sheet.min.x + 1.5 * t, sheet.min.y + 2.2 * t, 1.3, true, ui->palette.ink, title);
-    return sheet;
-}
-
-enum { MOUSE = 4 };
-
-void pane_help(app_state *app) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    size_t count, shown = 0;
-    const action_row *actions = action_table(&count);
-    for (size_t i = 0; i < count; i++) shown += actions[i].key != NULL;
-    const sl_box sheet =
-        begin_sheet(&app->ui, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
-    const int columns = 2;
-    const size_t rows = (shown + MOUSE + columns - 1) / columns;
-    const double top = sheet.min.y + 3.4 * t, column = (box_width(sheet) - 2 * t) / columns;
-    const double high = fmin(1.55 * t, (sheet.max.y - top - 1.2 * t) / (double)rows);
-    const double size = fmin(1, high / (1.3 * t));
-    static const char *const mouse[MOUSE][2] = {
-        {"Drag", "pan; middle button: look"},
-        {"Wheel", "zoom to the pointer"},
-        {"Click", "puts the eye; right: why is a cell seen or not?"},
-        {"On things", "drag a mirror, an object; click on a door, an object"},
-    };
-    size_t at = 0;
-    for (size_t i = 0; i < count + MOUSE; i++) {
-        const char *key = i < MOUSE ? mouse[i][0] : actions[i - MOUSE].key;
-        const char *help = i < MOUSE ? mouse[i][1] : actions[i - MOUSE].help;
-        if (!key) continue;
-        const double x = sheet.min.x + 1.5 * t + column * (double)(at / rows);
-        const double y = top + high * ((double)(at % rows) + 0.7);
-        const sl_box row = {{x - 0.4 * t, y - 0.75 * high}, {x + column - t, y + 0.25 * high}};
-        if (i >= MOUSE && actions[i - MOUSE].run) {
-            if (box_has(row, ui->pointer))
-                ui_fill_round(ui, row, 0.25 * t,
-                              sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
-            ui_hit(ui, HIT_ACTION, (int)i - MOUSE, row);
-        }
-        ui_text(ui, x, y, size, true, ui->palette.glass, key);
-        sl_text_show_within(ui->cairo, ui->palette.ink, x + 7.2 * t * size, y,
-                            column - 7.6 * t * size, size * t, false, help);
-        at++;
+    if (box_width(line) > 2 * t) {
+        draw_ticks(app, line);
+        ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME,
+                  0);
     }
-}
-
-static void draw_row(app_state *app, sl_box row, size_t i, const char *name) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    const bool over = box_has(row, ui->pointer);
-    if (over || i == app->shelf.at)
-        ui_fill_round(ui, row, 0.3 * t,
-                      sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
-    sl_text_show_within(ui->cairo, ui->palette.ink, row.min.x + 0.6 * t, row.min.y + 1.3 * t,
-                        box_width(row) - 1.2 * t, t, false, name);
-    ui_hit(ui, HIT_MAP, (int)i, row);
-}
-
-/// Rows fill one column after the other. A long list shows the part with the chosen row.
-void pane_maps(app_state *app) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text, high = 1.9 * t;
-    const sl_map_list *list = shelf_list(&app->shelf);
-    const bool maps = list == &app->shelf.maps;
-    const double columns =
-        fmin(fmax(ceil(high * (double)list->count / (app->ui.height - 8 * t)), 1),
-             fmax(floor(app->ui.width / (22 * t)), 1));
-    const double rows = fmax(ceil((double)list->count / columns), 1);
-    const sl_box sheet = begin_sheet(&app->ui, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
-                                     maps ? "Which of its maps?" : "Maps at hand");
-    const double top = sheet.min.y + 3.3 * t, width = (box_width(sheet) - 2 * t) / columns;
-    const size_t fit = (size_t)fmax(floor((sheet.max.y - top) / high), 1);
-    const size_t page = fit * (size_t)columns;
-    if (!list->count)
-        ui_text(ui, sheet.min.x + 1.5 * t, top + t, 1, false, ui->palette.faint,
-                "None. Drop a file on the window.");
-    map_shelf *shelf = &app->shelf;
-    if (shelf->at < shelf->first) shelf->first = shelf->at;
-    if (shelf->at >= shelf->first + page) shelf->first = shelf->at - page + 1;
-    for (size_t i = shelf->first; i < list->count && i < shelf->first + page; i++) {
-        const size_t place = i - shelf->first;
-        const double x = sheet.min.x + t + width * (double)(place / fit);
-        const double y = top + high * (double)(place % fit);
-        const char *slash = maps ? NULL : strrchr(list->names[i], '/');
-        draw_row(app, (sl_box){{x, y}, {x + width, y + high}}, i,
-                 slash ? slash + 1 : list->names[i]);
-    }
+    ui_end_scroll(ui, room, y + 1.9 * t);
+    ui_end_area(ui);
 }

@@ -1,6 +1,5 @@
-/// The panel at the right: layers, what each method keeps, what the pointer is over. Other modes
-/// show pseudo-code, the question, or walls there. And lines as points: the dual plane of the
-/// portal sequence of the lesson.
+/// The panel at the right: layers, what each method keeps, what the pointer is over, and why a cell
+/// is seen or not. Other modes show pseudo-code, the question, or walls there.
 #include "actions.h"
 #include "effects.h"
 #include "modes.h"
@@ -15,62 +14,89 @@
 // --- the panel
 
 typedef struct column {
-    double left, right, y, bottom;
+    sl_box box;
+    double left, right, y;
 } column;
 
 static column begin_panel(ui_state *ui, sl_box box) {
-    ui_fill(ui, box, ui->palette.page);
+    const double gap = fmin(1.1 * ui->text, 0.06 * box_width(box));
+    ui_begin_area(ui, box);
     ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    return (column){box.min.x + 1.1 * ui->text, box.max.x - 1.1 * ui->text, box.min.y, box.max.y};
+    const double y = ui_begin_scroll(ui, SCROLL_SIDE, box);
+    return (column){box, box.min.x + gap, box.max.x - fmax(gap, ui_bar_width(ui)), y};
+}
+
+static void end_panel(ui_state *ui, const column *c) {
+    ui_end_scroll(ui, c->box, c->y + 0.8 * ui->text);
+    ui_end_area(ui);
+}
+
+static double width_of(const column *c) {
+    return c->right - c->left;
+}
+
+/// Whether the panel has no room for columns beside each other.
+static bool is_narrow(const ui_state *ui, const column *c) {
+    return width_of(c) < 19 * ui->text;
 }
 
 static void heading(ui_state *ui, column *c, const char *text, const char *right) {
+    const double more = right ? ui_text_width(ui, 0.9, false, right) + ui->text : 0;
     c->y += 1.9 * ui->text;
-    ui_text(ui, c->left, c->y, 1, true, ui->palette.ink, text);
     if (right) ui_text_right(ui, c->right, c->y, 0.9, ui->palette.faint, right);
-    c->y += 0.55 * ui->text;
+    c->y = ui_lines(ui, c->left, c->y, width_of(c) - more, 1, true, ui->palette.ink, text) -
+           0.85 * ui->text;
+}
+
+/// A paragraph below what is there.
+static void words(ui_state *ui, column *c, double size, sl_colour colour, const char *text) {
+    c->y = ui_paragraph(ui, c->left, c->y + ui->text, width_of(c), size, colour, text) - ui->text;
 }
 
 static void check_row(app_state *app, column *c, const char *name) {
     size_t count;
     const int number = action_find(name);
     const action_row *action = &action_table(&count)[number];
-    const double height = 1.5 * app->ui.text;
-    ui_check(&app->ui,
-             (sl_box){{c->left - 0.4 * app->ui.text, c->y},
-                      {c->right + 0.4 * app->ui.text, c->y + height}},
-             action->label, action->key, action->on(app), number);
-    c->y += height;
+    const double t = app->ui.text, out = fmin(0.4 * t, c->left - c->box.min.x);
+    c->y = ui_check(&app->ui, (sl_box){{c->left - out, c->y}, {c->right + out, c->y + 1.5 * t}},
+                    action->label, action->key, action->on(app), number);
 }
 
-/// Draws the buttons of actions that have room; the names end with NULL.
+/// A button from x on, or on the next line where it has no room. Returns where the next one begins.
+static double place_button(ui_state *ui, column *c, double x, const char *label, bool on,
+                           int action) {
+    const double t = ui->text;
+    if (x > c->left && x + ui_button_width(ui, label) > c->right) {
+        x = c->left;
+        c->y += 2 * t;
+    }
+    return ui_button(ui, x, c->y + 0.4 * t, 1.6 * t, label, on, action) + 0.4 * t;
+}
+
+/// Draws the buttons of actions, on as many lines as they need; the names end with NULL.
 static void button_row(app_state *app, column *c, const char *const *names) {
     size_t count;
     const action_row *actions = action_table(&count);
-    const double t = app->ui.text;
     double x = c->left;
-    if (c->y + 2 * t > c->bottom) return;
     for (; *names; names++) {
         const action_row *a = &actions[action_find(*names)];
-        if (x + ui_text_width(&app->ui, 0.95, false, a->label) + 1.3 * t > c->right) break;
-        x = ui_button(&app->ui, x, c->y + 0.4 * t, 1.6 * t, a->label, a->on && a->on(app),
-                      (int)(a - actions)) +
-            0.4 * t;
+        x = place_button(&app->ui, c, x, a->label, a->on && a->on(app), (int)(a - actions));
     }
-    c->y += 2 * t;
+    c->y += 2 * app->ui.text;
 }
 
-/// What the colour of solid ground means.
-static void ground_row(app_state *app, column *c) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    if (!app->document.baked || !app->document.solid) return;
-    c->y += 0.3 * t;
-    ui_fill_round(ui, (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 2.2 * t, c->y + 1.25 * t}},
-                  0.15 * t, ui->palette.solid);
-    ui_text(ui, c->left + 2.8 * t, c->y + 1.1 * t, 1, false, ui->palette.ink, "Solid ground");
-    c->y += 1.5 * t;
+/// What the plan shows, and how.
+static void draw_legend(app_state *app, column *c) {
+    legend_row rows[LEGEND_MOST];
+    char text[96];
+    const int count = layers_legend(app, rows);
+    if (!count) return;
+    heading(&app->ui, c, "Legend", NULL);
+    for (int i = 0; i < count; i++)
+        c->y = layers_legend_row(&app->ui, c->left, c->right, c->y, &rows[i]);
+    if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS))
+        c->y = view_layer_key(app, c->left, c->right, c->y);
+    if (layer_nodes_words(app, text)) words(&app->ui, c, 0.9, app->ui.palette.faint, text);
 }
 
 /// The layers that belong to the present mode.
@@ -88,13 +114,20 @@ static void draw_sliders(app_state *app, column *c) {
     for (size_t i = 0; i < count; i++) {
         if (!sliders[i].shown(app)) continue;
         char text[SLIDER_TEXT];
-        const double middle = c->y + 0.8 * t;
         sliders[i].text(app, text);
-        ui_text(ui, c->left, middle + 0.36 * t, 1, false, ui->palette.ink, sliders[i].label);
-        ui_text_right(ui, c->right, middle + 0.36 * t, 1, ui->palette.ink, text);
-        ui_slider(ui, (sl_box){{c->left + 6.4 * t, c->y}, {c->right - 4.2 * t, c->y + 1.6 * t}},
-                  sliders[i].share(app), HIT_SLIDER, (int)i);
-        c->y += 1.7 * t;
+        // A narrow panel has the track below the words.
+        const bool beside = !is_narrow(ui, c);
+        const double value = fmax(ui_text_width(ui, 1, false, text), beside ? 3.2 * t : 0) + t;
+        ui_text_right(ui, c->right, c->y + 1.16 * t, 1, ui->palette.ink, text);
+        const double label = beside ? 6.4 * t : width_of(c) - value;
+        const double below = ui_lines(ui, c->left, c->y + 1.16 * t, label, 1, false,
+                                      ui->palette.ink, sliders[i].label);
+        sl_box track = {{c->left + 6.4 * t, c->y}, {c->right - value, c->y + 1.6 * t}};
+        if (!beside)
+            track = (sl_box){{c->left + 0.5 * t, below - 1.1 * t},
+                             {c->right - 0.5 * t, below + 0.5 * t}};
+        ui_slider(ui, track, sliders[i].share(app), HIT_SLIDER, (int)i);
+        c->y = fmax(track.max.y, below - 1.1 * t) + 0.1 * t;
     }
 }
 
@@ -115,98 +148,137 @@ static void cells_text(double x, ui_state *ui, double y, double size, uint64_t c
     ui_text_right(ui, x, y, size, ui->palette.ink, text);
 }
 
+/// The right ends of the columns of numbers, in shares of the width.
+static double column_end(const column *c, int number) {
+    static const double ends[] = {12.3, 16.3, 19.1, 22};
+    return c->left + width_of(c) * ends[number] / 22;
+}
+
 /// Columns of numbers take shares of the width; in a narrow panel they are smaller.
-static double figure_size(const ui_state *ui, double unit) {
-    return 0.95 * fmin(1, unit / (0.9 * ui->text));
+static double figure_size(const ui_state *ui, const column *c) {
+    return 0.95 * fmin(1, width_of(c) / 22 / (0.9 * ui->text));
 }
 
 typedef struct method_row {
     const char *name;
-    sl_colour colour;
-    bool known, chosen, other;
+    tone which;
+    bool known, counts_cells, chosen, other;
+    bool keeps; ///< the cell under the pointer
     uint32_t cells;
     double area, seconds;
     uint64_t tests;
 } method_row;
 
+/// The numbers of a row, in columns or, in a narrow panel, as words below the name.
+static void draw_figures(app_state *app, column *c, const method_row *row, double base,
+                         bool narrow) {
+    ui_state *ui = &app->ui;
+    char area[SL_COUNT_TEXT], time[32];
+    sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, area);
+    write_seconds(app, row->seconds, time);
+    if (narrow) {
+        char cells[SL_COUNT_TEXT] = "", tests[SL_COUNT_TEXT], line[256];
+        if (row->counts_cells) sl_text_count(row->cells, "cell", cells);
+        sl_text_count(row->tests, "test", tests);
+        snprintf(line, sizeof line, "%s%s%s, %s%s%s", cells, *cells ? ", " : "", area, tests,
+                 app->steady ? "" : ", ", app->steady ? "" : time);
+        c->y = ui_lines(ui, c->left + 1.3 * ui->text, base + 1.35 * ui->text,
+                        width_of(c) - 1.3 * ui->text, 0.9, false, ui->palette.ink, line) -
+               0.8 * ui->text;
+        return;
+    }
+    const double size = figure_size(ui, c);
+    if (row->counts_cells) cells_text(column_end(c, 0), ui, base, size, row->cells);
+    ui_text_right(ui, column_end(c, 1), base, size, ui->palette.ink, area);
+    cells_text(column_end(c, 2), ui, base, size, row->tests);
+    ui_text_right(ui, column_end(c, 3), base, size, ui->palette.faint, time);
+}
+
+static double method_height(const ui_state *ui, bool narrow) {
+    return (narrow ? 2.8 : 1.55) * ui->text;
+}
+
 static void draw_method(app_state *app, column *c, const method_row *row, int number) {
     ui_state *ui = &app->ui;
-    const double t = ui->text, height = 1.55 * t, base = c->y + 1.12 * t;
-    const sl_box box = {{c->left - 0.4 * t, c->y}, {c->right + 0.4 * t, c->y + height}};
-    if (row->chosen || row->other || box_has(box, ui->pointer))
+    const bool narrow = is_narrow(ui, c);
+    const double t = ui->text, base = c->y + 1.12 * t, out = fmin(0.4 * t, c->left - c->box.min.x);
+    const sl_box box = {{c->left - out, c->y},
+                        {c->right + out, c->y + method_height(ui, narrow && row->known)}};
+    if (row->chosen || row->other || (number >= 0 && box_has(box, ui->pointer)))
         ui_fill_round(ui, box, 0.25 * t,
                       sl_colour_mix(ui->palette.page,
                                     row->chosen ? ui->palette.glass : ui->palette.ink,
                                     row->chosen ? 0.2 : 0.08));
-    ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
-                  0.15 * t, row->colour);
-    char words[64], text[SL_COUNT_TEXT];
-    snprintf(words, sizeof words, "%s", row->name);
-    for (char *at = words; *at; at++)
+    const sl_box swatch = {{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}};
+    layers_swatch(ui, swatch, &(legend_row){.mark = LEGEND_AREA, .which = row->which});
+    if (row->keeps) ui_outline(ui, swatch, 0.18 * t, ui->palette.ink);
+    char name[64];
+    snprintf(name, sizeof name, "%s", row->name);
+    for (char *at = name; *at; at++)
         if (*at == '_') *at = ' ';
-    const double unit = (c->right - c->left) / 22, size = figure_size(ui, unit);
-    const double room = fmin(9.4 * t, 12.3 * unit - (1.3 + 2.2 * size) * t);
-    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, room, 0.95 * t, false,
-                        words);
-    if (row->known) {
-        cells_text(c->left + 12.3 * unit, ui, base, size, row->cells);
-        sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, text);
-        ui_text_right(ui, c->left + 16.3 * unit, base, size, ui->palette.ink, text);
-        cells_text(c->left + 18.9 * unit, ui, base, size, row->tests);
-        write_seconds(app, row->seconds, text);
-        ui_text_right(ui, c->right, base, size, ui->palette.faint, text);
-    }
-    if (number >= 0) ui_hit(ui, HIT_METHOD, number, box);
-    c->y += height;
+    const double room = narrow ? width_of(c) - 1.3 * t
+                               : column_end(c, 0) - c->left - (1.3 + 2.2 * figure_size(ui, c)) * t;
+    ui_text_within(ui, c->left + 1.3 * t, base, room, 0.95, ui->palette.ink, name);
+    if (number >= 0) ui_hit_focus(ui, HIT_METHOD, number, box);
+    c->y = box.max.y;
+    if (row->known) draw_figures(app, c, row, base, narrow);
+    c->y = fmax(c->y, box.max.y);
+}
+
+static void draw_method_titles(ui_state *ui, column *c) {
+    static const char *const titles[] = {"cells", "area", "tests", "time"};
+    heading(ui, c, "What is kept", NULL);
+    if (is_narrow(ui, c)) return;
+    const double size = 0.9 * figure_size(ui, c);
+    for (int i = 0; i < 4; i++)
+        ui_text_right(ui, column_end(c, i), c->y - 0.55 * ui->text, size, ui->palette.faint,
+                      titles[i]);
+}
+
+/// The cell of the plan under the pointer; SL_NO_CELL for none.
+static uint32_t cell_under_pointer(const app_state *app) {
+    const sl_box plan = app_layout(app).plan[0];
+    if (!app->document.baked || app->ui.over.kind != HIT_PLAN) return SL_NO_CELL;
+    return sl_space_locate(&app->document.baked->space,
+                           camera_point(&app->view.camera, plan, app->tool.pointer));
 }
 
 static void draw_methods(app_state *app, column *c) {
     ui_state *ui = &app->ui;
+    const seen_state *seen = &app->view.seen;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    const double unit = (c->right - c->left) / 22, t = ui->text, size = figure_size(ui, unit);
-    heading(&app->ui, c, "What is kept", NULL);
-    c->y -= 0.55 * t;
-    ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.9 * size, ui->palette.faint, "cells");
-    ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.9 * size, ui->palette.faint, "area");
-    ui_text_right(ui, c->left + 18.9 * unit, c->y, 0.9 * size, ui->palette.faint, "tests");
-    ui_text_right(ui, c->right, c->y, 0.9 * size, ui->palette.faint, "time");
-    c->y += 0.4 * t;
+    const uint32_t cell = cell_under_pointer(app);
+    draw_method_titles(ui, c);
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
-        const seen_method *m = &app->view.seen.methods[i];
+        const seen_method *m = &seen->methods[i];
         const method_row row = {.name = methods[i].name,
-                                .colour = pane_method_colour(&app->ui, i),
-                                .known = app->view.seen.valid && m->known,
+                                .which = layers_method_tone(i, app->view.method),
+                                .known = seen->valid && m->known,
+                                .counts_cells = true,
                                 .chosen = i == app->view.method,
                                 .other = app->view.compare && i == app->view.other,
+                                .keeps = app->view.seen.valid && m->known && cell != SL_NO_CELL &&
+                                         sl_eye_sees(m->cells, cell),
                                 .cells = m->count,
                                 .area = m->area,
                                 .seconds = m->seconds,
                                 .tests = m->account.orientations};
         draw_method(app, c, &row, (int)i);
     }
-    char text[SL_COUNT_TEXT], line[160];
-    const double base = c->y + 1.12 * t;
-    ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
-                  0.15 * t, ui->palette.source);
-    ui_text(ui, c->left + 1.3 * t, base, 0.95, false, ui->palette.ink, "visible region");
-    sl_text_percent(app->document.area > 0 && app->view.seen.valid
-                        ? app->view.seen.region_area / app->document.area
-                        : 0,
-                    text);
-    ui_text_right(ui, c->left + 16.3 * unit, base, size, ui->palette.ink, text);
-    cells_text(c->left + 18.9 * unit, ui, base, size,
-               app->view.seen.valid ? app->view.seen.region.portals_passed : 0);
-    write_seconds(app, app->view.seen.region_seconds, text);
-    ui_text_right(ui, c->right, base, size, ui->palette.faint, text);
-    c->y += 1.6 * t;
-    const bool told = app->view.seen.valid && app->view.seen.methods[app->view.method].known;
-    if (told && !app->view.compare && app->view.seen.region_area > 0) {
+    const method_row region = {.name = "visible region",
+                               .which = TONE_REGION,
+                               .known = seen->valid,
+                               .area = seen->region_area,
+                               .seconds = seen->region_seconds,
+                               .tests = seen->region.portals_passed};
+    draw_method(app, c, &region, -1);
+    char line[160];
+    const bool told = seen->valid && seen->methods[app->view.method].known;
+    if (told && !app->view.compare && seen->region_area > 0) {
         snprintf(line, sizeof line, "The cells kept have %.1f times the area that is visible.",
-                 app->view.seen.methods[app->view.method].area / app->view.seen.region_area);
-        c->y =
-            ui_paragraph(ui, c->left, c->y + t, c->right - c->left, 0.9, ui->palette.faint, line) -
-            t;
+                 seen->methods[app->view.method].area / seen->region_area);
+        words(ui, c, 0.9, ui->palette.faint, line);
     }
 }
 
@@ -227,10 +299,7 @@ static void draw_mirrored(app_state *app, column *c) {
         snprintf(text + length, sizeof text - (size_t)length,
                  " Parts to %u reflection%s: more take too long.", seen->depth,
                  seen->depth == 1 ? "" : "s");
-    const double t = app->ui.text;
-    c->y = ui_paragraph(&app->ui, c->left, c->y + t, c->right - c->left, 0.9, app->ui.palette.ink,
-                        text) -
-           t;
+    words(&app->ui, c, 0.9, app->ui.palette.ink, text);
 }
 
 /// What the looser of the two methods compared adds.
@@ -254,10 +323,7 @@ static void draw_difference(app_state *app, column *c) {
              more->count - less->count, share, methods[tight].name, cost);
     for (char *at = text; *at; at++)
         if (*at == '_') *at = ' ';
-    const double t = app->ui.text;
-    c->y = ui_paragraph(&app->ui, c->left, c->y + t, c->right - c->left, 0.95, app->ui.palette.ink,
-                        text) -
-           t;
+    words(&app->ui, c, 0.95, app->ui.palette.ink, text);
 }
 
 // --- words
@@ -337,12 +403,29 @@ static void draw_words(app_state *app, column *c) {
                         app->ui.palette.ink, text);
 }
 
+/// Why the cell that was asked about is seen or not.
+static void draw_why(app_state *app, column *c) {
+    const quiz_state *q = &app->tool.quiz;
+    char text[1024];
+    if (!q->answered) return;
+    snprintf(text, sizeof text, "Why cell %u %s cell %u%s", q->from,
+             q->explanation.verdict == SL_HIDDEN && !quiz_is_bent(q) ? "does not see" : "sees",
+             q->to, quiz_is_bent(q) ? " by mirror" : "");
+    heading(&app->ui, c, text, NULL);
+    quiz_words(app, text, sizeof text);
+    words(&app->ui, c, 0.95, app->ui.palette.ink, text);
+    static const char *const step[] = {"why_step", NULL};
+    button_row(app, c, step);
+    c->y += 0.4 * app->ui.text;
+}
+
 void pane_side(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
+    draw_why(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
-    ground_row(app, &c);
+    draw_legend(app, &c);
     c.y += 0.3 * app->ui.text;
     draw_sliders(app, &c);
     static const char *const views[] = {"views_merge", "views_split", "views_largest", NULL};
@@ -356,6 +439,7 @@ void pane_side(app_state *app, sl_box box) {
                                           {"record", "play", "export_series", NULL},
                                           {"save_svg", "save_pdf", "doors", NULL}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) button_row(app, &c, rows[i]);
+    end_panel(&app->ui, &c);
 }
 
 // --- learning
@@ -370,54 +454,138 @@ static void draw_code(app_state *app, column *c) {
     for (size_t i = 0; i < count; i++) {
         const char *line = code[i];
         const size_t indent = strspn(line, " ");
-        const double x = c->left + 0.45 * t * (double)indent;
+        const double x = c->left + fmin(0.45 * t * (double)indent, 0.4 * width_of(c));
+        const double out = fmin(0.4 * t, c->left - c->box.min.x);
+        const double high =
+            fmax(ui_lines_height(ui, c->right - x, 0.95, i == lit, line + indent), t) + 0.15 * t;
         if (i == lit)
-            ui_fill_round(ui,
-                          (sl_box){{c->left - 0.4 * t, c->y}, {c->right + 0.4 * t, c->y + 1.5 * t}},
+            ui_fill_round(ui, (sl_box){{c->left - out, c->y}, {c->right + out, c->y + high}},
                           0.25 * t, sl_colour_mix(ui->palette.page, ui->palette.source, 0.55));
-        sl_text_show_within(ui->cairo, i == lit ? ui->palette.ink : ui->palette.faint, x,
-                            c->y + 1.08 * t, c->right - x, 0.95 * t, i == lit, line + indent);
-        c->y += 1.5 * t;
+        ui_lines(ui, x, c->y + 1.08 * t, c->right - x, 0.95, i == lit,
+                 i == lit ? ui->palette.ink : ui->palette.faint, line + indent);
+        c->y += high;
     }
 }
 
-static void draw_account(app_state *app, column *c) {
+/// The subjects to choose from: those that the map allows.
+static void draw_subjects(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
+    size_t count;
+    const subject_row *const *subjects = subject_table(&count);
+    heading(ui, c, "Lessons", "U");
+    for (size_t i = 0; i < count; i++) {
+        if (!lesson_fits(i, &app->document)) continue;
+        const bool on = i == app->tool.lesson.subject;
+        const double high = ui_lines_height(ui, width_of(c), 1, on, subjects[i]->title) + 0.1 * t;
+        const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + high}};
+        if (on || box_has(row, ui->pointer))
+            ui_fill_round(ui, row, 0.25 * t,
+                          sl_colour_mix(ui->palette.page, ui->palette.glass, on ? 0.22 : 0.1));
+        ui_lines(ui, c->left, c->y + 1.08 * t, width_of(c), 1, on, ui->palette.ink,
+                 subjects[i]->title);
+        ui_hit_focus(ui, HIT_SUBJECT, (int)i, row);
+        c->y = row.max.y;
+    }
+}
+
+/// Buttons to the next step of a kind, named by the subject, and the speed.
+static void draw_steps(app_state *app, column *c) {
+    ui_state *ui = &app->ui;
     const lesson_state *lesson = &app->tool.lesson;
+    const subject_row *subject = lesson_subject(lesson);
+    char text[64];
+    double x = c->left;
+    if (lesson->finds) {
+        snprintf(text, sizeof text, "\xe2\x97\x80 %s", subject->found ? subject->found : "");
+        x = place_button(ui, c, x, text, false, action_find("found_back"));
+        snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->found ? subject->found : "");
+        x = place_button(ui, c, x, text, false, action_find("found_next"));
+    }
+    if (lesson->rejects) {
+        snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->rejected ? subject->rejected : "");
+        place_button(ui, c, x, text, false, action_find("rejected_next"));
+    }
+    if (lesson->finds || lesson->rejects) c->y += 2 * ui->text;
+    static const char *const speed[] = {"slower", "faster", NULL};
+    button_row(app, c, speed);
+    snprintf(text, sizeof text, "%g steps a second", ldexp(2, lesson->speed));
+    words(ui, c, 0.95, ui->palette.faint, text);
+}
+
+/// "L1 and L4 against R2 and R3".
+static void list_ends(const sl_conflict *conflict, char *text, size_t room) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int side = 0; side < 2; side++) {
+        bool first = true;
+        for (uint32_t i = 0; i < conflict->end_count && used < room; i++) {
+            if (conflict->ends[i].left != (side == 0)) continue;
+            used += (size_t)snprintf(text + used, room - used, "%s%c%u",
+                                     !first      ? " and "
+                                     : side == 1 ? " against "
+                                                 : "",
+                                     side ? 'R' : 'L', conflict->ends[i].portal + 1);
+            first = false;
+        }
+    }
+}
+
+/// What the ends that leave no line are to each other.
+static void write_conflict(app_state *app, char *text, size_t room) {
+    lesson_state *lesson = &app->tool.lesson;
+    char ends[128];
+    sl_status status;
+    const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
+    app_check(app, status);
+    text[0] = '\0';
+    if (conflict->verdict == SL_STABBED || !conflict->end_count) return;
+    list_ends(conflict, ends, sizeof ends);
+    snprintf(text, room, "%s: %s. They are marked: %s.",
+             conflict->verdict == SL_GRAZING ? "The line only grazes"
+             : conflict->turns               ? "No line: the portals turn back"
+                                             : "No line is left",
+             ends, sl_conflict_reason(lesson->ends, conflict));
+}
+
+static void draw_account(app_state *app, column *c) {
+    lesson_state *lesson = &app->tool.lesson;
     const subject_row *subject = lesson_subject(lesson);
     char text[SENTENCE];
     if (!lesson_shows(lesson, &app->document)) return;
     if (subject->account) {
         subject->account(lesson, text);
         heading(&app->ui, c, "So far", NULL);
-        c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
-                            app->ui.palette.ink, text) -
-               0.9 * app->ui.text;
+        words(&app->ui, c, 1, app->ui.palette.ink, text);
     }
     if (!lesson->end_count) return;
-    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     const double margin =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
-    snprintf(text, sizeof text,
-             "Its margin is %.3g, the best is %.3g. %s Drag it in the plan or as a point in the "
-             "dual plane; drag portal ends too.",
-             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale,
-             lesson->dual.corner_count ? "" : "No line is left.");
-    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
-                        app->ui.palette.ink, text) -
-           0.9 * app->ui.text;
+    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    snprintf(text, sizeof text, "Its margin is %.3g, the best is %.3g.",
+             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale);
+    words(&app->ui, c, 0.95, app->ui.palette.ink, text);
+    write_conflict(app, text, sizeof text);
+    if (*text) words(&app->ui, c, 0.95, app->ui.palette.start, text);
+    words(&app->ui, c, 0.95, app->ui.palette.faint,
+          "Drag it or portal ends, or choose by . and move by arrows.");
+    static const char *const change[] = {"undo", "reset_ends", "program", NULL};
+    button_row(app, c, change);
 }
 
 void pane_learn(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
-    heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
+    draw_why(app, &c);
+    draw_subjects(app, &c);
+    c.y += 0.7 * app->ui.text;
     draw_code(app, &c);
-    static const char *const other[] = {"subject", NULL};
-    button_row(app, &c, other);
+    draw_steps(app, &c);
     draw_account(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
-    ground_row(app, &c);
+    draw_legend(app, &c);
     draw_words(app, &c);
+    end_panel(&app->ui, &c);
 }
 
 // --- drawing walls
@@ -433,105 +601,48 @@ void pane_draw(app_state *app, sl_box box) {
     heading(&app->ui, &c, "Walls", NULL);
     c.y += 0.7 * app->ui.text;
     rule(&app->ui, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
-    rule(&app->ui, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
+    rule(&app->ui, &c, "Drag a wall, a corner or a door: moves it. Esc takes that back.");
+    rule(&app->ui, &c, "Click a wall: chooses it. Delete: deletes it.");
     snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
              app->document.map.wall_count, app->document.history.done_count,
              app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
     rule(&app->ui, &c, text);
     layer_rows(app, &c);
-    ground_row(app, &c);
+    draw_legend(app, &c);
     draw_methods(app, &c);
     draw_words(app, &c);
+    end_panel(&app->ui, &c);
 }
 
 // --- the quiz
 
-void pane_quiz(app_state *app, sl_box box) {
-    column c = begin_panel(&app->ui, box);
+static void draw_question(app_state *app, column *c) {
     ui_state *ui = &app->ui;
     const quiz_state *q = &app->tool.quiz;
-    const double t = ui->text;
-    char text[512];
-    snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
-    heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
-    if (!q->asked) {
-        c.y += 0.7 * t;
-        rule(&app->ui, &c, "Space asks about two cells. The visibility must be there first.");
-        return;
-    }
+    static const char *const answers[] = {"answer_yes", "answer_no", NULL};
+    static const char *const next[] = {"next_question", "why_step", NULL};
+    char text[1024];
     snprintf(text, sizeof text, "Can the orange cell %u see the purple cell %u?", q->from, q->to);
-    c.y = ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1.15, ui->palette.ink, text);
-    double x = c.left;
+    words(ui, c, 1.15, ui->palette.ink, text);
     if (!q->answered) {
-        x = ui_button(ui, x, c.y, 2 * t, "Yes, seen (Y)", false, action_find("answer_yes"));
-        ui_button(ui, x + 0.6 * t, c.y, 2 * t, "No (N)", false, action_find("answer_no"));
+        button_row(app, c, answers);
         return;
     }
     quiz_words(app, text, sizeof text);
-    c.y = ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1, ui->palette.ink, text) + t;
-    ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, action_find("next_question"));
+    words(ui, c, 1, ui->palette.ink, text);
+    button_row(app, c, next);
 }
 
-// --- the dual plane
-
-static sl_dual_frame frame_of(const app_state *app, sl_box box) {
-    const double t = ui_text_size(&app->ui);
-    return sl_dual_frame_fit(&app->tool.lesson.before, box.min.x + 0.9 * t, box.min.y + 2.2 * t,
-                             fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
-                             ui_scale(&app->ui));
-}
-
-void pane_dual(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    const lesson_state *lesson = &app->tool.lesson;
-    ui_fill(ui, box, ui->palette.page);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    ui_hit(ui, HIT_PANEL, 0, box);
-    const double x = ui_text(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, 1, true, ui->palette.ink,
-                             "Lines as points");
-    char text[160];
-    if (lesson->end_count)
-        snprintf(text, sizeof text, "%u half-planes: %s", 2 * lesson->end_count,
-                 lesson->dual.corner_count ? "what all leave is green" : "nothing is left");
+void pane_quiz(app_state *app, sl_box box) {
+    column c = begin_panel(&app->ui, box);
+    const quiz_state *q = &app->tool.quiz;
+    char text[64];
+    snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
+    heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
+    if (q->asked)
+        draw_question(app, &c);
     else
-        snprintf(text, sizeof text, "no portal is crossed yet: every line counts");
-    ui_text(ui, box.min.x + 1.7 * t + x, box.min.y + 1.5 * t, 0.95, false, ui->palette.faint, text);
-    if (!lesson->end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
-                 lesson->line);
-    const double base = frame.top + frame.height + 1.2 * t;
-    sl_text_show_within(
-        ui->cairo, ui->palette.faint, frame.left, base, frame.width, 0.85 * t, false,
-        "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
-        "right ends, from below   bar: the best line and its margin");
-    ui_hit(ui, HIT_DUAL, 0,
-           (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
-}
-
-void pane_dual_drag(app_state *app, sl_box box, sl_point to) {
-    if (!app->tool.lesson.end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    const sl_dual_line line = sl_dual_frame_line(&frame, to);
-    app->tool.lesson.line.slope = fmin(fmax(line.slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
-    app->tool.lesson.line.height = fmin(fmax(line.height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
-}
-
-/// Near an end of the shown line it turns about the other end; between the ends it is shifted.
-void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
-    lesson_state *lesson = &app->tool.lesson;
-    if (!lesson->end_count) return;
-    const sl_point a = sl_dual_point(&lesson->dual, from), b = sl_dual_point(&lesson->dual, to);
-    sl_dual_line *line = &lesson->line;
-    const double pivot = a.x > 0.35 ? -1 : a.x < -0.35 ? 1 : 0;
-    if (pivot == 0) {
-        line->height += (b.y - line->slope * b.x) - line->height;
-    } else if (fabs(b.x - pivot) > 0.05) {
-        const double at = line->slope * pivot + line->height;
-        const double slope = (b.y - at) / (b.x - pivot);
-        line->slope = fmin(fmax(slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
-        line->height = at - line->slope * pivot;
-    }
-    line->height = fmin(fmax(line->height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
+        words(&app->ui, &c, 0.95, app->ui.palette.ink,
+              "Space asks about two cells. The visibility must be there first.");
+    end_panel(&app->ui, &c);
 }

@@ -18,4 +18,7 @@ void quiz_words(const app_state *app, char *text, size_t room);
 void quiz_draw_below(app_state *app, const sl_frame *frame);
 void quiz_draw_above(app_state *app, const sl_frame *frame);
 
+/// Whether what is explained is seen by mirror alone, with a line to be drawn.
+bool quiz_is_bent(const quiz_state *quiz);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "account.h"
 #include "app.h"
+#include "export.h"
 #include "modes.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
@@ -76,11 +77,11 @@ void record_destroy(sl_context *context, path_recorder *recorder) {
 
 // --- pictures
 
-static void draw_window(void *user, cairo_t *cairo) {
+void save_draw_window(void *user, cairo_t *cairo) {
     app_draw(user, cairo);
 }
 
-static void draw_plan(void *user, cairo_t *cairo) {
+void save_draw_plan(void *user, cairo_t *cairo) {
     app_state *app = user;
     const sl_box plan = app_layout(app).plan[0];
     const int hits = app->ui.hit_count;
@@ -100,26 +101,34 @@ static void draw_plan(void *user, cairo_t *cairo) {
 
 sl_status save_window(app_state *app, const char *path) {
     return sl_draw_page_file(app->context, path, app->ui.width, app->ui.height, "Sightline",
-                             draw_window, app);
+                             save_draw_window, app);
 }
 
 sl_status save_plan(app_state *app, const char *path) {
     const sl_box plan = app_layout(app).plan[0];
     return sl_draw_page_file(app->context, path, (int)box_width(plan), (int)box_height(plan),
-                             "Sightline", draw_plan, app);
+                             "Sightline", save_draw_plan, app);
 }
 
 void save_numbered(app_state *app, const char *ending) {
-    char path[64], chart[64];
+    char path[64], chart[64], said[160];
+    if (app->file.locked) return;
+    // Lines are drawn straight into their file; only pixels can be drawn here and written
+    // elsewhere.
+    const bool now = app->steady || strcmp(ending, "png") != 0;
+    if (!export_is_free(app)) {
+        ui_say(&app->ui, true, "pictures are being written; Esc stops that");
+        return;
+    }
     for (unsigned i = 1; i < 10000; i++) {
         snprintf(path, sizeof path, "sightline-%u.%s", i, ending);
         snprintf(chart, sizeof chart, "sightline-%u-account.%s", i, ending);
         if (access(path, F_OK) == 0 || access(chart, F_OK) == 0) continue;
-        sl_status status = save_plan(app, path);
-        if (status == SL_OK && app->ui.accounts) status = account_save(app, chart);
-        if (status == SL_OK)
-            ui_say(&app->ui, false, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
-                   app->ui.accounts ? chart : "");
+        snprintf(said, sizeof said, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
+                 app->ui.accounts ? chart : "");
+        sl_status status = app->ui.accounts ? account_save(app, chart) : SL_OK;
+        if (status == SL_OK) status = now ? save_plan(app, path) : export_plan(app, path, said);
+        if (status == SL_OK && now) ui_say(&app->ui, false, "%s", said);
         app_check(app, status);
         return;
     }
@@ -127,6 +136,7 @@ void save_numbered(app_state *app, const char *ending) {
 }
 
 sl_status save_series(app_state *app, const char *folder, unsigned every) {
+    if (app->file.locked) return SL_OK;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return sl_fail(app->context, SL_IO, "%s: %s", folder, strerror(errno));
     path_recorder *r = &app->tool.recorder;

@@ -3,6 +3,7 @@
 #ifndef VIEWER_SAVE_H
 #define VIEWER_SAVE_H
 
+#include "sightline/canvas.h"
 #include "sightline/map.h"
 #include "sightline/support.h"
 
@@ -44,10 +45,19 @@ sl_status save_window(app_state *app, const char *path);
 /// The plan alone; .svg and .pdf contain lines.
 sl_status save_plan(app_state *app, const char *path);
 
-/// Saves the plan under a free name in the present folder: NAME-1.ENDING.
+/// What these draw: for pictures that are written in the background. `user` is the app.
+void save_draw_window(void *user, cairo_t *cairo);
+void save_draw_plan(void *user, cairo_t *cairo);
+
+/// Saves the plan under a free name in the present folder: NAME-1.ENDING. A .png is written in the
+/// background.
 void save_numbered(app_state *app, const char *ending);
 
-/// Plays the recording and saves frames: FOLDER/frame-0001.png and so on, one of `every`.
+/// One picture of so many frames is enough for a film of 30 a second.
+enum { SERIES_STEP = 2 };
+
+/// Plays the recording and saves frames at once, as scripts need it: FOLDER/frame-0001.png and so
+/// on, one of `every`.
 sl_status save_series(app_state *app, const char *folder, unsigned every);
 
 #endif

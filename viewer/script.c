@@ -4,6 +4,8 @@
 #include "actions.h"
 #include "files.h"
 #include "input.h"
+#include "print.h"
+#include "question.h"
 #include "save.h"
 #include "sightline/support.h"
 
@@ -47,21 +49,52 @@ static void frame(reader *r, double seconds) {
 // --- commands
 
 static sl_status do_open(reader *r, const words *w) {
-    shelf_open(r->app, w->rest);
+    map_file_give_up(r->app);
+    files_open(r->app, w->rest, false);
     app_settle(r->app);
     if (r->app->ui.message_is_error)
         return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->ui.message);
     return SL_OK;
 }
 
+static sl_status do_drop(reader *r, const words *w) {
+    files_drop(r->app, w->rest);
+    app_settle(r->app);
+    frame(r, 0);
+    return SL_OK;
+}
+
+static sl_status do_type(reader *r, const words *w) {
+    input_text(r->app, w->rest);
+    frame(r, 0);
+    return SL_OK;
+}
+
+/// A script goes wrong where it does not find what it expects.
+static sl_status do_expect(reader *r, const words *w) {
+    char title[TITLE_TEXT];
+    const dialog_state *dialog = &r->app->dialog;
+    script_frame(r->app);
+    map_file_title(r->app, title);
+    const char *const shown[] = {title, r->app->ui.message, dialog->title, dialog->problem,
+                                 question_text(r->app)};
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (strstr(shown[i], w->rest)) return SL_OK;
+    return sl_fail_at(r->app->context, r->file, r->line,
+                      "'%s' is not shown. The window's title: '%s'; the message: '%s'; the dialog: "
+                      "'%s', '%s', '%.300s'",
+                      w->rest, shown[0], shown[1], shown[2], shown[3], shown[4]);
+}
+
 static sl_status check_key(reader *r, const char *key) {
-    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
-        if (action_of_key(key, (app_mode)mode) >= 0) return SL_OK;
+    // A dialog has keys of its own.
+    if (dialog_open_now(r->app) != DIALOG_NONE || input_takes(key)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }
 
 static sl_status do_key(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
+    if (!r->app->ui.hit_count) frame(r, 0); // keys act on what was drawn
     input_key(r->app, w->rest, true);
     frame(r, 1.0 / 60);
     input_key(r->app, w->rest, false);
@@ -176,6 +209,38 @@ static sl_status do_export(reader *r, const words *w) {
     return save_series(r->app, w->rest, 2);
 }
 
+/// Checks that every text of the next frame is in its panel, and lies on no other.
+static sl_status do_fits(reader *r, const words *w) {
+    (void)w;
+    char text[160];
+    ui_state *ui = &r->app->ui;
+    text_spot *spots = sl_alloc_array(r->app->context, SPOTS_MOST, sizeof *spots);
+    if (!spots) return SL_NO_MEMORY;
+    app_tick(r->app, 0);
+    script_frame(r->app); // some places follow from the frame before
+    ui->spots = spots;
+    script_frame(r->app);
+    const char *misfit = ui_misfit(ui, text);
+    ui->spots = NULL;
+    ui->spot_count = 0;
+    sl_free(r->app->context, spots);
+    if (!misfit) return SL_OK;
+    return sl_fail_at(r->app->context, r->file, r->line, "%s", misfit);
+}
+
+/// Prints what the frame shows now. The frame is drawn twice: what the pointer is over is that of
+/// the frame before.
+static sl_status do_print(reader *r, const words *w) {
+    app_tick(r->app, 0);
+    script_frame(r->app);
+    script_frame(r->app);
+    if (!print_state(r->app, w->rest, stdout))
+        return sl_fail_at(r->app->context, r->file, r->line,
+                          "no state is called '%s': " PRINT_NAMES, w->rest);
+    fflush(stdout);
+    return SL_OK;
+}
+
 static const struct command {
     const char *name;
     int numbers; ///< that must follow; -1: text, -2: any numbers
@@ -187,6 +252,8 @@ static const struct command {
     {"wheel", 1, do_wheel}, {"wait", 1, do_wait},      {"size", 2, do_size},
     {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
     {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
+    {"drop", -1, do_drop},  {"type", -1, do_type},     {"expect", -1, do_expect},
+    {"fits", 0, do_fits},   {"print", -1, do_print},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

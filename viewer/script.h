@@ -4,7 +4,10 @@
 ///   move X Y             click X Y       right X Y               drag X Y X2 Y2
 ///   wheel STEPS          wait FRAMES     size W H                eye X Y HEADING [CONE]
 ///   screenshot FILE      save FILE       account FILE            export FOLDER
-///   text SCALE
+///   text SCALE           drop FILE       type TEXT               expect TEXT
+///
+/// `drop` opens as `open` does, and asks first if changes would be lost. `type` is for a dialog.
+/// `expect` fails where no title or message contains the text.
 #ifndef VIEWER_SCRIPT_H
 #define VIEWER_SCRIPT_H
 

@@ -45,7 +45,7 @@ static void set_cut(app_state *app, double share) {
     const document_source *source = &app->document.source;
     sl_import_options options = source->options;
     options.slice = source->lowest + share * (source->highest - source->lowest);
-    if (options.slice != source->options.slice) shelf_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(app, &options);
 }
 
 // --- how deep splits are shown
@@ -146,13 +146,20 @@ static void set_depth(app_state *app, double share) {
 }
 
 static const slider_row sliders[] = {
-    {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL},
-    {"View range", has_range, range_share, range_text, set_range, app_keep, range_settle},
-    {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth},
-    {"Cut at", is_model, cut_share, cut_text, set_cut, NULL, NULL},
-    {"Split depth", has_splits, split_share, split_text, set_split, NULL, NULL},
-    {"Tree grown", has_tree, tree_share, tree_text, set_tree, NULL, NULL},
-    {"View cells", has_views, views_share, views_text, set_views, NULL, NULL},
+    {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL,
+     "How wide the eye sees (, and .)"},
+    {"View range", has_range, range_share, range_text, set_range, app_keep, range_settle,
+     "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
+    {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth,
+     "How often a sightline is reflected at most"},
+    {"Cut at", is_model, cut_share, cut_text, set_cut, NULL, NULL,
+     "The height at which the model is cut (Ctrl+Up, Ctrl+Down)"},
+    {"Split depth", has_splits, split_share, split_text, set_split, NULL, NULL,
+     "Splits of the tree down to this depth ([ and ])"},
+    {"Tree grown", has_tree, tree_share, tree_text, set_tree, NULL, NULL,
+     "Sequences of the stab tree up to this many portals (- and =)"},
+    {"View cells", has_views, views_share, views_text, set_views, NULL, NULL,
+     "From one view cell to all elementary ones (Ctrl+Left, Ctrl+Right)"},
 };
 
 const slider_row *slider_table(size_t *count) {

@@ -15,6 +15,7 @@ typedef struct slider_row {
     /// Called when the pointer takes hold of it and when it lets go; NULL: nothing.
     void (*begin)(app_state *app);
     void (*end)(app_state *app);
+    const char *help;
 } slider_row;
 
 const slider_row *slider_table(size_t *count);

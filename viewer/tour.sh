@@ -31,14 +31,14 @@ eye 53 20 160 60
 key M
 key R
 key Q
-key Tab
+action side_panel
 END
 shoot office.map view-cells <<'END'
 eye 53 20 160 90
 key M
 key R
 key F5
-drag 818 306 761 306
+drag 818 531 761 531
 key F6
 END
 shoot office.map account <<'END'

@@ -13,20 +13,18 @@ void ui_say(ui_state *ui, bool error, const char *format, ...) {
     vsnprintf(ui->message, sizeof ui->message, format, arguments);
     va_end(arguments);
     ui->message_is_error = error;
+    ui->message_is_working = false;
+    ui->message_seconds = 0;
 }
 
-void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box) {
-    if (ui->hit_count < HITS_MOST) ui->hits[ui->hit_count++] = (hit_area){kind, value, box};
-}
-
-bool box_has(sl_box box, sl_point at) {
-    return at.x >= box.min.x && at.x < box.max.x && at.y >= box.min.y && at.y < box.max.y;
-}
-
-hit_area ui_find(const ui_state *ui, sl_point at) {
-    for (int i = ui->hit_count; i-- > 0;)
-        if (box_has(ui->hits[i].box, at)) return ui->hits[i];
-    return (hit_area){0};
+void ui_say_working(ui_state *ui, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(ui->message, sizeof ui->message, format, arguments);
+    va_end(arguments);
+    ui->message_is_error = false;
+    ui->message_is_working = true;
+    ui->message_seconds = 0;
 }
 
 void ui_fill(ui_state *ui, sl_box box, sl_colour colour) {
@@ -55,11 +53,60 @@ void ui_line(ui_state *ui, double x0, double y0, double x1, double y1, sl_colour
     cairo_stroke(ui->cairo);
 }
 
+void ui_outline(ui_state *ui, sl_box box, double width, sl_colour colour) {
+    cairo_rectangle(ui->cairo, box.min.x + width / 2, box.min.y + width / 2, box_width(box) - width,
+                    box_height(box) - width);
+    sl_set_colour(ui->cairo, colour);
+    cairo_set_line_width(ui->cairo, width);
+    cairo_stroke(ui->cairo);
+}
+
+/// Keeps a text's box for ui_misfit.
+static void keep_spot(ui_state *ui, double x, double y, double width, double height,
+                      const char *text) {
+    if (!ui->spots || ui->spot_count == SPOTS_MOST || !*text) return;
+    text_spot *spot = &ui->spots[ui->spot_count++];
+    *spot = (text_spot){{{x, y}, {x + width, y + height}}, ui->area, ""};
+    // Contents that scroll may lie anywhere above and below.
+    if (ui->scrolling >= 0) {
+        spot->area.min.y = -1e9;
+        spot->area.max.y = 1e9;
+    }
+    snprintf(spot->text, sizeof spot->text, "%s", text);
+}
+
+static bool overlap(const sl_box *a, const sl_box *b) {
+    return fmin(a->max.x, b->max.x) - fmax(a->min.x, b->min.x) > 1 &&
+           fmin(a->max.y, b->max.y) - fmax(a->min.y, b->min.y) > 1;
+}
+
+const char *ui_misfit(const ui_state *ui, char text[160]) {
+    for (int i = 0; i < ui->spot_count; i++) {
+        const text_spot *s = &ui->spots[i];
+        if (s->box.min.x < s->area.min.x - 1 || s->box.max.x > s->area.max.x + 1 ||
+            s->box.min.y < s->area.min.y - 1 || s->box.max.y > s->area.max.y + 1) {
+            snprintf(text, 160, "'%s' reaches out of its panel", s->text);
+            return text;
+        }
+        for (int k = 0; k < i; k++) {
+            const text_spot *o = &ui->spots[k];
+            const bool same = memcmp(&o->area, &s->area, sizeof o->area) == 0;
+            if (!same || !overlap(&o->box, &s->box)) continue;
+            snprintf(text, 160, "'%s' lies on '%s'", s->text, o->text);
+            return text;
+        }
+    }
+    return NULL;
+}
+
 double ui_text(ui_state *ui, double x, double y, double size, bool bold, sl_colour colour,
                const char *text) {
-    sl_text_font(ui->cairo, size * ui->text, bold);
+    const double high = size * ui->text;
+    sl_text_font(ui->cairo, high, bold);
     sl_text_show(ui->cairo, colour, x, y, text);
-    return sl_text_width(ui->cairo, text);
+    const double width = sl_text_width(ui->cairo, text);
+    keep_spot(ui, x, y - 0.75 * high, width, 0.95 * high, text);
+    return width;
 }
 
 double ui_text_width(ui_state *ui, double size, bool bold, const char *text) {
@@ -69,34 +116,36 @@ double ui_text_width(ui_state *ui, double size, bool bold, const char *text) {
 
 void ui_text_right(ui_state *ui, double x, double y, double size, sl_colour colour,
                    const char *text) {
-    sl_text_font(ui->cairo, size * ui->text, false);
-    sl_text_show(ui->cairo, colour, x - sl_text_width(ui->cairo, text), y, text);
+    ui_text(ui, x - ui_text_width(ui, size, false, text), y, size, false, colour, text);
+}
+
+void ui_text_within(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
+                    const char *text) {
+    const double high = size * ui->text, wanted = ui_text_width(ui, size, false, text);
+    sl_text_show_within(ui->cairo, colour, x, y, width, high, false, text);
+    // Where it had to be cut, that is a fault of the place.
+    keep_spot(ui, x, y - 0.75 * high, fmax(fmin(wanted, width), wanted * 2 / 3), 0.95 * high, text);
+}
+
+double ui_lines(ui_state *ui, double x, double y, double width, double size, bool bold,
+                sl_colour colour, const char *text) {
+    const double high = size * ui->text;
+    sl_text_font(ui->cairo, high, bold);
+    const unsigned lines = sl_text_show_lines(ui->cairo, colour, x, y, width, 1.4 * high, text);
+    if (lines)
+        keep_spot(ui, x, y - 0.75 * high, lines > 1 ? width : sl_text_width(ui->cairo, text),
+                  1.4 * high * (lines - 1) + 0.95 * high, text);
+    return y + 1.4 * high * lines;
 }
 
 double ui_paragraph(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
                     const char *text) {
-    char line[256] = "";
-    sl_text_font(ui->cairo, size * ui->text, false);
-    while (*text) {
-        const size_t word = strcspn(text, " "), kept = strlen(line);
-        if (kept + word + 2 > sizeof line) break;
-        if (kept) strcat(line, " ");
-        strncat(line, text, word);
-        if (kept && sl_text_width(ui->cairo, line) > width) {
-            line[kept] = '\0';
-            sl_text_show(ui->cairo, colour, x, y, line);
-            y += 1.4 * size * ui->text;
-            line[0] = '\0';
-            continue;
-        }
-        text += word;
-        while (*text == ' ') text++;
-    }
-    if (*line) {
-        sl_text_show(ui->cairo, colour, x, y, line);
-        y += 1.4 * size * ui->text;
-    }
-    return y;
+    return ui_lines(ui, x, y, width, size, false, colour, text);
+}
+
+double ui_lines_height(ui_state *ui, double width, double size, bool bold, const char *text) {
+    sl_text_font(ui->cairo, size * ui->text, bold);
+    return 1.4 * size * ui->text * sl_text_lines(ui->cairo, width, text);
 }
 
 /// Makes a colour a little stronger under the pointer.
@@ -107,46 +156,185 @@ static sl_colour ground_of(const ui_state *ui, sl_box box, bool on) {
     return box_has(box, ui->pointer) ? sl_colour_mix(plain, p->ink, 0.09) : plain;
 }
 
+bool ui_has_focus(const ui_state *ui) {
+    const hit_area *last = ui->hit_count ? &ui->hits[ui->hit_count - 1] : NULL;
+    return last && last->kind == ui->focus.kind && last->value == ui->focus.value &&
+           ui->copies - 1 == ui->focus.copy;
+}
+
+void ui_mark_focus(ui_state *ui, sl_box box) {
+    ui_outline(ui, box, fmax(0.15 * ui->text, 2), ui->palette.start);
+}
+
+void ui_hit_focus(ui_state *ui, hit_kind kind, int value, sl_box box) {
+    ui_hit(ui, kind, value, box);
+    if (ui_has_focus(ui)) ui_mark_focus(ui, box);
+}
+
+double ui_button_width(ui_state *ui, const char *label) {
+    return ui_text_width(ui, 0.95, false, label) + 1.3 * ui->text;
+}
+
 double ui_button(ui_state *ui, double x, double y, double height, const char *label, bool on,
                  int action) {
-    const double width = ui_text_width(ui, 0.95, false, label) + 1.3 * ui->text;
+    const double width = ui_button_width(ui, label);
     const sl_box box = {{x, y}, {x + width, y + height}};
     ui_fill_round(ui, box, 0.3 * ui->text, ground_of(ui, box, on));
     ui_text(ui, x + 0.65 * ui->text, y + height / 2 + 0.35 * ui->text, 0.95, false, ui->palette.ink,
             label);
-    ui_hit(ui, HIT_ACTION, action, box);
+    ui_hit_focus(ui, HIT_ACTION, action, box);
     return box.max.x;
 }
 
-void ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action) {
-    const double t = ui->text, middle = (row.min.y + row.max.y) / 2, half = 0.46 * t;
-    const double x = row.min.x + 0.4 * t;
+static void draw_tick(ui_state *ui, sl_box mark) {
+    const double half = box_width(mark) / 2, x = mark.min.x, middle = mark.min.y + half;
+    cairo_move_to(ui->cairo, x + 0.45 * half, middle + 0.05 * half);
+    cairo_line_to(ui->cairo, x + 0.85 * half, middle + 0.5 * half);
+    cairo_line_to(ui->cairo, x + 1.6 * half, middle - 0.5 * half);
+    sl_set_colour(ui->cairo, ui->palette.page);
+    cairo_set_line_width(ui->cairo, 0.16 * ui->text);
+    cairo_stroke(ui->cairo);
+}
+
+double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action) {
+    const double t = ui->text, middle = row.min.y + 0.75 * t, half = 0.46 * t;
+    const double x = row.min.x + 0.4 * t, words = x + 1.5 * t, end = row.max.x - 0.4 * t;
+    const double room = end - words - (key ? ui_text_width(ui, 0.9, false, key) + 0.6 * t : 0);
+    row.max.y = row.min.y + fmax(ui_lines_height(ui, room, 1, false, label) + 0.1 * t, 1.5 * t);
     if (box_has(row, ui->pointer)) ui_fill_round(ui, row, 0.25 * t, ground_of(ui, row, false));
     const sl_box mark = {{x, middle - half}, {x + 2 * half, middle + half}};
-    ui_fill_round(ui, mark, 0.2 * t, on ? ui->palette.glass : ui->palette.outline);
-    if (on) {
-        cairo_move_to(ui->cairo, x + 0.45 * half, middle + 0.05 * half);
-        cairo_line_to(ui->cairo, x + 0.85 * half, middle + 0.5 * half);
-        cairo_line_to(ui->cairo, x + 1.6 * half, middle - 0.5 * half);
-        sl_set_colour(ui->cairo, ui->palette.page);
-        cairo_set_line_width(ui->cairo, 0.16 * t);
-        cairo_stroke(ui->cairo);
-    }
-    ui_text(ui, x + 1.5 * t, middle + 0.36 * t, 1, false, ui->palette.ink, label);
-    if (key) ui_text_right(ui, row.max.x - 0.4 * t, middle + 0.36 * t, 0.9, ui->palette.faint, key);
-    ui_hit(ui, HIT_ACTION, action, row);
+    ui_fill_round(ui, mark, 0.2 * t, on ? ui->palette.glass : ui->palette.faint);
+    const double rim = 0.1 * t;
+    if (on)
+        draw_tick(ui, mark);
+    else
+        ui_fill_round(
+            ui,
+            (sl_box){{mark.min.x + rim, mark.min.y + rim}, {mark.max.x - rim, mark.max.y - rim}},
+            0.12 * t, ui->palette.page);
+    ui_lines(ui, words, middle + 0.36 * t, room, 1, false, ui->palette.ink, label);
+    if (key) ui_text_right(ui, end, middle + 0.36 * t, 0.9, ui->palette.faint, key);
+    ui_hit_focus(ui, HIT_ACTION, action, row);
+    return row.max.y;
 }
 
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number) {
     const double t = ui->text, y = (track.min.y + track.max.y) / 2;
     const double x = track.min.x + fmin(fmax(value, 0), 1) * box_width(track);
     const double thick = 0.14 * t;
-    ui_fill(ui, (sl_box){{track.min.x, y - thick}, {track.max.x, y + thick}}, ui->palette.outline);
+    ui_fill(ui, (sl_box){{track.min.x, y - thick}, {track.max.x, y + thick}}, ui->palette.faint);
     ui_fill(ui, (sl_box){{track.min.x, y - thick}, {x, y + thick}}, ui->palette.glass);
     cairo_new_path(ui->cairo);
     cairo_arc(ui->cairo, x, y, 0.5 * t, 0, 6.283185307179586);
     sl_set_colour(ui->cairo, ui->palette.glass);
     cairo_fill(ui->cairo);
-    ui_hit(ui, kind, number,
-           (sl_box){{track.min.x - 0.5 * t, track.min.y}, {track.max.x + 0.5 * t, track.max.y}});
+    const sl_box box = {{track.min.x - 0.5 * t, track.min.y}, {track.max.x + 0.5 * t, track.max.y}};
+    ui_hit_focus(ui, kind, number, box);
+}
+
+double ui_row(ui_state *ui, double left, double right, double y, const char *text,
+              const char *beside, bool chosen, hit_kind kind, int number) {
+    const double t = ui->text, gap = 0.6 * t;
+    const double more = beside ? ui_text_width(ui, 0.9, false, beside) + gap : 0;
+    const double room = right - left - 2 * gap - more;
+    const sl_box row = {{left, y},
+                        {right, y + 0.5 * t + fmax(ui_lines_height(ui, room, 1, false, text), t)}};
+    const bool over = box_has(row, ui->pointer);
+    if (over || chosen)
+        ui_fill_round(ui, row, 0.3 * t,
+                      sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
+    ui_lines(ui, left + gap, y + 1.3 * t, room, 1, false, ui->palette.ink, text);
+    if (beside) ui_text_right(ui, right - gap, y + 1.3 * t, 0.9, ui->palette.faint, beside);
+    ui_hit_focus(ui, kind, number, row);
+    return row.max.y;
+}
+
+void ui_edge(ui_state *ui, int number, sl_box box) {
+    if (box_has(box, ui->pointer)) ui_fill(ui, box, ui->palette.faint);
+    ui_hit_focus(ui, HIT_EDGE, number, box);
+}
+
+// --- text fields
+
+void ui_text_field(ui_state *ui, sl_box box, const ui_field *field, const char *empty, int number) {
+    const double t = ui->text, base = (box.min.y + box.max.y) / 2 + 0.36 * t;
+    const bool typed = ui->field == field;
+    const double rim = typed ? fmax(0.15 * t, 2) : 1;
+    char before[UI_FIELD_TEXT];
+    snprintf(before, sizeof before, "%.*s", (int)field->at, field->text);
+    const double at = ui_text_width(ui, 1, false, before), room = box_width(box) - 1.4 * t;
+    const double x = box.min.x + 0.7 * t - fmax(at - room, 0);
+    ui_fill(ui, box, typed ? ui->palette.glass : ui->palette.faint);
+    ui_fill(ui, (sl_box){{box.min.x + rim, box.min.y + rim}, {box.max.x - rim, box.max.y - rim}},
+            ui->palette.page);
+    cairo_save(ui->cairo);
+    cairo_rectangle(ui->cairo, box.min.x + 0.4 * t, box.min.y, box_width(box) - 0.8 * t,
+                    box_height(box));
+    cairo_clip(ui->cairo);
+    // A long text is cut at the field's ends on purpose: it follows the cursor.
+    sl_text_font(ui->cairo, t, false);
+    sl_text_show(ui->cairo, *field->text ? ui->palette.ink : ui->palette.faint, x, base,
+                 *field->text ? field->text : empty);
+    if (typed)
+        ui_fill(ui,
+                (sl_box){{x + at, base - 0.9 * t}, {x + at + fmax(0.1 * t, 1), base + 0.25 * t}},
+                ui->palette.ink);
+    cairo_restore(ui->cairo);
+    ui_hit_focus(ui, HIT_FIELD, number, box);
+}
+
+void ui_field_set(ui_field *field, const char *text) {
+    *field = (ui_field){0};
+    ui_field_type(field, text);
+}
+
+/// A byte 10xxxxxx continues a character.
+static bool continues(char byte) {
+    return ((unsigned char)byte & 0xc0) == 0x80;
+}
+
+void ui_field_type(ui_field *field, const char *text) {
+    const size_t length = strlen(field->text), room = sizeof field->text - 1 - length;
+    size_t more = strlen(text);
+    if (more > room) {
+        more = room;
+        while (more && continues(text[more])) more--;
+    }
+    memmove(field->text + field->at + more, field->text + field->at, length - field->at + 1);
+    memcpy(field->text + field->at, text, more);
+    field->at += more;
+}
+
+static size_t before(const ui_field *field, size_t at) {
+    while (at && continues(field->text[--at])) continue;
+    return at;
+}
+
+static size_t after(const ui_field *field, size_t at) {
+    if (!field->text[at]) return at;
+    while (continues(field->text[++at])) continue;
+    return at;
+}
+
+static void cut_out(ui_field *field, size_t from, size_t to) {
+    memmove(field->text + from, field->text + to, strlen(field->text + to) + 1);
+    field->at = from;
+}
+
+bool ui_field_key(ui_field *field, const char *key) {
+    if (strcmp(key, "Left") == 0)
+        field->at = before(field, field->at);
+    else if (strcmp(key, "Right") == 0)
+        field->at = after(field, field->at);
+    else if (strcmp(key, "Home") == 0)
+        field->at = 0;
+    else if (strcmp(key, "End") == 0)
+        field->at = strlen(field->text);
+    else if (strcmp(key, "Backspace") == 0)
+        cut_out(field, before(field, field->at), field->at);
+    else if (strcmp(key, "Delete") == 0)
+        cut_out(field, field->at, after(field, field->at));
+    else
+        return strlen(key) == 1 || strcmp(key, "Space") == 0; // typed as text
+    return true;
 }

@@ -166,7 +166,6 @@ sl_status view_job_end(sl_context *context, view_job *job, view_history *out) {
 // --- the layer
 
 #define RAMP_STEPS 32
-#define OPACITY    0.85
 /// The first cut costs this much more than the cheapest one, as in `sightline viewcells` by
 /// default.
 #define TOLERANCE 0.1
@@ -280,7 +279,7 @@ void view_layer_update(app_state *app, bool wait) {
     if (!wanted && app->view.views && !app->view.views->cells) drop(app);
     if (!wanted) return;
     // The document's version has settled once its cells are seen.
-    const bool settled = app->document.has_visibility || !app->document.job;
+    const bool settled = app->document.has_visibility || !(app->document.job || app->document.live);
     if (!app->view.views && settled) app_check(app, begin(app));
     view_layer *layer = app->view.views;
     if (layer && layer->job && (wait || view_job_is_done(layer->job)))
@@ -429,13 +428,10 @@ static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *fra
     }
 }
 
-static void draw_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment *borders,
-                         size_t count, sl_colour colour, double width) {
+static void add_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment *borders,
+                        size_t count) {
+    cairo_new_path(cairo);
     for (size_t i = 0; i < count; i++) sl_path_segment(cairo, frame, borders[i].a, borders[i].b);
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_SQUARE);
-    cairo_stroke(cairo);
 }
 
 /// View cells reach into walled-in space without viewpoints: that is cut off.
@@ -452,16 +448,14 @@ static void clip_to_inside(const document_state *document, cairo_t *cairo, const
 void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const view_layer *layer = app->view.views;
     if (!view_layer_shown(layer)) return;
-    cairo_push_group(cairo);
-    draw_cells(app, cairo, frame);
-    draw_borders(cairo, frame, layer->borders, layer->border_count, app->ui.palette.page,
-                 0.8 * frame->unit);
-    cairo_pop_group_to_source(cairo);
+    const sl_palette *palette = &app->ui.palette;
     cairo_save(cairo);
     clip_to_inside(&app->document, cairo, frame);
-    cairo_paint_with_alpha(cairo, OPACITY);
-    draw_borders(cairo, frame, layer->mark_borders, layer->mark_border_count, app->ui.palette.start,
-                 4 * frame->unit);
+    if (layers_fill(app) == LAYER_VIEWS) draw_cells(app, cairo, frame);
+    add_borders(cairo, frame, layer->borders, layer->border_count);
+    tone_cased(cairo, palette, palette->wall, 0.9 * frame->unit, 0);
+    add_borders(cairo, frame, layer->mark_borders, layer->mark_border_count);
+    tone_cased(cairo, palette, palette->start, 4 * frame->unit, 0);
     cairo_restore(cairo);
 }
 
@@ -473,12 +467,15 @@ static void draw_ramp(app_state *app, double left, double right, double base) {
     char least[32], most[32];
     write_cost(layer->least, least);
     write_cost(layer->most, most);
+    // A layer that does not fill the plan has no colours.
+    if (layers_fill(app) != LAYER_VIEWS) return;
     ui_text(ui, left, base, 0.95, false, ui->palette.ink, least);
     ui_text_right(ui, right, base, 0.95, ui->palette.ink, most);
-    const double from = left + 4.2 * t, wide = (right - left - 8.4 * t) / RAMP_STEPS;
+    const double side =
+        0.4 * t + fmax(ui_text_width(ui, 0.95, false, least), ui_text_width(ui, 0.95, false, most));
+    const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
     for (int step = 0; step < RAMP_STEPS; step++)
-        ui_fill(ui,
-                (sl_box){{from + wide * step, base - 0.8 * t}, {right - 4.2 * t, base + 0.1 * t}},
+        ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
                 colour_of(&app->ui, step));
 }
 
@@ -520,19 +517,37 @@ static void write_key(const app_state *app, key_row rows[KEY_ROWS]) {
     write_pointed(app, rows[4].text, sizeof rows[4].text);
 }
 
+double view_layer_key(app_state *app, double left, double right, double y) {
+    ui_state *ui = &app->ui;
+    key_row rows[KEY_ROWS];
+    const double t = ui->text;
+    if (!view_layer_shown(app->view.views)) return y;
+    write_key(app, rows);
+    for (int i = 0; i < KEY_ROWS; i++) {
+        const double value = ui_text_width(ui, 0.95, false, rows[i].text) + 0.6 * t;
+        const double label = ui_text_width(ui, 0.95, i == 0, rows[i].label);
+        // A narrow key has the value below its label.
+        const bool beside = label + value <= right - left;
+        double end = ui_lines(ui, left, y + 1.1 * t, right - left, 0.95, i == 0, ui->palette.ink,
+                              rows[i].label);
+        if (beside)
+            ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.ink, rows[i].text);
+        else
+            end =
+                ui_lines(ui, left, end, right - left, 0.95, false, ui->palette.faint, rows[i].text);
+        y = end - 0.95 * t;
+    }
+    draw_ramp(app, left, right, y + 1.1 * t);
+    return y + 1.6 * t;
+}
+
 void view_layer_draw_key(app_state *app, const sl_frame *frame) {
     if (!view_layer_shown(app->view.views)) return;
     ui_state *ui = &app->ui;
-    key_row rows[KEY_ROWS];
-    const double t = ui->text, row = 1.5 * t, wide = 18 * t;
+    const double t = ui->text, wide = 19 * t, high = (KEY_ROWS + 1.3) * 1.4 * t;
     const double right = frame->left + frame->width - t, bottom = frame->top + frame->height - t;
-    const double left = right - wide, top = bottom - (KEY_ROWS + 1) * row - 0.6 * t;
-    ui_fill_round(ui, (sl_box){{left, top}, {right, bottom}}, 0.3 * t, ui->palette.page);
-    write_key(app, rows);
-    double base = top + 0.3 * t + 0.8 * row;
-    for (int i = 0; i < KEY_ROWS; i++, base += row) {
-        ui_text(ui, left + 0.6 * t, base, 0.95, i == 0, ui->palette.ink, rows[i].label);
-        ui_text_right(ui, right - 0.6 * t, base, 0.95, ui->palette.ink, rows[i].text);
-    }
-    draw_ramp(app, left + 0.6 * t, right - 0.6 * t, base);
+    if (wide > frame->width - 2 * t || high > 0.75 * frame->height) return;
+    ui_fill_round(ui, (sl_box){{right - wide, bottom - high}, {right, bottom}}, 0.3 * t,
+                  ui->palette.page);
+    view_layer_key(app, right - wide + 0.6 * t, right - 0.6 * t, bottom - high + 0.2 * t);
 }

@@ -57,6 +57,8 @@ void view_layer_go(app_state *app, uint32_t cells);
 /// alone.
 void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame);
 /// Draws their key: count, cost, memory, colours.
+/// The key in a column; returns its lower edge.
+double view_layer_key(app_state *app, double left, double right, double y);
 void view_layer_draw_key(app_state *app, const sl_frame *frame);
 
 /// The marked view cell of the cut; SL_NO_VIEW_CELL: none.

@@ -16,6 +16,8 @@ struct app_window {
     SDL_Texture *texture;
     cairo_surface_t *surface;
     int width, height; ///< of texture and surface, pixels
+    char title[TITLE_TEXT];
+    bool fullscreen;
 };
 
 static sl_status fail(sl_context *context, const char *what) {
@@ -37,17 +39,36 @@ static double find_density(const app_window *w) {
     return density_of_screen(SDL_GetWindowDisplayIndex(w->window));
 }
 
+/// Whether a driver of SDL's shows nothing. SDL takes such a one where it finds no display; who
+/// asks for it by name gets it.
+static bool is_unseen(const char *driver) {
+    const char *asked = SDL_getenv("SDL_VIDEODRIVER");
+    return driver && (!asked || strcmp(asked, driver) != 0) &&
+           (strcmp(driver, "offscreen") == 0 || strcmp(driver, "dummy") == 0 ||
+            strcmp(driver, "evdev") == 0);
+}
+
 static sl_status open_window(app_window *w, bool hidden) {
     sl_context *context = w->app->context;
     if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail(context, "no display");
     const char *driver = SDL_GetCurrentVideoDriver();
+    if (!hidden && is_unseen(driver))
+        return sl_fail(context, SL_IO,
+                       "no display: neither DISPLAY nor WAYLAND_DISPLAY leads to one (--script, "
+                       "--screenshot and --bench need none)");
     // X's windows are measured in pixels, whatever the screen.
     const double by = driver && strcmp(driver, "x11") == 0 ? density_of_screen(0) : 1;
+    int width = (int)(by * w->app->ui.width), height = (int)(by * w->app->ui.height);
+    SDL_Rect free;
+    if (!hidden && SDL_GetDisplayUsableBounds(0, &free) == 0) {
+        // Where it would not fit, its frame and title have some room.
+        if (width > free.w) width = SDL_max(free.w - 16, 640);
+        if (height > free.h) height = SDL_max(free.h - 48, 480);
+    }
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                 (int)(by * w->app->ui.width), (int)(by * w->app->ui.height),
-                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+                                 width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->window) return fail(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
     const Uint32 wanted = hidden ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_PRESENTVSYNC;
@@ -58,10 +79,30 @@ static sl_status open_window(app_window *w, bool hidden) {
     return SL_OK;
 }
 
+// --- what cannot wait
+
+/// Whether a key was pressed that ends jobs, or the window is to close. A picture of a large map
+/// takes seconds; it is given up then, and drawn again if there is still a need.
+static bool is_called_away(void *user) {
+    SDL_Event events[64];
+    (void)user;
+    SDL_PumpEvents();
+    if (SDL_HasEvent(SDL_QUIT)) return true;
+    const int count = SDL_PeepEvents(events, 64, SDL_PEEKEVENT, SDL_KEYDOWN, SDL_KEYDOWN);
+    for (int i = 0; i < count; i++) {
+        const SDL_Keysym *key = &events[i].key.keysym;
+        if (key->sym == SDLK_ESCAPE || (key->sym == SDLK_q && key->mod & (KMOD_CTRL | KMOD_GUI)))
+            return true;
+    }
+    return false;
+}
+
 sl_status window_open(app_state *app, bool hidden, app_window **out) {
     app_window *w = sl_alloc_array(app->context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
+    const sl_hooks hooks = {.cancelled = is_called_away};
     w->app = app;
+    if (!hidden) app->drawing = sl_context_create(&hooks);
     const sl_status status = open_window(w, hidden);
     if (status == SL_OK)
         *out = w;
@@ -76,6 +117,8 @@ void window_close(app_window *w) {
     if (w->renderer) SDL_DestroyRenderer(w->renderer);
     if (w->window) SDL_DestroyWindow(w->window);
     SDL_Quit();
+    sl_context_destroy(w->app->drawing);
+    w->app->drawing = NULL;
     sl_free(w->app->context, w);
 }
 
@@ -91,6 +134,10 @@ static sl_status fit_texture(app_window *w) {
     w->height = height;
     w->app->ui.width = width;
     w->app->ui.height = height;
+    if (!w->fullscreen) {
+        w->app->ui.window_width = width;
+        w->app->ui.window_height = height;
+    }
     if (!w->app->steady) w->app->ui.density = find_density(w);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
@@ -98,11 +145,25 @@ static sl_status fit_texture(app_window *w) {
     return w->texture ? SL_OK : fail(w->app->context, "no texture");
 }
 
+static void show_title(app_window *w) {
+    char title[TITLE_TEXT];
+    map_file_title(w->app, title);
+    if (strcmp(title, w->title) == 0) return;
+    memcpy(w->title, title, sizeof title);
+    SDL_SetWindowTitle(w->window, title);
+}
+
 sl_status window_show(app_window *w) {
+    if (w->fullscreen != w->app->ui.fullscreen) {
+        w->fullscreen = w->app->ui.fullscreen;
+        SDL_SetWindowFullscreen(w->window, w->fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    }
     SL_TRY(fit_texture(w));
+    show_title(w);
     cairo_t *cairo = cairo_create(w->surface);
     app_draw(w->app, cairo);
     cairo_destroy(cairo);
+    if (w->app->drawing && is_called_away(w)) return SL_OK; // it may be half a picture
     cairo_surface_flush(w->surface);
     SDL_UpdateTexture(w->texture, NULL, cairo_image_surface_get_data(w->surface),
                       cairo_image_surface_get_stride(w->surface));
@@ -121,8 +182,14 @@ static void key_name(const SDL_Keysym *sym, char name[48]) {
     if (sym->sym == SDLK_QUESTION) plain = "?";
     if (sym->sym == SDLK_PLUS || sym->sym == SDLK_KP_PLUS) plain = "=";
     if (sym->sym == SDLK_KP_MINUS) plain = "-";
-    if (sym->sym == SDLK_BACKSPACE) plain = "Delete";
-    snprintf(name, 48, "%s%s", ctrl ? "Ctrl+" : "", plain);
+    if (sym->sym == SDLK_KP_ENTER) plain = "Return";
+    // With other keys the shift is a part of what they type.
+    const bool letter = sym->sym >= SDLK_a && sym->sym <= SDLK_z;
+    const bool with_shift =
+        shift && ((ctrl && letter) || sym->sym == SDLK_TAB || sym->sym == SDLK_RETURN ||
+                  sym->sym == SDLK_LEFT || sym->sym == SDLK_RIGHT || sym->sym == SDLK_UP ||
+                  sym->sym == SDLK_DOWN);
+    snprintf(name, 48, "%s%s%s", ctrl ? "Ctrl+" : "", with_shift ? "Shift+" : "", plain);
 }
 
 /// From window coordinates to pixels.
@@ -146,16 +213,26 @@ static void take_button(app_window *w, const SDL_MouseButtonEvent *e) {
                 at);
 }
 
+static void paste(app_state *app) {
+    char *text = SDL_GetClipboardText();
+    if (text) input_text(app, text);
+    SDL_free(text);
+}
+
 static void take_event(app_window *w, const SDL_Event *e) {
     char name[48];
     switch (e->type) {
     case SDL_QUIT:
-        w->app->quit = true;
+        map_file_quit(w->app);
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         key_name(&e->key.keysym, name);
+        if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste(w->app);
         input_key(w->app, name, e->type == SDL_KEYDOWN);
+        break;
+    case SDL_TEXTINPUT:
+        input_text(w->app, e->text.text);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
@@ -168,7 +245,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
         input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        shelf_open(w->app, e->drop.file);
+        files_drop(w->app, e->drop.file);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
@@ -181,8 +258,9 @@ static void take_event(app_window *w, const SDL_Event *e) {
 
 /// Whether something moves without input.
 static bool is_lively(const app_state *app) {
-    return app->tool.held || app_progress(app).running || app->tool.recorder.plays ||
-           app->tool.recorder.records || app->tool.lesson.plays || app->view.motion > 0;
+    return app->tool.held || app->document.job || app_progress(app).running ||
+           app->tool.recorder.plays || app->tool.recorder.records || app->tool.lesson.plays ||
+           app->view.motion > 0;
 }
 
 sl_status window_run(app_window *w) {
@@ -194,13 +272,16 @@ sl_status window_run(app_window *w) {
         const bool any = is_lively(app) ? SDL_PollEvent(&event) : SDL_WaitEventTimeout(&event, 250);
         bool more = any;
         for (bool stale = false; more; stale = true, more = SDL_PollEvent(&event)) {
-            // A click meant what is there after the key before it.
-            if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(window_show(w));
+            // A click meant what is there after the key before it, and a key the dialog that opens.
+            if ((stale && event.type == SDL_MOUSEBUTTONDOWN) || dialog_is_unseen(app))
+                SL_TRY(window_show(w));
             take_event(w, &event);
         }
+        if (app->quit) break;
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);
+        if (!lively) ui_tick(&app->ui, now - last);
         last = now;
         SL_TRY(window_show(w));
         const double spent = sl_seconds() - now;

@@ -1,8 +1,9 @@
-/// Exports of a baked file that need no other library: JSON, GeoJSON, CSV and C source. Each is
-/// printed piece by piece, so that a large map needs no tree in memory. EXPORT.md describes them.
-/// Numbers have 17 digits, and read back to the same double.
+/// Exports of a baked file as JSON and CSV, and the table of all exports that need no other library
+/// (GeoJSON: geojson.c, C: export_c.c). Each is printed piece by piece, so that a large map needs
+/// no tree in memory. EXPORT.md describes them. Numbers have 17 digits, and read back to the same
+/// double.
+#include "bake/export.h"
 #include "base/base.h"
-#include "sightline/bake.h"
 #include "sightline/json_write.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
@@ -16,7 +17,7 @@ typedef struct printer {
     sl_context *context;
     FILE *stream;
     sl_json_writer json;
-    bool any; ///< a list of features has one already
+    bool any; ///< a list has an item already
 } printer;
 
 /// What stands before item i; false where there is none, or the stream takes no more.
@@ -122,8 +123,7 @@ static sl_status print_solid_walls(printer *out, const sl_space *space) {
     return SL_OK;
 }
 
-/// The first door that a portal lies on; NULL for none.
-static const sl_door *door_of(const sl_baked *baked, uint32_t portal) {
+const sl_door *sli_portal_door(const sl_baked *baked, uint32_t portal) {
     size_t count;
     const sl_seam_portal *on = sl_space_seams_of(&baked->space, portal, &count);
     for (size_t i = 0; i < count; i++) {
@@ -133,31 +133,24 @@ static const sl_door *door_of(const sl_baked *baked, uint32_t portal) {
     return NULL;
 }
 
-/// The end of a portal's `cells` that is looked from ("from": the first one), or "none" between two
-/// panes that face each other; NULL where no one-way glass is.
-static const char *oneway_of(const sl_space *space, uint32_t portal) {
+sli_glass_way sli_portal_glass(const sl_space *space, uint32_t portal) {
     bool blocked[2] = {false};
     size_t count;
     const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
     for (size_t i = 0; i < count; i++)
         if (space->seams[on[i].seam].kind == SL_SEAM_ONEWAY) blocked[on[i].forward != 0] = true;
-    if (blocked[0] && blocked[1]) return "none";
-    return blocked[0] ? "to" : blocked[1] ? "from" : NULL;
+    if (blocked[0] && blocked[1]) return SLI_GLASS_SHUT;
+    return blocked[0] ? SLI_GLASS_TO : blocked[1] ? SLI_GLASS_FROM : SLI_GLASS_NONE;
 }
 
-/// What a portal is, as members of an object.
-static void put_portal_members(printer *out, const sl_baked *baked, uint32_t number) {
-    const sl_portal *portal = &baked->space.portals[number];
-    sl_json_put_key(&out->json, "cells");
-    sl_json_put_list(&out->json);
-    sl_json_put_integer(&out->json, portal->cell[0]);
-    sl_json_put_integer(&out->json, portal->cell[1]);
-    sl_json_put_end(&out->json, ']');
+const char *sli_glass_name(sli_glass_way way) {
+    static const char *const names[] = {NULL, "from", "to", "none"};
+    return names[way];
 }
 
 static void put_portal_effects(printer *out, const sl_baked *baked, uint32_t number) {
-    const sl_door *door = door_of(baked, number);
-    const char *oneway = oneway_of(&baked->space, number);
+    const sl_door *door = sli_portal_door(baked, number);
+    const char *oneway = sli_glass_name(sli_portal_glass(&baked->space, number));
     if (door) sl_json_put_key(&out->json, "door");
     if (door) sl_json_put_text(&out->json, door->name);
     if (oneway) sl_json_put_key(&out->json, "oneway");
@@ -167,7 +160,11 @@ static void put_portal_effects(printer *out, const sl_baked *baked, uint32_t num
 static void print_portal(printer *out, const sl_baked *baked, uint32_t number, int version) {
     const sl_portal *portal = &baked->space.portals[number];
     sl_json_put_object(&out->json);
-    put_portal_members(out, baked, number);
+    sl_json_put_key(&out->json, "cells");
+    sl_json_put_list(&out->json);
+    sl_json_put_integer(&out->json, portal->cell[0]);
+    sl_json_put_integer(&out->json, portal->cell[1]);
+    sl_json_put_end(&out->json, ']');
     sl_json_put_key(&out->json, "segment");
     print_segment(out, portal->left, portal->right);
     if (version > 1) put_portal_effects(out, baked, number);
@@ -483,136 +480,6 @@ sl_status sl_export_json(sl_context *context, const sl_baked *baked,
     return sl_output_close(context, &output, print_json(&out, baked, (int)version));
 }
 
-// --- GeoJSON: a FeatureCollection in the plane of the map
-
-/// Begins a feature, up to the coordinates of its geometry.
-static void begin_feature(printer *out, const char *geometry) {
-    fputs(out->any ? ",\n" : "\n", out->stream);
-    out->any = true;
-    sl_json_put_object(&out->json);
-    sl_json_put_key(&out->json, "type");
-    sl_json_put_text(&out->json, "Feature");
-    sl_json_put_key(&out->json, "geometry");
-    sl_json_put_object(&out->json);
-    sl_json_put_key(&out->json, "type");
-    sl_json_put_text(&out->json, geometry);
-    sl_json_put_key(&out->json, "coordinates");
-}
-
-/// Ends the geometry and begins the properties.
-static void begin_properties(printer *out, const char *kind) {
-    sl_json_put_end(&out->json, '}');
-    sl_json_put_key(&out->json, "properties");
-    sl_json_put_object(&out->json);
-    sl_json_put_key(&out->json, "kind");
-    sl_json_put_text(&out->json, kind);
-}
-
-static void end_feature(printer *out) {
-    sl_json_put_end(&out->json, '}');
-    sl_json_put_end(&out->json, '}');
-}
-
-static void begin_line(printer *out, const char *kind, sl_point a, sl_point b) {
-    begin_feature(out, "LineString");
-    sl_json_put_list(&out->json);
-    print_point(out, a);
-    print_point(out, b);
-    sl_json_put_end(&out->json, ']');
-    begin_properties(out, kind);
-}
-
-/// A ring ends at the corner where it begins.
-static void print_cell_feature(printer *out, const sl_baked *baked, uint32_t number) {
-    const sl_space *space = &baked->space;
-    const sl_cell *cell = &space->cells[number];
-    begin_feature(out, "Polygon");
-    sl_json_put_list(&out->json);
-    sl_json_put_list(&out->json);
-    for (uint32_t i = 0; i <= cell->vertex_count; i++)
-        print_point(out, space->vertices[cell->first_vertex + i % cell->vertex_count]);
-    sl_json_put_end(&out->json, ']');
-    sl_json_put_end(&out->json, ']');
-    begin_properties(out, "cell");
-    sl_json_put_key(&out->json, "id");
-    sl_json_put_integer(&out->json, number);
-    sl_json_put_key(&out->json, "inside");
-    sl_json_put_flag(&out->json, cell->inside);
-    sl_json_put_key(&out->json, "solid");
-    sl_json_put_flag(&out->json, cell->solid);
-    sl_json_put_key(&out->json, "sees");
-    sl_json_put_integer(&out->json, sl_pvs_count(&baked->visibility.pvs, number));
-    end_feature(out);
-}
-
-static void print_door_features(printer *out, const sl_baked *baked) {
-    for (uint32_t i = 0; i < baked->space.seam_count; i++) {
-        const sl_seam *seam = &baked->space.seams[i];
-        if (seam->kind != SL_SEAM_DOOR) continue;
-        const sl_door *door = &baked->map.doors[seam->number];
-        begin_line(out, "door", seam->at.a, seam->at.b);
-        sl_json_put_key(&out->json, "name");
-        sl_json_put_text(&out->json, door->name);
-        sl_json_put_key(&out->json, "open");
-        sl_json_put_flag(&out->json, door->open);
-        end_feature(out);
-    }
-}
-
-static void print_glass_features(printer *out, const char *kind, const sl_glass *glass,
-                                 size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        begin_line(out, kind, glass[i].segment.a, glass[i].segment.b);
-        end_feature(out);
-    }
-}
-
-static void print_start_features(printer *out, const sl_map *map) {
-    for (size_t i = 0; i < map->start_count; i++) {
-        begin_feature(out, "Point");
-        print_point(out, map->starts[i].at);
-        begin_properties(out, "start");
-        sl_json_put_key(&out->json, "heading");
-        sl_json_put_real(&out->json, map->starts[i].heading);
-        end_feature(out);
-    }
-}
-
-static sl_status print_geojson(printer *out, const sl_baked *baked) {
-    const sl_space *space = &baked->space;
-    const sl_map *map = &baked->map;
-    fputs("{\"type\": \"FeatureCollection\", \"features\": [", out->stream);
-    for (uint32_t i = 0; i < space->cell_count && !ferror(out->stream); i++)
-        print_cell_feature(out, baked, i);
-    SL_TRY(sl_check_cancelled(out->context));
-    for (uint32_t i = 0; i < space->portal_count && !ferror(out->stream); i++) {
-        begin_line(out, "portal", space->portals[i].left, space->portals[i].right);
-        put_portal_members(out, baked, i);
-        put_portal_effects(out, baked, i);
-        end_feature(out);
-    }
-    SL_TRY(sl_check_cancelled(out->context));
-    for (uint32_t i = 0; i < space->wall_count && !ferror(out->stream); i++) {
-        begin_line(out, "wall", space->walls[i].a, space->walls[i].b);
-        end_feature(out);
-    }
-    print_door_features(out, baked);
-    print_glass_features(out, "mirror", map->mirrors, map->mirror_count);
-    print_glass_features(out, "oneway", map->oneways, map->oneway_count);
-    print_start_features(out, map);
-    fputs("]}\n", out->stream);
-    return sl_check_cancelled(out->context);
-}
-
-sl_status sl_export_geojson(sl_context *context, const sl_baked *baked,
-                            const sl_export_options *options, const char *path) {
-    (void)options;
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    printer out = {context, output.stream, sl_json_writer_to(output.stream, 0), false};
-    return sl_output_close(context, &output, print_geojson(&out, baked));
-}
-
 // --- CSV: a line for each ordered pair of cells of which the first sees the second
 
 static sl_status print_pairs(sl_context *context, const sl_pvs *pvs, FILE *stream) {
@@ -636,53 +503,6 @@ sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
                            print_pairs(context, &baked->visibility.pvs, output.stream));
 }
 
-// --- C source: the matrix of visible sets, a bit a pair, for programs that want to read no file
-
-/// The bits of a row, lowest first in each byte.
-static void fill_row(const sl_pvs *pvs, uint32_t cell, uint8_t *row, size_t bytes) {
-    memset(row, 0, bytes);
-    for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
-        for (uint32_t i = run.first; i < run.end; i++) row[i / 8] |= (uint8_t)(1u << i % 8);
-}
-
-static sl_status print_bits(sl_context *context, const sl_pvs *pvs, uint8_t *row, size_t bytes,
-                            FILE *stream) {
-    fprintf(stream,
-            "/* Which cells see which, by Sightline. */\n"
-            "#ifndef VISIBLE_H\n#define VISIBLE_H\n\n"
-            "#define VISIBLE_CELLS %" PRIu32 "\n\n"
-            "/* Cell b is seen from cell a where this is not 0. */\n"
-            "#define VISIBLE(a, b) (visible[a][(b) / 8] >> (b) %% 8 & 1)\n\n"
-            "static const unsigned char visible[%" PRIu32 "][%zu] = {\n",
-            pvs->cell_count, pvs->cell_count, bytes);
-    for (uint32_t cell = 0; cell < pvs->cell_count && !ferror(stream); cell++) {
-        SL_TRY(sl_check_cancelled(context));
-        fill_row(pvs, cell, row, bytes);
-        fputs("    {", stream);
-        for (size_t i = 0; i < bytes; i++) fprintf(stream, i ? ",%u" : "%u", row[i]);
-        fputs("},\n", stream);
-        sl_report(context, "export", "cells", cell + 1, pvs->cell_count);
-    }
-    fputs("};\n\n#endif\n", stream);
-    return SL_OK;
-}
-
-sl_status sl_export_c(sl_context *context, const sl_baked *baked, const sl_export_options *options,
-                      const char *path) {
-    (void)options;
-    const sl_pvs *pvs = &baked->visibility.pvs;
-    const size_t bytes = ((size_t)pvs->cell_count + 7) / 8;
-    uint8_t *row = sl_alloc_array(context, bytes, 1);
-    if (!row) return SL_NO_MEMORY;
-    sl_output output;
-    sl_status status = sl_output_open(context, path, &output);
-    if (status == SL_OK)
-        status =
-            sl_output_close(context, &output, print_bits(context, pvs, row, bytes, output.stream));
-    sl_free(context, row);
-    return status;
-}
-
 // --- the table
 
 static const sl_export_format formats[] = {
@@ -695,7 +515,9 @@ static const sl_export_format formats[] = {
      .shows_mirrors = true,
      .write = sl_export_geojson},
     {.name = "csv", .what = "a line for each ordered pair seen", .write = sl_export_csv},
-    {.name = "c", .what = "a C header with the matrix, a bit a pair", .write = sl_export_c},
+    {.name = "c",
+     .what = "a C header: cells, portals, doors, starts, and a bit for each pair",
+     .write = sl_export_c},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 

@@ -7,28 +7,31 @@
 #include <string.h>
 
 /// What a row keeps of its cells.
-static sl_status keep_row(sl_context *context, const sl_visibility *v, uint32_t row,
-                          const bool *shut, sl_bits *set, sli_row_bytes *out) {
-    const uint32_t count = v->pvs.cell_count;
+static sl_status keep_row(sl_context *context, const sl_pvs *pvs, const sl_door_sets *doors,
+                          uint32_t row, const bool *shut, sl_bits *set, sli_row_bytes *out) {
+    const uint32_t count = pvs->cell_count;
     memset(set, 0, sl_bits_words(count) * sizeof *set);
-    sli_row_add_to(&v->pvs, row, set);
-    for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, row); sl_door_pairs_next(&p, shut);)
+    sli_row_add_to(pvs, row, set);
+    for (sl_door_pairs p = sl_door_pairs_begin(doors, row); sl_door_pairs_next(&p, shut);)
         if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
     return sli_row_append(context, out, set, count);
 }
 
-static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bool *shut,
-                           sl_pvs *out) {
-    const uint32_t count = v->pvs.cell_count;
+/// What the visible sets keep, or the sets of what is seen by mirror.
+static sl_status keep_rows(sl_context *context, const sl_pvs *pvs, const sl_door_sets *doors,
+                           const bool *shut, sl_pvs *out, uint64_t *pairs) {
+    const uint32_t count = pvs->cell_count;
     sli_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
     sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
     for (uint32_t i = 0; i < count && status == SL_OK; i++)
-        status = keep_row(context, v, i, shut, set, &rows[i]);
+        status = keep_row(context, pvs, doors, i, shut, set, &rows[i]);
     if (status == SL_OK) status = sli_pvs_join(context, rows, count, out);
     for (uint32_t i = 0; rows && i < count; i++) sl_free(context, rows[i].items);
     sl_free(context, rows);
     sl_free(context, set);
+    *pairs = 0;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++) *pairs += sl_pvs_count(out, i);
     return status;
 }
 
@@ -37,17 +40,16 @@ sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const bool *
     const sl_filtered_space filtered = {.shut = shut};
     const sl_visibility *v = &baked->visibility;
     sl_visibility kept = {.sight = v->sight, .guarantee = v->guarantee, .account = v->account};
-    if (v->mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED, "doors are not shut where there are mirrors");
     SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, space));
-    const sl_status status = keep_rows(context, v, shut, &kept.pvs);
-    if (status != SL_OK) {
-        sl_space_destroy(context, space);
-        return status;
+    sl_status status = keep_rows(context, &v->pvs, &v->doors, shut, &kept.pvs, &kept.account.pairs);
+    if (status == SL_OK && v->mirrored.cell_count)
+        status = keep_rows(context, &v->mirrored, &v->mirrored_doors, shut, &kept.mirrored,
+                           &kept.account.mirrored_pairs);
+    if (status == SL_OK) {
+        *visibility = kept;
+        return SL_OK;
     }
-    kept.account.pairs = 0;
-    for (uint32_t i = 0; i < kept.pvs.cell_count; i++)
-        kept.account.pairs += sl_pvs_count(&kept.pvs, i);
-    *visibility = kept;
-    return SL_OK;
+    sl_space_destroy(context, space);
+    sl_visibility_destroy(context, &kept);
+    return status;
 }

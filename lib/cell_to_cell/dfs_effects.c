@@ -10,7 +10,8 @@
 ///
 /// Mirrors: a mirror is one more portal, which leads back into the cell before it. Behind it the
 /// sequence goes on in a reflected copy of the map, in whose frame all portals are placed
-/// (effects/mirrors.h).
+/// (effects/mirrors.h). Where these places are rounded, open sight takes only lines that keep clear
+/// of all ends by more than rounding moves them: it never sees what no line joins.
 #include "cell_to_cell/dfs.h"
 
 #include "cell_to_cell/directions.h"
@@ -127,6 +128,20 @@ static sl_status want(sl_context *context, const sli_dfs *all, sli_dfs_thread *m
     return SL_OK;
 }
 
+/// Whether a sequence that has a sightline in rounded places has one for certain: the middle line
+/// keeps clear of all rounded ends, the one of `to` included.
+static bool is_certain(const sli_dfs_thread *me, const sl_space *space, const step *to) {
+    const sl_box b = space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const sl_line line = me->search.solver->witness(me->search.solver_state);
+    for (const step *at = (const step *)me->search.steps + 1; at <= to; at++)
+        if (at[-1].place.frame.rounded &&
+            !sli_unfolded_is_clear(&at[-1].place.frame, &at->place.ends, line.a, line.b, size))
+            return false;
+    return true;
+}
+
 /// Tests the sequence with the portal or mirror of `to`, and enters the cell behind. `directed`: as
 /// in a stab tree.
 static sl_status enter(sl_context *context, const sli_dfs_job *job, const step *from, step *to,
@@ -139,6 +154,9 @@ static sl_status enter(sl_context *context, const sli_dfs_job *job, const step *
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
                                   &verdict));
+    if (verdict == SL_STABBED && from->place.frame.rounded && all->options->sight == SL_OPEN &&
+        !is_certain(me, all->space, to))
+        verdict = SL_GRAZING;
     to->dfs.grazing = verdict == SL_GRAZING || from->dfs.grazing;
     const bool hidden = verdict == SL_HIDDEN || (to->dfs.grazing && all->options->sight == SL_OPEN);
     if (hidden || !is_in_range(all->effects, e, me->search.solver_state)) {
@@ -349,6 +367,38 @@ static sl_status join_doors(sl_context *context, sli_row_bytes *rows, uint32_t c
     return SL_OK;
 }
 
+static sl_status add_row_and_back(sl_context *context, const sl_pvs *rows, const sl_pvs *back,
+                                  uint32_t cell, sl_bits *set, sli_row_bytes *out) {
+    memset(set, 0, sl_bits_words(rows->cell_count) * sizeof *set);
+    sli_row_add_to(rows, cell, set);
+    sli_row_add_to(back, cell, set);
+    return sli_row_append(context, out, set, rows->cell_count);
+}
+
+/// A sightline leads both ways. Rounded places may tell it from one end alone: then it counts from
+/// both.
+static sl_status add_ways_back(sl_context *context, sl_pvs *mirrored) {
+    const uint32_t cells = mirrored->cell_count;
+    sl_pvs back = {0}, both = {0};
+    SL_TRY(sli_pvs_transpose(context, mirrored, &back));
+    sl_bits *set = sl_alloc_array(context, sl_bits_words(cells), sizeof *set);
+    sli_row_bytes *rows = sl_alloc_array(context, cells, sizeof *rows);
+    sl_status status = set && rows ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; i < cells && status == SL_OK; i++)
+        status = add_row_and_back(context, mirrored, &back, i, set, &rows[i]);
+    if (status == SL_OK)
+        status = sli_pvs_join(context, rows, cells, &both);
+    else if (rows)
+        for (uint32_t i = 0; i < cells; i++) sl_free(context, rows[i].items);
+    sl_free(context, set);
+    sl_free(context, rows);
+    sl_pvs_destroy(context, &back);
+    SL_TRY(status);
+    sl_pvs_destroy(context, mirrored);
+    *mirrored = both;
+    return SL_OK;
+}
+
 sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out) {
     effects *e = all->effects;
     const uint32_t cells = all->space->cell_count;
@@ -363,6 +413,9 @@ sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibilit
     if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &out->doors));
     if (!e->mirrors) return SL_OK;
     SL_TRY(sli_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));
+    // With doors each way has door sets of its own, and stays as it was found.
+    if (e->rounded_places && e->plan->mutual && !e->doors)
+        SL_TRY(add_ways_back(context, &out->mirrored));
     for (uint32_t i = 0; i < cells; i++)
         out->account.mirrored_pairs += sl_pvs_count(&out->mirrored, i);
     if (!e->doors) return SL_OK;

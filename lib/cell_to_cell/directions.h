@@ -8,6 +8,8 @@
 #include "geometry/orient.h"
 #include "sightline/space.h"
 
+#include <math.h>
+
 // --- the directions of portals
 
 #define SLI_NO_PORTAL UINT32_MAX
@@ -102,6 +104,18 @@ static inline bool sli_unfolded_may_cross(const sl_directed_portal *least,
     if (crossing == SLI_CROSSES_LEAST) to->least = here;
     if (crossing == SLI_CROSSES_MOST) to->most = here;
     return crossing != SLI_CROSSES_NEVER;
+}
+
+/// Whether a line keeps clear of both ends of a portal in a rounded frame by more than the frame's
+/// rounding can have moved them: then it also passes the portal where it really lies. `size`: the
+/// largest coordinate of the map.
+static inline bool sli_unfolded_is_clear(const sli_mirror_frame *frame,
+                                         const sl_directed_portal *ends, sl_point a, sl_point b,
+                                         double size) {
+    const double x = b.x - a.x, y = b.y - a.y, length = hypot(x, y);
+    const double slack = 0x1p-46 * frame->depth * (size + fabs(frame->x) + fabs(frame->y));
+    return x * (ends->left.y - a.y) - y * (ends->left.x - a.x) > slack * length &&
+           x * (ends->right.y - a.y) - y * (ends->right.x - a.x) < -slack * length;
 }
 
 #endif

@@ -15,7 +15,9 @@
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 #include "space/index.h"
+#include "stab/funnel.h"
 
+#include <math.h>
 #include <string.h>
 
 /// A cell on the way from the first.
@@ -135,32 +137,54 @@ static sl_segment shown_segment(const sl_space *space, const sl_sequence *sequen
 
 // --- distances
 
-/// Breadth first from the target. Portals lead both ways, so that the ways there are the ways back.
-sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
-                             uint32_t **out) {
-    const uint32_t count = space->cell_count;
-    uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
-    uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
-    *out = distance;
-    if (!distance || !queue) {
-        sl_free(context, queue);
-        return SL_NO_MEMORY;
+/// The cells from which a directed portal leads into a cell: from[first[c] .. first[c + 1]).
+typedef struct ways_back {
+    uint32_t *first, *from;
+} ways_back;
+
+static sl_status find_ways_back(sl_context *context, const sl_space *space, ways_back *out) {
+    out->first = sl_alloc_array(context, (size_t)space->cell_count + 2, sizeof *out->first);
+    out->from = sl_alloc_array(context, space->directed_count, sizeof *out->from);
+    if (!out->first || !out->from) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->directed_count; i++) out->first[space->directed[i].cell + 2]++;
+    for (uint32_t c = 1; c <= space->cell_count; c++) out->first[c + 1] += out->first[c];
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        const sl_cell *cell = &space->cells[c];
+        for (uint32_t i = 0; i < cell->directed_count; i++)
+            out->from[out->first[space->directed[cell->first_directed + i].cell + 1]++] = c;
     }
-    for (uint32_t i = 0; i < count; i++) distance[i] = SL_NO_WAY;
+    return SL_OK;
+}
+
+/// Breadth first from the target, backwards.
+static void spread_back(const ways_back *back, uint32_t to, uint32_t *distance, uint32_t *queue) {
     uint32_t end = 0;
     queue[end++] = to;
     distance[to] = 0;
-    for (uint32_t begin = 0; begin < end; begin++) {
-        const sl_cell *cell = &space->cells[queue[begin]];
-        for (uint32_t i = 0; i < cell->directed_count; i++) {
-            const uint32_t next = space->directed[cell->first_directed + i].cell;
+    for (uint32_t begin = 0; begin < end; begin++)
+        for (uint32_t i = back->first[queue[begin]]; i < back->first[queue[begin] + 1]; i++) {
+            const uint32_t next = back->from[i];
             if (distance[next] != SL_NO_WAY) continue;
             distance[next] = distance[queue[begin]] + 1;
             queue[end++] = next;
         }
-    }
+}
+
+sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
+                             uint32_t **out) {
+    const uint32_t count = space->cell_count;
+    ways_back back = {0};
+    uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
+    uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
+    sl_status status = distance && queue ? SL_OK : SL_NO_MEMORY;
+    *out = distance;
+    if (status == SL_OK) status = find_ways_back(context, space, &back);
+    for (uint32_t i = 0; i < count && status == SL_OK; i++) distance[i] = SL_NO_WAY;
+    if (status == SL_OK) spread_back(&back, to, distance, queue);
+    sl_free(context, back.first);
+    sl_free(context, back.from);
     sl_free(context, queue);
-    return SL_OK;
+    return status;
 }
 
 // --- sequences to be told
@@ -186,6 +210,7 @@ static sl_status note_found(sl_context *context, search *s, uint32_t last, bool 
     SL_TRY(copy_sequence(context, s, last, &out->sequence));
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
     out->witness = solver->witness(s->search.solver_state);
+    if (s->options->range > 0) out->length = sli_funnel_shortest(s->search.solver_state);
     if (grazing) {
         s->grazed = out->sequence.directed_count;
         return solver->conflict(context, s->search.solver_state, out->sequence.ends,
@@ -311,6 +336,14 @@ static sl_status count_test(sl_context *context, search *s) {
     return SL_OK;
 }
 
+/// Whether no more than the range lies between the first portal and the last of some line, as in a
+/// bake.
+bool sli_explain_in_range(const sl_explain_options *options, const void *solver_state) {
+    const double range = options->range;
+    if (!(range > 0)) return true;
+    return sli_funnel_shortest(solver_state) <= range + SLI_SHORTEST_ERROR * range;
+}
+
 /// Decides on the sequence with the directed portal of `to`, which the solver holds. `enters`: it
 /// is followed into the next cell, and the solver keeps it.
 static sl_status judge(sl_context *context, search *s, const step *to, sl_stab_verdict verdict,
@@ -337,10 +370,11 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
-    bool enters;
+    bool enters = false;
     SL_TRY(sli_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
     to->grazing = verdict == SL_GRAZING;
-    SL_TRY(judge(context, s, to, verdict, &enters));
+    if (verdict == SL_HIDDEN || sli_explain_in_range(s->options, s->search.solver_state))
+        SL_TRY(judge(context, s, to, verdict, &enters));
     if (enters)
         s->search.count++;
     else
@@ -410,6 +444,9 @@ static sl_status check(sl_context *context, const sl_space *space,
     if (!solver || solver->guarantee != SL_EXACT || !solver->conflict)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "explaining needs an exact solver that tells conflicts");
+    if (options->range > 0 && strcmp(solver->name, sl_funnel()->name) != 0)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "explaining within a range needs the solver 'funnel'");
     return SL_OK;
 }
 
@@ -439,18 +476,11 @@ sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence, sl_
     return end.left ? directed->left : directed->right;
 }
 
-/// The places of the ends of one side, each once. Returns how many.
-static uint32_t places_of(const sl_space *space, const sl_sequence *sequence, bool left,
-                          sl_point places[SL_CONFLICT_MOST]) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < sequence->end_count; i++) {
-        if (sequence->ends[i].left != left) continue;
-        const sl_point p = sl_sequence_end(space, sequence, sequence->ends[i]);
-        bool known = false;
-        for (uint32_t k = 0; k < count; k++) known |= places[k].x == p.x && places[k].y == p.y;
-        if (!known) places[count++] = p;
-    }
-    return count;
+/// Adds a place to those known, each once.
+static void add_place(sl_point p, sl_point places[SL_CONFLICT_MOST], uint32_t *count) {
+    for (uint32_t k = 0; k < *count; k++)
+        if (places[k].x == p.x && places[k].y == p.y) return;
+    places[(*count)++] = p;
 }
 
 static bool segments_cross(const sl_point a[2], const sl_point b[2]) {
@@ -458,10 +488,8 @@ static bool segments_cross(const sl_point a[2], const sl_point b[2]) {
            sli_orient(b[0], b[1], a[0]) * sli_orient(b[0], b[1], a[1]) < 0;
 }
 
-const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence) {
-    sl_point left[SL_CONFLICT_MOST], right[SL_CONFLICT_MOST];
-    const uint32_t lefts = places_of(space, sequence, true, left);
-    const uint32_t rights = places_of(space, sequence, false, right);
+static const char *reason(const sl_point *left, uint32_t lefts, const sl_point *right,
+                          uint32_t rights) {
     if (lefts == 1 && rights == 1) return "that left end is the same point as that right end";
     if (lefts == 1 && rights == 2)
         return "that left end lies between those right ends, on one line";
@@ -472,4 +500,92 @@ const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequenc
     if (lefts == 2 && rights == 2 && segments_cross(left, right))
         return "the segment between those left ends crosses the segment between those right ends";
     return "what lies between those left ends overlaps what lies between those right ends";
+}
+
+const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence) {
+    sl_point places[2][SL_CONFLICT_MOST];
+    uint32_t counts[2] = {0, 0};
+    for (uint32_t i = 0; i < sequence->end_count; i++) {
+        const int side = sequence->ends[i].left ? 0 : 1;
+        add_place(sl_sequence_end(space, sequence, sequence->ends[i]), places[side], &counts[side]);
+    }
+    return reason(places[0], counts[0], places[1], counts[1]);
+}
+
+const char *sl_conflict_reason(const sl_portal_ends *portals, const sl_conflict *conflict) {
+    sl_point places[2][SL_CONFLICT_MOST];
+    uint32_t counts[2] = {0, 0};
+    if (conflict->turns) return "no direction crosses those portals all forwards";
+    for (uint32_t i = 0; i < conflict->end_count; i++) {
+        const sl_portal_ends *at = &portals[conflict->ends[i].portal];
+        const bool left = conflict->ends[i].left;
+        add_place(left ? at->left : at->right, places[!left], &counts[!left]);
+    }
+    return reason(places[0], counts[0], places[1], counts[1]);
+}
+
+// --- a sequence alone
+
+static sl_directed_portal directed_of(const sl_portal_ends *portal) {
+    return (sl_directed_portal){.left = portal->left, .right = portal->right};
+}
+
+/// Whether some direction crosses two portals forwards.
+static bool crosses_both(const sl_portal_ends *a, const sl_portal_ends *b) {
+    const sl_directed_portal first = directed_of(a), second = directed_of(b);
+    return sli_direction_change_of(&first, &first, true, &second) != SLI_CROSSES_NEVER;
+}
+
+/// Tells the ends of the portal that turns and of the one or two before it that it turns against.
+static void tell_turns(const sl_portal_ends *portals, uint32_t least, uint32_t most, uint32_t last,
+                       sl_conflict *out) {
+    uint32_t turned[3] = {least, most, last}, first = 0;
+    for (uint32_t i = last; i-- > 0 && !first;) {
+        if (crosses_both(&portals[last], &portals[i])) continue;
+        turned[1] = i;
+        first = 1;
+    }
+    *out = (sl_conflict){.verdict = SL_HIDDEN, .turns = true};
+    for (uint32_t i = first; i < 3; i++)
+        for (int side = 0; side < 2; side++)
+            out->ends[out->end_count++] = (sl_stab_end){turned[i], side == 0};
+}
+
+/// Pushes portal by portal, until one leaves no direction or no line.
+static sl_status push_all(sl_context *context, void *state, const sl_portal_ends *portals,
+                          uint32_t count, sl_conflict *out) {
+    const sl_solver *solver = sl_funnel();
+    uint32_t least = 0, most = 0;
+    for (uint32_t i = 0; i < count && out->verdict != SL_HIDDEN; i++) {
+        const sl_directed_portal low = directed_of(&portals[least]),
+                                 high = directed_of(&portals[most]), at = directed_of(&portals[i]);
+        const sli_direction_change change =
+            i ? sli_direction_change_of(&low, &high, least == most, &at) : SLI_CROSSES_WITHIN;
+        if (change == SLI_CROSSES_NEVER) {
+            tell_turns(portals, least, most, i, out);
+            return SL_OK;
+        }
+        if (change == SLI_CROSSES_LEAST) least = i;
+        if (change == SLI_CROSSES_MOST) most = i;
+        SL_TRY(solver->push(context, state, at.left, at.right, &out->verdict));
+    }
+    if (out->verdict == SL_STABBED) return SL_OK;
+    return solver->conflict(context, state, out->ends, &out->end_count);
+}
+
+sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, uint32_t count,
+                           sl_conflict *out) {
+    void *state;
+    *out = (sl_conflict){.verdict = SL_STABBED};
+    if (!count) return SL_OK;
+    sl_box bounds = {portals[0].left, portals[0].left};
+    for (uint32_t i = 0; i < 2 * count; i++) {
+        const sl_point p = i % 2 ? portals[i / 2].right : portals[i / 2].left;
+        bounds.min = (sl_point){fmin(bounds.min.x, p.x), fmin(bounds.min.y, p.y)};
+        bounds.max = (sl_point){fmax(bounds.max.x, p.x), fmax(bounds.max.y, p.y)};
+    }
+    SL_TRY(sl_funnel()->create(context, bounds, &state));
+    const sl_status status = push_all(context, state, portals, count, out);
+    sl_funnel()->destroy(context, state);
+    return status;
 }

@@ -1,4 +1,4 @@
-/// The line that an explanation shows.
+/// What the searches for explanations share: distances, the range, and the line that is shown.
 #ifndef SL_EXPLAIN_LINE_H
 #define SL_EXPLAIN_LINE_H
 
@@ -8,6 +8,9 @@
 /// frees *out, on failure too.
 sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
                              uint32_t **out);
+
+/// Whether a sequence, not hidden, has a line that is no longer than the range.
+bool sli_explain_in_range(const sl_explain_options *options, const void *solver_state);
 
 /// At what share of a portal, from its left end, a line crosses it; 0 where it lies along it.
 double sli_share_of_portal(const sl_directed_portal *directed, sl_line line);

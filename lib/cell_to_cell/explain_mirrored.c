@@ -10,6 +10,7 @@
 #include "effects/mirrors.h"
 #include "sightline/explain.h"
 #include "sightline/support.h"
+#include "stab/funnel.h"
 
 #include <math.h>
 
@@ -75,6 +76,7 @@ static sl_status note_found(sl_context *context, search *s, const step *last) {
         out->steps[i] =
             (sl_bent_step){steps[i + 1].directed, steps[i + 1].place.mirror, steps[i + 1].at.cell};
     out->verdict = last->grazing ? SL_GRAZING : SL_STABBED;
+    if (s->options->range > 0) out->length = sli_funnel_shortest(s->search.solver_state);
     s->best = out->step_count;
     place_bends(s, last, s->search.solver->witness(s->search.solver_state));
     return SL_OK;
@@ -98,6 +100,19 @@ static sl_status count_test(sl_context *context, search *s) {
     return SL_OK;
 }
 
+/// As in a bake: whether the middle line keeps clear of all rounded ends.
+static bool is_certain(const search *s, const step *to) {
+    const sl_box b = s->search.space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const sl_line line = s->search.solver->witness(s->search.solver_state);
+    for (const step *at = (const step *)s->search.steps + 1; at <= to; at++)
+        if (at[-1].place.frame.rounded &&
+            !sli_unfolded_is_clear(&at[-1].place.frame, &at->place.ends, line.a, line.b, size))
+            return false;
+    return true;
+}
+
 /// Tests the sequence with one step more, and goes there.
 static sl_status try_step(sl_context *context, search *s, const step *from, step *to) {
     const step *steps = s->search.steps;
@@ -115,8 +130,12 @@ static sl_status try_step(sl_context *context, search *s, const step *from, step
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &s->search, to->place.ends.left, to->place.ends.right,
                                   &verdict));
+    if (verdict == SL_STABBED && from->place.frame.rounded && s->options->sight == SL_OPEN &&
+        !is_certain(s, to))
+        verdict = SL_GRAZING;
     to->grazing = from->grazing || verdict == SL_GRAZING;
-    const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN);
+    const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN) ||
+                        !sli_explain_in_range(s->options, s->search.solver_state);
     const bool found = !hidden && to->place.frame.depth && cell == s->to;
     const sl_status status = found ? note_found(context, s, to) : SL_OK;
     if (hidden || found)

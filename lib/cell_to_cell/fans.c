@@ -472,12 +472,15 @@ static sl_status find(sl_context *context, walker *w, const sl_see_options *opti
     if (way == SLI_FANS_BACK) turn_round(fans, blocked);
     w->blocked = way == SLI_FANS_COVERING ? NULL : blocked;
     SL_TRY(number_ends(context, w));
+    SL_TRY(sl_check_cancelled(context));
     SL_TRY(find_middles(context, fans));
     SL_TRY(walk_between(context, w, walked));
     SL_TRY(walk_all_round(context, w, walked));
+    SL_TRY(sl_check_cancelled(context));
     if (fans->ends.count) SL_TRY(add_horizon(context, fans));
     fans->grid = find_grid(fans);
     if (way == SLI_FANS_MUTUAL || way == SLI_FANS_COVERING) SL_TRY(share_out(context, fans));
+    SL_TRY(sl_check_cancelled(context));
     drop_idle(context, fans, way);
     if (blocked) block_directed(fans, blocked);
     return SL_OK;

@@ -200,8 +200,10 @@ sl_status sli_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out)
     sl_status status = sli_columns_gather(context, pvs, count, &gathered);
     sli_row_bytes *rows = status == SL_OK ? sl_alloc_array(context, count, sizeof *rows) : NULL;
     if (status == SL_OK && !rows) status = SL_NO_MEMORY;
-    for (uint32_t cell = 0; cell < count && status == SL_OK; cell++)
-        status = encode_column(context, &gathered, cell, &rows[cell]);
+    for (uint32_t cell = 0; cell < count && status == SL_OK; cell++) {
+        if (cell % 1024 == 0) status = sl_check_cancelled(context);
+        if (status == SL_OK) status = encode_column(context, &gathered, cell, &rows[cell]);
+    }
     if (status == SL_OK)
         status = sli_pvs_join(context, rows, count, out);
     else
@@ -333,7 +335,10 @@ static sl_status finish_rows(sl_context *context, const both_ways *in, result_ro
     rows->set = sl_alloc_array(context, sl_bits_words(count), sizeof *rows->set);
     rows->open = sl_alloc_array(context, sl_bits_words(count), sizeof *rows->open);
     if (!rows->seen || !rows->doubtful || !rows->set || !rows->open) return SL_NO_MEMORY;
-    for (uint32_t cell = 0; cell < count; cell++) SL_TRY(finish_row(context, in, rows, cell, out));
+    for (uint32_t cell = 0; cell < count; cell++) {
+        if (cell % 256 == 0) SL_TRY(sl_check_cancelled(context));
+        SL_TRY(finish_row(context, in, rows, cell, out));
+    }
     SL_TRY(sli_pvs_join(context, rows->seen, count, &out->pvs));
     return sli_pvs_join(context, rows->doubtful, count, &out->doubtful);
 }

@@ -74,6 +74,16 @@ foreach(part io study glpk draw)
 endforeach()
 if(SIGHTLINE_TOOLS)
   install(TARGETS sightline_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(TARGET sightline_manual)
+    install(DIRECTORY "${PROJECT_BINARY_DIR}/tools/manual/"
+      DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" FILES_MATCHING PATTERN "*.1")
+  endif()
+  set(completion "${PROJECT_SOURCE_DIR}/tools/completion")
+  install(FILES "${completion}/sightline.bash" RENAME sightline
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${completion}/_sightline" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(FILES "${completion}/sightline.fish"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
 endif()
 
 configure_package_config_file("${in}/sightline-config.cmake.in" "${out}/sightline-config.cmake"
@@ -83,3 +93,10 @@ write_basic_package_version_file("${out}/sightline-config-version.cmake"
 install(FILES "${out}/sightline-config.cmake" "${out}/sightline-config-version.cmake"
   DESTINATION "${package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# `cpack --config build/release/CPackConfig.cmake`: an archive that can be unpacked anywhere.
+set(CPACK_GENERATOR TGZ)
+set(CPACK_PACKAGE_VENDOR "Sightline contributors")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_STRIP_FILES TRUE)
+include(CPack)

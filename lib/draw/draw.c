@@ -475,11 +475,13 @@ static double draw_heading(cairo_t *cairo, const sl_scene *scene, const strip *a
 
 #define ALL_LAYERS                                                                                 \
     (SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS | SL_LAYER_PVS | SL_LAYER_STAB_TREE |      \
-     SL_LAYER_STARTS | SL_LAYER_LEGEND)
+     SL_LAYER_STARTS | SL_LAYER_LEGEND | SL_LAYER_NUMBERS)
 
 sl_draw_options sl_draw_options_default(void) {
-    return (sl_draw_options){
-        .layers = ALL_LAYERS & ~(unsigned)SL_LAYER_STAB_TREE, .cell = SL_NO_CELL, .width = 1200};
+    return (sl_draw_options){.layers =
+                                 ALL_LAYERS & ~(unsigned)(SL_LAYER_STAB_TREE | SL_LAYER_NUMBERS),
+                             .cell = SL_NO_CELL,
+                             .width = 1200};
 }
 
 static sl_status check_options(sl_context *context, const sl_baked *baked,

@@ -655,23 +655,11 @@ static void write_subtitle(const picture *pic, char text[CAPTION_TEXT]) {
 /// Breaks a text into lines of a width. Returns the height; draws only with `paint`.
 static double set_lines(cairo_t *cairo, sl_colour colour, double left, double top, double width,
                         double size, const char *text, bool paint) {
-    char line[CAPTION_TEXT] = "";
-    double y = top;
     sl_text_font(cairo, size, false);
-    for (const char *word = text; *word;) {
-        const size_t length = strcspn(word, " "), used = strlen(line);
-        snprintf(line + used, sizeof line - used, "%s%.*s", used ? " " : "", (int)length, word);
-        if (used && sl_text_width(cairo, line) > width) {
-            line[used] = '\0';
-            if (paint) sl_text_show(cairo, colour, left, y + 1.1 * size, line);
-            y += LINE_HEIGHT * size;
-            snprintf(line, sizeof line, "%.*s", (int)length, word);
-        }
-        word += length;
-        word += strspn(word, " ");
-    }
-    if (paint) sl_text_show(cairo, colour, left, y + 1.1 * size, line);
-    return y + LINE_HEIGHT * size - top;
+    const unsigned lines = paint ? sl_text_show_lines(cairo, colour, left, top + 1.1 * size, width,
+                                                      LINE_HEIGHT * size, text)
+                                 : sl_text_lines(cairo, width, text);
+    return LINE_HEIGHT * size * lines;
 }
 
 // --- the key

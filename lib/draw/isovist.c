@@ -224,7 +224,7 @@ static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bo
     const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
     const sl_colour ink = p->scene.palette.ink;
     char name[128];
-    snprintf(name, sizeof name, p->unit ? "%s (%s)" : "%s", p->scale, p->unit);
+    snprintf(name, sizeof name, p->unit ? "%s, %s" : "%s", p->scale, p->unit);
     sl_text_font(cairo, g->text, false);
     const bool beside = width + 1.6 * g->text + sl_text_width(cairo, name) <= g->inner;
     const double height = (beside ? 3.2 : 4.8) * g->text;

@@ -3,7 +3,9 @@
 /// The hues are those of Okabe & Ito, "Color Universal Design" (2008): orange, sky blue, bluish
 /// green, yellow, blue, vermilion, reddish purple. They differ under every common colour blindness.
 /// Soft tones are the same hues mixed with the ground. The ramp of the heat map goes evenly through
-/// the lightness of Oklab.
+/// the lightness of Oklab. Lines, marks and text have a contrast of 3:1 at least to the page and to
+/// cells, text 4.5:1 to the page (WCAG 2.1), also for eyes without red or green cones: some hues
+/// are darker for that.
 #include "draw/marks.h"
 
 #include <math.h>
@@ -22,9 +24,7 @@ sl_colour sl_colour_mix(sl_colour a, sl_colour b, double share) {
 
 enum {
     SKY = 0x56b4e9,
-    GREEN = 0x009e73,
     BLUE = 0x0072b2,
-    VERMILION = 0xd55e00,
     PURPLE = 0xcc79a7,
 };
 
@@ -40,16 +40,16 @@ static sl_palette light(void) {
         .doubtful = rgb(0xf3ea6b),
         .wall = rgb(0x1d222b),
         .outline = rgb(0xc9c4b8),
-        .portal = rgb(GREEN),
-        .tree = rgb(0x004f86),
-        .start = rgb(VERMILION),
+        .portal = rgb(0x00845f),
+        .tree = rgb(0x00233f),
+        .start = rgb(0xc45200),
         .path = rgb(0x5b4a8a),
         .door = rgb(0xa8487d),
         .glass = rgb(BLUE),
         .object = rgb(0x7a6a53),
         .mirrored = rgb(0xb8558c),
         .ink = rgb(0x252a33),
-        .faint = rgb(0x70757d),
+        .faint = rgb(0x646971),
     };
 }
 
@@ -58,15 +58,15 @@ static sl_palette dark(void) {
         .page = rgb(0x12151a),
         .ground = rgb(0x181c22),
         .hatch = rgb(0x272d36),
-        .solid = rgb(0x5f594f),
+        .solid = rgb(0x958c7c),
         .floor = {rgb(0x2b313b), rgb(0x303742), rgb(0x272d36), rgb(0x333943)},
         .source = rgb(0xcf9013),
         .source_edge = rgb(0xffcf70),
         .doubtful = rgb(0xa39a2e),
-        .wall = rgb(0xf3efe6),
+        .wall = rgb(0xffffff),
         .outline = rgb(0x49515e),
         .portal = rgb(0x3ccfa4),
-        .tree = rgb(0xffd9ec),
+        .tree = rgb(0xfffafd),
         .start = rgb(0xff7a1f),
         .path = rgb(0xb9a6f2),
         .door = rgb(PURPLE),

@@ -2,6 +2,7 @@
 /// anything is drawn; then the same functions draw it. The file is PNG, SVG or PDF.
 #include "draw/page.h"
 #include "draw/marks.h"
+#include "sightline/json_write.h"
 #include "sightline/support.h"
 
 #include <cairo-pdf.h>
@@ -21,14 +22,22 @@ struct sli_paper_kind {
     sl_status (*finish)(sl_context *context, sli_paper *paper);
 };
 
+/// cairo knows no other way to be stopped than a failure to write.
+static bool is_stopped(sli_paper *paper) {
+    if (sl_check_cancelled(paper->context) != SL_OK) paper->stopped = true;
+    return paper->stopped;
+}
+
 static cairo_status_t write_through(void *user, const unsigned char *bytes, unsigned size) {
     sli_paper *paper = user;
+    if (is_stopped(paper)) return CAIRO_STATUS_WRITE_ERROR;
     return fwrite(bytes, 1, size, paper->output.stream) == size ? CAIRO_STATUS_SUCCESS
                                                                 : CAIRO_STATUS_WRITE_ERROR;
 }
 
 static cairo_status_t keep_back(void *user, const unsigned char *bytes, unsigned size) {
     sli_paper *paper = user;
+    if (is_stopped(paper)) return CAIRO_STATUS_WRITE_ERROR;
     if (SL_ARRAY_ROOM(paper->context, &paper->text, size) != SL_OK) {
         paper->out_of_memory = true;
         return CAIRO_STATUS_WRITE_ERROR;
@@ -44,7 +53,7 @@ static sl_status fail_cairo(sl_context *context, const char *path, cairo_status_
     case CAIRO_STATUS_NO_MEMORY:
         return sl_fail_memory(context);
     case CAIRO_STATUS_INVALID_STRING:
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: a text is not UTF-8", path);
     case CAIRO_STATUS_WRITE_ERROR:
         return sl_fail(context, SL_IO, "%s: cannot write: %s", path,
                        errno ? strerror(errno) : "the system refused");
@@ -131,6 +140,8 @@ sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_pap
 sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
                          int width, int height, const char *title, sli_paper *out) {
     *out = (sli_paper){.kind = kind, .path = path, .context = context};
+    if (title && !sl_text_is_utf8(title))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
     SL_TRY(sl_output_open(context, path, &out->output));
     out->surface = kind->create(out, width, height);
     out->cairo = cairo_create(out->surface);
@@ -148,6 +159,7 @@ sl_status sli_paper_close(sl_context *context, sli_paper *paper, sl_status statu
     // Before the stream goes: cairo may still write when it lets go of a surface that failed.
     cairo_surface_destroy(paper->surface);
     sl_free(context, paper->text.items);
+    if (paper->stopped) status = sl_fail(context, SL_CANCELLED, "interrupted");
     return sl_output_close(context, &paper->output, status);
 }
 

@@ -22,6 +22,7 @@ typedef struct sli_paper {
     sl_context *context;
     SL_ARRAY(char) text; ///< what is kept back until the end (SVG)
     bool out_of_memory;  ///< while that was being kept
+    bool stopped;        ///< the context's hook said so while the file was written
 } sli_paper;
 
 /// A blank page. `title` (NULL for none) goes into the file's description if the kind has one.

@@ -38,6 +38,10 @@ static sl_point cell_middle(const sl_space *space, uint32_t cell) {
     return (sl_point){base.x + sum.x, base.y + sum.y};
 }
 
+sl_point sli_scene_middle(const sl_scene *scene, uint32_t cell) {
+    return cell_middle(&scene->baked->space, cell);
+}
+
 sl_colour sli_scene_colour(const sl_scene *scene, unsigned paint) {
     const sl_palette *palette = &scene->palette;
     if (paint >= SLI_PAINT_HEAT)
@@ -335,6 +339,7 @@ void sl_scene_destroy(sl_context *context, sl_scene *scene) {
 
 /// What every layer needs.
 typedef struct plan {
+    sl_context *context; ///< asked whether to go on; NULL: goes on
     cairo_t *cairo;
     const sl_scene *scene;
     const sl_space *space;
@@ -373,17 +378,33 @@ static void draw_ground(const plan *p) {
         hatch_bounds(p, &p->palette->ground, p->palette);
 }
 
-/// Cells of one colour make one path. A thin stroke covers the seams that smoothed edges leave
-/// between them.
-static void draw_paint(const plan *p, unsigned paint) {
-    const uint32_t first = p->scene->paint_begin[paint], end = p->scene->paint_begin[paint + 1];
-    if (first == end) return;
-    for (uint32_t i = first; i < end; i++) add_cell(p, p->scene->order[i]);
+/// cairo needs far more than twice the time for a path of twice the length. A path of a large map
+/// is drawn in parts of this many cells or segments.
+enum { PART = 1000 };
+
+/// Whether drawing is to end: asked after each part.
+static bool is_stopped(const plan *p) {
+    return p->context && sl_check_cancelled(p->context) != SL_OK;
+}
+
+static void fill_paint(const plan *p, unsigned paint) {
     sl_set_colour(p->cairo, sli_scene_colour(p->scene, paint));
     cairo_fill_preserve(p->cairo);
     cairo_set_line_width(p->cairo, 0.6);
     cairo_set_line_join(p->cairo, CAIRO_LINE_JOIN_MITER);
     cairo_stroke(p->cairo);
+}
+
+/// Cells of one colour make one path. A thin stroke covers the seams that smoothed edges leave
+/// between them.
+static void draw_paint(const plan *p, unsigned paint) {
+    const uint32_t first = p->scene->paint_begin[paint], end = p->scene->paint_begin[paint + 1];
+    for (uint32_t i = first; i < end; i++) {
+        add_cell(p, p->scene->order[i]);
+        const bool full = (i - first) % PART == PART - 1;
+        if (full || i + 1 == end) fill_paint(p, paint);
+        if (full && is_stopped(p)) return;
+    }
 }
 
 /// Hatches the cells outside that are shown, so that they are told apart from those inside.
@@ -406,9 +427,13 @@ static void draw_cells(const plan *p) {
 }
 
 static void draw_outlines(const plan *p) {
-    for (unsigned paint = SLI_PAINT_SOLID + 1; paint < SLI_PAINT_COUNT; paint++)
-        for (uint32_t i = p->scene->paint_begin[paint]; i < p->scene->paint_begin[paint + 1]; i++)
-            add_cell(p, p->scene->order[i]);
+    const uint32_t first = p->scene->paint_begin[SLI_PAINT_SOLID + 1];
+    for (uint32_t i = first; i < p->scene->paint_begin[SLI_PAINT_COUNT]; i++) {
+        add_cell(p, p->scene->order[i]);
+        if ((i - first) % PART != PART - 1) continue;
+        sli_pen_outline(p->cairo, p->palette, &p->pens);
+        if (is_stopped(p)) return;
+    }
     sli_pen_outline(p->cairo, p->palette, &p->pens);
 }
 
@@ -417,6 +442,9 @@ static void draw_portals(const plan *p) {
         const sl_portal *portal = &p->space->portals[i];
         if (sli_scene_shows(p->scene, portal->cell[0]))
             sl_path_segment(p->cairo, p->frame, portal->left, portal->right);
+        if (i % PART != PART - 1) continue;
+        sli_pen_portal(p->cairo, p->palette, &p->pens);
+        if (is_stopped(p)) return;
     }
     sli_pen_portal(p->cairo, p->palette, &p->pens);
 }
@@ -429,8 +457,12 @@ static void draw_source_edge(const plan *p) {
 
 static void draw_walls(const plan *p) {
     sl_point a, b;
-    for (uint32_t i = 0; i < p->space->wall_count; i++)
+    for (uint32_t i = 0; i < p->space->wall_count; i++) {
         sl_path_segment(p->cairo, p->frame, p->space->walls[i].a, p->space->walls[i].b);
+        if (i % PART != PART - 1) continue;
+        sli_pen_wall(p->cairo, p->palette, &p->pens);
+        if (is_stopped(p)) return;
+    }
     sli_pen_wall(p->cairo, p->palette, &p->pens);
     for (size_t i = 0; i < p->map->door_count; i++) {
         const sl_door *door = &p->map->doors[i];
@@ -552,6 +584,10 @@ static void draw_fault_marks(const plan *p) {
         sli_draw_faults(p->cairo, p->palette, &p->pens, p->frame, p->scene->options.faults);
 }
 
+static void draw_numbers(const plan *p) {
+    sli_draw_numbers(p->cairo, p->scene, p->frame);
+}
+
 typedef struct step {
     unsigned layers; ///< any of them calls for it; 0: always
     void (*draw)(const plan *p);
@@ -566,9 +602,10 @@ static const step steps[] = {
     {SL_LAYER_STAB_TREE, draw_tree},
     {SL_LAYER_WALLS, draw_walls},
     {SL_LAYER_STARTS, draw_starts},
+    {SL_LAYER_NUMBERS, draw_numbers},
     {0, draw_fault_marks},
 };
-enum { STEPS = sizeof steps / sizeof *steps, WALLS_STEP = STEPS - 3 };
+enum { STEPS = sizeof steps / sizeof *steps, WALLS_STEP = STEPS - 4 };
 
 static plan plan_of(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame) {
     return (plan){.cairo = cairo,
@@ -585,18 +622,20 @@ static sl_status draw_steps(sl_context *context, const plan *p, unsigned layers,
         SL_TRY(sl_check_cancelled(context));
         if (!steps[i].layers || layers & steps[i].layers) steps[i].draw(p);
     }
-    return SL_OK;
+    return sl_check_cancelled(context);
 }
 
 sl_status sl_draw_plan(sl_context *context, cairo_t *cairo, const sl_scene *scene, unsigned layers,
                        const sl_frame *frame) {
-    const plan p = plan_of(cairo, scene, frame);
+    plan p = plan_of(cairo, scene, frame);
+    p.context = context;
     return draw_steps(context, &p, layers, 0);
 }
 
 sl_status sl_draw_walls(sl_context *context, cairo_t *cairo, const sl_scene *scene,
                         const sl_frame *frame) {
-    const plan p = plan_of(cairo, scene, frame);
+    plan p = plan_of(cairo, scene, frame);
+    p.context = context;
     return draw_steps(context, &p, scene->options.layers, WALLS_STEP);
 }
 

@@ -131,6 +131,124 @@ void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const sl_fra
     }
 }
 
+void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double radius,
+                  sl_colour colour, double width) {
+    sl_point place;
+    if (!sl_frame_holds(frame, at, &place)) return;
+    cairo_new_path(cairo);
+    cairo_arc(cairo, place.x, place.y, radius, 0, FULL_TURN);
+    sl_set_colour(cairo, colour);
+    cairo_set_line_width(cairo, width);
+    cairo_stroke(cairo);
+}
+
+/// Fills and strokes what lies between the ends of one side: a triangle, a segment or a point.
+static void draw_between(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                         const sl_portal_ends *portals, const sl_conflict *conflict, bool left) {
+    const sl_colour colour = left ? palette->glass : palette->start;
+    sl_point places[SL_CONFLICT_MOST];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < conflict->end_count; i++) {
+        const sl_portal_ends *at = &portals[conflict->ends[i].portal];
+        if (conflict->ends[i].left == left) places[count++] = left ? at->left : at->right;
+    }
+    if (count == 3) {
+        sl_path_polygon(cairo, frame, places, count);
+        set_faded(cairo, colour, 0.22);
+        cairo_fill(cairo);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < i; k++) sl_path_segment(cairo, frame, places[k], places[i]);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    sl_set_colour(cairo, palette->page);
+    cairo_set_line_width(cairo, 4.4 * frame->unit);
+    cairo_stroke_preserve(cairo);
+    sl_set_colour(cairo, colour);
+    cairo_set_line_width(cairo, 2.4 * frame->unit);
+    cairo_stroke(cairo);
+}
+
+/// An arrow through a portal's middle, the way that it is crossed.
+static void draw_crossing(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                          const sl_portal_ends *portal) {
+    const sl_point left = sl_frame_point(frame, portal->left);
+    const sl_point right = sl_frame_point(frame, portal->right);
+    const double wide = hypot(left.x - right.x, left.y - right.y), reach = 16 * frame->unit;
+    if (!(wide > 0) || !sl_frame_holds(frame, portal->left, NULL)) return;
+    const sl_point at = {(left.x + right.x) / 2, (left.y + right.y) / 2};
+    // On the page y runs down: forwards is from left to right, turned counter-clockwise as seen.
+    const double ux = (right.y - left.y) / wide * reach, uy = (left.x - right.x) / wide * reach;
+    const sl_point tip = {at.x + ux, at.y + uy};
+    cairo_move_to(cairo, at.x - ux, at.y - uy);
+    cairo_line_to(cairo, tip.x, tip.y);
+    cairo_move_to(cairo, tip.x - 0.4 * ux - 0.3 * uy, tip.y - 0.4 * uy + 0.3 * ux);
+    cairo_line_to(cairo, tip.x, tip.y);
+    cairo_line_to(cairo, tip.x - 0.4 * ux + 0.3 * uy, tip.y - 0.4 * uy - 0.3 * ux);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    sl_set_colour(cairo, palette->page);
+    cairo_set_line_width(cairo, 5 * frame->unit);
+    cairo_stroke_preserve(cairo);
+    sl_set_colour(cairo, palette->ink);
+    cairo_set_line_width(cairo, 2.4 * frame->unit);
+    cairo_stroke(cairo);
+}
+
+static double within(double value, double low, double high) {
+    return fmin(fmax(value, low), fmax(low, high));
+}
+
+/// Writes names beyond the ends of their portals: "L3" for the left end of portal 3.
+static void draw_end_names(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                           const sl_portal_ends *portals, const sl_conflict *conflict) {
+    const double size = 12 * frame->unit, away = 1.3 * size;
+    sl_text_font(cairo, size, true);
+    for (uint32_t i = 0; i < conflict->end_count; i++) {
+        const sl_stab_end end = conflict->ends[i];
+        const sl_portal_ends *at = &portals[end.portal];
+        const sl_point from = sl_frame_point(frame, end.left ? at->right : at->left);
+        sl_point to;
+        if (!sl_frame_holds(frame, end.left ? at->left : at->right, &to)) continue;
+        const double dx = to.x - from.x, dy = to.y - from.y, length = fmax(hypot(dx, dy), 1e-9);
+        char text[16];
+        snprintf(text, sizeof text, "%c%u", end.left ? 'L' : 'R', end.portal + 1);
+        const double wide = sl_text_width(cairo, text);
+        const double x = within(to.x + dx / length * away - wide / 2, frame->left + 0.3 * size,
+                                frame->left + frame->width - wide - 0.3 * size);
+        const double y = within(to.y + dy / length * away + 0.36 * size, frame->top + size,
+                                frame->top + frame->height - 0.3 * size);
+        cairo_move_to(cairo, x, y);
+        cairo_text_path(cairo, text);
+        set_faded(cairo, palette->page, 0.85);
+        cairo_set_line_width(cairo, 0.35 * size);
+        cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+        cairo_stroke(cairo);
+        sl_text_show(cairo, end.left ? palette->glass : palette->start, x, y, text);
+    }
+}
+
+void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                      const sl_portal_ends *portals, const sl_conflict *conflict) {
+    if (!conflict->turns) {
+        draw_between(cairo, palette, frame, portals, conflict, true);
+        draw_between(cairo, palette, frame, portals, conflict, false);
+    }
+    for (uint32_t i = 0; i < conflict->end_count; i++) {
+        const sl_stab_end end = conflict->ends[i];
+        const sl_portal_ends *at = &portals[end.portal];
+        sl_point place;
+        if (conflict->turns && end.left) draw_crossing(cairo, palette, frame, at);
+        if (!sl_frame_holds(frame, end.left ? at->left : at->right, &place)) continue;
+        add_end(cairo, place, end.left, 6.4 * frame->unit);
+        sl_set_colour(cairo, palette->ink);
+        cairo_set_line_width(cairo, 3.4 * frame->unit);
+        cairo_stroke_preserve(cairo);
+        sl_set_colour(cairo, end.left ? palette->glass : palette->start);
+        cairo_fill(cairo);
+    }
+    draw_end_names(cairo, palette, frame, portals, conflict);
+}
+
 // --- regions by the number of mirrors
 
 /// The key tells this many depths apart; deeper ones share the last entry.

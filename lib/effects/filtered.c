@@ -1,5 +1,14 @@
 /// The space as sight finds it for the time being: the portals of shut doors become walls, and
 /// directed portals that one-way glass blocks are left out.
+///
+/// Glass may be a wall on its dark side alone:
+///
+///      dark side | lit side        The cell at the left keeps no directed portal there, and has
+///      the
+///                |                 wall in its place. The cell at the right keeps its directed
+///         wall   |  -> portal      portal. The wall runs with the dark side at its left.
+///
+/// Then all that goes from cell to cell sees one way, also after a mirror has turned it round.
 #include "effects/effects.h"
 #include "geometry/orient.h"
 
@@ -11,6 +20,8 @@ typedef struct maker {
     const sl_filtered_space *filtered;
     uint32_t *portals; ///< new numbers; UINT32_MAX for walls
     bool *barred;      ///< directed portals that are left out, walls' ones among them
+    uint32_t *dark; ///< by portal: the directed portal that glass alone bars; UINT32_MAX for none
+    uint32_t dark_count;
     sl_space *out;
 } maker;
 
@@ -91,11 +102,24 @@ static void shut_portals(maker *m) {
     }
 }
 
-/// The wall that a portal has become, counted as shut_portals does.
+/// Adds the walls on the dark sides of glass, after all others.
+static void add_dark_walls(maker *m) {
+    sl_space *s = m->out;
+    for (uint32_t i = 0; i < m->from->portal_count; i++) {
+        if (m->dark[i] == UINT32_MAX) continue;
+        const sl_directed_portal *directed = &m->from->directed[m->dark[i]];
+        s->walls[s->wall_count++] = (sl_wall){.a = directed->right, .b = directed->left};
+    }
+}
+
+/// The wall that a portal, or its dark side, has become; counted as shut_portals and
+/// add_dark_walls do.
 static void number_walls(const maker *m, uint32_t *walls) {
     uint32_t next = m->from->wall_count;
     for (uint32_t i = 0; i < m->from->portal_count; i++)
         walls[i] = m->portals[i] == UINT32_MAX ? next++ : UINT32_MAX;
+    for (uint32_t i = 0; i < m->from->portal_count && m->dark_count; i++)
+        if (m->dark[i] != UINT32_MAX) walls[i] = next++;
 }
 
 /// Marks the sides of a mesh's cells that are walls now. The new walls run from the right
@@ -108,9 +132,12 @@ static void tell_sides(const maker *m, const uint32_t *walls) {
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
             uint32_t *what = &m->out->neighbour[cell->first_vertex + k];
             if (*what != SL_NEIGHBOUR_PORTAL) continue;
-            const uint32_t portal = f->directed[directed++].portal;
-            if (walls[portal] != UINT32_MAX)
+            const uint32_t number = directed++, portal = f->directed[number].portal;
+            const bool shut = m->portals[portal] == UINT32_MAX;
+            if (shut)
                 *what = walls[portal] | (f->portals[portal].cell[0] == i ? 0 : SL_NEIGHBOUR_RIGHT);
+            else if (m->dark_count && m->dark[portal] == number)
+                *what = walls[portal];
         }
     }
 }
@@ -132,11 +159,31 @@ static void drop_directed(maker *m) {
     }
 }
 
+/// Finds the dark sides of glass. Glass that is dark from both sides is shut.
+static void find_dark(maker *m) {
+    const sl_space *f = m->from;
+    for (uint32_t i = 0; i < f->portal_count; i++) m->dark[i] = UINT32_MAX;
+    for (uint32_t i = 0; i < f->cell_count; i++)
+        for (uint32_t k = f->cells[i].first_directed;
+             k < f->cells[i].first_directed + f->cells[i].directed_count; k++) {
+            const uint32_t portal = f->directed[k].portal;
+            if (m->portals[portal] == UINT32_MAX || !sl_portal_is_blocked(f, i, k)) continue;
+            if (m->dark[portal] != UINT32_MAX) m->portals[portal] = UINT32_MAX;
+            m->dark[portal] = k;
+        }
+    for (uint32_t i = 0; i < f->portal_count; i++) {
+        if (m->portals[i] == UINT32_MAX) m->dark[i] = UINT32_MAX;
+        m->dark_count += m->dark[i] != UINT32_MAX;
+    }
+}
+
 static sl_status make(sl_context *context, maker *m) {
     const sl_space *f = m->from;
     uint32_t kept = 0;
+    for (uint32_t i = 0; i < f->portal_count; i++) m->portals[i] = is_shut(m, i) ? UINT32_MAX : 0;
+    if (m->dark) find_dark(m);
     for (uint32_t i = 0; i < f->portal_count; i++)
-        m->portals[i] = is_shut(m, i) ? UINT32_MAX : kept++;
+        if (m->portals[i] != UINT32_MAX) m->portals[i] = kept++;
     for (uint32_t i = 0; i < f->cell_count; i++)
         for (uint32_t k = f->cells[i].first_directed;
              k < f->cells[i].first_directed + f->cells[i].directed_count; k++) {
@@ -144,8 +191,9 @@ static sl_status make(sl_context *context, maker *m) {
             m->barred[k] = m->portals[portal] == UINT32_MAX ||
                            (m->filtered->one_way && sl_portal_is_blocked(f, i, k));
         }
-    SL_TRY(copy_space(context, m, f->portal_count - kept));
+    SL_TRY(copy_space(context, m, (size_t)f->portal_count - kept + m->dark_count));
     shut_portals(m);
+    if (m->dark_count) add_dark_walls(m);
     drop_directed(m);
     if (!f->neighbour) return SL_OK;
     uint32_t *walls = sl_alloc_array(context, f->portal_count, sizeof *walls);
@@ -165,8 +213,12 @@ sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
     uint32_t *own = NULL;
     if (!portals) m.portals = own = sl_alloc_array(context, space->portal_count, sizeof *own);
     m.barred = sl_alloc_array(context, space->directed_count, sizeof *m.barred);
-    const sl_status status = m.portals && m.barred ? make(context, &m) : SL_NO_MEMORY;
+    const bool darkens = filtered->one_way && filtered->dark_walls;
+    if (darkens) m.dark = sl_alloc_array(context, space->portal_count, sizeof *m.dark);
+    const bool room = m.portals && m.barred && (m.dark || !darkens);
+    const sl_status status = room ? make(context, &m) : SL_NO_MEMORY;
     sl_free(context, own);
+    sl_free(context, m.dark);
     sl_free(context, m.barred);
     if (status == SL_OK)
         *out = made;

@@ -150,6 +150,29 @@ void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects) {
     }
 }
 
+void sl_effects_note_doors(sl_context *context, const sl_map *map) {
+    size_t shut = 0;
+    for (size_t i = 0; i < map->door_count; i++) shut += !map->doors[i].open;
+    if (map->door_count)
+        sl_note(context, "doors stand as the map has them: %zu open, %zu shut, which are walls",
+                map->door_count - shut, shut);
+}
+
+static sl_status settle(sl_context *context, sl_map *map, const sl_door *door) {
+    const sl_segment *parts = door->parts ? door->parts : &door->segment;
+    const size_t count = door->parts ? door->part_count : 1;
+    for (size_t i = 0; i < count && !door->open; i++)
+        SL_TRY(sl_map_add_wall(context, map, parts[i].a, parts[i].b, door->line));
+    return SL_OK;
+}
+
+sl_status sl_effects_settle_doors(sl_context *context, sl_map *map) {
+    sl_effects_note_doors(context, map);
+    for (size_t i = 0; i < map->door_count; i++) SL_TRY(settle(context, map, &map->doors[i]));
+    leave_out_door(context, map);
+    return SL_OK;
+}
+
 /// "doors, mirrors and a view range"
 static void append(char *text, size_t size, const char *between, const char *more) {
     const size_t used = strlen(text);
@@ -158,6 +181,11 @@ static void append(char *text, size_t size, const char *between, const char *mor
 
 sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
                            unsigned known) {
+    return sl_effects_check_because(context, map, method, known, NULL);
+}
+
+sl_status sl_effects_check_because(sl_context *context, const sl_map *map, const char *method,
+                                   unsigned known, const char *reason) {
     const unsigned unknown = sl_plan_make(map).effects & ~known;
     if (!unknown) return SL_OK;
     char several[128] = "", names[64] = "";
@@ -172,8 +200,8 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
     const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
     char what[512];
     snprintf(what, sizeof what,
-             "the map calls for %s, which '%s' does not know; %s--without %s leaves %s out",
-             several, method, bake, names, them);
+             "the map calls for %s, which '%s' does not know%s%s; %s--without %s leaves %s out",
+             several, method, reason ? ": " : "", reason ? reason : "", bake, names, them);
     // A map out of a baked file has no lines that anyone could look up.
     if (!map->source) return sl_fail(context, SL_UNSUPPORTED, "%s", what);
     return sl_map_fail(context, map, SL_UNSUPPORTED, first, "%s", what);

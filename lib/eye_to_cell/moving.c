@@ -17,6 +17,7 @@
 
 #include "eye_to_cell/eye_search.h"
 #include "geometry/crossing.h"
+#include "sightline/effects.h"
 #include "sightline/map.h"
 #include "sightline/sees.h"
 #include "sightline/support.h"
@@ -216,6 +217,7 @@ struct sl_moving {
     double range;
     const sl_map *mirrors; ///< the map that has them, NULL for none
     uint32_t depth;        ///< of reflections
+    bool one_way;          ///< glass counts
     sl_moving_box *boxes;
     size_t count;
     sli_boxed_space *boxed;
@@ -243,7 +245,18 @@ static void drop(sl_context *context, sl_moving *m) {
                      .visibility = m->visibility,
                      .range = m->range,
                      .mirrors = m->mirrors,
-                     .depth = m->depth};
+                     .depth = m->depth,
+                     .one_way = m->one_way};
+}
+
+/// Makes glass of the space with boxes one-way. Boxes are put in first: a box cuts both sides.
+static sl_status darken(sl_context *context, sl_space *space) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    sl_space dark;
+    SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &dark));
+    sl_space_destroy(context, space);
+    *space = dark;
+    return SL_OK;
 }
 
 static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, size_t count) {
@@ -266,6 +279,7 @@ static sl_status place(sl_context *context, sl_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
     if (!m->boxed) return SL_NO_MEMORY;
     SL_TRY(sli_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
+    if (m->one_way) SL_TRY(darken(context, &m->boxed->space));
     SL_TRY(find_targets(context, &m->ground, &m->boxed->space, m->boxes, m->count, &m->targets));
     SL_TRY(sli_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
                                      &m->search));
@@ -286,6 +300,7 @@ sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_movin
                       .range = moving->range,
                       .mirrors = moving->mirrors,
                       .depth = moving->depth,
+                      .one_way = moving->one_way,
                       .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
@@ -383,6 +398,21 @@ sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl
     moving->mirrors = map;
     moving->depth = depth;
     return SL_OK;
+}
+
+sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving) {
+    sl_moving_box *boxes = moving->boxes;
+    const bool was = moving->one_way;
+    moving->boxes = NULL;
+    moving->one_way = true;
+    const sl_status status = sl_moving_place(context, moving, boxes, moving->count);
+    if (status == SL_OK) {
+        sl_free(context, boxes);
+    } else {
+        moving->boxes = boxes;
+        moving->one_way = was;
+    }
+    return status;
 }
 
 sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving, const sl_view *view,

@@ -17,6 +17,9 @@
 /// side. Pieces come in counter-clockwise order, so they are appended to one polygon
 /// (region_polygon.c).
 ///
+/// One-way glass is a portal at its lit side and a wall at its dark one. So a view passes it one
+/// way, also by mirror. At the eye itself the side that the eye is on decides.
+///
 /// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
@@ -81,15 +84,55 @@ static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t 
     return SL_OK;
 }
 
+/// The wall on the dark side of glass, given either side of it; SL_NO_WALL for no glass.
+static uint32_t dark_wall(const sl_outline *o, uint32_t i) {
+    const sl_side *side = side_of(o, i);
+    if (!o->lit) return SL_NO_WALL;
+    if (sl_side_is_portal(side)) side = side_of(o, side->neighbour);
+    return sl_side_is_dark(o, side) ? side->neighbour - SL_SIDE_WALL : SL_NO_WALL;
+}
+
+bool sli_region_is_dark_for(const sl_outline *o, uint32_t wall, uint32_t eye_cell, sl_point eye) {
+    const sl_space *s = o->space;
+    const sl_wall *glass = &s->walls[wall];
+    const int turn = sli_orient(glass->a, glass->b, eye);
+    if (turn) return turn > 0;
+    const sl_cell *cell = &s->cells[eye_cell];
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (sli_orient(glass->a, glass->b, s->vertices[cell->first_vertex + i]) > 0) return true;
+    return false;
+}
+
+/// Whether the fan goes on through a side at the eye. Glass there is a wall from both sides where
+/// it is dark for the eye, and else open from both.
+static bool leads_on(const sl_outline *o, const sl_region *region, uint32_t i) {
+    const uint32_t glass = dark_wall(o, i);
+    if (glass == SL_NO_WALL) return sl_side_is_portal(side_of(o, i));
+    return !sli_region_is_dark_for(o, glass, region->cell, region->view.eye);
+}
+
+/// The other side of a portal, or of glass.
+static uint32_t across(const sl_outline *o, uint32_t i) {
+    const sl_side *side = side_of(o, i);
+    return sl_side_is_dark(o, side) ? o->lit[side->neighbour - SL_SIDE_WALL - o->first_dark]
+                                    : side->neighbour;
+}
+
+/// What a side is that the fan does not go through: a wall or the border.
+static uint32_t stop_at(const sl_outline *o, uint32_t i) {
+    const uint32_t glass = dark_wall(o, i);
+    return glass == SL_NO_WALL ? side_of(o, i)->neighbour : SL_SIDE_WALL + glass;
+}
+
 /// The corner at the eye of the room behind a portal there, clockwise.
 static corner neighbour_right(const sl_outline *o, uint32_t portal, sl_point eye) {
-    const uint32_t other = side_of(o, portal)->neighbour;
+    const uint32_t other = across(o, portal);
     return (corner){sli_same_point(end_of(o, other), eye) ? side_of(o, other)->next : other, other};
 }
 
 /// The same, counter-clockwise.
 static corner neighbour_left(const sl_outline *o, uint32_t portal, sl_point eye) {
-    const uint32_t other = side_of(o, portal)->neighbour;
+    const uint32_t other = across(o, portal);
     return (corner){other,
                     sli_same_point(side_of(o, other)->start, eye) ? previous(o, other) : other};
 }
@@ -112,9 +155,9 @@ static sl_status add_sides(sl_context *context, const sl_outline *o, sl_point ey
 /// nothing.
 static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
     const sl_point a = end_of(o, at.right), b = side_of(o, at.left)->start;
-    return side_of(o, at.right)->neighbour == side_of(o, at.left)->neighbour &&
-           (a.x > eye.x) == (b.x > eye.x) && (a.x < eye.x) == (b.x < eye.x) &&
-           (a.y > eye.y) == (b.y > eye.y) && (a.y < eye.y) == (b.y < eye.y);
+    return stop_at(o, at.right) == stop_at(o, at.left) && (a.x > eye.x) == (b.x > eye.x) &&
+           (a.x < eye.x) == (b.x < eye.x) && (a.y > eye.y) == (b.y > eye.y) &&
+           (a.y < eye.y) == (b.y < eye.y);
 }
 
 sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_region *region) {
@@ -130,7 +173,7 @@ sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_reg
     // Clockwise as far as portals lead, or once around.
     const uint32_t start = at.right;
     bool around = false;
-    while (!around && sl_side_is_portal(side_of(o, at.right))) {
+    while (!around && leads_on(o, region, at.right)) {
         at = neighbour_right(o, at.right, eye);
         around = at.right == start;
     }
@@ -138,7 +181,7 @@ sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_reg
     for (;;) {
         SL_TRY(add_sides(context, o, eye, side_of(o, at.right)->next, at.left, m));
         m->left = at.left;
-        if (!sl_side_is_portal(side_of(o, at.left))) break;
+        if (!leads_on(o, region, at.left)) break;
         at = neighbour_left(o, at.left, eye);
         if (around && at.right == start) return SL_OK;
     }
@@ -337,7 +380,7 @@ static sl_status see_wall_at_eye(expansion *x, uint32_t neighbour, sl_point from
 
 /// Starts an open fan: from the eye along the wall or border there.
 static sl_status start_open(expansion *x) {
-    const uint32_t right = x->region->memory->right, neighbour = side(x, right)->neighbour;
+    const uint32_t right = x->region->memory->right, neighbour = stop_at(x->outline, right);
     if (neighbour >= SL_SIDE_BORDER)
         return sli_region_add_eye(x->context, x->region, SL_EDGE_BORDER);
     const sl_point end = wall_end(x, neighbour, side(x, side(x, right)->next)->start);
@@ -347,9 +390,10 @@ static sl_status start_open(expansion *x) {
 /// Ends an open fan: along the wall or border there to the eye.
 static sl_status end_open(expansion *x) {
     const sl_side *left = side(x, x->region->memory->left);
-    if (left->neighbour >= SL_SIDE_BORDER) return sli_region_end_at_eye(x->context, x->region);
-    const sl_point end = wall_end(x, left->neighbour, left->start);
-    return see_wall_at_eye(x, left->neighbour, end, x->region->view.eye);
+    const uint32_t neighbour = stop_at(x->outline, x->region->memory->left);
+    if (neighbour >= SL_SIDE_BORDER) return sli_region_end_at_eye(x->context, x->region);
+    const sl_point end = wall_end(x, neighbour, left->start);
+    return see_wall_at_eye(x, neighbour, end, x->region->view.eye);
 }
 
 static sl_status see_all_round(expansion *x) {

@@ -27,6 +27,12 @@ static double angle_between(sl_point a, sl_point b) {
     return atan2(cross(a, b), dot(a, b));
 }
 
+/// The angle of an arc. Rounding may turn the sign of half a circle.
+static double angle_of_arc(sl_point a, sl_point b) {
+    const double angle = angle_between(a, b);
+    return dot(a, b) < 0 ? fabs(angle) : angle;
+}
+
 static sl_point offset_after(const sl_region *region, size_t i) {
     return region->offsets[i + 1 < region->count ? i + 1 : 0];
 }
@@ -40,7 +46,7 @@ static double double_area(const sl_region *region, size_t i) {
     const sl_point p = region->offsets[i], q = offset_after(region, i);
     if (is_radial(&region->edges[i])) return 0;
     if (region->edges[i].kind == SL_EDGE_ARC)
-        return region->range * region->range * angle_between(p, q);
+        return region->range * region->range * angle_of_arc(p, q);
     return cross(p, q);
 }
 
@@ -61,6 +67,7 @@ static moments moments_of(const sl_region *region, size_t i) {
     const sl_point p = region->offsets[i], q = offset_after(region, i);
     moments m = {.angle = angle_between(p, q)};
     if (region->edges[i].kind == SL_EDGE_ARC) {
+        m.angle = angle_of_arc(p, q);
         m.first = region->range * m.angle;
         m.second = region->range * m.first;
         m.third = region->range * m.second;
@@ -142,7 +149,7 @@ sl_region_measures sl_region_measure(const sl_region *region) {
     for (size_t i = 0; i < region->count; i++) {
         const sl_point p = region->offsets[i], q = offset_after(region, i);
         const double length = region->edges[i].kind == SL_EDGE_ARC
-                                  ? region->range * angle_between(p, q)
+                                  ? region->range * angle_of_arc(p, q)
                                   : hypot(q.x - p.x, q.y - p.y);
         out.perimeter += length;
         if (region->edges[i].kind == SL_EDGE_OCCLUDING) out.occlusivity += length;
@@ -180,7 +187,7 @@ size_t sl_region_flatten(const sl_region *region, double tolerance, sl_point *po
         count++;
         if (region->edges[i].kind != SL_EDGE_ARC) continue;
         const sl_point from = region->offsets[i];
-        const double angle = angle_between(from, offset_after(region, i));
+        const double angle = angle_of_arc(from, offset_after(region, i));
         const double step = 2 * acos(fmax(1 - tolerance / region->range, 0));
         const double chords = fmin(ceil(angle / fmax(step, 1e-4)), 65536);
         for (double k = 1; k < chords; k++, count++) {

@@ -18,7 +18,8 @@
 typedef struct seer {
     const sl_outline *outline;
     sl_point eye, point;
-    bool touches; ///< a wall, somewhere
+    uint32_t cell; ///< the eye's
+    bool touches;  ///< a wall, somewhere
     SL_ARRAY(uint32_t) waiting;
     sl_bits *entered; ///< by room
 } seer;
@@ -64,6 +65,12 @@ static sl_status enter(sl_context *context, seer *s, uint32_t room) {
     return SL_OK;
 }
 
+/// Whether a side is a wall for the eye: the dark side of glass that the eye sees through is none.
+static bool is_wall(const seer *s, const sl_side *side) {
+    return !sl_side_is_dark(s->outline, side) ||
+           sli_region_is_dark_for(s->outline, side->neighbour - SL_SIDE_WALL, s->cell, s->eye);
+}
+
 /// Enters all rooms that the segment leads to, and finds whether one of them holds the point.
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
@@ -75,7 +82,7 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
             if (sl_side_is_portal(side)) {
                 if (meets(s, side->start, o->sides[side->next].start))
                     SL_TRY(enter(context, s, room_of(o, side->neighbour)));
-            } else if (side->neighbour < SL_SIDE_BORDER && !s->touches) {
+            } else if (side->neighbour < SL_SIDE_BORDER && !s->touches && is_wall(s, side)) {
                 s->touches = meets(s, side->start, o->sides[side->next].start);
             }
         }
@@ -91,7 +98,7 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
         *out = false;
         return SL_OK;
     }
-    seer s = {.outline = outline, .eye = eye, .point = point};
+    seer s = {.outline = outline, .eye = eye, .point = point, .cell = start};
     bool arrives = false;
     s.entered = sl_alloc_array(context, sl_bits_words(outline->room_count), sizeof *s.entered);
     sl_status status =
@@ -119,7 +126,10 @@ static bool walk(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ra
 static void write_hit(const sl_outline *o, sl_point eye, const sli_eye_ray *ray, uint32_t at,
                       bool within, sl_hit *out) {
     const sl_side *side = &o->sides[at];
-    out->wall = side->neighbour >= SL_SIDE_BORDER ? UINT32_MAX : side->neighbour - SL_SIDE_WALL;
+    // An eye on glass may have the lit side there.
+    const uint32_t neighbour =
+        sl_side_is_portal(side) ? o->sides[side->neighbour].neighbour : side->neighbour;
+    out->wall = neighbour >= SL_SIDE_BORDER ? UINT32_MAX : neighbour - SL_SIDE_WALL;
     out->point = side->start;
     if (!within) return;
     const sl_point a = side->start, b = o->sides[side->next].start;

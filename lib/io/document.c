@@ -145,21 +145,36 @@ sl_status sli_json_number(const sli_json *at, double *number) {
     return SL_OK;
 }
 
+/// "3 is out of range: expected 1 or 2"
+static sl_status fail_whole(const sli_json *at, const char *found, int64_t low, int64_t high) {
+    const long long least = low, most = high;
+    char expected[80] = "no number";
+    if (high == low)
+        snprintf(expected, sizeof expected, "%lld", least);
+    else if (high > low)
+        snprintf(expected, sizeof expected, "%s%lld %s %lld",
+                 high - 1 == low ? "" : "a whole number from ", least,
+                 high - 1 == low ? "or" : "to", most);
+    return sli_json_fail(at, "%s is out of range: expected %s", found, expected);
+}
+
 sl_status sli_json_whole(const sli_json *at, int64_t low, int64_t high, int64_t *number) {
     double value;
+    char found[32];
     if (json_is_integer(at->value)) {
         const int64_t whole = json_integer_value(at->value);
         if (whole >= low && whole <= high) {
             *number = whole;
             return SL_OK;
         }
-        return sli_json_fail(at, "%lld is out of range: expected a whole number from %lld to %lld",
-                             (long long)whole, (long long)low, (long long)high);
+        snprintf(found, sizeof found, "%lld", (long long)whole);
+        return fail_whole(at, found, low, high);
     }
     if (!number_of(at, &value) || value != floor(value)) return fail_kind(at, "a whole number");
-    if (!(value >= (double)low && value <= (double)high))
-        return sli_json_fail(at, "%g is out of range: expected a whole number from %lld to %lld",
-                             value, (long long)low, (long long)high);
+    if (!(value >= (double)low && value <= (double)high)) {
+        snprintf(found, sizeof found, "%g", value);
+        return fail_whole(at, found, low, high);
+    }
     *number = (int64_t)value;
     return SL_OK;
 }
@@ -168,6 +183,14 @@ sl_status sli_json_text(const sli_json *at, const char **text) {
     if (!json_is_string(at->value)) return fail_kind(at, "text");
     *text = json_string_value(at->value);
     return SL_OK;
+}
+
+double sli_json_number_or_0(const sli_json *at) {
+    double number = 0;
+    const char *text = at->file->numbers_as_text ? json_string_value(at->value) : NULL;
+    if (text && !sl_number_read(text, strlen(text), &number)) number = 0;
+    if (json_is_number(at->value)) number = json_number_value(at->value);
+    return sl_coordinate_usable(number) ? number : 0;
 }
 
 sl_status sli_json_number_if(const sli_json *at, double *number) {

@@ -57,6 +57,8 @@ sl_status sli_json_text(const sli_json *at, const char **text);
 /// As sli_json_number and sli_json_whole, but `*number` stays as it is where there is no value.
 sl_status sli_json_number_if(const sli_json *at, double *number);
 sl_status sli_json_whole_if(const sli_json *at, int64_t low, int64_t high, int64_t *number);
+/// The number, 0 for what is none: for what only says how to write the file again.
+double sli_json_number_or_0(const sli_json *at);
 /// True for true, and for a number other than 0; false for no value. `*said`, where not NULL, tells
 /// whether the value is of such a kind at all.
 bool sli_json_true(const sli_json *at, bool *said);

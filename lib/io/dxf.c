@@ -2,7 +2,9 @@
 /// sections HEADER, TABLES, BLOCKS and ENTITIES. The pairs are read first; then every entity that
 /// is walls is drawn by the pen: LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE,
 /// and INSERT, which draws a block's entities once more. Blocks within blocks could ask for any
-/// amount of work: their depth and the number of entities drawn are bounded.
+/// amount of work: their depth and the number of entities drawn are bounded. Layers whose names
+/// begin with "sightline-" hold doors, solid ground and so on (layers.h).
+#include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "map/scan.h"
@@ -550,6 +552,67 @@ static sl_status draw_shape(drawing *dxf, dxf_range entity, size_t end, sli_word
     return SL_OK;
 }
 
+// --- entities of layers that say what they hold
+
+/// "open-NAME" or "shut-NAME", behind the name of the layer of doors; else a name alone.
+static void read_door_layer(sli_word *rest, bool *open) {
+    static const char *const words[] = {"shut", "open"};
+    *open = true;
+    for (size_t i = 0; i < 2; i++) {
+        if (rest->length < 4 || !same_name((sli_word){rest->at, 4}, (sli_word){words[i], 4}))
+            continue;
+        if (rest->length > 4 && rest->at[4] != '-') continue;
+        const size_t behind = rest->length > 4 ? 5 : 4;
+        *open = i == 1;
+        *rest = (sli_word){rest->at + behind, rest->length - behind};
+        return;
+    }
+}
+
+/// A start is a POINT; its heading is the angle of the point's axis.
+static sl_status read_start(drawing *dxf, dxf_range entity, sl_point *at, double *heading) {
+    SL_TRY(read_point(dxf, entity, 10, at));
+    SL_TRY(dxf_number(dxf, entity, 50, heading));
+    *at = sli_affine_apply(dxf->pen.affine, *at);
+    *heading = sli_heading_through(dxf->pen.affine, *heading);
+    return SL_OK;
+}
+
+/// Draws an entity; on a layer that says what it holds, into a map of its own, and its lines become
+/// that.
+static sl_status draw_in_layer(drawing *dxf, dxf_range entity, size_t end, sli_word layer,
+                               plane lies, unsigned depth) {
+    const sli_word kind = dxf_at(dxf, entity.begin)->value;
+    sli_word rest = {"", 0};
+    sl_point start = {0, 0};
+    sli_layer_item item = {.layer = sli_layer_of(layer, &rest), .points = &start};
+    if (!item.layer || sli_word_is(kind, "INSERT"))
+        return draw_shape(dxf, entity, end, layer, lies, depth);
+    if (item.layer == SLI_LAYER_DOOR) read_door_layer(&rest, &item.open);
+    char *name = sl_copy_text(dxf->context, rest.at, rest.length);
+    if (!name) return SL_NO_MEMORY;
+    item.name = name;
+    sl_map drawn = {0}, *map = dxf->pen.map;
+    const size_t walls = dxf->pen.walls;
+    sl_status status = SL_OK;
+    dxf->pen.map = &drawn;
+    if (item.layer != SLI_LAYER_START) {
+        status = draw_shape(dxf, entity, end, layer, lies, depth);
+    } else if (sli_word_is(kind, "POINT")) {
+        status = read_start(dxf, entity, &start, &item.heading);
+        item.count = 1;
+    } else {
+        dxf->other_kinds++;
+    }
+    dxf->pen.map = map;
+    if (item.layer != SLI_LAYER_WALL) dxf->pen.walls = walls;
+    if (status == SL_OK)
+        status = sli_layer_take(dxf->context, dxf->name, map, &item, &drawn, dxf->pen.line);
+    sl_map_destroy(dxf->context, &drawn);
+    sl_free(dxf->context, name);
+    return status;
+}
+
 static sl_status draw_entity(drawing *dxf, dxf_range entity, size_t end, sli_word layer,
                              unsigned depth) {
     const sli_word kind = dxf_at(dxf, entity.begin)->value;
@@ -577,7 +640,7 @@ static sl_status draw_entity(drawing *dxf, dxf_range entity, size_t end, sli_wor
     if (lies == FROM_BELOW && !sli_word_is(kind, "ELLIPSE"))
         dxf->pen.affine = sli_affine_after(outer, (sli_affine){.xx = -1, .yy = 1});
     dxf->pen.line = dxf_at(dxf, entity.begin)->line;
-    const sl_status status = draw_shape(dxf, entity, end, own, lies, depth);
+    const sl_status status = draw_in_layer(dxf, entity, end, own, lies, depth);
     dxf->pen.affine = outer;
     return status;
 }
@@ -640,14 +703,25 @@ static sl_status check_layers(const drawing *dxf) {
 
 /// By $INSUNITS: what a drawing's coordinates are in, and how long that is in metres.
 static const struct {
-    const char *name, *word; ///< the word that asks for it, NULL for none
+    const char *name, *sign; ///< the sign for it
+    bool known;              ///< the sign asks for it
     double metres;
 } units[] = {
-    {"not told", NULL, 0},      {"inches", "in", 0.0254},    {"feet", "ft", 0.3048},
-    {"miles", NULL, 1609.344},  {"millimetres", "mm", 1e-3}, {"centimetres", "cm", 1e-2},
-    {"metres", "m", 1},         {"kilometres", "km", 1e3},   {"microinches", NULL, 2.54e-8},
-    {"mils", NULL, 2.54e-5},    {"yards", "yd", 0.9144},     {"angstroms", NULL, 1e-10},
-    {"nanometres", NULL, 1e-9}, {"microns", NULL, 1e-6},     {"decimetres", NULL, 0.1},
+    {"not told", "", false, 0},
+    {"inches", "in", true, 0.0254},
+    {"feet", "ft", true, 0.3048},
+    {"miles", "mi", false, 1609.344},
+    {"millimetres", "mm", true, 1e-3},
+    {"centimetres", "cm", true, 1e-2},
+    {"metres", "m", true, 1},
+    {"kilometres", "km", true, 1e3},
+    {"microinches", "\xc2\xb5in", false, 2.54e-8},
+    {"mils", "mil", false, 2.54e-5},
+    {"yards", "yd", true, 0.9144},
+    {"angstroms", "\xc3\x85", false, 1e-10},
+    {"nanometres", "nm", false, 1e-9},
+    {"microns", "\xc2\xb5m", false, 1e-6},
+    {"decimetres", "dm", false, 0.1},
 };
 enum { UNITS = sizeof units / sizeof *units };
 
@@ -655,12 +729,20 @@ static const char *unit_name(int unit) {
     return unit >= 0 && unit < UNITS ? units[unit].name : "unusual";
 }
 
+static void set_unit(const drawing *dxf, const char *sign) {
+    snprintf(dxf->pen.map->unit, sizeof dxf->pen.map->unit, "%s", sign);
+}
+
 /// Has the pen draw in the unit that is asked for.
 static sl_status take_unit(drawing *dxf) {
     const char *word = dxf->options->unit;
-    if (!word) return SL_OK;
+    dxf->pen.map->drawing_unit = dxf->unit >= 0 && dxf->unit < UNITS ? dxf->unit : 0;
+    if (!word) {
+        if (dxf->unit > 0 && dxf->unit < UNITS) set_unit(dxf, units[dxf->unit].sign);
+        return SL_OK;
+    }
     size_t to = 0;
-    while (to < UNITS && !(units[to].word && strcmp(units[to].word, word) == 0)) to++;
+    while (to < UNITS && !(units[to].known && strcmp(units[to].sign, word) == 0)) to++;
     if (to == UNITS)
         return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                        "there is no unit '%s'; choose from mm, cm, m, km, in, ft, yd", word);
@@ -668,9 +750,27 @@ static sl_status take_unit(drawing *dxf) {
         return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                        "%s: the drawing's own unit is %s, so it cannot be turned into %s",
                        dxf->name, unit_name(dxf->unit), units[to].name);
+    set_unit(dxf, word);
     if ((size_t)dxf->unit == to) return SL_OK;
+    dxf->pen.map->drawing_unit = (int)to;
     const double scale = units[dxf->unit].metres / units[to].metres;
     dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
+    return SL_OK;
+}
+
+/// The comment of a file of our own, with the sum of its digits; a drawing that is turned into
+/// another unit has other numbers. NULL for none. To be freed.
+static sl_status find_mark(const drawing *dxf, char **mark) {
+    static const char word[] = "sightline-digits ";
+    const size_t length = sizeof word - 1;
+    for (size_t i = dxf->pairs.count; i-- > 0 && !dxf->options->unit && !*mark;) {
+        const dxf_pair *pair = dxf_at(dxf, i);
+        if (pair->code != 999 || pair->value.length < length ||
+            memcmp(pair->value.at, word, length) != 0)
+            continue;
+        *mark = sl_copy_text(dxf->context, pair->value.at + length, pair->value.length - length);
+        if (!*mark) return SL_NO_MEMORY;
+    }
     return SL_OK;
 }
 
@@ -684,14 +784,22 @@ static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
     if (!dxf->walls) return SL_NO_MEMORY;
     SL_TRY(dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0));
     SL_TRY(name_walls(dxf));
-    dxf->pen.map->precision = sli_precision_of(dxf->pen.map, dxf->pen.finest);
-    sl_note(dxf->context,
-            "%s: %zu entities give %zu walls (unit: %s%s%s); left out: %zu on other layers, %zu of "
-            "other kinds, %zu on the paper, %zu out of the plan's plane, %zu lines of no length",
-            dxf->name, dxf->drawn, dxf->pen.walls, unit_name(dxf->unit),
-            dxf->options->unit ? ", turned into " : "",
-            dxf->options->unit ? dxf->options->unit : "", dxf->other_layers, dxf->other_kinds,
-            dxf->on_paper, dxf->out_of_plane, dxf->pen.points);
+    char *mark = NULL;
+    SL_TRY(find_mark(dxf, &mark));
+    dxf->pen.map->precision =
+        sli_marked_precision(dxf->pen.map, dxf->pen.finest, mark, dxf->pen.sum);
+    sl_free(dxf->context, mark);
+    const sli_tally left[] = {{dxf->other_layers, "on another layer", "on other layers"},
+                              {dxf->other_kinds, "of another kind", "of other kinds"},
+                              {dxf->on_paper, "on the paper", "on the paper"},
+                              {dxf->out_of_plane, "out of the plane", "out of the plane"},
+                              {dxf->pen.points, "line of no length", "lines of no length"}};
+    char without[SLI_TALLY_TEXT];
+    sl_note(dxf->context, "%s: %zu entities give %zu walls%s; unit: %s%s%s", dxf->name, dxf->drawn,
+            dxf->pen.walls, sli_tally_write("; left out: ", left, 5, without), unit_name(dxf->unit),
+            dxf->options->unit ? ", converted to " : "",
+            dxf->options->unit ? dxf->options->unit : "");
+    sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
     return SL_OK;
 }
 

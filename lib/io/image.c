@@ -192,6 +192,7 @@ sl_status sl_map_read_image(sl_context *context, const char *name, const char *t
     if (status == SL_OK) {
         sl_note(context, "%s: %zu of %zu x %zu pixels are solid (darkness from %g); %zu walls",
                 name, solid, image.width, image.height, plan.threshold, read.wall_count);
+        strcpy(read.unit, "px");
         *map = read;
     } else {
         sl_map_destroy(context, &read);
@@ -366,6 +367,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
                              .step = m->resolution,
                              .origin = {m->origin[0], m->origin[1]}};
     const sl_status status = image_add_walls(m->context, &image, &plan, map, &solid);
+    strcpy(map->unit, "m");
     if (status == SL_OK)
         sl_note(m->context,
                 "%s: %zu of %zu x %zu pixels of %g m are solid (occupancy from %g); %zu walls%s",

@@ -47,9 +47,17 @@ static bool knows_uvtt(const char *text, size_t size) {
     return is_json_with(text, "\"line_of_sight\"", "\"resolution\"");
 }
 
+/// An export names its format: "format": "sightline". Other files of ours have both words apart.
 static bool knows_export(const char *text, size_t size) {
+    static const char key[] = "\"format\"", value[] = "\"sightline\"";
     (void)size;
-    return is_json_with(text, "\"format\"", "\"sightline\"");
+    if (!is_json_with(text, key, value)) return false;
+    for (const char *at = strstr(text, key); at; at = strstr(at + 1, key)) {
+        const char *behind = at + sizeof key - 1;
+        behind += strspn(behind, " \t\r\n:");
+        if (strncmp(behind, value, sizeof value - 1) == 0) return true;
+    }
+    return false;
 }
 
 static bool knows_foundry(const char *text, size_t size) {
@@ -62,6 +70,9 @@ static bool knows_wad(const char *text, size_t size) {
     return sli_wad_known(text, size);
 }
 
+/// What files with layers of our own hold (layers.h).
+#define KEEPS_LAYERS (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS)
+
 static const sl_map_format map_formats[] = {
     {.name = "unigrafix",
      .endings = ".ug",
@@ -73,13 +84,17 @@ static const sl_map_format map_formats[] = {
      .endings = ".dxf",
      .what = "a DXF drawing",
      .read = sl_map_read_dxf,
-     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT},
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT,
+     .write = sl_map_print_dxf,
+     .keeps = KEEPS_LAYERS & ~SL_KEEPS_RANGE & ~SL_KEEPS_CELLS},
     {.name = "svg",
      .endings = ".svg",
      .what = "an SVG drawing",
      .read = sl_map_read_svg,
      .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
-     .knows = knows_svg},
+     .knows = knows_svg,
+     .write = sl_map_print_svg,
+     .keeps = KEEPS_LAYERS},
     {.name = "image",
      .endings = ".png .pgm .pbm",
      .what = "a picture: its dark pixels are solid",
@@ -96,7 +111,10 @@ static const sl_map_format map_formats[] = {
      .what = "a map of Tiled",
      .read = sl_map_read_tmx,
      .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_STARTS | SL_TAKES_DOORS,
-     .knows = knows_tmx},
+     .layers = sl_map_layers_tmx,
+     .knows = knows_tmx,
+     .write = sl_map_print_tmx,
+     .keeps = KEEPS_LAYERS},
     {.name = "export",
      .endings = ".json",
      .what = "the map in an export of ours",
@@ -107,6 +125,7 @@ static const sl_map_format map_formats[] = {
      .what = "a map of Tiled, as JSON",
      .read = sl_map_read_tmj,
      .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_STARTS | SL_TAKES_DOORS,
+     .layers = sl_map_layers_tmj,
      .knows = knows_tmj},
     {.name = "ldtk",
      .endings = ".ldtk .ldtkl .json",
@@ -120,13 +139,18 @@ static const sl_map_format map_formats[] = {
      .what = "a Universal VTT map",
      .read = sl_map_read_uvtt,
      .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS,
-     .knows = knows_uvtt},
+     .knows = knows_uvtt,
+     .write = sl_map_print_uvtt,
+     .keeps = SL_KEEPS_DOORS | SL_KEEPS_STARTS | SL_KEEPS_RANGE},
     {.name = "foundry",
      .endings = ".json",
      .what = "a scene of Foundry VTT",
      .read = sl_map_read_foundry,
      .takes = SL_TAKES_DOORS | SL_TAKES_STARTS,
-     .knows = knows_foundry},
+     .knows = knows_foundry,
+     .write = sl_map_print_foundry,
+     .keeps = SL_KEEPS_DOORS | SL_KEEPS_STARTS | SL_KEEPS_RANGE | SL_KEEPS_MIRRORS |
+              SL_KEEPS_ONEWAYS | SL_KEEPS_SEAMS},
     {.name = "wad",
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",

@@ -398,17 +398,22 @@ static sl_status read_project(ldtk *reader) {
 }
 
 /// What was taken, merged and left out.
-static void give_account(const ldtk *reader, const sl_map *map, size_t grids) {
+static void give_account(const ldtk *reader, const sl_map *map) {
     char bottom[SL_NUMBER_TEXT];
     sl_number_write(reader->bottom, bottom);
+    const sli_tally left[] = {
+        {reader->other_levels, "other level", "other levels"},
+        {reader->other_depths, "level at another depth", "levels at other depths"},
+        {reader->other_layers, "other layer", "other layers"},
+        {reader->entities, "entity", "entities"}};
+    char without[SLI_TALLY_TEXT];
     sl_note(reader->context,
-            "%s: level %s%s: taken: %zu IntGrid layers, solid are %s; merged into %zu walls (grids "
-            "of cells: %zu); left out: %zu other levels, %zu at other depths, %zu other layers, "
-            "%zu entities; unit: pixels, y = %s - the file's y",
+            "%s: level %s%s: %zu IntGrid layer%s give%s %zu walls; solid are %s%s; unit: pixels, "
+            "y = %s - the file's y",
             reader->name, reader->taken, reader->levels > 1 ? " and all of its world" : "",
-            reader->layers, reader->by_name ? "the values whose names say so" : "all values but 0",
-            map->wall_count, grids, reader->other_levels, reader->other_depths,
-            reader->other_layers, reader->entities, bottom);
+            reader->layers, reader->layers == 1 ? "" : "s", reader->layers == 1 ? "s" : "",
+            map->wall_count, reader->by_name ? "the values whose names say so" : "all values but 0",
+            sli_tally_write("; left out: ", left, 4, without), bottom);
 }
 
 static sl_status read_file(ldtk *reader, sl_map *map) {
@@ -430,10 +435,9 @@ static sl_status read_file(ldtk *reader, sl_map *map) {
                                        .solid_between = true,
                                        .all_closed = true,
                                        .things = &reader->things};
-    size_t grids;
-    SL_TRY(
-        sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map, &grids));
-    give_account(reader, map, grids);
+    SL_TRY(sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map));
+    strcpy(map->unit, "px");
+    give_account(reader, map);
     return sli_things_finish(&reader->things, map);
 }
 

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -197,4 +198,17 @@ sl_status sli_beside_read(sl_context *context, const char *name, const char *rel
     else
         sl_free(context, from);
     return status;
+}
+
+const char *sli_tally_write(const char *lead, const sli_tally *items, size_t count,
+                            char text[SLI_TALLY_TEXT]) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < count; i++) {
+        if (!items[i].count || used >= SLI_TALLY_TEXT) continue;
+        used +=
+            (size_t)snprintf(text + used, SLI_TALLY_TEXT - used, "%s%zu %s", used ? ", " : lead,
+                             items[i].count, items[i].count == 1 ? items[i].one : items[i].several);
+    }
+    return text;
 }

@@ -75,4 +75,19 @@ bool sli_beside_is_there(const char *path);
 sl_status sli_beside_read(sl_context *context, const char *name, const char *relative, char **path,
                           sl_bytes *bytes);
 
+// --- what a reader took and left out
+
+/// A number of things, by their names in the singular and the plural.
+typedef struct sli_tally {
+    size_t count;
+    const char *one, *several;
+} sli_tally;
+
+enum { SLI_TALLY_TEXT = 400 };
+
+/// Writes "2 tiles, 1 object" after `lead`: the numbers that are not 0. Writes nothing, and no
+/// lead, if all are.
+const char *sli_tally_write(const char *lead, const sli_tally *items, size_t count,
+                            char text[SLI_TALLY_TEXT]);
+
 #endif

@@ -45,7 +45,7 @@ void sli_keep_finest(double *finest, double unit) {
 /// within half of the tolerance: that makes 4. One more is for what transforms add.
 #define UNITS 5
 
-double sli_precision_of(const sl_map *map, double finest) {
+static double precision_of(const sl_map *map, double finest) {
     const sl_box b = sl_map_bounds(map);
     const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     const double largest =
@@ -54,6 +54,30 @@ double sli_precision_of(const sl_map *map, double finest) {
     if (finest == 0 || finest > 1e-3 * size) return 0;
     // Digits beyond the rounding of doubles say nothing.
     return UNITS * fmax(finest, 0x1p-51 * largest);
+}
+
+uint64_t sli_digits_of(const char *text, size_t length) {
+    sl_random hash = {0xcbf29ce484222325u}; // FNV-1a, and one round of mixing
+    for (size_t i = 0; i < length; i++)
+        hash.state = (hash.state ^ (unsigned char)text[i]) * 0x100000001b3u;
+    return sl_random_next(&hash);
+}
+
+uint64_t sli_digits_of_number(double value) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value + 0.0, text);
+    return sli_digits_of(text, strlen(text));
+}
+
+double sli_marked_precision(const sl_map *map, double finest, const char *mark, uint64_t sum) {
+    char expected[20];
+    double precision;
+    snprintf(expected, sizeof expected, "%016llx ", (unsigned long long)sum);
+    if (mark && strncmp(mark, expected, 17) == 0 &&
+        sl_number_read(mark + 17, strlen(mark + 17), &precision) && precision >= 0 &&
+        precision <= SL_COORDINATE_MAX)
+        return precision;
+    return precision_of(map, finest);
 }
 
 // --- the pen
@@ -119,6 +143,7 @@ void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit) 
     const sli_affine *affine = &pen->affine;
     const double scale = fmax(hypot(affine->xx, affine->yx), hypot(affine->xy, affine->yy));
     sli_keep_finest(&pen->finest, decimal_unit(text, length) * unit * scale);
+    pen->sum += sli_digits_of(text, length);
 }
 
 /// How far the map makes a vector at most.
@@ -327,7 +352,7 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
 }
 
 sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
-                              const sli_tiles_options *options, sl_map *map, size_t *grids) {
+                              const sli_tiles_options *options, sl_map *map) {
     size_t count = 0;
     for (size_t i = 0; i < tiles->blocks.count; i++) {
         if (tiles->blocks.items[i].done) continue;
@@ -339,6 +364,5 @@ sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char 
         SL_TRY(add_grid(context, tiles, name, &all, options, closed, map));
         count++;
     }
-    *grids = count;
     return SL_OK;
 }

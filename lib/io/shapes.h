@@ -30,8 +30,20 @@ sli_affine sli_affine_turn(double degrees);
 double sli_shortest_unit(double value);
 /// Keeps the finer of two units in `finest`, where 0 stands for none yet.
 void sli_keep_finest(double *finest, double unit);
-/// What sl_map.precision is by the finest unit, in the map's unit, that the map's places have.
-double sli_precision_of(const sl_map *map, double finest);
+/// A number for the digits of a place. The sum over all places of a file, in any order, changes
+/// when one of them does.
+uint64_t sli_digits_of(const char *text, size_t length);
+/// The same of a number in its shortest text.
+uint64_t sli_digits_of_number(double value);
+
+/// Room for a mark: the sum of a file's digits and the map's precision, as the file's writer knew
+/// them.
+enum { SLI_MARK_TEXT = 64 };
+
+/// What sl_map.precision is: what a mark says, if the file still has the numbers that were written.
+/// Else, and with `mark` NULL, it follows from the finest unit, in the map's unit, that the map's
+/// places have.
+double sli_marked_precision(const sl_map *map, double finest, const char *mark, uint64_t sum);
 
 typedef struct sli_pen {
     sl_context *context;
@@ -45,6 +57,7 @@ typedef struct sli_pen {
     size_t walls;      ///< drawn
     size_t points;     ///< lines of no length, left out
     double finest;     ///< the finest unit of the coordinates, in the map's unit
+    uint64_t sum;      ///< of their digits
 } sli_pen;
 
 /// Takes note of how a coordinate is written, which the file has in `unit` drawing units.
@@ -95,9 +108,9 @@ typedef struct sli_tiles_options {
 } sli_tiles_options;
 
 /// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then
-/// each grid gives its walls, few and long. `*grids` counts the grids. SL_BAD_INPUT where a grid is
+/// each grid gives its walls, few and long. SL_BAD_INPUT where a grid is
 /// larger than 2^26 squares, or 2^20 on a side, or there are more than 4096.
 sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
-                              const sli_tiles_options *options, sl_map *map, size_t *grids);
+                              const sli_tiles_options *options, sl_map *map);
 
 #endif

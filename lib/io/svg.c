@@ -1,7 +1,9 @@
 /// SVG (W3C, SVG 1.1): the outline of every line, polyline, polygon, rect, circle, ellipse and path
 /// is walls, through the transforms of its groups. Hidden shapes and those of other layers are left
-/// out. A use draws another element once more, so depth and work are bounded.
+/// out. A use draws another element once more, so depth and work are bounded. Groups whose names
+/// begin with "sightline-" hold doors, solid ground and so on (layers.h).
 #include "io/document.h"
+#include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "map/scan.h"
@@ -298,6 +300,7 @@ typedef struct svg {
     xmlDoc *document;
     sli_pen pen;
     size_t work, shapes, hidden, other;
+    char *mark;     ///< the sum of the digits that the file's writer knew
     bool by_number; ///< walls have the number of their shape in place of its line
 } svg;
 
@@ -305,6 +308,7 @@ typedef struct svg {
 typedef struct place {
     sli_affine affine;
     bool taken; ///< on a layer that is asked for
+    sli_layer layer;
     unsigned depth;
 } place;
 
@@ -517,6 +521,69 @@ static sl_status draw_shape(svg *s, xmlNode *node, shape kind) {
     }
 }
 
+// --- shapes of layers that say what they hold
+
+/// The layer of a group, by its id or its label.
+static sli_layer layer_of_group(xmlNode *node) {
+    char *id = sli_xml_attribute(node, "id"), *label = sli_xml_attribute(node, "label");
+    sli_layer layer = label ? sli_layer_of((sli_word){label, strlen(label)}, NULL) : SLI_LAYER_NONE;
+    if (!layer && id) layer = sli_layer_of((sli_word){id, strlen(id)}, NULL);
+    sli_xml_free(id);
+    sli_xml_free(label);
+    return layer;
+}
+
+/// An attribute that is a number, if it is there.
+static sl_status read_own_number(svg *s, xmlNode *node, const char *name, bool *found,
+                                 double *value) {
+    char *data = sli_xml_attribute(node, name);
+    if (!data) return SL_OK;
+    svg_text text = svg_text_of(data, name);
+    sl_status status = svg_number(&s->pen, &text, value);
+    if (status == SL_OK && text.at < text.end) status = fail_expected(&s->pen, &text, "the end");
+    *found = status == SL_OK;
+    sli_xml_free(data);
+    return status;
+}
+
+/// A start is the middle of a circle.
+static sl_status read_start(svg *s, xmlNode *node, sl_point *at, double *heading) {
+    bool found;
+    SL_TRY(read_length(s, node, "cx", &at->x));
+    SL_TRY(read_length(s, node, "cy", &at->y));
+    SL_TRY(read_own_number(s, node, "data-heading", &found, heading));
+    const sli_affine down = {.xx = 1, .yy = -1};
+    *heading = sli_heading_through(sli_affine_after(s->pen.affine, down), *heading);
+    *at = sli_affine_apply(s->pen.affine, *at);
+    return SL_OK;
+}
+
+/// Draws a shape into a map of its own; the lines become what the layer says.
+static sl_status draw_in_layer(svg *s, xmlNode *node, shape kind, sli_layer layer) {
+    sl_map drawn = {0}, *map = s->pen.map;
+    sl_point start = {0, 0};
+    sli_layer_item item = {.layer = layer, .points = &start};
+    const size_t walls = s->pen.walls;
+    const bool is_start = layer == SLI_LAYER_START && (kind == CIRCLE || kind == ELLIPSE);
+    sl_status status = SL_OK;
+    s->pen.map = &drawn;
+    if (is_start) status = read_start(s, node, &start, &item.heading);
+    if (layer != SLI_LAYER_START) status = draw_shape(s, node, kind);
+    s->pen.map = map;
+    if (layer != SLI_LAYER_WALL) s->pen.walls = walls;
+    char *name = sli_xml_attribute(node, "data-name");
+    item.name = name;
+    item.open = !attribute_is(node, "data-open", "false");
+    item.count = is_start;
+    s->other += layer == SLI_LAYER_START && !is_start;
+    if (status == SL_OK)
+        status = sli_layer_take(s->context, s->pen.name, map, &item, &drawn,
+                                s->pen.item ? s->pen.item : s->pen.line);
+    sli_xml_free(name);
+    sl_map_destroy(s->context, &drawn);
+    return status;
+}
+
 // --- groups
 
 static sl_status draw_children(svg *s, xmlNode *node, place at) {
@@ -637,11 +704,15 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
         at.affine = sli_affine_after(at.affine, own);
     }
     at.taken |= s->options->layers && is_layer(s, node);
-    if (kind == NO_SHAPE) return draw_group(s, node, at);
+    if (kind == NO_SHAPE) {
+        const sli_layer own = layer_of_group(node);
+        if (own) at.layer = own;
+        return draw_group(s, node, at);
+    }
     if (!at.taken) return SL_OK;
     s->pen.affine = at.affine;
     s->pen.item = s->by_number ? (uint32_t)(uintptr_t)node->_private : 0;
-    return draw_shape(s, node, kind);
+    return at.layer ? draw_in_layer(s, node, kind, at.layer) : draw_shape(s, node, kind);
 }
 
 // --- names for walls
@@ -707,24 +778,69 @@ static sl_status name_walls(svg *s, xmlNode *root) {
 
 // --- the whole
 
+/// What a file of our own says of the whole map: the range, the snap, the sum of its digits.
+static sl_status read_marks(svg *s, xmlNode *root) {
+    sl_map *map = s->pen.map;
+    bool range = false, snap = false;
+    SL_TRY(read_own_number(s, root, "data-sightline-range", &range, &map->range));
+    SL_TRY(read_own_number(s, root, "data-sightline-snap", &snap, &map->snap));
+    if ((range && !(map->range > 0)) || (snap && !(map->snap > 0)))
+        return sl_fail_at(s->context, s->pen.name, s->pen.line,
+                          "data-sightline-%s: expected a number greater than 0",
+                          range && !(map->range > 0) ? "range" : "snap");
+    for (xmlNode *child = root->children; child && !s->mark; child = child->next)
+        if (sli_xml_is(child, "metadata"))
+            s->mark = sli_xml_attribute(child, "data-sightline-digits");
+    return SL_OK;
+}
+
+/// A user unit is a pixel, unless the width is written in another unit and the box is as wide:
+/// width="210mm" viewBox="0 0 210 297".
+static void find_unit(svg *s, xmlNode *root, double box_width) {
+    static const char *const units[] = {"px", "in", "cm", "mm", "pt", "pc"};
+    char *text = sli_xml_attribute(root, "width"), *unit = s->pen.map->unit;
+    const size_t length = text ? sl_number_length(text, strlen(text)) : 0;
+    double width = 0;
+    if (!box_width) strcpy(unit, units[0]);
+    if (box_width && length && sl_number_read(text, length, &width) && width == box_width) {
+        const sli_word rest = {text + length, strcspn(text + length, " \t\r\n")};
+        if (!rest.length) strcpy(unit, units[0]);
+        for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+            if (sli_word_is(rest, units[i])) strcpy(unit, units[i]);
+    }
+    sli_xml_free(text);
+}
+
 /// The map's unit is the drawing's own, y turned up: the lower edge of its box, where it has one,
-/// is at y 0.
+/// is at y 0, unless the drawing says where y is 0.
 static sl_status draw_root(svg *s, xmlNode *root) {
     double box[4], height = 0;
+    bool told = false;
     s->pen.line = sli_xml_line(root);
     SL_TRY(read_view_box(s, root, box));
     if (box[2] > 0)
         height = box[1] + box[3];
     else if (!has_percent(root, "height"))
         SL_TRY(read_length(s, root, "height", &height));
+    SL_TRY(read_own_number(s, root, "data-sightline-y0", &told, &height));
+    SL_TRY(read_marks(s, root));
+    if (box[2] > 0)
+        s->pen.map->page =
+            (sl_box){{box[0], height - (box[1] + box[3])}, {box[0] + box[2], height - box[1]}};
+    s->pen.map->top = height;
+    s->pen.map->pixels = 1;
     SL_TRY(name_walls(s, root));
+    find_unit(s, root, box[2]);
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
-    s->pen.map->precision = sli_precision_of(s->pen.map, s->pen.finest);
-    sl_note(s->context,
-            "%s: %zu shapes give %zu walls; left out: %zu hidden elements or groups, %zu texts and "
-            "pictures, %zu lines of no length",
-            s->pen.name, s->shapes, s->pen.walls, s->hidden, s->other, s->pen.points);
+    s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
+    const sli_tally left[] = {{s->hidden, "hidden element or group", "hidden elements or groups"},
+                              {s->other, "text or picture", "texts and pictures"},
+                              {s->pen.points, "line of no length", "lines of no length"}};
+    char without[SLI_TALLY_TEXT];
+    sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
+            sli_tally_write("; left out: ", left, 3, without));
+    sli_layers_note(s->context, s->pen.name, s->pen.map);
     return SL_OK;
 }
 
@@ -744,6 +860,7 @@ sl_status sl_map_read_svg(sl_context *context, const char *name, const char *tex
                   context, name, sli_xml_line(root), "expected an svg element, found '%s'",
                   sli_show((sli_word){(const char *)root->name, strlen((const char *)root->name)})
                       .text);
+    sli_xml_free(s.mark);
     xmlFreeDoc(s.document);
     if (status == SL_OK)
         *map = read;

@@ -1,5 +1,6 @@
 /// Maps that are JSON with a list of walls: Universal VTT (Dungeondraft, Arkenforge, DungeonFog)
-/// and the scenes of Foundry Virtual Tabletop.
+/// and the scenes of Foundry Virtual Tabletop. Files of our own have members of their own, as
+/// tabletop_write.c says.
 #include "geometry/orient.h"
 #include "io/document.h"
 #include "io/names.h"
@@ -10,6 +11,50 @@
 
 #include <math.h>
 
+// --- names of doors, which only files of our own have
+
+/// The name that a door of a file of our own has; NULL for none.
+static const char *marked_name(const sli_json *door, bool flags) {
+    const sli_json of_flags = sli_json_member(door, "flags");
+    const sli_json own = sli_json_member(flags ? &of_flags : door, "sightline");
+    const sli_json name = sli_json_member(&own, "name");
+    const char *text = json_string_value(name.value);
+    return text && sli_name_usable(text, strlen(text)) ? text : NULL;
+}
+
+static bool is_marked(const sli_json *doors, bool flags, const char *name) {
+    for (size_t i = 0; i < json_array_size(doors->value); i++) {
+        const sli_json door = sli_json_item(doors, i);
+        const char *own = marked_name(&door, flags);
+        if (own && strcmp(own, name) == 0) return true;
+    }
+    return false;
+}
+
+static bool has_marks(const sli_json *doors, bool flags) {
+    for (size_t i = 0; i < json_array_size(doors->value); i++) {
+        const sli_json door = sli_json_item(doors, i);
+        if (marked_name(&door, flags)) return true;
+    }
+    return false;
+}
+
+/// The naming of doors. `checks`: some doors have names of their own.
+typedef struct door_names {
+    size_t number;
+    bool checks;
+} door_names;
+
+/// A door's own name, else "door" and a number: the next one that no door in the list has.
+static const char *name_of_door(const sli_json *doors, const sli_json *door, bool flags,
+                                door_names *names, char made[32]) {
+    const char *own = marked_name(door, flags);
+    if (own) return own;
+    do snprintf(made, 32, "door%zu", ++names->number);
+    while (names->checks && is_marked(doors, flags, made));
+    return made;
+}
+
 // --- Universal VTT: walls as polylines, and portals
 
 typedef struct uvtt {
@@ -18,8 +63,11 @@ typedef struct uvtt {
     sl_map *map;
     double top;    ///< the file's y that is 0 in the map, which has y up
     double finest; ///< the finest unit of the coordinates
+    uint64_t sum;  ///< of their digits, where the file has a mark
+    const char *mark;
     size_t walls, points;
     size_t open, closed;
+    door_names names;
     uint32_t item; ///< the number of the polyline or portal
 } uvtt;
 
@@ -34,6 +82,7 @@ static sl_status read_point(uvtt *reader, const sli_json *at, sl_point *point) {
     SL_TRY(sli_json_number(&y, &read.y));
     sli_keep_finest(&reader->finest, sli_shortest_unit(read.x));
     sli_keep_finest(&reader->finest, sli_shortest_unit(read.y));
+    if (reader->mark) reader->sum += sli_digits_of_number(read.x) + sli_digits_of_number(read.y);
     read.y = reader->top - read.y;
     if (!sl_coordinate_usable(read.y)) return sli_json_fail(&y, "out of range once y points up");
     *point = read;
@@ -80,7 +129,8 @@ static sl_status read_polylines(uvtt *reader, const char *name, const sli_json *
     return SL_OK;
 }
 
-static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
+static sl_status add_portal(uvtt *reader, const sli_json *portals, const sli_json *portal,
+                            sl_segment at, bool open) {
     if (sli_same_point(at.a, at.b)) {
         reader->points++;
         return SL_OK;
@@ -89,14 +139,15 @@ static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
     if (!reader->options->doors)
         return open ? SL_OK
                     : sl_map_add_wall(reader->context, reader->map, at.a, at.b, reader->item);
-    char name[32];
-    snprintf(name, sizeof name, "door%zu", reader->map->door_count + 1);
+    char made[32];
+    const char *name = name_of_door(portals, portal, false, &reader->names, made);
     return sl_map_add_door(reader->context, reader->map, name, at, open, reader->item);
 }
 
 static sl_status read_portals(uvtt *reader, const sli_json *portals) {
     size_t count;
     SL_TRY(sli_json_array(portals, &count));
+    reader->names.checks = has_marks(portals, false);
     for (size_t i = 0; i < count; i++) {
         const sli_json portal = sli_json_item(portals, i);
         SL_TRY(name_item(reader->context, reader->map, layer_names[2], i, &reader->item));
@@ -114,9 +165,21 @@ static sl_status read_portals(uvtt *reader, const sli_json *portals) {
         const bool is_closed = sli_json_true(&closed, &said);
         if (closed.value && !said) return sli_json_fail(&closed, "expected true or false");
         // A portal that does not say so is shut, as in the programs that draw it.
-        SL_TRY(add_portal(reader, at, closed.value && !is_closed));
+        SL_TRY(add_portal(reader, portals, &portal, at, closed.value && !is_closed));
     }
     return SL_OK;
+}
+
+/// What a file of our own says of the whole map, in `own`: the y that is 0, the view range, the sum
+/// of its digits (NULL for none).
+static sl_status read_own(const sli_json *own, double *top, const char **mark, sl_map *map) {
+    const sli_json digits = sli_json_member(own, "digits");
+    *mark = json_string_value(digits.value);
+    const sli_json y0 = sli_json_member(own, "y0"), range = sli_json_member(own, "range");
+    SL_TRY(sli_json_number_if(&y0, top));
+    SL_TRY(sli_json_number_if(&range, &map->range));
+    return range.value && !(map->range > 0) ? sli_json_fail(&range, "a range is greater than 0")
+                                            : SL_OK;
 }
 
 /// The lower edge of the map is y 0: its origin and its size say where that is.
@@ -128,8 +191,40 @@ static sl_status read_size(uvtt *reader, const sli_json *root) {
     const sli_json height = sli_json_member(&size, "y"), y = sli_json_member(&origin, "y");
     double first = 0, rows;
     SL_TRY(sli_json_number_if(&y, &first));
+    const sli_json pixels = sli_json_member(&resolution, "pixels_per_grid");
+    const sli_json left = sli_json_member(&origin, "x"), width = sli_json_member(&size, "x");
+    const double x = sli_json_number_or_0(&left), columns = sli_json_number_or_0(&width);
+    reader->map->pixels = sli_json_number_or_0(&pixels);
     SL_TRY(sli_json_number(&height, &rows));
     reader->top = first + rows;
+    const sli_json own = sli_json_member(root, "sightline");
+    SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
+    reader->map->top = reader->top;
+    reader->map->page =
+        (sl_box){{x, reader->top - (first + rows)}, {x + columns, reader->top - first}};
+    return SL_OK;
+}
+
+/// Starts of a file of our own.
+static sl_status read_starts(uvtt *reader, const sli_json *root) {
+    const sli_json own = sli_json_member(root, "sightline");
+    const sli_json starts = sli_json_member(&own, "starts");
+    size_t count = 0;
+    if (starts.value) SL_TRY(sli_json_array(&starts, &count));
+    for (size_t i = 0; i < count; i++) {
+        const sli_json start = sli_json_item(&starts, i);
+        const sli_json at = sli_json_member(&start, "at");
+        const sli_json turn = sli_json_member(&start, "heading");
+        sl_point point;
+        double heading = 0;
+        SL_TRY(sli_json_object(&start));
+        SL_TRY(read_point(reader, &at, &point));
+        SL_TRY(sli_json_number_if(&turn, &heading));
+        SL_TRY(sl_map_add_start(reader->context, reader->map, point, heading, 0));
+    }
+    if (count)
+        sl_note(reader->context, "%s: taken: %zu start%s", root->file->name, count,
+                count == 1 ? "" : "s");
     return SL_OK;
 }
 
@@ -163,18 +258,27 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     if (takes(reader, layer_names[1]) && objects.value)
         SL_TRY(read_polylines(reader, layer_names[1], &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
-    reader->map->precision = sli_precision_of(reader->map, reader->finest);
+    SL_TRY(read_starts(reader, root));
+    reader->map->precision =
+        sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);
+    strcpy(reader->map->unit, "grid units");
     const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
-    sl_note(reader->context,
-            "%s: %zu walls of line_of_sight, %zu of objects_line_of_sight; %zu closed portals "
-            "taken as %s, %zu open ones %s; left out: %zu lines of no length, %zu lights; unit: "
-            "grid squares, y = %s - the file's y",
-            root->file->name, of_lines, reader->walls - of_lines, reader->closed,
-            reader->options->doors ? "doors" : "walls", reader->open,
-            reader->options->doors ? "as doors" : "left out", reader->points,
-            json_array_size(lights.value), top);
+    const bool doors = reader->options->doors;
+    const sli_tally taken[] = {
+        {of_lines, "wall of line_of_sight", "walls of line_of_sight"},
+        {reader->walls - of_lines, "of objects_line_of_sight", "of objects_line_of_sight"},
+        {reader->closed, doors ? "shut door" : "shut door (a wall)",
+         doors ? "shut doors" : "shut doors (walls)"},
+        {reader->open, doors ? "open door" : "open door (a gap)",
+         doors ? "open doors" : "open doors (gaps)"}};
+    const sli_tally left[] = {{reader->points, "line of no length", "lines of no length"},
+                              {json_array_size(lights.value), "light", "lights"}};
+    char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %s%s; unit: grid squares, y = %s - the file's y",
+            root->file->name, sli_tally_write("", taken, 4, with),
+            sli_tally_write("; left out: ", left, 2, without), top);
     return SL_OK;
 }
 
@@ -212,7 +316,13 @@ typedef struct foundry {
     sl_map *map;
     double top;    ///< the file's y that is 0 in the map, which has y up: the largest of any wall
     double finest; ///< the finest unit of the coordinates
+    uint64_t sum;  ///< of their digits, where the file has a mark
+    const char *mark;
+    double pixels; ///< in a unit of the map: 1, but in a file of our own
+    bool top_told; ///< the file says its top
     size_t walls, oneways, open, shut, secret;
+    size_t mirrors, seams; ///< of a file of our own
+    door_names names;
     size_t unseen, limited, near, points; ///< left out
 } foundry;
 
@@ -220,6 +330,8 @@ typedef struct record {
     sl_segment at;
     int64_t sight, side, door, state;
     uint32_t item; ///< its number in the list, from 1
+    bool seam;     ///< of a file of our own
+    bool mirror, one_sided;
 } record;
 
 static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at) {
@@ -232,7 +344,10 @@ static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at
     for (size_t i = 0; i < 4; i++) {
         const sli_json number = sli_json_item(&c, i);
         SL_TRY(sli_json_number(&number, &values[i]));
-        sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]));
+        sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]) / reader->pixels);
+        if (reader->mark) reader->sum += sli_digits_of_number(values[i]);
+        values[i] /= reader->pixels;
+        if (!sl_coordinate_usable(values[i])) return sli_json_fail(&number, "out of range");
     }
     *at = (sl_segment){{values[0], reader->top - values[1]}, {values[2], reader->top - values[3]}};
     if (!sl_coordinate_usable(at->a.y) || !sl_coordinate_usable(at->b.y))
@@ -249,7 +364,18 @@ static sl_status read_record(foundry *reader, const sli_json *wall, record *read
     SL_TRY(sli_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
     SL_TRY(sli_json_whole_if(&side, 0, RIGHT_ONLY, &read->side));
     SL_TRY(sli_json_whole_if(&door, 0, DOOR_SECRET, &read->door));
-    return sli_json_whole_if(&state, 0, DOOR_LOCKED, &read->state);
+    SL_TRY(sli_json_whole_if(&state, 0, DOOR_LOCKED, &read->state));
+    const sli_json flags = sli_json_member(wall, "flags");
+    const sli_json own = sli_json_member(&flags, "sightline");
+    const sli_json seam = sli_json_member(&own, "seam"), mirror = sli_json_member(&own, "mirror");
+    const char *sides = json_string_value(mirror.value);
+    read->seam = sli_json_true(&seam, NULL);
+    read->mirror = sides != NULL;
+    read->one_sided = sides && strcmp(sides, "one") == 0;
+    if (sides && !read->one_sided && strcmp(sides, "both") != 0)
+        return sli_json_fail(&mirror, "expected 'one' or 'both', found '%s'",
+                             sli_show((sli_word){sides, strlen(sides)}).text);
+    return SL_OK;
 }
 
 /// Seen through from where it does not work: a wall for those on its left is passed from its right.
@@ -266,7 +392,20 @@ static sl_status add_wall(foundry *reader, const record *wall) {
     return sl_map_add_oneway(reader->context, reader->map, at, wall->item);
 }
 
-static sl_status add_door(foundry *reader, const record *wall) {
+/// Mirrors and seams of a file of our own.
+static sl_status add_glass(foundry *reader, const record *wall) {
+    if (wall->seam) {
+        reader->seams++;
+        return sl_map_add_seam(reader->context, reader->map, wall->at, wall->item);
+    }
+    reader->mirrors++;
+    SL_TRY(sl_map_add_mirror(reader->context, reader->map, wall->at, wall->item));
+    reader->map->mirrors[reader->map->mirror_count - 1].one_sided = wall->one_sided;
+    return SL_OK;
+}
+
+static sl_status add_door(foundry *reader, const sli_json *walls, const sli_json *json,
+                          const record *wall) {
     const bool open = wall->state == DOOR_OPEN;
     *(open ? &reader->open : &reader->shut) += 1;
     reader->secret += wall->door == DOOR_SECRET;
@@ -276,8 +415,8 @@ static sl_status add_door(foundry *reader, const record *wall) {
         *(wall->side == BOTH_SIDES ? &reader->walls : &reader->oneways) -= 1;
         return SL_OK;
     }
-    char name[32];
-    snprintf(name, sizeof name, "door%zu", reader->map->door_count + 1);
+    char made[32];
+    const char *name = name_of_door(walls, json, true, &reader->names, made);
     return sl_map_add_door(reader->context, reader->map, name, wall->at, open, wall->item);
 }
 
@@ -291,11 +430,14 @@ static sl_status name_wall(foundry *reader, const sli_json *wall, const record *
     return sl_map_add_label(reader->context, reader->map, read->item, label);
 }
 
-static sl_status take(foundry *reader, const record *wall) {
+static sl_status take(foundry *reader, const sli_json *walls, const sli_json *json,
+                      const record *wall) {
     const sl_segment at = wall->at;
     size_t *left_out = NULL;
     if (at.a.x == at.b.x && at.a.y == at.b.y)
         left_out = &reader->points;
+    else if (wall->seam)
+        return add_glass(reader, wall);
     else if (wall->sight == SIGHT_NONE)
         left_out = &reader->unseen;
     else if (wall->sight == SIGHT_LIMITED || wall->sight == SENSE_LIMITED)
@@ -306,7 +448,8 @@ static sl_status take(foundry *reader, const record *wall) {
         ++*left_out;
         return SL_OK;
     }
-    return wall->door == DOOR_NONE ? add_wall(reader, wall) : add_door(reader, wall);
+    if (wall->mirror) return add_glass(reader, wall);
+    return wall->door == DOOR_NONE ? add_wall(reader, wall) : add_door(reader, walls, json, wall);
 }
 
 /// The largest y of all walls in the file.
@@ -326,7 +469,10 @@ static sl_status find_top(foundry *reader, const sli_json *walls, size_t count) 
 static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     size_t count;
     SL_TRY(sli_json_array(walls, &count));
-    SL_TRY(find_top(reader, walls, count));
+    if (!reader->top_told) SL_TRY(find_top(reader, walls, count));
+    reader->sum = 0;
+    reader->names.checks = has_marks(walls, true);
+    reader->map->top = reader->top;
     reader->map->lines_are_items = true;
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(reader->context));
@@ -334,25 +480,41 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
         record read = {.sight = SIGHT_NORMAL, .item = (uint32_t)i + 1};
         SL_TRY(read_record(reader, &wall, &read));
         SL_TRY(name_wall(reader, &wall, &read));
-        SL_TRY(take(reader, &read));
+        SL_TRY(take(reader, walls, &wall, &read));
     }
-    reader->map->precision = sli_precision_of(reader->map, reader->finest);
-    char top[SL_NUMBER_TEXT];
+    char top[SL_NUMBER_TEXT], unit[SL_NUMBER_TEXT + 16] = "pixels", pixels[SL_NUMBER_TEXT];
+    if (reader->pixels == 1) strcpy(reader->map->unit, "px");
     sl_number_write(reader->top, top);
-    sl_note(reader->context,
-            "%s: %zu walls, %zu one-way; doors: %zu shut, taken as %s, %zu open, %s (%zu of all "
-            "secret); left out: %zu that do not stop sight, %zu that stop it only behind another, "
-            "%zu that stop it by distance, %zu of no length; unit: pixels, y = %s - the file's y",
-            walls->file->name, reader->walls, reader->oneways, reader->shut,
-            reader->options->doors ? "doors" : "walls", reader->open,
-            reader->options->doors ? "taken as doors" : "left out", reader->secret, reader->unseen,
-            reader->limited, reader->near, reader->points, top);
+    sl_number_write(reader->pixels, pixels);
+    if (reader->pixels != 1) snprintf(unit, sizeof unit, "%s pixels", pixels);
+    const bool doors = reader->options->doors;
+    const sli_tally taken[] = {{reader->walls, "wall", "walls"},
+                               {reader->oneways, "of them one-way", "of them one-way"},
+                               {reader->shut, doors ? "shut door" : "shut door (a wall)",
+                                doors ? "shut doors" : "shut doors (walls)"},
+                               {reader->open, doors ? "open door" : "open door (a gap)",
+                                doors ? "open doors" : "open doors (gaps)"},
+                               {reader->secret, "of them secret", "of them secret"}};
+    const sli_tally left[] = {
+        {reader->unseen, "that does not stop sight", "that do not stop sight"},
+        {reader->limited, "that stops it behind another", "that stop it behind another"},
+        {reader->near, "that stops it by distance", "that stop it by distance"},
+        {reader->points, "of no length", "of no length"}};
+    char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %s%s; unit: %s, y = %s - the file's y", walls->file->name,
+            sli_tally_write("", taken, 5, with), sli_tally_write("; left out: ", left, 4, without),
+            unit, top);
+    if (reader->mirrors || reader->seams)
+        sl_note(reader->context, "%s: taken by their flags: %zu mirror%s, %zu seam%s",
+                walls->file->name, reader->mirrors, reader->mirrors == 1 ? "" : "s", reader->seams,
+                reader->seams == 1 ? "" : "s");
     return SL_OK;
 }
 
 /// A token stands on squares of the scene's grid, `square` pixels wide. Friendly ones are starts.
 /// Turned by 0 degrees it faces down.
-static sl_status read_token(sli_things *things, const sli_json *token, double square) {
+static sl_status read_token(sli_things *things, const sli_json *token, double square,
+                            double pixels) {
     enum { FRIENDLY = 1 };
     const sli_json disposition = sli_json_member(token, "disposition");
     const sli_json name = sli_json_member(token, "name");
@@ -373,9 +535,10 @@ static sl_status read_token(sli_things *things, const sli_json *token, double sq
     SL_TRY(sli_json_number_if(&width, &size.x));
     SL_TRY(sli_json_number_if(&height, &size.y));
     SL_TRY(sli_json_number_if(&turn, &degrees));
-    const sli_thing start = {.kind = SLI_THING_START,
-                             .middle = {at.x + size.x * square / 2, at.y + size.y * square / 2},
-                             .heading = sli_heading_of(degrees + 90)};
+    const sli_thing start = {
+        .kind = SLI_THING_START,
+        .middle = {(at.x + size.x * square / 2) / pixels, (at.y + size.y * square / 2) / pixels},
+        .heading = sli_heading_of(degrees + 90)};
     return sli_things_add(things, says.name, start);
 }
 
@@ -393,11 +556,19 @@ static sl_status read_tokens(foundry *reader, const sli_json *root) {
         status = sli_json_number(size.value ? &size : &grid, &square);
     for (size_t i = 0; status == SL_OK && i < json_array_size(tokens.value); i++) {
         const sli_json token = sli_json_item(&tokens, i);
-        status = read_token(&things, &token, square);
+        status = read_token(&things, &token, square, reader->pixels);
     }
     if (status == SL_OK) status = sli_things_finish(&things, reader->map);
     sli_things_destroy(&things);
     return status;
+}
+
+/// The scene's own size, from y 0 of the file down; the caller adds the top.
+static void read_page(foundry *reader, const sli_json *root) {
+    const sli_json width = sli_json_member(root, "width"), height = sli_json_member(root, "height");
+    const sl_point size = {sli_json_number_or_0(&width), sli_json_number_or_0(&height)};
+    reader->map->page = (sl_box){{0, -size.y / reader->pixels}, {size.x / reader->pixels, 0}};
+    reader->map->pixels = reader->pixels;
 }
 
 /// A scene, or a list of walls alone.
@@ -405,7 +576,19 @@ static sl_status read_foundry(foundry *reader, const sli_json *root) {
     const bool alone = json_is_array(root->value);
     if (!alone) SL_TRY(sli_json_object(root));
     const sli_json walls = sli_json_member(root, "walls");
+    const sli_json flags = sli_json_member(root, "flags");
+    const sli_json own = sli_json_member(&flags, "sightline"), y0 = sli_json_member(&own, "y0");
+    const sli_json pixels = sli_json_member(&own, "pixels");
+    reader->top_told = y0.value != NULL;
+    SL_TRY(sli_json_number_if(&pixels, &reader->pixels));
+    if (!(reader->pixels > 0)) return sli_json_fail(&pixels, "expected a number greater than 0");
+    SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
+    read_page(reader, root);
     SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
+    reader->map->page.min.y += reader->top;
+    reader->map->page.max.y += reader->top;
+    reader->map->precision =
+        sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);
     return read_tokens(reader, root);
 }
 
@@ -414,7 +597,7 @@ sl_status sl_map_read_foundry(sl_context *context, const char *name, const char 
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};
-    foundry reader = {.context = context, .options = options, .map = &read};
+    foundry reader = {.context = context, .options = options, .map = &read, .pixels = 1};
     const sli_json root = sli_json_root(&file);
     const sl_status status = read_foundry(&reader, &root);
     sli_json_close(&file);

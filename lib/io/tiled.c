@@ -5,6 +5,7 @@
 /// grid by grid, and shapes are drawn by the pen. Maps of diamonds are read in the plan, where
 /// diamonds are squares (tiled_lattice.c), and projected onto the screen at the end.
 #include "io/tiled.h"
+#include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "sightline/io.h"
@@ -241,11 +242,91 @@ static sl_status look_for_thing(sli_tiled_reader *reader, const sli_json *object
     return status;
 }
 
+// --- layers that say what they hold
+
+/// Reads an object of such a layer.
+static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, const sli_json *object,
+                           const sli_tiled_place *at, sli_layer_item item) {
+    sl_map drawn = {0}, *map = reader->pen.map;
+    sli_tiled_shape shape;
+    SL_TRY(read_shape(reader, object, &shape));
+    SL_TRY(name_object(reader, layer, object, &shape));
+    const sli_affine outer = reader->pen.affine;
+    const sli_affine place = sli_affine_after(outer, affine_of_layer(reader, at));
+    const sl_point start = sli_affine_apply(place, (sl_point){shape.x, shape.y});
+    const char *name = text_of(object, "name");
+    if (item.layer == SLI_LAYER_DOOR)
+        item.open = sli_tiled_says_of(object, "type").state != SLI_DOOR_SHUT;
+    item.name = *name ? name : NULL;
+    item.heading = -shape.rotation + 0.0;
+    item.points = &start;
+    item.count = 1;
+    reader->pen.map = &drawn;
+    reader->pen.affine = place;
+    const sl_status drawing = sli_tiled_draw_shape(&reader->pen, &shape);
+    reader->pen.map = map;
+    reader->pen.affine = outer;
+    const sl_status status = drawing == SL_OK
+                                 ? sli_layer_take(reader->context, reader->map->file->name, map,
+                                                  &item, &drawn, reader->pen.item)
+                                 : drawing;
+    sl_map_destroy(reader->context, &drawn);
+    reader->objects += item.layer >= SLI_LAYER_WALL && item.layer <= SLI_LAYER_WALL_SOLID;
+    return status;
+}
+
+/// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
+/// layer is one of the map's own. With --start-names the names of objects decide what is a start.
+static sli_layer kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer) {
+    const char *name = text_of(layer, "name");
+    const sli_layer kind = reader->lattice.orientation == SLI_TILED_ORTHOGONAL
+                               ? sli_layer_of((sli_word){name, strlen(name)}, NULL)
+                               : SLI_LAYER_NONE;
+    return kind == SLI_LAYER_START && reader->options->start_names ? SLI_LAYER_NONE : kind;
+}
+
+/// Reads the objects of such a layer. Doors and starts are taken whatever --layers says.
+static sl_status read_items(sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_tiled_place *at, sli_layer kind) {
+    const sli_json objects = sli_json_member(layer, "objects");
+    size_t count = 0;
+    if (objects.value) SL_TRY(sli_json_array(&objects, &count));
+    if (reader->options->layers && !at->asked && kind != SLI_LAYER_DOOR && kind != SLI_LAYER_START)
+        return SL_OK;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(read_item(reader, layer, &object, at, (sli_layer_item){.layer = kind}));
+    }
+    return SL_OK;
+}
+
+/// What a file of our own says of the whole map.
+static sl_status read_marks(sli_tiled_reader *reader) {
+    sl_map *map = reader->pen.map;
+    sli_tiled_properties at = sli_tiled_properties_of(reader->map);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        double *to = !name                                  ? NULL
+                     : strcmp(name, "sightline-range") == 0 ? &map->range
+                     : strcmp(name, "sightline-snap") == 0  ? &map->snap
+                     : strcmp(name, "sightline-y0") == 0    ? &reader->lattice.height
+                                                            : NULL;
+        if (!to) continue;
+        SL_TRY(sli_json_number(&value, to));
+        if (to != &reader->lattice.height && !(*to > 0))
+            return sli_json_fail(&value, "%s: expected a number greater than 0", name);
+    }
+    return SL_OK;
+}
+
 /// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
 static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
                               const sli_tiled_place *at) {
     const sli_json objects = sli_json_member(layer, "objects");
+    const sli_layer kind = kind_of_layer(reader, layer);
     size_t count = 0;
+    if (kind) return read_items(reader, layer, at, kind);
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
     const sli_affine outer = reader->pen.affine;
     const sli_affine move = affine_of_layer(reader, at);
@@ -305,6 +386,16 @@ static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
 static sl_status read_head(sli_tiled_reader *reader) {
     sli_tiled_lattice *lattice = &reader->lattice;
     SL_TRY(sli_tiled_read_lattice(reader->map, lattice));
+    const double height = lattice->height;
+    if (lattice->orientation == SLI_TILED_ORTHOGONAL) {
+        const sli_json columns = sli_json_member(reader->map, "width");
+        const double width = sli_json_number_or_0(&columns);
+        SL_TRY(read_marks(reader));
+        reader->pen.map->page =
+            (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
+        reader->pen.map->top = lattice->height;
+        reader->pen.map->pixels = 1;
+    }
     const bool plan = sli_tiled_has_plan(lattice);
     reader->to_plan = sli_tiled_to_plan(lattice);
     reader->top = plan ? 0 : lattice->height;
@@ -396,18 +487,24 @@ static sl_status fail_no_walls(const sli_tiled_reader *reader) {
         layers.count ? "--layers NAME chooses; layers: " : "it has no layers", layers.text);
 }
 
-static void give_account(const sli_tiled_reader *reader, size_t grids) {
+static void give_account(const sli_tiled_reader *reader) {
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->lattice.height, top);
-    sl_note(reader->context,
-            "%s: taken: %zu layers solid as a whole, %zu tiles and %zu shapes of tiles by their "
-            "tilesets, %zu objects; merged into %zu walls (grids of tiles: %zu); left out: %zu "
-            "layers, %zu objects, %zu shapes of other kinds, %zu lines of no length, %zu tilesets "
-            "not found; unit: pixels, y = %s - the file's y",
-            reader->map->file->name, reader->solid_layers, reader->solid_tiles, reader->shapes,
-            reader->objects, reader->pen.map->wall_count, grids, reader->other_layers,
-            reader->other_objects, reader->other_shapes, reader->pen.points, reader->sets.missing,
-            top);
+    const sli_tally taken[] = {{reader->solid_layers, "solid layer", "solid layers"},
+                               {reader->solid_tiles, "solid tile", "solid tiles"},
+                               {reader->shapes, "shape of a tile", "shapes of tiles"},
+                               {reader->objects, "object", "objects"}};
+    const sli_tally left[] = {
+        {reader->other_layers, "layer", "layers"},
+        {reader->other_objects, "object", "objects"},
+        {reader->other_shapes, "shape of another kind", "shapes of other kinds"},
+        {reader->pen.points, "line of no length", "lines of no length"},
+        {reader->sets.missing, "tileset that is missing", "tilesets that are missing"}};
+    char from[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %zu walls%s%s; unit: pixels, y = %s - the file's y",
+            reader->map->file->name, reader->pen.map->wall_count,
+            sli_tally_write(" from ", taken, 4, from),
+            sli_tally_write("; left out: ", left, 5, without), top);
     if (reader->doors_left_out)
         sl_note(reader->context,
                 "%s: left out: %zu tile%s of doors; in hexagonal maps only objects are doors",
@@ -426,21 +523,45 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
                          sli_show((sli_word){missing, strlen(missing)}).text);
 }
 
+/// Whether nothing that was read is solid by what the map itself says.
+static bool says_nothing(const sli_tiled_reader *reader) {
+    return !reader->solid_layers && !reader->solid_tiles && !reader->shapes && !reader->objects;
+}
+
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
     SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
     if (!reader->solid_layers && !reader->options->layers) {
         if (reader->unknown_tiles) return fail_missing(reader);
-        if (!reader->solid_tiles && !reader->shapes && !reader->objects) SL_TRY(guess(reader));
+        if (says_nothing(reader)) SL_TRY(guess(reader));
     }
-    size_t grids;
-    SL_TRY(sli_tiled_add_tile_walls(reader, &grids));
+    SL_TRY(sli_tiled_add_tile_walls(reader));
     if (!reader->pen.map->wall_count) return fail_no_walls(reader);
     check_guess(reader);
-    give_account(reader, grids);
+    strcpy(reader->pen.map->unit, "px");
+    give_account(reader);
+    sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);
+}
+
+static sli_tiled_reader begin_reader(sl_context *context, const sli_json *root,
+                                     const sl_import_options *options, sl_map *map) {
+    const char *name = root->file->name;
+    return (sli_tiled_reader){
+        .context = context,
+        .options = options,
+        .map = root,
+        .things = {.context = context, .file = name, .options = options},
+        .pen = {.context = context, .name = name, .map = map, .tolerance = options->tolerance}};
+}
+
+static void end_reader(sl_context *context, sli_tiled_reader *reader) {
+    sli_tiles_destroy(context, &reader->tiles);
+    sli_tiled_destroy_sets(context, &reader->sets);
+    sli_tiled_destroy_templates(context, &reader->templates);
+    sli_things_destroy(&reader->things);
 }
 
 /// Reads a tree, and closes its file.
@@ -448,18 +569,9 @@ static sl_status read_tree(sl_context *context, sli_json_file *file,
                            const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     const sli_json root = sli_json_root(file);
-    sli_tiled_reader reader = {
-        .context = context,
-        .options = options,
-        .map = &root,
-        .things = {.context = context, .file = file->name, .options = options},
-        .pen = {
-            .context = context, .name = file->name, .map = &read, .tolerance = options->tolerance}};
+    sli_tiled_reader reader = begin_reader(context, &root, options, &read);
     const sl_status status = read_map(&reader);
-    sli_tiles_destroy(context, &reader.tiles);
-    sli_tiled_destroy_sets(context, &reader.sets);
-    sli_tiled_destroy_templates(context, &reader.templates);
-    sli_things_destroy(&reader.things);
+    end_reader(context, &reader);
     sli_json_close(file);
     // The map's lines are numbers of shapes, if it has any: doors and starts are none of them.
     for (size_t i = 0; i < read.door_count && read.lines_are_items; i++) read.doors[i].line = 0;
@@ -468,6 +580,37 @@ static sl_status read_tree(sl_context *context, sli_json_file *file,
         *map = read;
     else
         sl_map_destroy(context, &read);
+    return status;
+}
+
+static sl_status list_names(sl_context *context, const sli_json *parent, sl_map_list *list) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = text_of(&layer, "name"), *type = text_of(&layer, "type");
+        if (strcmp(type, "group") == 0) SL_TRY(list_names(context, &layer, list));
+        if (strcmp(type, "objectgroup") == 0 || strcmp(type, "tilelayer") == 0)
+            SL_TRY(sl_map_list_add(context, list, name, strlen(name)));
+    }
+    return SL_OK;
+}
+
+/// Lists the layers of a tree, reads it to find out what it says is solid, and closes its file.
+static sl_status list_tree(sl_context *context, sli_json_file *file, sl_map_list *list,
+                           bool *unsaid) {
+    sl_map read = {0};
+    const sl_import_options options = sl_import_options_default();
+    const sli_json root = sli_json_root(file);
+    sli_tiled_reader reader = begin_reader(context, &root, &options, &read);
+    sl_status status = read_head(&reader);
+    if (status == SL_OK) status = sli_tiled_read_sets(reader.map, &reader.sets);
+    if (status == SL_OK) status = read_layers(&reader, reader.map, &(sli_tiled_place){0});
+    if (status == SL_OK) status = list_names(context, &root, list);
+    if (status != SL_OK) sl_map_list_destroy(context, list);
+    *unsaid = !reader.solid_layers && (reader.unknown_tiles || says_nothing(&reader));
+    end_reader(context, &reader);
+    sl_map_destroy(context, &read);
+    sli_json_close(file);
     return status;
 }
 
@@ -483,4 +626,18 @@ sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *tex
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     return read_tree(context, &file, options, map);
+}
+
+sl_status sl_map_layers_tmx(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map_list *list, bool *unsaid) {
+    sli_json_file file;
+    SL_TRY(sli_tiled_from_xml(context, name, "map", text, size, &file));
+    return list_tree(context, &file, list, unsaid);
+}
+
+sl_status sl_map_layers_tmj(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map_list *list, bool *unsaid) {
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    return list_tree(context, &file, list, unsaid);
 }

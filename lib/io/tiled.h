@@ -244,7 +244,7 @@ sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label);
 sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *layer,
                                     const sli_tiled_place *at);
 
-/// Makes walls of all solid tiles that were read, in the plan. `*grids` counts their grids.
-sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader, size_t *grids);
+/// Makes walls of all solid tiles that were read, in the plan.
+sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader);
 
 #endif

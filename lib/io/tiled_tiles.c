@@ -434,7 +434,7 @@ static sl_status add_hexagons(void *user, const sli_grid *grid, sl_map *map) {
     return sli_tiled_add_hexagons(reader->context, &reader->lattice, reader->offset, grid, map);
 }
 
-sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader, size_t *grids) {
+sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader) {
     const bool hexagons = reader->lattice.orientation == SLI_TILED_HEXAGONAL;
     sl_map *map = reader->pen.map;
     reader->things.top = reader->top;
@@ -446,7 +446,7 @@ sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader, size_t *grids) {
                                        .add_walls = hexagons ? add_hexagons : NULL,
                                        .user = reader};
     SL_TRY(sli_tiles_add_walls(reader->context, &reader->tiles, reader->map->file->name, &options,
-                               map, grids));
+                               map));
     // Where squares tell nothing of objects that are doors, the walls of tiles do.
     if (hexagons || reader->lattice.orientation == SLI_TILED_STAGGERED)
         reader->things.shapes = map->wall_count;

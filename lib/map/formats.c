@@ -1,10 +1,13 @@
-/// Which reader a map file needs: by the ending of its name, else by its first bytes.
+/// Which reader a map file needs: by the ending of its name, else by its first bytes. Which writer
+/// it needs: by the ending, or by name; and what the format leaves out.
 #include "sightline/import.h"
 
 #include "base/base.h"
+#include "map/scan.h"
 
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 sl_import_options sl_import_options_default(void) {
     return (sl_import_options){.has_slice = false};
@@ -27,8 +30,16 @@ static const sl_map_format formats[] = {
      .endings = ".map",
      .what = "the map text",
      .read = read_text,
-     .takes = SL_TAKES_CELLS},
-    {.name = "plan", .endings = ".txt", .what = "an ASCII plan", .read = read_plan},
+     .takes = SL_TAKES_CELLS,
+     .write = sli_map_print_text,
+     .keeps = SL_KEEPS_ALL},
+    // The writer of plans refuses by itself what a plan cannot hold.
+    {.name = "plan",
+     .endings = ".txt",
+     .what = "an ASCII plan",
+     .read = read_plan,
+     .write = sli_map_print_plan,
+     .keeps = SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -217,6 +228,7 @@ sl_status sl_map_read(sl_context *context, const char *path, const sl_import_opt
 
 void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice) {
     sl_map_list_destroy(context, &choice->maps);
+    sl_map_list_destroy(context, &choice->layers);
     *choice = (sl_map_choice){0};
 }
 
@@ -228,6 +240,8 @@ sl_status sl_map_choice_parse(sl_context *context, const char *path, const char 
     if (format->list) status = format->list(context, path, text, size, &read.maps);
     if (status == SL_OK && format->heights)
         status = format->heights(context, path, text, size, &read.lowest, &read.highest);
+    if (status == SL_OK && format->layers)
+        status = format->layers(context, path, text, size, &read.layers, &read.layers_unsaid);
     if (status == SL_OK)
         *out = read;
     else
@@ -247,5 +261,163 @@ sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *l
     sl_map_choice choice;
     SL_TRY(sl_map_choice_read(context, path, &choice));
     *list = choice.maps;
+    choice.maps = (sl_map_list){0};
+    sl_map_choice_destroy(context, &choice);
     return SL_OK;
+}
+
+// --- writing
+
+/// Adds a word to a list: "a", "a, b", "a, b or c".
+static void add_choice(char *list, size_t size, const char *word, size_t length, bool last) {
+    const size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%.*s",
+             !used  ? ""
+             : last ? " or "
+                    : ", ",
+             (int)length, word);
+}
+
+static sl_status fail_name(sl_context *context, const char *name) {
+    char list[256] = "";
+    size_t count, left = 0;
+    const sl_map_format *known = sl_map_formats(context, &count);
+    for (size_t i = 0; i < count; i++) left += known[i].write != NULL;
+    for (size_t i = 0; i < count; i++)
+        if (known[i].write)
+            add_choice(list, sizeof list, known[i].name, strlen(known[i].name), --left == 0);
+    return sl_fail(context, SL_BAD_ARGUMENT, "--format: no map is written as '%.64s': choose %s",
+                   name, list);
+}
+
+/// Fails with the endings of all formats that are written, or of the one given.
+static sl_status fail_ending(sl_context *context, const char *option, const char *path,
+                             const sl_map_format *only) {
+    enum { MOST = 64 };
+    sli_word endings[MOST];
+    char list[256] = "";
+    size_t count, found = 0;
+    const sl_map_format *known = sl_map_formats(context, &count);
+    for (size_t i = 0; i < count; i++) {
+        if (!known[i].write || (only && only != &known[i])) continue;
+        for (const char *at = known[i].endings; *at && found < MOST;) {
+            const size_t length = strcspn(at, " ");
+            size_t same = 0; // one ending may belong to several formats
+            while (same < found &&
+                   (endings[same].length != length || memcmp(endings[same].at, at, length) != 0))
+                same++;
+            if (same == found) endings[found++] = (sli_word){at, length};
+            at += length + strspn(at + length, " ");
+        }
+    }
+    for (size_t i = 0; i < found; i++)
+        add_choice(list, sizeof list, endings[i].at, endings[i].length, i + 1 == found);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in %s", option, path, list);
+}
+
+static sl_status fail_several(sl_context *context, const char *option, const char *path) {
+    char list[128] = "";
+    size_t count, left = 0;
+    const sl_map_format *known = sl_map_formats(context, &count);
+    for (size_t i = 0; i < count; i++) left += known[i].write && has_ending(&known[i], path);
+    for (size_t i = 0; i < count; i++)
+        if (known[i].write && has_ending(&known[i], path))
+            add_choice(list, sizeof list, known[i].name, strlen(known[i].name), --left == 0);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s %s: several formats have this ending; choose one by --format: %s", option,
+                   path, list);
+}
+
+/// Whether a name stands for stdout, a pipe or a device, which have no ending.
+static bool is_stream(const char *path) {
+    struct stat there;
+    return strcmp(path, "-") == 0 ||
+           (stat(path, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode));
+}
+
+sl_status sl_map_format_to_write(sl_context *context, const char *option, const char *path,
+                                 const char *name, const sl_map_format **out) {
+    size_t count, fitting = 0;
+    const sl_map_format *known = sl_map_formats(context, &count), *found = NULL;
+    const bool stream = is_stream(path);
+    for (size_t i = 0; i < count; i++) {
+        if (!known[i].write) continue;
+        if (name ? strcmp(known[i].name, name) != 0 : !stream && !has_ending(&known[i], path))
+            continue;
+        if (!fitting++) found = &known[i];
+    }
+    if (!found) return name ? fail_name(context, name) : fail_ending(context, option, path, NULL);
+    if (name && !stream && !has_ending(found, path))
+        return fail_ending(context, option, path, found);
+    if (!name && !stream && fitting > 1) return fail_several(context, option, path);
+    *out = found;
+    return SL_OK;
+}
+
+/// Says of `count` things what becomes of them: "3 mirrors are written as walls".
+static void tell(sl_context *context, const char *path, const sl_map_format *format, size_t count,
+                 const char *one, const char *many, const char *how) {
+    if (count)
+        sl_note(context, "%s: %s has no place for %s: %zu %s %s %s", path, format->what, many,
+                count, count == 1 ? one : many, count == 1 ? "is" : "are", how);
+}
+
+static size_t count_solid(const sl_map *map) {
+    size_t count = 0;
+    for (size_t i = 0; i < map->wall_count; i++)
+        count += (map->walls[i].ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)) != 0;
+    return count;
+}
+
+/// Says what the format does not keep of this map.
+static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_format *format,
+                          const char *path) {
+    const struct {
+        unsigned keeps;
+        size_t count;
+        const char *one, *many, *how;
+    } things[] = {
+        {SL_KEEPS_DOORS, map->door_count, "door", "doors", "left out"},
+        {SL_KEEPS_MIRRORS, map->mirror_count, "mirror", "mirrors", "written as walls"},
+        {SL_KEEPS_ONEWAYS, map->oneway_count, "pane of one-way glass", "panes of one-way glass",
+         "left open"},
+        {SL_KEEPS_SEAMS, map->seam_count, "seam", "seams", "left out"},
+        {SL_KEEPS_STARTS, map->start_count, "start", "starts", "left out"},
+        {SL_KEEPS_PATHS, map->path_count, "path", "paths", "left out"},
+        {SL_KEEPS_OBJECTS, map->object_count, "object", "objects", "left out"},
+        {SL_KEEPS_CELLS, map->cell_count, "cell of its own", "cells of its own", "left out"},
+    };
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++)
+        if (!(format->keeps & things[i].keeps))
+            tell(context, path, format, things[i].count, things[i].one, things[i].many,
+                 things[i].how);
+    if (!(format->keeps & SL_KEEPS_SOLID) && count_solid(map))
+        sl_note(context, "%s: %s has no place for solid ground: its outlines are written as walls",
+                path, format->what);
+    if (!(format->keeps & SL_KEEPS_RANGE) && map->range > 0)
+        sl_note(context, "%s: %s has no place for the view range, which is left out", path,
+                format->what);
+    if (!(format->keeps & SL_KEEPS_CELLS) && map->snap > 0)
+        sl_note(context, "%s: %s has no place for the snap of cells, which is left out", path,
+                format->what);
+    if (!(format->keeps & SL_KEEPS_NOTES) && map->notes)
+        sl_note(context, "%s: %s has no place for notes, which are left out", path, format->what);
+    if (!(format->keeps & SL_KEEPS_NOTES) && map->label_count)
+        sl_note(
+            context,
+            "%s: %s has no place for the names that walls have in their file, which are left out",
+            path, format->what);
+    if (!(format->keeps & SL_KEEPS_COMMENTS) && map->comment_count)
+        sl_note(context, "%s: %s has no place for comments, which are left out", path,
+                format->what);
+}
+
+sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
+                       const char *path) {
+    sl_output output;
+    if (!format->write)
+        return sl_fail(context, SL_UNSUPPORTED, "%s: %s is only read", path, format->what);
+    tell_left_out(context, map, format, path);
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(context, &output, format->write(context, map, output.stream));
 }

@@ -452,10 +452,15 @@ static sl_status copy_comments(sl_context *context, const sl_map *from, sl_map *
 
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
+                  .top = from->top,
+                  .page = from->page,
+                  .pixels = from->pixels,
+                  .drawing_unit = from->drawing_unit,
                   .range = from->range,
                   .range_line = from->range_line,
                   .ground_guessed = from->ground_guessed,
                   .lines_are_items = from->lines_are_items};
+    memcpy(map.unit, from->unit, sizeof map.unit);
     sl_status status = sl_map_add_walls(context, &map, from->walls, from->wall_count);
     if (status == SL_OK) status = copy_effects(context, from, &map);
     if (status == SL_OK) status = copy_cells(context, from, &map);

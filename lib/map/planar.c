@@ -397,7 +397,7 @@ static bool any_new(const planer *p, size_t first, size_t count) {
 static sl_status halve(planer *p, size_t first, size_t count, int depth) {
     if (count < 2 || !any_new(p, first, count)) return SL_OK;
     if (count <= FEW || depth == MOST_HALVES) return compare_all(p, first, count);
-    if (count > 4096) SL_TRY(sl_check_cancelled(p->context));
+    if (count > 1024) SL_TRY(sl_check_cancelled(p->context));
     const spread x = spread_of(p, first, count, 0), y = spread_of(p, first, count, 1);
     const int wider = y.high - y.low > x.high - x.low;
     const size_t start = p->pieces.count;
@@ -429,6 +429,7 @@ static sl_status find_meetings(planer *p) {
         p->pieces.items[p->pieces.count++] =
             (piece){{a.x * p->scale, a.y * p->scale}, {b.x * p->scale, b.y * p->scale}, .edge = i};
     }
+    SL_TRY(sl_check_cancelled(p->context));
     SL_TRY(halve(p, 0, p->pieces.count, 0));
     p->old = (uint32_t)p->edges.count;
     return SL_OK;
@@ -522,8 +523,9 @@ static sl_status split_all(planer *p) {
         if (!kept || compare_splits(&p->splits.items[kept - 1], &p->splits.items[i]) != 0)
             p->splits.items[kept++] = p->splits.items[i];
     p->splits.count = kept;
-    for (size_t i = 0; i < kept;) {
+    for (size_t i = 0, done = 0; i < kept; done++) {
         size_t end = i;
+        if (done % 4096 == 0) SL_TRY(sl_check_cancelled(p->context));
         while (end < kept && p->splits.items[end].edge == p->splits.items[i].edge) end++;
         sort_along(p, &p->splits.items[i], end - i);
         SL_TRY(split_edge(p, &p->splits.items[i], end - i));
@@ -575,8 +577,10 @@ static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) 
     if (count) qsort(ends, 2 * count, sizeof *ends, compare_for_qsort);
     sl_status status = SL_OK;
     uint32_t point;
-    for (size_t i = 0; i < 2 * count && status == SL_OK; i++)
-        status = take_point(p, ends[i], &point);
+    for (size_t i = 0; i < 2 * count && status == SL_OK; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(p->context);
+        if (status == SL_OK) status = take_point(p, ends[i], &point);
+    }
     sl_free(p->context, ends);
     return status;
 }
@@ -599,8 +603,11 @@ static sl_status take_edges(planer *p, const sli_planar_edge *ends, size_t count
     if (count) qsort(sorted, count, sizeof *sorted, compare_edges);
     sl_status status = SL_OK;
     sli_planar_link link;
-    for (size_t i = 0; i < count && status == SL_OK; i++)
-        if (sorted[i].a != sorted[i].b) status = take_edge(p, sorted[i].a, sorted[i].b, &link);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(p->context);
+        if (status == SL_OK && sorted[i].a != sorted[i].b)
+            status = take_edge(p, sorted[i].a, sorted[i].b, &link);
+    }
     sl_free(p->context, sorted);
     return status;
 }
@@ -615,7 +622,8 @@ static sl_status take_segments(planer *p, const sl_segment *segments, size_t cou
         *welded += !sli_same_point(p->points.items[ends[i].a], segments[i].a);
         *welded += !sli_same_point(p->points.items[ends[i].b], segments[i].b);
     }
-    sl_status status = take_edges(p, ends, count);
+    sl_status status = sl_check_cancelled(p->context);
+    if (status == SL_OK) status = take_edges(p, ends, count);
     for (size_t i = 0; i < count && status == SL_OK; i++) {
         roots[i] = NONE;
         if (ends[i].a != ends[i].b) status = take_edge(p, ends[i].a, ends[i].b, &roots[i]);
@@ -696,6 +704,7 @@ static sl_status write_chains(writer *w, const sli_planar_link *roots, size_t co
     SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1)); // a place to point to, without a link too
     for (size_t i = 0; i < count; i++) {
         w->out->first[i] = w->links.count;
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(w->p->context));
         if (roots[i] == NONE) continue;
         SL_TRY(add_links(w, roots[i]));
         measure(w, w->segments[i], w->out->first[i]);

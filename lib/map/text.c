@@ -301,8 +301,20 @@ static sl_status read_statement(text_reader *reader) {
     return status;
 }
 
+static bool is_geojson(const char *name) {
+    static const char ending[] = ".geojson";
+    const size_t length = strlen(name);
+    return length >= sizeof ending - 1 && strcmp(name + length - (sizeof ending - 1), ending) == 0;
+}
+
 static sl_status read_first(text_reader *reader) {
     const sli_word *words = reader->words.items;
+    if (words[0].at[0] == '{')
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "expected 'sightline 1' as the first statement, found JSON%s",
+                          is_geojson(reader->name) ? ": GeoJSON is no map to read; use map text, "
+                                                     "DXF or SVG, or the JSON export"
+                                                   : "");
     if (!sli_word_is(words[0], "sightline"))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "expected 'sightline 1' as the first statement, found '%s'",

@@ -3,14 +3,14 @@
 ///
 ///     baked space and sets
 ///       doors that are shut: walls in their place, sets without what is seen through them
-///         one-way glass that blocks this eye: walls too
-///           what answers: the search of cells, the outline of rooms, moving boxes, mirrors
+///         one-way glass: a wall on its dark side, a portal on the other
+///           what answers: the search of cells, the outline of rooms, mirrors
+///         moving boxes, which cut both sides of glass before it is one-way
 ///
 /// A layer that changes nothing is the one below it.
 #include "sightline/query.h"
 
 #include "geometry/crossing.h"
-#include "geometry/orient.h"
 #include "sightline/moving.h"
 #include "sightline/sees.h"
 #include "sightline/support.h"
@@ -40,8 +40,6 @@ struct sl_query {
 
     layer doors, glass;
     bool has_doors, has_glass; ///< whether the layers are made
-    int8_t *sides;             ///< by seam: the side of one-way glass on which the eye is
-    uint32_t eye_cell;         ///< the eye's that the glass was made for
 
     // What answers, of the upper layer; NULL where it is not made.
     sl_eye_search *search;
@@ -92,7 +90,6 @@ void sl_query_destroy(sl_context *context, sl_query *query) {
     drop_doors(context, query);
     sl_baked_destroy(context, &query->own);
     sl_free(context, query->shut);
-    sl_free(context, query->sides);
     sl_free(context, query->boxes);
     sl_free(context, query);
 }
@@ -107,8 +104,7 @@ sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_query *
     q->range = baked->map.range;
     q->mirror_depth = 1;
     q->shut = sl_alloc_array(context, baked->map.door_count, sizeof *q->shut);
-    q->sides = sl_alloc_array(context, baked->space.seam_count, sizeof *q->sides);
-    if (!q->shut || !q->sides) {
+    if (!q->shut) {
         sl_query_destroy(context, q);
         return SL_NO_MEMORY;
     }
@@ -218,53 +214,27 @@ static sl_status make_doors(sl_context *context, sl_query *q) {
     return SL_OK;
 }
 
-/// Notes on which side of each glass the eye is; whether anything of it is new.
-static bool find_sides(sl_query *q, sl_point eye) {
-    const sl_space *space = &q->baked->space;
-    const uint32_t cell = sl_space_locate(space, eye);
-    bool changed = !q->has_glass, on_line = false;
-    for (uint32_t i = 0; i < space->seam_count; i++) {
-        const sl_seam *seam = &space->seams[i];
-        if (seam->kind != SL_SEAM_ONEWAY) continue;
-        const int8_t side = (int8_t)sli_orient(seam->at.a, seam->at.b, eye);
-        changed |= side != q->sides[i];
-        on_line |= !side;
-        q->sides[i] = side;
-    }
-    changed |= on_line && cell != q->eye_cell; // there the cell decides
-    q->eye_cell = cell;
-    return changed;
-}
-
-/// What an eye sees straight on past one-way glass is what it sees past walls: glass that blocks it
-/// is one, and all other is open.
-static sl_status make_glass(sl_context *context, sl_query *q, sl_point eye) {
+static sl_status make_glass(sl_context *context, sl_query *q) {
     layer *l = &q->glass;
-    if (!q->baked->map.oneway_count) {
-        l->space = q->doors.space;
-        l->visibility = q->doors.visibility;
-        return SL_OK;
+    if (q->has_glass) return SL_OK;
+    l->space = q->doors.space;
+    l->visibility = q->doors.visibility;
+    if (q->baked->map.oneway_count) {
+        const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+        SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &l->own_space));
+        l->space = &l->own_space;
+        // The rows are those of the doors' layer. Its stab trees have other directed portals.
+        l->own_visibility = *q->doors.visibility;
+        l->own_visibility.trees = (sl_stab_trees){0};
+        l->visibility = &l->own_visibility;
     }
-    if (!find_sides(q, eye)) return SL_OK;
-    drop_glass(context, q);
-    if (q->doors.visibility->mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "glass that is dark from an eye may not be so in a mirror: bake the map "
-                       "--without mirror or --without oneway");
-    const sl_filtered_space filtered = {.eye = &eye};
-    SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &l->own_space));
-    l->space = &l->own_space;
-    // The rows are those of the doors' layer. Its stab trees go through the glass.
-    l->own_visibility = *q->doors.visibility;
-    l->own_visibility.trees = (sl_stab_trees){0};
-    l->visibility = &l->own_visibility;
     q->has_glass = true;
     return SL_OK;
 }
 
-static sl_status make_layers(sl_context *context, sl_query *q, sl_point eye) {
+static sl_status make_layers(sl_context *context, sl_query *q) {
     SL_TRY(make_doors(context, q));
-    return make_glass(context, q, eye);
+    return make_glass(context, q);
 }
 
 static bool has_mirrors(const sl_query *q) {
@@ -293,10 +263,10 @@ static sl_status make_search(sl_context *context, sl_query *q) {
 
 static sl_status create_moving(sl_context *context, sl_query *q) {
     sl_moving *moving;
-    SL_TRY(sl_moving_create(context, q->glass.space, q->glass.visibility, &moving));
-    const sl_status status =
-        has_mirrors(q) ? sl_moving_add_mirrors(context, moving, &q->baked->map, q->mirror_depth)
-                       : SL_OK;
+    SL_TRY(sl_moving_create(context, q->doors.space, q->doors.visibility, &moving));
+    sl_status status = q->baked->map.oneway_count ? sl_moving_add_glass(context, moving) : SL_OK;
+    if (status == SL_OK && has_mirrors(q))
+        status = sl_moving_add_mirrors(context, moving, &q->baked->map, q->mirror_depth);
     if (status == SL_OK)
         q->moving = moving;
     else
@@ -368,7 +338,7 @@ sl_status sl_query_can_see(sl_context *context, sl_query *query, sl_point eye, s
     const sl_outline *outline;
     const sl_sight sight = query->baked->visibility.sight;
     bool sees;
-    SL_TRY(make_layers(context, query, eye));
+    SL_TRY(make_layers(context, query));
     SL_TRY(make_outline(context, query, &outline));
     SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
     if (sees && query->range > 0)
@@ -403,14 +373,43 @@ static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view
     return status;
 }
 
+/// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
+/// cell is on, which directed portals do not know.
+static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
+    const sl_map *map = &q->baked->map;
+    for (size_t i = 0; i < map->oneway_count; i++)
+        if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
+    return false;
+}
+
+/// Looks from such an eye: glass that is dark for it is a wall, all other is open.
+static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
+                              const sl_eye_method *method, uint64_t *cells,
+                              sl_eye_account *account) {
+    const sl_filtered_space filtered = {.eye = &view->eye};
+    sl_space space;
+    sl_eye_search *search = NULL;
+    SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &space));
+    sl_status status = sl_eye_search_create(context, &space, q->glass.visibility, &search);
+    if (status == SL_OK) {
+        sl_eye_search_limit(search, q->range);
+        status = method->cull(context, search, view, cells, account);
+    }
+    sl_eye_search_destroy(context, search);
+    sl_space_destroy(context, &space);
+    return status;
+}
+
 sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *view,
                         const sl_eye_method *method, uint64_t *cells, sl_eye_account *account) {
     sl_eye_account own;
     if (!method) method = exact_method();
     if (!account) account = &own;
-    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_layers(context, query));
     if (query->box_count && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
+    if (!has_mirrors(query) && is_in_line_with_glass(query, view->eye))
+        return look_in_line(context, query, view, method, cells, account);
     SL_TRY(make_search(context, query));
     return method->cull(context, query->search, view, cells, account);
 }
@@ -429,7 +428,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
     if (!method->mirrored)
         return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
                        method->name);
-    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_layers(context, query));
     if (query->box_count && method == exact_method())
         return look_past(context, query, view, true, cells, NULL, account);
     SL_TRY(make_search(context, query));
@@ -439,7 +438,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
 sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view, bool *seen,
                               bool *mirrored) {
     sl_eye_account account;
-    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_layers(context, query));
     if (!query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);
@@ -454,7 +453,7 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
 sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *view,
                           sl_region *out) {
     const sl_outline *outline;
-    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_layers(context, query));
     SL_TRY(make_outline(context, query, &outline));
     return sl_region_make(context, outline, view, query->range, out);
 }
@@ -462,7 +461,7 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
 sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
                                    sl_mirrored_region *out) {
     const sl_outline *outline;
-    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_layers(context, query));
     SL_TRY(make_outline(context, query, &outline));
     SL_TRY(make_mirrors(context, query, outline));
     return sl_mirrored_region_make(context, query->mirrors, view, query->range, query->mirror_depth,

@@ -43,7 +43,7 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door or start of the map text is damaged
+    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
@@ -54,6 +54,7 @@ typedef enum sl_runtime_status {
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
+    double range; ///< the map's view range; 0 for no limit. All calls about eyes keep to it
     uint32_t cell_count;
     uint32_t portal_count;   ///< portals have numbers too
     uint32_t directed_count; ///< two for each portal
@@ -69,6 +70,7 @@ typedef struct sl_runtime {
     uint32_t door_count;      ///< doors are numbered in the order of the map
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
+    const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
     const unsigned char *door_offsets, *door_bytes; ///< NULL if no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
     uint32_t seam_count, seam_portal_count;
@@ -188,6 +190,21 @@ SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits);
 
+/// What can be seen from anywhere in some cells: the cells that at least one of them sees. As bits,
+/// as sl_runtime_row_bits does for one cell; returns how many there are. `shut` is as for
+/// sl_runtime_can_see_past, or NULL for none. Numbers that are no cells are left out.
+///
+/// Ask it with what an eye sees (sl_runtime_look) to find what to wake up: all that anything in
+/// view could see. The set is conservative if the bake is: nothing outside of it is seen from any
+/// place in any of these cells, so not from any place in view. It may hold more than what is seen
+/// from the places in view, as it counts whole cells. Time: the rows.
+///
+///     uint32_t count = sl_runtime_look(&runtime, &view, scratch, cells, runtime.cell_count);
+///     sl_runtime_seen_from(&runtime, cells, count, shut, bits);
+SL_RUNTIME_API uint32_t sl_runtime_seen_from(const sl_runtime *runtime, const uint32_t *cells,
+                                             uint32_t count, const unsigned char *shut,
+                                             unsigned char *bits);
+
 // A view cell is a group of cells with one visible set. A game that keeps its draw list from frame
 // to frame changes it only when the eye enters another view cell.
 
@@ -231,15 +248,20 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 /// each thread needs its own.
 ///
 /// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
-/// walls. No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of
-/// the eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of
-/// the row are returned. A search that takes very long, which a sound file does not cause, returns
-/// this whole row, or all cells if there is none.
+/// walls. A line may run along portals and cross them to its left or to its right, but not some to
+/// the left and others to the right. One-way glass is a wall for an eye on its dark side. For an
+/// eye on its line, the eye's cell is the side. All this is as in the library's exact method.
+///
+/// No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of the
+/// eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of the
+/// row are returned. Nothing beyond the map's own range is, as sl_runtime_look_past explains. A
+/// search that takes very long, which a sound file does not cause, returns this whole row, or all
+/// cells if there is none.
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room);
 
 /// As sl_runtime_look, with shut doors and a view range. `shut` is as for sl_runtime_can_see_past,
-/// or NULL for none. `range` is above 0, or 0 for no limit.
+/// or NULL for none. `range` is above 0, or 0 for the map's own. The smaller one of both holds.
 ///
 /// Doors are exact: a line must reach a cell through portals that are on no shut door. For the
 /// range, the distance to the nearest place that the eye sees of a cell counts. No cell within the
@@ -259,8 +281,12 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 ///
 /// Points go counter-clockwise about the eye, so the triangles (eye, point i, point i + 1) cover
 /// what is seen. With a cone, the eye is the first point. Shut doors, mirrors and one-way glass
-/// that the eye cannot look through count as walls. It has no range: clip the polygon by a circle
-/// when you draw it.
+/// that the eye cannot look through count as walls.
+///
+/// `range` is as for sl_runtime_look_past. It cuts the polygon by a circle about the eye. An arc
+/// becomes chords of equal length, of at most 1/128 of the circle. So they lie inside it, by at
+/// most 1/3000 of the range. Between arcs, points are where the circle meets a wall or a line of
+/// sight.
 ///
 /// As sl_region_make of the library: no sign comes from a rounded number. Points are corners of the
 /// map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in a
@@ -269,8 +295,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// sound file does not cause. Time: the sides and portals of the cells that are seen.
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
-                                                   const unsigned char *shut, uint32_t *scratch,
-                                                   double *points, uint32_t room);
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, double *points,
+                                                   uint32_t room);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
@@ -552,9 +579,10 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
     rt->grid_offsets = found[SLRT_GRIO].items;
     rt->grid_cells = found[SLRT_GRIC].items;
     buckets = (uint64_t)rt->grid_columns * rt->grid_rows;
-    if (!found[SLRT_BEYO].items || !rt->grid_offsets || !rt->grid_cells || !buckets ||
-        found[SLRT_GRIO].count != buckets + 1 || entries > UINT32_MAX ||
-        slrt_u32(rt->grid_offsets) != 0)
+    rt->neighbours = found[SLRT_BEYO].items;
+    if (!rt->neighbours || found[SLRT_BEYO].count != rt->vertex_count || !rt->grid_offsets ||
+        !rt->grid_cells || !buckets || found[SLRT_GRIO].count != buckets + 1 ||
+        entries > UINT32_MAX || slrt_u32(rt->grid_offsets) != 0)
         return false;
     for (i = 1; i <= buckets; i++) {
         const uint32_t end = slrt_u32(rt->grid_offsets + (size_t)i * 4);
@@ -569,7 +597,7 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
     rt->root = 0;
     rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = NULL;
+    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
@@ -1003,10 +1031,11 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
            slrt_take_number(&line, false, &out->heading);
 }
 
-/// Each door that a seam is of has a name, and each start three numbers.
+/// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
     slrt_text text, line;
     uint32_t doors = 0;
+    rt->range = 0;
     rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
     rt->text_bytes = (size_t)found[SLRT_MAPT].count;
     text.at = rt->text;
@@ -1015,6 +1044,9 @@ static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
         const slrt_text first = slrt_take_word(&line);
         sl_runtime_viewpoint start;
         if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
+        if (slrt_word_is(&first, "range") &&
+            (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
+            return false;
         if (slrt_word_is(&first, "door")) {
             const slrt_text name = slrt_take_word(&line);
             if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
@@ -1069,7 +1101,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
     case SL_RUNTIME_TEXT:
-        return "damaged: a door or start of the map text";
+        return "damaged: a door, a start or the range of the map text";
     }
     return "unknown status";
 }
@@ -1216,22 +1248,40 @@ static bool slrt_is_open(const unsigned char **next, const unsigned char *shut) 
     return any;
 }
 
+/// The pairs of a cell that depend on doors, by the second cell, ascending.
+typedef struct slrt_door_pairs {
+    const unsigned char *next, *stop;
+    uint32_t cell; ///< of the last pair that was read
+    bool open;     ///< whether that pair is seen
+} slrt_door_pairs;
+
+static slrt_door_pairs slrt_door_pairs_of(const sl_runtime *rt, uint32_t from) {
+    slrt_door_pairs pairs;
+    pairs.next = pairs.stop = NULL;
+    pairs.cell = UINT32_MAX;
+    pairs.open = true;
+    if (rt->door_offsets) {
+        pairs.next = rt->door_bytes + slrt_u64(rt->door_offsets + (size_t)from * 8);
+        pairs.stop = rt->door_bytes + slrt_u64(rt->door_offsets + (size_t)from * 8 + 8);
+    }
+    return pairs;
+}
+
+/// Whether a pair of the row is seen. The second cell never goes down from one call to the next.
+static bool slrt_pair_is_open(slrt_door_pairs *pairs, uint32_t to, const unsigned char *shut) {
+    while ((pairs->cell == UINT32_MAX || pairs->cell < to) && pairs->next != pairs->stop) {
+        pairs->cell += 1 + slrt_number(&pairs->next);
+        pairs->open = slrt_is_open(&pairs->next, shut);
+    }
+    return pairs->cell != to || pairs->open;
+}
+
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut) {
-    const unsigned char *next, *stop;
-    uint32_t cell = UINT32_MAX;
+    slrt_door_pairs pairs;
     if (!sl_runtime_can_see(runtime, from, to)) return false;
-    if (!runtime->door_offsets) return true;
-    next = runtime->door_bytes + slrt_u64(runtime->door_offsets + (size_t)from * 8);
-    stop = runtime->door_bytes + slrt_u64(runtime->door_offsets + (size_t)from * 8 + 8);
-    while (next < stop) {
-        bool open;
-        cell += 1 + slrt_number(&next);
-        if (cell > to) return true;
-        open = slrt_is_open(&next, shut);
-        if (cell == to) return open;
-    }
-    return true;
+    pairs = slrt_door_pairs_of(runtime, from);
+    return slrt_pair_is_open(&pairs, to, shut);
 }
 
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell) {
@@ -1264,6 +1314,33 @@ SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell
         uint32_t i;
         for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
     }
+}
+
+/// Adds the row of a cell. Returns how many cells are new.
+static uint32_t slrt_add_row(const sl_runtime *rt, uint32_t from, const unsigned char *shut,
+                             unsigned char *bits) {
+    sl_runtime_run run = sl_runtime_row(rt, from);
+    slrt_door_pairs pairs;
+    uint32_t added = 0, i;
+    if (run.next == run.stop) return 0;
+    pairs = slrt_door_pairs_of(rt, from);
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) {
+            if (bits[i / 8] >> i % 8 & 1) continue;
+            if (shut && !slrt_pair_is_open(&pairs, i, shut)) continue;
+            bits[i / 8] |= (unsigned char)(1 << i % 8);
+            added++;
+        }
+    return added;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_seen_from(const sl_runtime *runtime, const uint32_t *cells,
+                                             uint32_t count, const unsigned char *shut,
+                                             unsigned char *bits) {
+    uint32_t i, seen = 0;
+    memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
+    for (i = 0; i < count; i++) seen += slrt_add_row(runtime, cells[i], shut, bits);
+    return seen;
 }
 
 // --- view cells
@@ -1374,7 +1451,10 @@ static void slrt_scaled(const slrt_arm *arm, double *to_x, double *to_y, double 
 static int slrt_side_exact(const slrt_arm *u, const slrt_arm *v) {
     double a_x, a_y, b_x, b_y, c_x, c_y, d_x, d_y, parts[16], sum;
     int count = 0;
-    // Frequent: points on one axial line.
+    // Frequent: one point, and points on one axial line.
+    if (u->to_x == v->to_x && u->to_y == v->to_y && u->from_x == v->from_x &&
+        u->from_y == v->from_y)
+        return 0;
     if (u->to_x == u->from_x && v->to_x == v->from_x) return 0;
     if (u->to_y == u->from_y && v->to_y == v->from_y) return 0;
     slrt_scaled(u, &a_x, &a_y, &b_x, &b_y);
@@ -1555,7 +1635,17 @@ enum { SLRT_MOST_ARMS = 4 };
 #define SLRT_PATIENCE 256
 #endif
 
-enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
+enum {
+    SLRT_SEEN = 1,
+    SLRT_ENTERED = 2,
+    SLRT_ON_PATH = 4,
+    SLRT_IN_ROW = 8,
+    // Of the last visit: which borders of the sector run along a portal that was crossed. A line on
+    // the right border has crossed it to the left, one on the left border to the right.
+    SLRT_ALONG_RIGHT = 16,
+    SLRT_ALONG_LEFT = 32,
+    SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT
+};
 
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
 /// its directed portals that are done, and the right and left border of the sector through which
@@ -1566,6 +1656,7 @@ typedef struct slrt_search {
     const unsigned char *shut; ///< NULL for none
     double range;              ///< 0 for no limit
     double x, y;               ///< the eye
+    uint32_t eye_cell;
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
@@ -1597,18 +1688,56 @@ static bool slrt_within(const slrt_arm *v, const slrt_arm *a, const slrt_arm *b,
     return (from_a && to_b) || slrt_same_way(a, v) || slrt_same_way(b, v);
 }
 
+static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
+    return !slrt_side(u, v) && slrt_same_way(u, v);
+}
+
+/// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
+/// its borders run along portals (of SLRT_ALONG).
+typedef struct slrt_sector {
+    uint32_t right, left;
+    unsigned along;
+} slrt_sector;
+
+static bool slrt_is_ray(const slrt_search *s, const slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    return slrt_same_ray(&a, &b);
+}
+
+/// Adds what a portal in line with the eye says about the borders. `p` and `q` lead to its right
+/// and left end. False if only a line is left that crosses portals along it both ways: no line
+/// beside it passes them all.
+static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                           slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    const slrt_arm to_left = slrt_make_arm(p->to_x, p->to_y, q->to_x, q->to_y);
+    if (!slrt_same_way(p, q)) { // the eye is on it
+        if (!slrt_side(&to_left, &a) && !slrt_same_way(&to_left, &a))
+            sector->along |= SLRT_ALONG_RIGHT;
+        if (!slrt_side(&to_left, &b) && slrt_same_way(&to_left, &b))
+            sector->along |= SLRT_ALONG_LEFT;
+    } else if (slrt_same_ray(&a, &b)) {
+        // Who goes from its right end to its left end crosses it to the right.
+        sector->along |=
+            slrt_same_way(&to_left, &a) ? (unsigned)SLRT_ALONG_LEFT : (unsigned)SLRT_ALONG_RIGHT;
+    }
+    return sector->along != SLRT_ALONG || !slrt_same_ray(&a, &b);
+}
+
 /// Narrows a sector of less than 180 degrees to its part that leaves through a directed portal;
 /// false for none. From an eye on the directed portal, everything in front of it leaves.
-static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right, uint32_t *left) {
+static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *sector) {
     uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
-    slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left), a, b;
-    int a_p, a_q;
+    const slrt_arm right = slrt_border(s, portal_right), left = slrt_border(s, portal_left);
+    slrt_arm p = right, q = left, a, b;
+    int a_p, a_q, p_b, q_b;
     bool right_within;
-    if (slrt_side(&p, &q) < 0) return false;
-    if (*right == SLRT_ALL_ROUND) {
-        *right = portal_right;
-        *left = portal_left;
-        return true;
+    const int facing = slrt_side(&p, &q);
+    if (facing < 0) return false;
+    if (sector->right == SLRT_ALL_ROUND) {
+        sector->right = portal_right;
+        sector->left = portal_left;
+        return facing || slrt_run_along(s, &right, &left, sector);
     }
     if (slrt_is_zero(&p)) {
         portal_right = portal_left | SLRT_REVERSED;
@@ -1617,15 +1746,24 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right
         portal_left = portal_right | SLRT_REVERSED;
         q = slrt_border(s, portal_left);
     }
-    a = slrt_border(s, *right);
-    b = slrt_border(s, *left);
+    a = slrt_border(s, sector->right);
+    b = slrt_border(s, sector->left);
     a_p = slrt_side(&a, &p);
     a_q = slrt_side(&a, &q);
-    right_within = slrt_within(&p, &a, &b, a_p, slrt_side(&p, &b));
+    p_b = slrt_side(&p, &b);
+    q_b = slrt_side(&q, &b);
+    right_within = slrt_within(&p, &a, &b, a_p, p_b);
     if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
-    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = portal_left;
-    if (right_within) *right = portal_right;
-    return true;
+    if (slrt_within(&q, &a, &b, a_q, q_b)) {
+        if (q_b || !slrt_same_way(&q, &b)) sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
+        sector->left = portal_left;
+    }
+    if (right_within) {
+        if (a_p || !slrt_same_way(&a, &p)) sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
+        sector->right = portal_right;
+    }
+    return facing ? sector->along != SLRT_ALONG || !slrt_is_ray(s, sector)
+                  : slrt_run_along(s, &right, &left, sector);
 }
 
 /// The first entry of a portal among the portals on seams, or where it would be.
@@ -1641,16 +1779,32 @@ static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
     return low;
 }
 
-/// Whether a directed portal is on a shut door.
-static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
+/// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
+/// right to the left. For an eye on its line, the eye's cell decides.
+static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(s->rt, s->eye_cell);
+    const unsigned char *corner = s->rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const int side = slrt_side_of_line(glass, glass + 16, s->x, s->y);
+    uint32_t i;
+    if (side) return side > 0;
+    for (i = 0; i < cell.vertex_count; i++, corner += SLRT_VERTEX_BYTES)
+        if (slrt_side_of_line(glass, glass + 16, slrt_f64(corner), slrt_f64(corner + 8)) > 0)
+            return true;
+    return false;
+}
+
+/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
     const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
-    uint32_t low = slrt_first_seam(rt, portal);
-    for (; low < rt->seam_portal_count; low++) {
-        const unsigned char *on = rt->seam_portals + (size_t)low * 12, *seam;
+    uint32_t i;
+    if (!rt->seam_portal_count) return false;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
-        if (slrt_u32(seam + 32) == 1 && s->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(s, seam)) return true;
     }
     return false;
 }
@@ -1698,18 +1852,23 @@ static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t righ
     return !(near_x * near_x + near_y * near_y > limit * limit);
 }
 
-/// Whether the sector of a cell's last visit contains another one.
-static bool slrt_covered(const slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+/// Whether a cell's last visit has seen all that a visit through another sector would.
+static bool slrt_covered(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
     const uint32_t was_right = s->sectors[2 * (size_t)cell];
     const uint32_t was_left = s->sectors[2 * (size_t)cell + 1];
+    const unsigned more = s->marks[cell] & SLRT_ALONG & ~sector->along;
     slrt_arm a, b, v, w;
-    if (was_right == right && was_left == left) return true;
+    int a_v, w_b;
+    if (was_right == sector->right && was_left == sector->left) return !more;
     a = slrt_border(s, was_right);
     b = slrt_border(s, was_left);
-    v = slrt_border(s, right);
-    w = slrt_border(s, left);
-    return slrt_within(&v, &a, &b, slrt_side(&a, &v), slrt_side(&v, &b)) &&
-           slrt_within(&w, &a, &b, slrt_side(&a, &w), slrt_side(&w, &b));
+    v = slrt_border(s, sector->right);
+    w = slrt_border(s, sector->left);
+    a_v = slrt_side(&a, &v);
+    w_b = slrt_side(&w, &b);
+    if ((!a_v && more & SLRT_ALONG_RIGHT) || (!w_b && more & SLRT_ALONG_LEFT)) return false;
+    return slrt_within(&v, &a, &b, a_v, slrt_side(&v, &b)) &&
+           slrt_within(&w, &a, &b, slrt_side(&a, &w), w_b);
 }
 
 static void slrt_see(slrt_search *s, uint32_t cell) {
@@ -1722,19 +1881,21 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
 /// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
 /// path was seen through a wider sector, and a cell that was entered with a wider one needs no
 /// second visit.
-static void slrt_enter(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
     uint32_t *top = s->path + 4 * (size_t)s->depth;
-    if (s->has_row && !(s->marks[cell] & SLRT_IN_ROW)) return;
-    if (s->marks[cell] & SLRT_ON_PATH) return;
-    if (s->marks[cell] & SLRT_ENTERED && slrt_covered(s, cell, right, left)) return;
+    unsigned char *marks = s->marks + cell;
+    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
+    if (*marks & SLRT_ON_PATH) return;
+    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    s->marks[cell] |= SLRT_ENTERED | SLRT_ON_PATH;
-    s->sectors[2 * (size_t)cell] = right;
-    s->sectors[2 * (size_t)cell + 1] = left;
+    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
+                             sector->along);
+    s->sectors[2 * (size_t)cell] = sector->right;
+    s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
     top[1] = 0;
-    top[2] = right;
-    top[3] = left;
+    top[2] = sector->right;
+    top[3] = sector->left;
     s->depth++;
 }
 
@@ -1744,8 +1905,23 @@ static void slrt_see_row(slrt_search *s) {
         if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
 }
 
+/// Takes the next directed portal of the cell on top of the path.
+static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
+    slrt_sector sector;
+    sector.right = top[2];
+    sector.left = top[3];
+    sector.along = s->marks[top[0]] & SLRT_ALONG;
+    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
+    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
+    slrt_enter(s, slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4), &sector);
+}
+
 static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_enter(s, cell, right, left);
+    slrt_sector sector;
+    sector.right = right;
+    sector.left = left;
+    sector.along = 0;
+    slrt_enter(s, cell, &sector);
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -1756,16 +1932,8 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
             slrt_see_row(s);
             s->depth = 0;
         } else {
-            const uint32_t directed = c.first_directed + top[1]++;
             s->patience--;
-            right = top[2];
-            left = top[3];
-            if (s->shut && slrt_is_shut(s, directed)) continue;
-            if (slrt_narrow(s, directed, &right, &left) &&
-                (!(s->range > 0) || slrt_in_range(s, directed, right, left)))
-                slrt_enter(s,
-                           slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4),
-                           right, left);
+            slrt_search_on(s, top, c.first_directed + top[1]++);
         }
     }
 }
@@ -1799,10 +1967,6 @@ static bool slrt_is_on_portal(const slrt_search *s, uint32_t cell) {
     return false;
 }
 
-static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
-    return !slrt_side(u, v) && slrt_same_way(u, v);
-}
-
 /// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
 /// through a directed portal is one sector. All round from within a cell, each directed portal is
 /// such a piece.
@@ -1830,6 +1994,11 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
         slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
 }
 
+/// The smaller one of a caller's range and the map's own; 0 for no limit.
+static double slrt_range(const sl_runtime *rt, double range) {
+    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room) {
     return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
@@ -1848,9 +2017,10 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     s.rt = runtime;
     s.view = view;
     s.shut = shut;
-    s.range = range;
+    s.range = slrt_range(runtime, range);
     s.x = x;
     s.y = y;
+    s.eye_cell = cell;
     s.path = scratch;
     s.sectors = scratch + 4 * count;
     s.marks = (unsigned char *)(scratch + 6 * count);
@@ -1895,33 +2065,37 @@ typedef struct slrt_piece {
 /// A walk around a cell, counter-clockwise, some times from a portal's left end to there again.
 typedef struct slrt_walk {
     sl_runtime_cell cell;
-    uint32_t stop;            ///< the portal at which a lap ends
-    uint32_t passed, side;    ///< the portal passed last, and the side on which `at` lies
-    uint32_t next, next_side; ///< the next portal, and its side
-    uint32_t corners;         ///< the number of corners before it
-    uint32_t laps;            ///< left to do
-    double at[2];
+    uint32_t stop;       ///< the portal at which a lap ends; SLRT_NONE in a cell without portals
+    uint32_t next;       ///< the next portal
+    bool is_here;        ///< it is on this side, ahead
+    uint32_t side, laps; ///< the side that `at` lies on, and the laps to do
+    uint32_t corners;    ///< to pass at most: a bound for files that are not sound
+    double at[2], a[2], b[2]; ///< the side goes from a to b
 } slrt_walk;
 
 /// A polygon as it grows, and the part of the view about the eye that is being looked at.
 typedef struct slrt_polygon {
     slrt_search s;
-    uint32_t eye_cell;
     bool broken; ///< the file is not sound, or the search takes too long
     double *points;
-    uint32_t room, count;
-    double first[2], last[2]; ///< points
-    bool pending;             ///< the end of the last piece is not added yet
-    slrt_piece piece;         ///< that piece
-    uint32_t piece_left;      ///< the border where it ends, or SLRT_NONE
-    slrt_piece first_piece;   ///< that starts at the first point
-    bool first_is_short;      ///< it is shorter than a step of doubles
-    bool inside;              ///< the eye lies within its cell
-    uint32_t fan_first;       ///< the cell where the way around the eye starts
-    bool fan_is_closed;       ///< it leads back to that cell
-    bool gap;                 ///< the eye lies on a wall, which hides some directions
-    bool in_sector;           ///< only what is between these borders is looked at
-    uint32_t right, left;     ///< borders of the sector
+    uint32_t room, written;
+    uint32_t count;           ///< of points, before a range cuts the polygon
+    double first[2], last[2]; ///< of these
+    double second[2];         ///< with a range: the edge to it waits until the polygon closes
+    bool second_is_radial, waits;
+    bool has_arc; ///< an arc is begun, from `arc` to `arc_end`
+    double arc[2], arc_end[2];
+    bool pending;           ///< the end of the last piece is not added yet
+    slrt_piece piece;       ///< that piece
+    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE
+    slrt_piece first_piece; ///< that starts at the first point
+    bool first_is_short;    ///< it is shorter than a step of doubles
+    bool inside;            ///< the eye lies within its cell
+    uint32_t fan_first;     ///< the cell where the way around the eye starts
+    bool fan_is_closed;     ///< it leads back to that cell
+    bool gap;               ///< the eye lies on a wall, which hides some directions
+    bool in_sector;         ///< only what is between these borders is looked at
+    uint32_t right, left;   ///< borders of the sector
     bool second_lap, started, done;
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
 } slrt_polygon;
@@ -1950,79 +2124,102 @@ static int slrt_turn(const double *a, const double *b, const double *c) {
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is on the segment from a to b. The box of an axial segment is the segment.
+/// Whether a point is in the box of the segment from a to b: on it, if that is axial.
 static bool slrt_is_on(const double *a, const double *b, const double *point) {
-    return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]) &&
-           (a[0] == b[0] || a[1] == b[1] || slrt_same_place(a, point) ||
-            slrt_same_place(b, point) || !slrt_turn(a, b, point));
+    return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]);
 }
 
-/// The side of a cell that a portal is on, looked for from one side on.
-static uint32_t slrt_side_of_portal(slrt_polygon *p, const sl_runtime_cell *cell, uint32_t directed,
-                                    uint32_t from) {
+static uint32_t slrt_next_corner(const sl_runtime_cell *cell, uint32_t corner) {
+    return corner + 1 < cell->vertex_count ? corner + 1 : 0;
+}
+
+/// Whether a side of a cell is a portal, in a file with a grid: a portal is a whole side there.
+static bool slrt_is_portal_side(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t side) {
+    return slrt_u32(rt->neighbours + ((size_t)cell->first_vertex + side) * 4) == UINT32_MAX;
+}
+
+/// The side of a cell that a portal is on. Without a grid, all walls are axial.
+static uint32_t slrt_side_of_portal(slrt_polygon *p, const sl_runtime_cell *cell,
+                                    uint32_t directed) {
+    const sl_runtime *rt = p->s.rt;
+    uint32_t before = directed - cell->first_directed, side;
     double left[2], right[2], a[2], b[2];
-    uint32_t i, side = from;
-    slrt_read_end(p->s.rt, directed, 0, left);
-    slrt_read_end(p->s.rt, directed, 1, right);
-    slrt_read_vertex(p->s.rt, cell, side, a);
-    for (i = 0; i < cell->vertex_count && p->s.patience; i++) {
-        const uint32_t next = side + 1 < cell->vertex_count ? side + 1 : 0;
-        slrt_read_vertex(p->s.rt, cell, next, b);
+    slrt_read_end(rt, directed, 0, left);
+    slrt_read_end(rt, directed, 1, right);
+    for (side = 0; side < cell->vertex_count; side++) {
+        if (rt->neighbours) {
+            if (slrt_is_portal_side(rt, cell, side) && !before--) return side;
+            continue;
+        }
+        slrt_read_vertex(rt, cell, side, a);
+        slrt_read_vertex(rt, cell, slrt_next_corner(cell, side), b);
         if (slrt_is_on(a, b, right) && slrt_is_on(a, b, left)) return side;
-        a[0] = b[0], a[1] = b[1];
-        side = next;
-        p->s.patience--;
     }
     p->broken = true;
-    return from;
+    return 0;
 }
 
-/// Whether a point on a side comes before another one.
-static bool slrt_comes_before(slrt_polygon *p, const slrt_walk *w, const double *point,
-                              const double *other) {
-    double a[2], b[2];
-    int axis;
-    slrt_read_vertex(p->s.rt, &w->cell, w->side, a);
-    slrt_read_vertex(p->s.rt, &w->cell, w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0, b);
-    axis = a[0] == b[0];
-    return a[axis] < b[axis] ? point[axis] < other[axis] : point[axis] > other[axis];
-}
-
-/// Finds the next portal of a walk.
-static void slrt_walk_aim(slrt_polygon *p, slrt_walk *w) {
-    const uint32_t first = w->cell.first_directed, count = w->cell.directed_count;
-    double right[2];
-    w->next = w->passed + 1 < first + count ? w->passed + 1 : first;
-    w->next_side = slrt_side_of_portal(p, &w->cell, w->next, w->side);
-    w->corners = w->next_side >= w->side ? w->next_side - w->side
-                                         : w->cell.vertex_count - w->side + w->next_side;
+/// Whether the next portal of a walk is on this side, and not before its place.
+static bool slrt_walk_is_at_portal(const slrt_polygon *p, const slrt_walk *w) {
+    const int axis = w->a[0] == w->b[0];
+    double left[2], right[2];
+    if (w->stop == SLRT_NONE) return false;
+    if (p->s.rt->neighbours)
+        return slrt_same_place(w->at, w->a) && slrt_is_portal_side(p->s.rt, &w->cell, w->side);
     slrt_read_end(p->s.rt, w->next, 1, right);
-    if (!w->corners && (w->next == w->passed || slrt_comes_before(p, w, right, w->at)))
-        w->corners = w->cell.vertex_count;
+    if (w->a[axis] < w->b[axis] ? right[axis] < w->at[axis] : right[axis] > w->at[axis])
+        return false;
+    slrt_read_end(p->s.rt, w->next, 0, left);
+    return slrt_is_on(w->a, w->b, right) && slrt_is_on(w->a, w->b, left);
 }
 
-/// Goes on with a walk behind a portal on a known side.
-static void slrt_walk_behind(slrt_polygon *p, slrt_walk *w, uint32_t passed, uint32_t side) {
-    w->passed = passed;
+/// Goes on to the next side.
+static void slrt_walk_turn(slrt_polygon *p, slrt_walk *w) {
+    if (!w->corners) p->broken = true;
+    w->corners--;
+    w->side = slrt_next_corner(&w->cell, w->side);
+    memcpy(w->a, w->b, sizeof w->a);
+    slrt_read_vertex(p->s.rt, &w->cell, slrt_next_corner(&w->cell, w->side), w->b);
+    w->is_here = slrt_walk_is_at_portal(p, w);
+}
+
+/// Goes on with a walk behind a portal.
+static void slrt_walk_pass(slrt_polygon *p, slrt_walk *w, uint32_t portal) {
+    const uint32_t first = w->cell.first_directed;
+    w->next = portal + 1 < first + w->cell.directed_count ? portal + 1 : first;
+    slrt_read_end(p->s.rt, portal, 0, w->at);
+    if (slrt_same_place(w->at, w->b))
+        slrt_walk_turn(p, w);
+    else
+        w->is_here = slrt_walk_is_at_portal(p, w);
+}
+
+/// Starts a walk behind a portal on a known side. In a cell without portals it starts at a corner.
+static void slrt_walk_start(slrt_polygon *p, slrt_walk *w, uint32_t stop, uint32_t passed,
+                            uint32_t side, uint32_t laps) {
+    w->stop = stop;
     w->side = side;
-    slrt_read_end(p->s.rt, passed, 0, w->at);
-    slrt_walk_aim(p, w);
-}
-
-/// Starts a walk behind a portal. In a cell without portals it starts at a corner.
-static void slrt_walk_start(slrt_polygon *p, slrt_walk *w, uint32_t cell, uint32_t stop,
-                            uint32_t laps) {
-    w->cell = sl_runtime_get_cell(p->s.rt, cell);
-    w->stop = w->cell.directed_count ? stop : SLRT_NONE;
     w->laps = laps;
-    if (w->stop != SLRT_NONE) {
-        slrt_walk_behind(p, w, stop, slrt_side_of_portal(p, &w->cell, stop, 0));
+    w->corners = (laps + 1) * w->cell.vertex_count;
+    slrt_read_vertex(p->s.rt, &w->cell, side, w->a);
+    slrt_read_vertex(p->s.rt, &w->cell, slrt_next_corner(&w->cell, side), w->b);
+    if (stop != SLRT_NONE) {
+        slrt_walk_pass(p, w, passed);
         return;
     }
-    w->passed = w->next = SLRT_NONE;
-    w->side = w->next_side = 0;
-    w->corners = w->cell.vertex_count;
-    slrt_read_vertex(p->s.rt, &w->cell, 0, w->at);
+    memcpy(w->at, w->a, sizeof w->at);
+    w->is_here = false;
+}
+
+/// Starts a walk all around a cell, from its first portal on.
+static void slrt_walk_around(slrt_polygon *p, slrt_walk *w, uint32_t cell, uint32_t laps) {
+    w->cell = sl_runtime_get_cell(p->s.rt, cell);
+    if (w->cell.directed_count) {
+        const uint32_t first = w->cell.first_directed;
+        slrt_walk_start(p, w, first, first, slrt_side_of_portal(p, &w->cell, first), laps);
+    } else {
+        slrt_walk_start(p, w, SLRT_NONE, SLRT_NONE, 0, laps);
+    }
 }
 
 static void slrt_end_piece_at(slrt_walk *w, const double *end, slrt_piece *piece) {
@@ -2035,14 +2232,10 @@ static void slrt_end_piece_at(slrt_walk *w, const double *end, slrt_piece *piece
 /// Takes the next piece of the boundary, to a corner, to a portal, or of a portal.
 static void slrt_walk_step(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     double end[2];
-    if (w->corners) {
-        w->side = w->side + 1 < w->cell.vertex_count ? w->side + 1 : 0;
-        slrt_read_vertex(p->s.rt, &w->cell, w->side, end);
-        slrt_end_piece_at(w, end, piece);
-        w->corners--;
-        if (w->stop != SLRT_NONE || w->corners) return;
-        w->laps--;
-        w->corners = w->cell.vertex_count;
+    if (!w->is_here) {
+        slrt_end_piece_at(w, w->b, piece);
+        slrt_walk_turn(p, w);
+        if (w->stop == SLRT_NONE && !w->side) w->laps--;
         return;
     }
     slrt_read_end(p->s.rt, w->next, 1, end);
@@ -2054,7 +2247,7 @@ static void slrt_walk_step(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     slrt_end_piece_at(w, end, piece);
     piece->directed = w->next;
     if (w->next == w->stop) w->laps--;
-    if (w->laps) slrt_walk_behind(p, w, w->next, w->next_side);
+    if (w->laps) slrt_walk_pass(p, w, w->next);
 }
 
 /// Takes the next piece that is not just a point; false at the end.
@@ -2072,37 +2265,6 @@ static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
     return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);
 }
 
-/// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
-/// right to the left. For an eye on its line, the eye's cell decides.
-static bool slrt_is_dark(const slrt_polygon *p, const unsigned char *glass) {
-    const sl_runtime *rt = p->s.rt;
-    const sl_runtime_cell cell = sl_runtime_get_cell(rt, p->eye_cell);
-    const int side = slrt_side_of_line(glass, glass + 16, p->s.x, p->s.y);
-    uint32_t i;
-    if (side) return side > 0;
-    for (i = 0; i < cell.vertex_count; i++) {
-        double corner[2];
-        slrt_read_vertex(rt, &cell, i, corner);
-        if (slrt_side_of_line(glass, glass + 16, corner[0], corner[1]) > 0) return true;
-    }
-    return false;
-}
-
-/// Whether a directed portal is on a shut door or dark glass, and so a wall.
-static bool slrt_is_blocked(const slrt_polygon *p, uint32_t directed) {
-    const sl_runtime *rt = p->s.rt;
-    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
-    uint32_t i;
-    if (p->s.shut && slrt_is_shut(&p->s, directed)) return true;
-    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
-        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
-        if (slrt_u32(on) != portal) return false;
-        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
-        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(p, seam)) return true;
-    }
-    return false;
-}
-
 /// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
 static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
     const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
@@ -2116,17 +2278,184 @@ static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
     return SLRT_NONE;
 }
 
+static void slrt_put(slrt_polygon *p, const double *point) {
+    if (p->written < p->room) memcpy(p->points + 2 * (size_t)p->written, point, 2 * sizeof *point);
+    p->written++;
+}
+
+/// Limits a number to those between a and b.
+static double slrt_limited(double a, double value, double b) {
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return !(value >= low) ? low : value > high ? high : value;
+}
+
+// The range cuts the polygon, edge by edge, by a circle about the eye:
+//
+//          q____
+//     p'  /      An edge on a wall, from p to q, keeps what is inside. Before and after it stand
+//      .-+--.    arcs between the directions of its ends. Radial edges end at the circle. Arcs in a
+//     (  |   )   row join, and become chords. All that is in doubles, in units of the range and
+//      `-*--'    relative to the eye. Every edge and arc adds the point where it starts.
+
+static double slrt_dot(const double *u, const double *v) {
+    return u[0] * v[0] + u[1] * v[1];
+}
+
+static double slrt_turned(const double *u, const double *v) {
+    return u[0] * v[1] - u[1] * v[0];
+}
+
+/// The square root, by Newton's steps; 0 for what has none.
+static double slrt_root(double square) {
+    uint64_t bits;
+    double root;
+    int i;
+    if (!(square > 0)) return 0;
+    memcpy(&bits, &square, sizeof bits);
+    bits = (bits >> 1) + (UINT64_C(1023) << 51); // halves the exponent
+    memcpy(&root, &bits, sizeof root);
+    for (i = 0; i < 5; i++) root = (root + square / root) / 2;
+    return root;
+}
+
+/// Makes a vector's length 1.
+static void slrt_make_unit(double *u) {
+    const double larger = slrt_larger(u[0], u[1]);
+    double length;
+    u[0] /= larger;
+    u[1] /= larger;
+    length = slrt_root(slrt_dot(u, u));
+    u[0] /= length;
+    u[1] /= length;
+}
+
+/// Adds a point that is given in units of the range.
+static void slrt_put_unit(slrt_polygon *p, const double *u) {
+    double point[2];
+    point[0] = p->s.x + u[0] * p->s.range;
+    point[1] = p->s.y + u[1] * p->s.range;
+    slrt_put(p, point);
+}
+
+/// Adds the chords of an arc that is begun: it is halved until a part is at most 1/128 of the
+/// circle.
+static void slrt_end_arc(slrt_polygon *p) {
+    const double most = 0.0024090935; // the square of such a chord
+    double part[2], at[2];
+    int i, count = 1;
+    if (!p->has_arc) return;
+    p->has_arc = false;
+    slrt_put_unit(p, p->arc);
+    memcpy(part, p->arc_end, sizeof part);
+    for (; count < 256; count *= 2) {
+        const double x = part[0] - p->arc[0], y = part[1] - p->arc[1];
+        if (!(x * x + y * y > most)) break;
+        part[0] = y, part[1] = -x; // the direction of the middle
+        slrt_make_unit(part);
+    }
+    memcpy(at, p->arc, sizeof at);
+    for (i = 1; i < count; i++) {
+        const double cosine = slrt_dot(p->arc, part), sine = slrt_turned(p->arc, part);
+        const double x = at[0];
+        at[0] = cosine * x - sine * at[1];
+        at[1] = cosine * at[1] + sine * x;
+        slrt_put_unit(p, at);
+    }
+}
+
+/// Goes on with the arc, or begins one. One that is shorter than rounding is left out.
+static void slrt_add_arc(slrt_polygon *p, const double *from, const double *to) {
+    if (!(slrt_turned(from, to) > 1e-15) && slrt_dot(from, to) > 0) return;
+    if (!p->has_arc || slrt_turned(p->arc, to) <= 0) {
+        slrt_end_arc(p);
+        memcpy(p->arc, from, sizeof p->arc);
+    }
+    memcpy(p->arc_end, to, sizeof p->arc_end);
+    p->has_arc = true;
+}
+
+/// An edge in units of the range: its ends, the directions to them, and what of it, in shares from
+/// 0 to 1, is inside.
+typedef struct slrt_chord {
+    double a[2], along[2], from[2], to[2];
+    bool a_inside, b_inside;
+    double enter, leave;
+} slrt_chord;
+
+static slrt_chord slrt_chord_of(const slrt_polygon *p, const double *a, const double *b) {
+    slrt_chord c;
+    double length, distance, foot, half;
+    c.a[0] = c.from[0] = (a[0] - p->s.x) / p->s.range;
+    c.a[1] = c.from[1] = (a[1] - p->s.y) / p->s.range;
+    c.to[0] = (b[0] - p->s.x) / p->s.range;
+    c.to[1] = (b[1] - p->s.y) / p->s.range;
+    c.along[0] = c.to[0] - c.a[0];
+    c.along[1] = c.to[1] - c.a[1];
+    c.a_inside = slrt_dot(c.from, c.from) <= 1;
+    c.b_inside = slrt_dot(c.to, c.to) <= 1;
+    if (!c.a_inside) slrt_make_unit(c.from);
+    if (!c.b_inside) slrt_make_unit(c.to);
+    length = slrt_root(slrt_dot(c.along, c.along));
+    distance = slrt_turned(c.a, c.along) / length;
+    foot = -slrt_dot(c.a, c.along) / length;
+    half = slrt_root((1 - distance) * (1 + distance));
+    c.enter = (foot - half) / length;
+    c.leave = (foot + half) / length;
+    return c;
+}
+
+/// Where an edge crosses the circle: as a point, and in units of the range.
+static void slrt_cross_circle(const slrt_polygon *p, const slrt_chord *c, double share,
+                              const double *a, const double *b, double *point, double *unit) {
+    unit[0] = c->a[0] + share * c->along[0];
+    unit[1] = c->a[1] + share * c->along[1];
+    point[0] = slrt_limited(a[0], p->s.x + unit[0] * p->s.range, b[0]);
+    point[1] = slrt_limited(a[1], p->s.y + unit[1] * p->s.range, b[1]);
+}
+
+/// Adds what a range leaves of an edge.
+static void slrt_cut_edge(slrt_polygon *p, const double *a, const double *b, bool radial) {
+    const slrt_chord c = slrt_chord_of(p, a, b);
+    double point[2], unit[2];
+    if (c.a_inside) {
+        slrt_end_arc(p);
+        slrt_put(p, a);
+    } else if (radial) {
+        if (!c.b_inside) return;
+        slrt_end_arc(p);
+        slrt_put_unit(p, c.from);
+    } else if (c.b_inside || (c.enter < c.leave && c.enter < 1 && c.leave > 0)) {
+        slrt_cross_circle(p, &c, c.enter, a, b, point, unit);
+        slrt_add_arc(p, c.from, unit);
+        slrt_end_arc(p);
+        slrt_put(p, point);
+    } else {
+        slrt_add_arc(p, c.from, c.to);
+        return;
+    }
+    if (c.b_inside || radial) return;
+    slrt_cross_circle(p, &c, c.leave, a, b, point, unit);
+    slrt_add_arc(p, unit, c.to);
+}
+
 // The points of the polygon.
 
-/// Adds a point, unless it is the last one.
-static void slrt_add_point(slrt_polygon *p, const double *point) {
+/// Adds a point, unless it is the last one. `radial`: the edge to it leads from or to the eye.
+static void slrt_add_point(slrt_polygon *p, const double *point, bool radial) {
     if (p->count && slrt_same_place(p->last, point)) {
         p->first_is_short = p->first_is_short || p->count == 1;
         return;
     }
+    if (!(p->s.range > 0)) {
+        slrt_put(p, point);
+    } else if (p->count == 1 && p->waits) {
+        memcpy(p->second, point, sizeof p->second);
+        p->second_is_radial = radial;
+    } else if (p->count) {
+        slrt_cut_edge(p, p->last, point, radial);
+    }
     memcpy(p->last, point, sizeof p->last);
     if (!p->count) memcpy(p->first, point, sizeof p->first);
-    if (p->count < p->room) memcpy(p->points + 2 * (size_t)p->count, point, sizeof p->last);
     p->count++;
 }
 
@@ -2144,12 +2473,6 @@ static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
     count = slrt_add_product(parts, count, -u->from_y, v->from_x);
     for (i = 0; i < count; i++) sum += parts[i];
     return sum;
-}
-
-/// Limits a number to those between a and b.
-static double slrt_limited(double a, double value, double b) {
-    const double low = a < b ? a : b, high = a < b ? b : a;
-    return !(value >= low) ? low : value > high ? high : value;
 }
 
 /// The end of a piece: its own, or where a border meets its line.
@@ -2189,7 +2512,7 @@ static void slrt_end_pending(slrt_polygon *p) {
     double end[2];
     if (!p->pending) return;
     slrt_place(p, p->piece_left, p->piece.b, &p->piece, end);
-    slrt_add_point(p, end);
+    slrt_add_point(p, end, false);
     p->pending = false;
 }
 
@@ -2200,7 +2523,7 @@ static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t rig
         slrt_place(p, right, piece->a, piece, start);
         slrt_end_pending(p);
         if (!p->count) p->first_piece = *piece;
-        slrt_add_point(p, start);
+        slrt_add_point(p, start, true);
     }
     p->pending = true;
     p->piece = *piece;
@@ -2213,20 +2536,40 @@ static void slrt_add_eye(slrt_polygon *p) {
     eye[0] = p->s.x;
     eye[1] = p->s.y;
     slrt_end_pending(p);
-    slrt_add_point(p, eye);
+    slrt_add_point(p, eye, true);
 }
 
 /// Ends the polygon. All round, the last piece may go on as the first one. Then that one's start
 /// goes, unless rounding made it the end too.
 static void slrt_close(slrt_polygon *p, bool all_round) {
-    if (all_round && p->pending && p->count > 1 && !p->first_is_short &&
-        slrt_in_line(&p->first_piece, &p->piece)) {
-        if (p->room) memcpy(p->points, p->last, sizeof p->last);
-        p->count--;
+    const bool goes_on = all_round && p->pending && p->count > 1 && !p->first_is_short &&
+                         slrt_in_line(&p->first_piece, &p->piece);
+    bool meets;
+    if (!goes_on) slrt_end_pending(p);
+    meets = p->count > 1 && slrt_same_place(p->first, p->last);
+    if (goes_on || meets) p->count--;
+    if (!(p->s.range > 0)) {
+        if (goes_on && p->room) memcpy(p->points, p->last, sizeof p->last);
+        p->written = p->count;
         return;
     }
-    slrt_end_pending(p);
-    if (p->count > 1 && slrt_same_place(p->first, p->last)) p->count--;
+    if (p->count < 2) return;
+    if (goes_on) {
+        slrt_cut_edge(p, p->last, p->second, false);
+    } else {
+        if (!meets) slrt_cut_edge(p, p->last, p->first, true);
+        if (p->waits) slrt_cut_edge(p, p->first, p->second, p->second_is_radial);
+    }
+    slrt_end_arc(p);
+}
+
+/// The borders of what is seen through a portal: those given, or its own ends for SLRT_NONE. False
+/// if it is blocked or out of range, and for no portal.
+static bool slrt_pass(const slrt_polygon *p, uint32_t portal, uint32_t *right, uint32_t *left) {
+    if (portal == SLRT_NONE || slrt_is_blocked(&p->s, portal)) return false;
+    if (*right == SLRT_NONE) *right = 2 * portal + 1;
+    if (*left == SLRT_NONE) *left = 2 * portal;
+    return !(p->s.range > 0) || slrt_in_range(&p->s, portal, *right, *left);
 }
 
 // The search. The path is a stack of six numbers for each cell: the cell, the portal through which
@@ -2245,7 +2588,7 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
     cell = sl_runtime_get_cell(p->s.rt, top[0]);
     top[1] = top[2] = twin;
-    top[3] = slrt_side_of_portal(p, &cell, twin, 0);
+    top[3] = slrt_side_of_portal(p, &cell, twin);
     top[4] = right;
     top[5] = left;
     p->s.depth++;
@@ -2256,28 +2599,29 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
 static void slrt_spread_on(slrt_polygon *p) {
     uint32_t *top = p->s.path + (size_t)SLRT_FRAME * (p->s.depth - 1);
     const slrt_arm a = slrt_border(&p->s, top[4]), b = slrt_border(&p->s, top[5]);
+    bool within = top[2] != top[1]; // what is right of the sector is passed
     slrt_walk w;
     slrt_piece piece;
     w.cell = sl_runtime_get_cell(p->s.rt, top[0]);
-    w.stop = top[1];
-    w.laps = 1;
-    slrt_walk_behind(p, &w, top[2], top[3]);
+    slrt_walk_start(p, &w, top[1], top[2], top[3], 1);
     while (slrt_walk_next(p, &w, &piece)) {
         const uint32_t portal = piece.directed;
-        const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
+        const slrt_arm to = slrt_arm_to(p, piece.b);
         uint32_t right = SLRT_NONE, left = SLRT_NONE;
         int end;
-        if (slrt_side(&from, &to) <= 0 || slrt_side(&a, &to) <= 0) continue;
-        if (slrt_side(&from, &b) <= 0) break;
+        if (!within) {
+            const slrt_arm from = slrt_arm_to(p, piece.a);
+            if (slrt_side(&a, &to) <= 0) continue;
+            if (slrt_side(&from, &a) > 0) right = top[4];
+            within = true;
+        }
         end = slrt_side(&to, &b);
-        if (slrt_side(&from, &a) > 0) right = top[4];
         if (end < 0) left = top[5];
-        if (portal != SLRT_NONE && !slrt_is_blocked(p, portal)) {
+        if (slrt_pass(p, portal, &right, &left)) {
             top[2] = portal;
             top[3] = w.side;
             if (end <= 0) p->s.depth--; // nothing is left to see of this cell
-            slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
-                      left == SLRT_NONE ? 2 * portal : left);
+            slrt_push(p, portal, right, left);
             return;
         }
         slrt_add_wall(p, &piece, right, left);
@@ -2290,12 +2634,11 @@ static void slrt_spread_on(slrt_polygon *p) {
 static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t right,
                            uint32_t left) {
     const uint32_t portal = piece->directed;
-    if (portal == SLRT_NONE || slrt_is_blocked(p, portal)) {
+    if (!slrt_pass(p, portal, &right, &left)) {
         slrt_add_wall(p, piece, right, left);
         return;
     }
-    slrt_push(p, portal, right == SLRT_NONE ? 2 * portal + 1 : right,
-              left == SLRT_NONE ? 2 * portal : left);
+    slrt_push(p, portal, right, left);
     while (p->s.depth && !p->broken) slrt_spread_on(p);
 }
 
@@ -2330,8 +2673,7 @@ static void slrt_see_fan_cell(slrt_polygon *p, uint32_t cell) {
     bool run = p->inside, ready = p->inside;
     slrt_walk w;
     slrt_piece piece;
-    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed,
-                    p->inside ? 1 : 2);
+    slrt_walk_around(p, &w, cell, p->inside ? 1 : 2);
     while (slrt_walk_next(p, &w, &piece)) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
         const bool faces = slrt_side(&from, &to) > 0;
@@ -2359,13 +2701,14 @@ static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
     slrt_piece piece;
     memset(&touch, 0, sizeof touch);
     touch.behind = touch.before = SLRT_NONE;
-    slrt_walk_start(p, &w, cell, sl_runtime_get_cell(p->s.rt, cell).first_directed, 1);
+    slrt_walk_around(p, &w, cell, 1);
     while (slrt_walk_next(p, &w, &piece)) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
         uint32_t open;
         if (slrt_side(&from, &to) || slrt_same_way(&from, &to)) continue;
-        open = piece.directed != SLRT_NONE && slrt_is_blocked(p, piece.directed) ? SLRT_NONE
-                                                                                 : piece.directed;
+        open = piece.directed != SLRT_NONE && slrt_is_blocked(&p->s, piece.directed)
+                   ? SLRT_NONE
+                   : piece.directed;
         touch.any = true;
         if (!slrt_is_zero(&to)) {
             touch.behind = open;
@@ -2386,14 +2729,14 @@ static uint32_t slrt_cell_behind(const slrt_polygon *p, uint32_t directed) {
 /// Finds where the way around the eye starts: clockwise as far as portals lead, or once around. A
 /// wall that ends at the eye is seen edge-on, and hides nothing.
 static void slrt_find_fan(slrt_polygon *p) {
-    slrt_touch touch = slrt_touch_of(p, p->eye_cell), last = touch;
-    p->fan_first = p->eye_cell;
+    slrt_touch touch = slrt_touch_of(p, p->s.eye_cell), last = touch;
+    p->fan_first = p->s.eye_cell;
     p->inside = !touch.any;
     p->fan_is_closed = p->inside;
     if (p->inside) return;
     while (touch.behind != SLRT_NONE && !p->broken) {
         p->fan_first = slrt_cell_behind(p, touch.behind);
-        p->fan_is_closed = p->fan_first == p->eye_cell;
+        p->fan_is_closed = p->fan_first == p->s.eye_cell;
         if (p->fan_is_closed) return;
         touch = slrt_touch_of(p, p->fan_first);
     }
@@ -2449,10 +2792,14 @@ static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
 
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
-                                                   const unsigned char *shut, uint32_t *scratch,
-                                                   double *points, uint32_t room) {
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, double *points,
+                                                   uint32_t room) {
     const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
     const uint32_t cell = sl_runtime_locate(runtime, x, y);
+    // So that no number in units of the range overflows.
+    const double least =
+        1e-100 * (runtime->max_x - runtime->min_x) + 1e-100 * (runtime->max_y - runtime->min_y);
     uint32_t last, i, pieces;
     slrt_polygon p;
     if (runtime->loose || cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell))
@@ -2461,17 +2808,20 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
     p.s.rt = runtime;
     p.s.view = view;
     p.s.shut = shut;
+    p.s.range = slrt_range(runtime, range);
+    if (p.s.range > 0 && p.s.range < least) p.s.range = least;
     p.s.x = x;
     p.s.y = y;
     p.s.path = scratch;
     p.s.patience = (uint64_t)SLRT_PATIENCE * 16 *
                    ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
-    p.eye_cell = cell;
+    p.s.eye_cell = cell;
     p.points = points;
     p.room = room;
     slrt_find_fan(&p);
     pieces = slrt_cut_cone(&p.s, &last);
     p.fan_last = UINT32_MAX;
+    p.waits = !pieces && !p.gap;
     if (!pieces) {
         slrt_see_fan(&p);
     } else {
@@ -2480,7 +2830,7 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
             slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
     }
     slrt_close(&p, !pieces && !p.gap);
-    return p.broken || p.count < 3 ? 0 : p.count;
+    return p.broken || p.count < 3 || p.written < 3 ? 0 : p.written;
 }
 
 #ifdef __cplusplus

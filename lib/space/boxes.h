@@ -24,7 +24,7 @@ void sli_box_ground_destroy(sl_context *context, sli_box_ground *ground);
 /// In a kd-tree's space no coordinate is computed. In a mesh, a wall or portal that a side of a box
 /// crosses goes through the nearest representable point of that side. So cells may reach into
 /// neighbours of their parents, by the size of rounding. `shares` lists exactly these neighbours.
-/// Such a space has no seams.
+/// Portals keep the seams of the portals that they are parts of.
 typedef struct sli_boxed_space {
     sl_space space;
     uint32_t *parents;     ///< by cell: the cell of the ground that it is, or is a part of

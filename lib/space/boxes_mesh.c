@@ -35,7 +35,15 @@ typedef struct graph_edge {
     uint32_t line;      ///< NONE for none
     bool along;         ///< it runs as the line does
     bool shared;        ///< several lines have it
+    uint32_t of;        ///< the portal of the ground whose seams it has; NONE for none
+    bool of_along;      ///< it runs from the right to the left of that portal
 } graph_edge;
+
+/// The portal of the ground that a portal is part of, and whether it has the same cell[0] side.
+typedef struct origin {
+    uint32_t portal; ///< NONE for none with seams
+    bool turned;
+} origin;
 
 /// The new cell at one side of a portal of the ground, and the place of its directed portal.
 typedef struct portal_end {
@@ -73,6 +81,8 @@ typedef struct maker {
     uint32_t *directed;         ///< by half-edge
     portal_end *ends;           ///< two by portal of the ground
     SL_ARRAY(sli_mesh_joint) joints;
+    SL_ARRAY(origin) origins; ///< by sli_mesh_joint.half
+    bool crowded;             ///< an edge has the seams of several portals
     SL_ARRAY(uint32_t) shares;
 } maker;
 
@@ -191,13 +201,24 @@ static uint32_t seen_from_left(uint32_t wall, bool along) {
     return wall | (along ? 0 : SL_NEIGHBOUR_RIGHT);
 }
 
+/// Gives an edge the seams of a line that it is part of.
+static void take_seams(maker *m, graph_edge *e, uint32_t portal, bool along) {
+    size_t count = 0;
+    if (portal != NONE && m->from->seam_count) sl_space_seams_of(m->from, portal, &count);
+    if (!count) return;
+    m->crowded |= e->of != NONE;
+    e->of = portal;
+    e->of_along = along;
+}
+
 static sl_status take_edges(maker *m) {
     const sli_planar *g = &m->graph;
     sl_free(m->context, m->edges);
+    m->crowded = false;
     m->edges = sl_alloc_array(m->context, g->edge_count, sizeof *m->edges);
     if (!m->edges) return SL_NO_MEMORY;
     for (size_t i = 0; i < g->edge_count; i++)
-        m->edges[i] = (graph_edge){.neighbour = SL_NEIGHBOUR_PORTAL, .line = NONE};
+        m->edges[i] = (graph_edge){.neighbour = SL_NEIGHBOUR_PORTAL, .line = NONE, .of = NONE};
     for (size_t i = 0; i < m->lines.count + m->blocking.count; i++)
         for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
             graph_edge *e = &m->edges[g->links[k] / 2];
@@ -210,6 +231,7 @@ static sl_status take_edges(maker *m) {
             if (i >= m->lines.count) continue;
             e->shared = e->line != NONE;
             if (!e->shared) e->line = (uint32_t)i, e->along = along;
+            take_seams(m, e, m->lines.items[i].portal, along);
         }
     return SL_OK;
 }
@@ -495,34 +517,80 @@ static sl_status write_cells(maker *m) {
 
 // --- portals and walls
 
-/// Adds a portal; `right` and `left` are its ends as crossed from the first cell to the second.
-static sl_status add_joint(maker *m, portal_end from, portal_end to, sl_point right,
-                           sl_point left) {
+/// Adds a portal; `right` and `left` are its ends as crossed from the first cell to the second, and
+/// `of` is turned as they are.
+static sl_status add_joint(maker *m, portal_end from, portal_end to, sl_point right, sl_point left,
+                           origin of) {
     const bool up = from.cell < to.cell;
-    sli_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.directed, to.directed}, 0};
+    const uint32_t number = (uint32_t)m->joints.count;
+    sli_mesh_joint joint = {
+        {{from.cell, to.cell}, left, right}, {from.directed, to.directed}, number};
     if (!up)
-        joint =
-            (sli_mesh_joint){{{to.cell, from.cell}, right, left}, {to.directed, from.directed}, 0};
+        joint = (sli_mesh_joint){
+            {{to.cell, from.cell}, right, left}, {to.directed, from.directed}, number};
+    of.turned = of.turned == up;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->joints, 1));
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->origins, 1));
     m->joints.items[m->joints.count++] = joint;
+    m->origins.items[m->origins.count++] = of;
     return SL_OK;
 }
 
-static sl_status write_portals(maker *m) {
+static sl_status add_joints(maker *m) {
     for (uint32_t i = 0; i < m->from->portal_count; i++) {
         const sl_portal *p = &m->from->portals[i];
         const portal_end *ends = &m->ends[2 * (size_t)i];
         if (ends[0].cell != NONE && ends[1].cell != NONE)
-            SL_TRY(add_joint(m, ends[0], ends[1], p->right, p->left));
+            SL_TRY(add_joint(m, ends[0], ends[1], p->right, p->left, (origin){i, false}));
     }
     for (uint32_t half = 0; half < m->t.halves.count; half += 2) {
         const uint32_t twin = half + 1, a = m->cell[half], b = m->cell[twin];
         if (a == NONE || b == NONE || neighbour_of(m, half) != SL_NEIGHBOUR_PORTAL) continue;
+        bool along = false;
+        const graph_edge *e = edge_of(m, half, &along);
+        const origin of = {e ? e->of : NONE, e && along != e->of_along};
         SL_TRY(add_joint(m, (portal_end){a, m->directed[half]}, (portal_end){b, m->directed[twin]},
                          m->t.points.items[m->t.halves.items[half].from],
-                         m->t.points.items[m->t.halves.items[twin].from]));
+                         m->t.points.items[m->t.halves.items[twin].from], of));
     }
-    return sli_mesh_join(m->context, m->joints.items, m->joints.count, &m->out->space);
+    return SL_OK;
+}
+
+/// Gives portals the seams of the portals that they are parts of. The joints are sorted by now.
+static sl_status write_seams(maker *m) {
+    const sl_space *f = m->from;
+    sl_space *s = &m->out->space;
+    size_t tags = 0, count;
+    if (!f->seam_count) return SL_OK;
+    if (m->crowded)
+        return sl_fail(m->context, SL_UNSUPPORTED,
+                       "a box stands where glass, doors or seams lie within a step of doubles");
+    for (size_t i = 0; i < m->origins.count; i++)
+        if (m->origins.items[i].portal != NONE) {
+            sl_space_seams_of(f, m->origins.items[i].portal, &count);
+            tags += count;
+        }
+    if (tags > UINT32_MAX) return sl_fail_memory(m->context);
+    s->seams = sl_alloc_array(m->context, f->seam_count, sizeof *s->seams);
+    s->seam_portals = sl_alloc_array(m->context, tags, sizeof *s->seam_portals);
+    if (!s->seams || !s->seam_portals) return SL_NO_MEMORY;
+    memcpy(s->seams, f->seams, f->seam_count * sizeof *s->seams);
+    s->seam_count = f->seam_count;
+    for (uint32_t i = 0; i < m->joints.count; i++) {
+        const origin of = m->origins.items[m->joints.items[i].half];
+        if (of.portal == NONE) continue;
+        const sl_seam_portal *on = sl_space_seams_of(f, of.portal, &count);
+        for (size_t k = 0; k < count; k++)
+            s->seam_portals[s->seam_portal_count++] =
+                (sl_seam_portal){i, on[k].seam, on[k].forward != of.turned};
+    }
+    return SL_OK;
+}
+
+static sl_status write_portals(maker *m) {
+    SL_TRY(add_joints(m));
+    SL_TRY(sli_mesh_join(m->context, m->joints.items, m->joints.count, &m->out->space));
+    return write_seams(m);
 }
 
 static sl_status write_walls(maker *m) {
@@ -599,10 +667,11 @@ sl_status sli_boxes_put_mesh(sl_context *context, const sli_box_ground *ground,
                              const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
     maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
-    void *const scratch[] = {m.touched,     m.wall_cells,  m.blocking.items, m.open.items,
-                             m.lines.items, m.edges,       m.segments.items, m.in,
-                             m.cell,        m.stack.items, m.cells.items,    m.corners.items,
-                             m.directed,    m.ends,        m.joints.items,   m.shares.items};
+    void *const scratch[] = {m.touched,      m.wall_cells,  m.blocking.items, m.open.items,
+                             m.lines.items,  m.edges,       m.segments.items, m.in,
+                             m.cell,         m.stack.items, m.cells.items,    m.corners.items,
+                             m.directed,     m.ends,        m.joints.items,   m.shares.items,
+                             m.origins.items};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
     sli_planar_destroy(context, &m.graph);
     sli_triangulation_destroy(context, &m.t);

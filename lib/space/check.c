@@ -89,6 +89,7 @@ static sl_status check_cells(const checker *c) {
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const sl_cell *cell = &s->cells[i];
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(c->context));
         if (cell->vertex_count != 4 || cell->first_vertex > s->vertex_count ||
             s->vertex_count - cell->first_vertex < 4)
             return fail_cell(c, i, "has corners out of range");
@@ -152,7 +153,10 @@ static sl_status check_walls(const checker *c, const sli_piece *walls, size_t co
     visit *stack = sl_alloc_array(c->context, (size_t)c->space->node_count + 2, sizeof *stack);
     if (!stack) return SL_NO_MEMORY;
     sl_status status = SL_OK;
-    for (size_t i = 0; i < count && status == SL_OK; i++) status = check_wall(c, &walls[i], stack);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(c->context);
+        if (status == SL_OK) status = check_wall(c, &walls[i], stack);
+    }
     sl_free(c->context, stack);
     return status;
 }
@@ -306,7 +310,10 @@ static sl_status check_all(checker *c) {
     SL_TRY(check_cells(c));
     SL_TRY(sli_wall_lines(c->context, NULL, s->walls, s->wall_count, &c->walls));
     SL_TRY(check_walls(c, c->walls, s->wall_count));
-    for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
+    for (uint32_t cell = 0; cell < s->cell_count; cell++) {
+        if (cell % 4096 == 0) SL_TRY(sl_check_cancelled(c->context));
+        SL_TRY(check_boundary(c, cell));
+    }
     return check_seams(c);
 }
 

@@ -82,6 +82,7 @@ static sl_status check_cells(const checker *c) {
     uint64_t vertices = 0, directed = 0;
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(c->context));
         SL_TRY(check_cell(c, i, vertices, directed));
         vertices += s->cells[i].vertex_count;
         directed += s->cells[i].directed_count;
@@ -348,7 +349,8 @@ static sl_status check_covered(const checker *c, const bool *passed, sl_segment 
 static sl_status check_seams(const checker *c) {
     const sl_space *s = c->space;
     SL_TRY(sli_seams_check(c->context, s, false));
-    if (s->loose || !s->seam_count) return SL_OK;
+    // Portals on seams that boxes cut are parts of them, and bent.
+    if (s->loose || s->cut_walls || !s->seam_count) return SL_OK;
     bool *passed = sl_alloc_array(c->context, s->seam_count, sizeof *passed);
     sl_segment *walls = sl_alloc_array(c->context, s->wall_count, sizeof *walls);
     sl_status status = passed && walls ? check_seam_portals(c, passed) : SL_NO_MEMORY;
@@ -361,12 +363,17 @@ static sl_status check_seams(const checker *c) {
 static sl_status check_all(const checker *c) {
     const sl_space *s = c->space;
     SL_TRY(check_cells(c));
-    for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_sides(c, cell));
+    for (uint32_t cell = 0; cell < s->cell_count; cell++) {
+        if (cell % 4096 == 0) SL_TRY(sl_check_cancelled(c->context));
+        SL_TRY(check_sides(c, cell));
+    }
     SL_TRY(check_grid(c));
     SL_TRY(check_seams(c));
+    SL_TRY(sl_check_cancelled(c->context));
     if (s->loose) return SL_OK;
     SL_TRY(s->cut_walls ? check_cut_walls(c) : check_walls(c));
     SL_TRY(check_border(c));
+    SL_TRY(sl_check_cancelled(c->context));
     return sli_cell_grid_check(c->context, s);
 }
 

@@ -110,6 +110,7 @@ static sl_status find_gap(sl_context *context, const sl_map *map, const sli_wall
 static sl_status list_gaps(sl_context *context, const sl_map *map, double most, bool reports,
                            sli_fault_list *out) {
     sli_wall_grid grid;
+    SL_TRY(sl_check_cancelled(context));
     sl_status status = sli_wall_grid_create(context, map, most, &grid);
     SL_TRY(status);
     for (uint32_t i = 0; i < map->wall_count && status == SL_OK; i++) {

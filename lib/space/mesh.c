@@ -134,7 +134,10 @@ static sl_status merge(merger *m) {
         if (!sli_half_is_outside(m->t, half)) m->previous[next(m, half)] = half;
     SL_TRY(list_candidates(m, &list, &count));
     sl_status status = SL_OK;
-    for (size_t i = 0; i < count && status == SL_OK; i++) status = try_side(m, list[i].half);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(m->context);
+        if (status == SL_OK) status = try_side(m, list[i].half);
+    }
     sl_free(m->context, list);
     return status;
 }
@@ -354,11 +357,15 @@ static sl_status make(merger *m, const sl_map *map, const sli_mesh_lines *lines)
     SL_TRY(take_seams(m, lines));
     SL_TRY(merge(m));
     sl_status status = number_cells(m, &firsts);
+    if (status == SL_OK) status = sl_check_cancelled(m->context);
     if (status == SL_OK) status = write_cells(m, firsts);
     sl_free(m->context, firsts);
     SL_TRY(status);
+    SL_TRY(sl_check_cancelled(m->context));
     SL_TRY(write_portals(m));
+    SL_TRY(sl_check_cancelled(m->context));
     SL_TRY(sli_cell_grid_make(m->context, m->space));
+    SL_TRY(sl_check_cancelled(m->context));
     return sli_mark_inside(m->context, map, NULL, m->space);
 }
 

@@ -6,6 +6,9 @@
 ///        wall                       border    of the map's border
 ///         .____ wall 3 _____ wall 4 __.
 ///
+/// Glass that is dark from one side has a directed portal at the one side and a wall at the other.
+/// While cells are joined, both sides are that wall, which keeps them; then they are linked.
+///
 /// A mesh knows what each side is. In a kd-tree's space, a grid over the walls finds those near a
 /// gap, and an exact sign decides whether a wall lies on it. Then cells are joined to rooms
 /// (rooms.c). No coordinate is computed. Time O(n log n).
@@ -33,6 +36,7 @@ typedef struct outliner {
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
     uint32_t *of_portal; ///< the side of each directed portal
+    uint32_t dark_count; ///< portals that lead one way
 } outliner;
 
 /// The place of a point along the line from `from` to `to`; it grows on the way.
@@ -170,8 +174,26 @@ static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
     return SL_OK;
 }
 
+/// Finds the wall on the dark side of a portal that leads one way, and gives it to the lit side.
+static sl_status darken(sl_context *context, outliner *o, const uint32_t *first,
+                        uint32_t directed) {
+    const sl_directed_portal *portal = &o->space->directed[directed];
+    sl_side *sides = o->sides.items;
+    for (uint32_t i = first[portal->cell]; i < first[portal->cell + 1]; i++) {
+        const bool wall = sides[i].neighbour >= SL_SIDE_WALL && sides[i].neighbour < SL_SIDE_BORDER;
+        if (!wall || !sli_same_point(sides[i].start, portal->left) ||
+            !sli_same_point(sides[sides[i].next].start, portal->right))
+            continue;
+        sides[o->of_portal[directed]].neighbour = sides[i].neighbour;
+        o->dark_count++;
+        return SL_OK;
+    }
+    return sl_fail(context, SL_BAD_ARGUMENT, "portal %u leads one way, and is no wall at the other",
+                   portal->portal);
+}
+
 /// Joins the two sides of each portal.
-static sl_status join_portals(sl_context *context, outliner *o) {
+static sl_status join_portals(sl_context *context, outliner *o, const uint32_t *first) {
     const sl_space *s = o->space;
     uint32_t *one = sl_alloc_array(context, s->portal_count, sizeof *one);
     if (!one) return SL_NO_MEMORY;
@@ -184,9 +206,35 @@ static sl_status join_portals(sl_context *context, outliner *o) {
         }
         o->sides.items[side].neighbour = one[portal];
         o->sides.items[one[portal]].neighbour = side;
+        one[portal] = UINT32_MAX;
     }
+    sl_status status = SL_OK;
+    if (s->directed_count < 2 * (uint64_t)s->portal_count)
+        for (uint32_t i = 0; i < s->directed_count && status == SL_OK; i++)
+            if (one[s->directed[i].portal] == o->of_portal[i])
+                status = darken(context, o, first, i);
     sl_free(context, one);
-    return SL_OK;
+    return status;
+}
+
+/// Links the two sides of each glass again. The wall runs as its dark side does.
+static sl_status link_glass(sl_context *context, uint32_t count, sl_outline *out) {
+    const sl_space *s = out->space;
+    if (!count) return SL_OK;
+    out->first_dark = s->wall_count - count;
+    out->lit = sl_alloc_array(context, count, sizeof *out->lit);
+    uint32_t *dark = sl_alloc_array(context, count, sizeof *dark);
+    for (uint32_t i = 0; i < out->side_count && out->lit && dark; i++) {
+        if (!sl_side_is_dark(out, &out->sides[i])) continue;
+        const uint32_t wall = out->sides[i].neighbour - SL_SIDE_WALL;
+        const bool is_dark = sli_same_point(out->sides[i].start, s->walls[wall].a);
+        (is_dark ? dark : out->lit)[wall - out->first_dark] = i;
+    }
+    for (uint32_t i = 0; i < count && out->lit && dark; i++)
+        out->sides[out->lit[i]].neighbour = dark[i];
+    const bool done = out->lit && dark;
+    sl_free(context, dark);
+    return done ? SL_OK : SL_NO_MEMORY;
 }
 
 static sl_status make_grid(sl_context *context, outliner *o) {
@@ -208,7 +256,7 @@ static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) 
         SL_TRY(outline_cell(context, o, i));
     }
     first[s->cell_count] = (uint32_t)o->sides.count;
-    return join_portals(context, o);
+    return join_portals(context, o, first);
 }
 
 /// Makes each cell a room of its own.
@@ -239,6 +287,7 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
         status = space->neighbour ? keep_cells(context, &made) : sli_rooms_make(context, &made);
+    if (status == SL_OK) status = link_glass(context, o.dark_count, &made);
     if (status == SL_OK)
         *out = made;
     else
@@ -254,5 +303,6 @@ void sl_outline_destroy(sl_context *context, sl_outline *outline) {
     sl_free(context, outline->first);
     sl_free(context, outline->first_part);
     sl_free(context, outline->parts);
+    sl_free(context, outline->lit);
     *outline = (sl_outline){0};
 }

@@ -182,6 +182,7 @@ static sl_status make_all(sl_context *context, portal_maker *maker, sl_space *sp
     if (maker->portals.count)
         qsort(maker->portals.items, maker->portals.count, sizeof *maker->portals.items,
               sli_compare_portals);
+    SL_TRY(sl_check_cancelled(context));
     space->portals = maker->portals.items;
     space->portal_count = (uint32_t)maker->portals.count;
     space->directed_count = 2 * space->portal_count;

@@ -87,7 +87,11 @@ static void heights(const sl_dual *dual, const sl_portal_ends *portals, uint32_t
     }
 }
 
+/// Rooms nearer to each other than this are alike: rounding alone tells them apart.
+#define ALIKE 1e-13
+
 /// The room between the heights is a concave function of the slope: its top by ternary search.
+/// Where two slopes have the same room, the top is between them; of a flat top it is the middle.
 static void optimize(const sl_portal_ends *portals, uint32_t count, sl_dual *dual) {
     double from = -SL_DUAL_SLOPE, to = SL_DUAL_SLOPE, low, high;
     for (int i = 0; i < 80; i++) {
@@ -95,10 +99,8 @@ static void optimize(const sl_portal_ends *portals, uint32_t count, sl_dual *dua
         heights(dual, portals, count, a, &low, &high);
         const double room = high - low;
         heights(dual, portals, count, b, &low, &high);
-        if (room < high - low)
-            from = a;
-        else
-            to = b;
+        if (room < high - low + ALIKE) from = a;
+        if (room > high - low - ALIKE) to = b;
     }
     dual->best.slope = from + (to - from) / 2;
     heights(dual, portals, count, dual->best.slope, &low, &high);

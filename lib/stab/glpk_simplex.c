@@ -359,3 +359,76 @@ const sl_solver *sl_glpk_simplex(void) {
     };
     return &solver;
 }
+
+// --- the program itself
+
+/// Copies row `number` of the problem, from 1.
+static void read_row(const simplex *s, int number, sl_program_row *row) {
+    int columns[COLUMNS + 1];
+    double values[COLUMNS + 1];
+    const int length = glp_get_mat_row(s->problem, number, columns, values);
+    *row = (sl_program_row){.portal = number == 1 ? SL_PROGRAM_FIXED : (uint32_t)number / 2 - 1,
+                            .left = number > 1 && number % 2 == 0};
+    for (int i = 1; i <= length; i++) row->coefficients[columns[i] - 1] = values[i];
+}
+
+static void read_optimum(const simplex *s, sl_program *program) {
+    const level *l = &s->levels.items[s->levels.count - 1];
+    for (uint32_t i = 0; i < program->row_count; i++) {
+        sl_program_row *row = &program->rows[i];
+        row->value = glp_get_row_prim(s->problem, (int)i + 1);
+        row->price = glp_get_row_dual(s->problem, (int)i + 1);
+        row->basic = glp_get_row_stat(s->problem, (int)i + 1) == GLP_BS;
+    }
+    for (int i = 0; i < SL_PROGRAM_COLUMNS; i++) {
+        program->values[i] = glp_get_col_prim(s->problem, i + 1);
+        program->basic[i] = glp_get_col_stat(s->problem, i + 1) == GLP_BS;
+    }
+    program->objective = glp_get_obj_val(s->problem);
+    program->margin = l->margin / s->scale;
+}
+
+/// GLPK's calls that read do not fail.
+static sl_status read_program(sl_context *context, const simplex *s, sl_program *out) {
+    if (!s->problem) return sl_fail(context, SL_NO_MEMORY, "GLPK gave up earlier");
+    const int count = glp_get_num_rows(s->problem);
+    out->rows = sl_alloc_array(context, (size_t)count, sizeof *out->rows);
+    if (!out->rows) return SL_NO_MEMORY;
+    out->row_count = (uint32_t)count;
+    out->origin = s->origin;
+    out->unit = 1 / s->scale;
+    for (int i = 1; i <= count; i++) read_row(s, i, &out->rows[i - 1]);
+    out->solved = glp_get_status(s->problem) == GLP_OPT;
+    if (out->solved) read_optimum(s, out);
+    return SL_OK;
+}
+
+sl_status sl_program_make(sl_context *context, const sl_portal_ends *portals, uint32_t count,
+                          sl_program *out) {
+    void *state;
+    sl_stab_verdict verdict;
+    sl_program made = {0};
+    if (!count) return sl_fail(context, SL_BAD_ARGUMENT, "a program needs at least one portal");
+    sl_box bounds = {portals[0].left, portals[0].left};
+    for (uint32_t i = 0; i < 2 * count; i++) {
+        const sl_point p = i % 2 ? portals[i / 2].right : portals[i / 2].left;
+        bounds.min = (sl_point){fmin(bounds.min.x, p.x), fmin(bounds.min.y, p.y)};
+        bounds.max = (sl_point){fmax(bounds.max.x, p.x), fmax(bounds.max.y, p.y)};
+    }
+    SL_TRY(create(context, bounds, &state));
+    sl_status status = SL_OK;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++)
+        status = push(context, state, portals[i].left, portals[i].right, &verdict);
+    if (status == SL_OK) status = read_program(context, state, &made);
+    destroy(context, state);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_program_destroy(context, &made);
+    return status;
+}
+
+void sl_program_destroy(sl_context *context, sl_program *program) {
+    sl_free(context, program->rows);
+    *program = (sl_program){0};
+}

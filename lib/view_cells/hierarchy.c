@@ -175,6 +175,7 @@ static sl_status begin(merger *m, const sl_view_scene *scene, const sl_view_sets
         !m->around || !m->both)
         return SL_NO_MEMORY;
     for (uint32_t i = 0; i < m->cell_count; i++) {
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(m->context));
         m->row[i] = m->up[i] = i;
         m->mass[i] = m->tree->mass[i];
         m->middle[i] = sli_view_leaf_middle(m->tree, i);
@@ -191,7 +192,8 @@ static sl_status start_queue(merger *m) {
     for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
         const sli_view_pair p = pairs.items[i];
         if (p.a >= m->cell_count || p.b >= m->cell_count) continue;
-        status = add_around(m, p.a, p.b);
+        if (i % 256 == 0) status = sl_check_cancelled(m->context);
+        if (status == SL_OK) status = add_around(m, p.a, p.b);
         if (status == SL_OK) status = add_around(m, p.b, p.a);
         if (status == SL_OK) status = weigh(m, p.a, p.b);
     }
@@ -345,13 +347,16 @@ static sl_status measure_all(sl_context *context, const sli_view_render *render,
         return SL_NO_MEMORY;
     }
     memcpy(rows->bits, sets->bits, count * sets->words * sizeof *sets->bits);
-    for (uint32_t i = 0; i < count; i++) {
+    sl_status status = SL_OK;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++) {
+        if (i % 256 == 0) status = sl_check_cancelled(context);
         row[i] = i;
         h->mass[i] = tree->mass[i];
         middle[i] = sli_view_leaf_middle(tree, i);
         measure(render, rows, sli_view_set(rows, i), middle[i], i, h);
     }
-    for (uint32_t i = 0; i + 1 < count; i++) {
+    for (uint32_t i = 0; i + 1 < count && status == SL_OK; i++) {
+        if (i % 256 == 0) status = sl_check_cancelled(context);
         const uint32_t a = h->joints[i].parts[0], b = h->joints[i].parts[1], c = count + i;
         sl_bits *into = sli_view_set(rows, row[a]);
         const sl_bits *from = sli_view_set(rows, row[b]);
@@ -363,7 +368,7 @@ static sl_status measure_all(sl_context *context, const sli_view_render *render,
     }
     sl_free(context, row);
     sl_free(context, middle);
-    return SL_OK;
+    return status;
 }
 
 sl_status sl_view_evaluate(sl_context *context, const sl_view_scene *scene,

@@ -145,8 +145,8 @@ static bool is_better(const sli_view_split *split, const sli_view_split *best,
     return fabs(split->position - middle) < fabs(best->position - middle);
 }
 
-static void weigh_positions(sli_view_divider *d, const sli_view_part *part, int axis, double below,
-                            sli_view_split *best) {
+static sl_status weigh_positions(sli_view_divider *d, const sli_view_part *part, int axis,
+                                 double below, sli_view_split *best) {
     double above = part->seen;
     size_t start = 0, end = 0;
     for (size_t i = 0; i < d->positions.count; i++) {
@@ -158,10 +158,13 @@ static void weigh_positions(sli_view_divider *d, const sli_view_part *part, int 
             above -= d->ends.items[end].cost;
         // The gain is at most this, however the mass is shared.
         if (part->mass * (part->seen - fmin(below, above)) <= best->gain) continue;
+        // A share of a large map takes long to measure.
+        SL_TRY(sl_check_cancelled(d->context));
         const double mass = sli_view_share_below(&part->share, &split);
         split.gain = mass * (part->seen - below) + (part->mass - mass) * (part->seen - above);
         if (is_better(&split, best, part)) *best = split;
     }
+    return SL_OK;
 }
 
 sl_status sli_view_choose_axes(sli_view_divider *d, const sli_view_part *part,
@@ -171,7 +174,7 @@ sl_status sli_view_choose_axes(sli_view_divider *d, const sli_view_part *part,
         double below;
         SL_TRY(gather_events(d, part, axis, low, high, &below));
         SL_TRY(gather_positions(d, low, high));
-        weigh_positions(d, part, axis, below, best);
+        SL_TRY(weigh_positions(d, part, axis, below, best));
     }
     return SL_OK;
 }
@@ -304,6 +307,7 @@ sl_status sli_view_choose_walls(sli_view_divider *d, const sli_view_part *part,
     SL_TRY(clip_all(d, part));
     for (size_t i = 0; i < d->walls.count; i++) {
         sli_view_split split = sli_view_split_along(&d->scene->space->walls[d->walls.items[i]]);
+        SL_TRY(sl_check_cancelled(d->context));
         weigh_line(d, part, &split, best);
     }
     return SL_OK;

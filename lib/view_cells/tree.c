@@ -133,8 +133,7 @@ static int compare_sides(const void *left, const void *right) {
     return (a->leaf > b->leaf) - (a->leaf < b->leaf);
 }
 
-/// A coordinate that grows along a split.
-static double along(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
+double sli_view_along(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
     if (node->axis < 2) return node->axis ? p.x : p.y;
     const sl_segment *l = &tree->lines[node->line];
     return fabs(l->b.x - l->a.x) >= fabs(l->b.y - l->a.y) ? p.x : p.y;
@@ -145,7 +144,7 @@ static double along(const sl_view_tree *tree, const sl_view_node *node, sl_point
 static bool is_above(const sl_view_tree *tree, const sl_view_node *node, bool grows) {
     if (node->axis < 2) return grows == (node->axis == 1);
     const sl_segment *l = &tree->lines[node->line];
-    return grows == (along(tree, node, l->a) < along(tree, node, l->b));
+    return grows == (sli_view_along(tree, node, l->a) < sli_view_along(tree, node, l->b));
 }
 
 static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *all) {
@@ -157,7 +156,7 @@ static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *al
             if (number == UINT32_MAX) continue;
             const sl_view_node *node = &tree->nodes[number];
             const sl_point p = tree->corners[i], q = tree->corners[i + 1 < end ? i + 1 : first];
-            const double from = along(tree, node, p), to = along(tree, node, q);
+            const double from = sli_view_along(tree, node, p), to = sli_view_along(tree, node, q);
             if (from == to) continue;
             const bool above = is_above(tree, node, from < to);
             all->items[all->count++] = from < to ? (side){number, leaf, above, from, to, p, q}

@@ -49,6 +49,9 @@ static inline sl_bits *sli_view_set(const sl_view_sets *sets, uint32_t row) {
 
 // --- neighbours
 
+/// A coordinate that grows along a node's split.
+double sli_view_along(const sl_view_tree *tree, const sl_view_node *node, sl_point p);
+
 typedef struct sli_view_pair {
     uint32_t a, b;
     sl_segment shared; ///< the piece

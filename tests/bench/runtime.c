@@ -166,13 +166,13 @@ static uint32_t ask_look_60(const bench *b, uint32_t i) {
 
 static uint32_t ask_polygon(const bench *b, uint32_t i) {
     const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
-    return sl_runtime_visible_polygon(&b->runtime, &view, NULL, b->scratch, b->points, POINTS);
+    return sl_runtime_visible_polygon(&b->runtime, &view, NULL, 0, b->scratch, b->points, POINTS);
 }
 
 static uint32_t ask_polygon_60(const bench *b, uint32_t i) {
     const sl_runtime_view view = sl_runtime_view_toward(b->x[i], b->y[i], cos(b->angle[i]),
                                                         sin(b->angle[i]), 0.57735026918962584);
-    return sl_runtime_visible_polygon(&b->runtime, &view, NULL, b->scratch, b->points, POINTS);
+    return sl_runtime_visible_polygon(&b->runtime, &view, NULL, 0, b->scratch, b->points, POINTS);
 }
 
 static uint32_t ask_open(const bench *b, uint32_t i) {

@@ -216,13 +216,112 @@ class Export(unittest.TestCase):
                                           {"kind": "door", "name": "west", "open": True})])
         self.assertEqual(kinds["start"], [("Point", [1, 1], {"kind": "start", "heading": 45.5})])
 
+    C_PROGRAM = """
+#include <stdio.h>
+#include "FIRST.h"
+void second(void);
+static void cells(void) {
+    for (int i = 0; i < NAME_CELLS; i++) {
+        printf("cell %d %d", NAME_cells[i].inside, NAME_cells[i].solid);
+        for (int k = 0; k < NAME_cells[i].count; k++)
+            printf(" %.17g %.17g", NAME_corners[NAME_cells[i].first + k][0],
+                   NAME_corners[NAME_cells[i].first + k][1]);
+        printf("\\nsees");
+        for (int k = 0; k < NAME_CELLS; k++) if (NAME_SEES(i, k)) printf(" %d", k);
+        printf("\\n");
+    }
+}
+ENTRY {
+    cells();
+    for (int i = 0; i < NAME_PORTALS; i++)
+        printf("portal %d %d %.17g %.17g %.17g %.17g %s %d\\n", NAME_portals[i].from,
+               NAME_portals[i].to, NAME_portals[i].left[0], NAME_portals[i].left[1],
+               NAME_portals[i].right[0], NAME_portals[i].right[1],
+               NAME_portals[i].door < 0 ? "-" : NAME_doors[NAME_portals[i].door].name,
+               NAME_portals[i].oneway);
+    for (int i = 0; i < NAME_DOORS; i++)
+        printf("door %s %d\\n", NAME_doors[i].name, NAME_doors[i].open);
+    for (int i = 0; i < NAME_STARTS; i++)
+        printf("start %.17g %.17g %.17g\\n", NAME_starts[i].at[0], NAME_starts[i].at[1],
+               NAME_starts[i].heading);
+    END
+}
+"""
+
+    def c_lines(self, level):
+        """What the program above prints, by the JSON export of the same map."""
+        ways = {None: 0, "from": 1, "to": 2, "none": 3}
+        for cell, row in zip(level["cells"], level["pvs"]):
+            yield ["cell", cell["inside"], "solid" in cell, *sum(cell["polygon"], [])]
+            yield ["sees", *row]
+        for portal in level["portals"]:
+            yield ["portal", *portal["cells"], *portal["segment"], portal.get("door", "-"),
+                   ways[portal.get("oneway")]]
+        doors = {}
+        for door in level.get("doors", []):
+            doors[door["name"]] = doors.get(door["name"], True) and door["open"]
+        for name, is_open in doors.items():
+            yield ["door", name, is_open]
+        for start in level.get("starts", []):
+            yield ["start", *start["at"], start["heading"]]
+
+    def test_c(self):
+        """Two exports make one program, without a warning, and it holds what the JSON holds."""
+        compilers = [name for name in ("gcc", "clang", "cc") if shutil.which(name)]
+        if not compilers:
+            self.skipTest("no C compiler is here")
+        texts = ['sightline 1\nwalls 0 0 9 0 9 2 0 2 0 0\ndoor d 3 0 3 2\n'
+                 'door d 6 0 6 2 shut\ndoor a"\\??/%\xe4 1 0 1 2\noneway 8 0 8 2\n'
+                 'oneway 4 0 4 2\noneway 4 2 4 0\nstart 0.1 1e-9 45.5\n'
+                 'solid 5 0.5 5.3 0.5 5.3 1 5 1\n',
+                 "sightline 1\nwalls 0 0 1e20 0 1e20 3 0 3 0 0\n"]
+        wanted = []
+        for text, name in zip(texts, ("second", "Main_2")):
+            self.bake(text)
+            self.run_well("export", "m.slv", "--prefix", name, "-o", name + ".h", "-q")
+            wanted = [list(map(str, line)) for line in self.c_lines(self.export())] + wanted
+            entry = "void second(void)" if name == "second" else "int main(void)"
+            end = "" if name == "second" else "second(); return 0;"
+            program = (self.C_PROGRAM.replace("FIRST", name).replace("ENTRY", entry)
+                       .replace("END", end).replace("NAME_", name + "_"))
+            for count in ("CELLS", "SEES", "PORTALS", "DOORS", "STARTS"):
+                program = program.replace(f"{name}_{count}", f"{name.upper()}_{count}")
+            self.box.path(name + ".c").write_text(program, encoding="utf-8")
+        (example,) = re.findall(r"```c\n(.*?)```",
+                                (BAKE / "EXPORT.md").read_text(encoding="utf-8"), re.DOTALL)
+        self.box.path("example.c").write_text(example, encoding="utf-8")
+        self.bake(BOX)
+        self.run_well("export", "m.slv", "--prefix", "office", "-o", "office.h", "-q")
+        for compiler in compilers:
+            warnings_too = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+            # A header that is compiled by itself uses none of its tables.
+            for what in (["-fsyntax-only", "-x", "c", "Main_2.h"],
+                         ["-o", "two", "second.c", "Main_2.c"]):
+                subprocess.run([compiler, *warnings_too, *what], cwd=self.box.folder, check=True)
+            subprocess.run([compiler, *warnings_too, "-o", "example", "example.c"],
+                           cwd=self.box.folder, check=True)
+            done = subprocess.run(["./example"], cwd=self.box.folder, check=True,
+                                  stdout=subprocess.PIPE)
+            self.assertEqual(done.stdout, b"cell 0 has 4 corners\ncell 1 has 4 corners\n")
+            done = subprocess.run(["./two"], cwd=self.box.folder, check=True,
+                                  stdout=subprocess.PIPE)
+            lines = done.stdout.decode("utf-8").splitlines()
+            self.assertEqual(len(lines), len(wanted))
+            for line, values in zip(lines, wanted):
+                self.assertEqual(len(line.split(" ")), len(values), line)
+                for found, value in zip(line.split(" "), values):
+                    if value in ("True", "False"):
+                        value = str(int(value == "True"))
+                    if found != value:
+                        self.assertEqual(float(found), float(value), line)
+
     def test_examples_of_the_document(self):
         text = (BAKE / "EXPORT.md").read_text(encoding="utf-8")
         self.run_well("bake", ROOT / "maps/effects/doors.map", "-o", "m.slv", "-q")
         self.export()
         self.box.path("m.slv.json").rename(self.box.path("office.json"))
         scripts = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-        lines = re.findall(r"```sh\n(jq .*?)\n```", text)
+        lines = re.findall(r"```sh run-by-test\n(jq .*?)\n```", text)
         self.assertEqual((len(scripts), len(lines)), (1, 2))
         done = subprocess.run([sys.executable, "-c", scripts[0]], cwd=self.box.folder, check=True,
                               stdout=subprocess.PIPE, universal_newlines=True)

@@ -19,17 +19,19 @@ from wad import make_wad, rooms
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
           "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels",
-          "IN.wad": "rooms.wad"}
-OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT.map|OUT.txt": "out.map",
+          "IN.wad": "rooms.wad", "STEP": "1"}
+OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT": "out.map",
            "OUT.map": "out.map", "OUT.wad": "out.wad",
-           "FILE": "out.json", "FILE.csv": "out.csv", "DIR": "out"}
+           "FILE": "out.json", "TABLE": "out.geojson", "PICTURE|TABLE": "out.geojson",
+           "FILE.csv": "out.csv", "DIR": "out"}
 # What makes a command that computes for long short, where nothing else is said.
 SHORT = {"viewcells": {"--samples": "1000", "--evaluate": "1000"}, "walk": {"--steps": "20"}}
 # What no number, point, size or share is; each option is given some of them, the next the next.
 NO_NUMBERS = ["", "nan", "-1e999", "0x10", "1 2", "1,", "1\n", "9" * 600]
 NUMBERS_EACH = 3
-NUMBERS = {"N", "Z", "PX", "SIZE", "SHARE", "X,Y", "DEG", "PERCENT", "SECONDS"}
-NAMES = {"NAME", "closed|open", "RULE,...", "EFFECT,...", "LAYER,..."}
+NUMBERS = {"N", "Z", "PX", "SIZE", "SHARE", "X,Y", "DEG", "PERCENT", "SECONDS",
+           "STEP"}
+NAMES = {"NAME", "closed|open", "RULE,...", "EFFECT,...", "LAYER,...", "GROUP,..."}
 
 
 class Command:
@@ -43,7 +45,7 @@ class Command:
         self.many = "...] -o" in usage  # operands
         self.options = re.findall(r"^  (?:-\w, )?--([\w-]+)(?: (\S+))?", text, re.MULTILINE)
         self.repeat = [each.split()[0] for each in re.split(r"^  (?:-\w, )?--", text, flags=re.MULTILINE)
-                       if "may be given several times" in each]
+                       if "may be given several times" in " ".join(each.split())]
         self.output = dict(self.options).get("output")
         if "-o" in words:  # what follows it is no operand
             self.operands.remove(words[words.index("-o") + 1])
@@ -78,10 +80,8 @@ class Hostile(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         with sandbox.Sandbox(PROGRAM) as box:
-            text = box.run(["--help"]).stdout
-            listed = text.split("commands:\n")[1].split("\n\n")[0]
-            names = [line.split()[0] for line in listed.splitlines()]
-            cls.commands = [Command(name, box.run([name, "--help"]).stdout) for name in names]
+            names = [line.split("\t")[0] for line in box.run(["--help", "words"]).stdout.splitlines()]
+            cls.commands = [Command(name, box.run([name, "--help", "all"]).stdout) for name in names]
 
     def setUp(self):
         box = sandbox.Sandbox(PROGRAM)

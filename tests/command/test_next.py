@@ -131,8 +131,8 @@ class Next(unittest.TestCase):
         self.assertEqual(commands[1], ["check", name, "--gap", "0.05", "--thin", "1e-3",
                                        "--kd-rules", "cleaving,median", "--snap",
                                        "it's a plan-fixed.map"])
-        self.assertEqual(commands[-1], ["bake", "it's a plan-fixed.map", "--kd-rules",
-                                        "cleaving,median", "--start", "2.5,3"])
+        self.assertEqual(commands[-1], ["bake", "it's a plan-fixed.map", "--start",
+                                        "2.5,3", "--kd-rules", "cleaving,median"])
 
     def test_option_like_name(self):
         self.write("-x.map", map_text(PLAN))
@@ -197,8 +197,8 @@ class Next(unittest.TestCase):
     def test_wad(self):
         name = self.write("a.wad", make_wad(rooms("MAP01", 3), rooms("MAP02", 3, skew=2)))
         commands, _ = self.go_on(name, "--map", "map02", "--sectors", "--subdivide", "mesh")
-        self.assertEqual(commands[-1], ["bake", name, "--subdivide", "mesh", "--map", "map02",
-                                        "--sectors"])
+        self.assertEqual(commands[-1], ["bake", name, "--map", "map02", "--sectors",
+                                        "--subdivide", "mesh"])
         found = json.loads(self.run_well(["check", name, "--map", "MAP02", "--gap", "20",
                                           "--json"]))
         labels = [fault["label"] for fault in found["faults"] if "label" in fault]

@@ -60,18 +60,26 @@ static void check_look_past(const sl_runtime *r, const sl_runtime_view *view, do
                                                 b->cells, r->cell_count);
     for (uint32_t i = 0; i < count; i++)
         FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]]);
+    // Whoever has a row sees at least itself.
+    const uint32_t seen = sl_runtime_seen_from(r, b->cells, count, few ? shut : NULL, b->bits);
+    FUZZ_CHECK(seen <= r->cell_count);
+    for (uint32_t i = 0; i < count && !r->door_count; i++)
+        FUZZ_CHECK(!sl_runtime_can_see(r, b->cells[i], b->cells[i]) ||
+                   b->bits[b->cells[i] / 8] >> b->cells[i] % 8 & 1);
 }
 
 /// The polygon has finite points, the same number of them for any room, and writes no more.
-static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
+static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, double range,
+                          const buffers *b) {
     unsigned char shut[64];
     for (size_t i = 0; i < sizeof shut; i++) shut[i] = i % 3 == 0;
     const unsigned char *doors = r->door_count <= sizeof shut ? shut : NULL;
-    const uint32_t count = sl_runtime_visible_polygon(r, view, doors, b->scratch, NULL, 0);
+    const uint32_t count = sl_runtime_visible_polygon(r, view, doors, range, b->scratch, NULL, 0);
     FUZZ_CHECK(count == 0 || count >= 3);
     if (count > 1 << 20) return;
     double *points = room(2 * (size_t)count * sizeof *points);
-    FUZZ_CHECK(sl_runtime_visible_polygon(r, view, doors, b->scratch, points, count) == count);
+    FUZZ_CHECK(sl_runtime_visible_polygon(r, view, doors, range, b->scratch, points, count) ==
+               count);
     for (uint32_t i = 0; i < 2 * count; i++) FUZZ_CHECK(isfinite(points[i]));
     free(points);
 }
@@ -85,7 +93,8 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     FUZZ_CHECK(within ? found || r->grid_cells || r->loose : !found);
     const sl_runtime_view round = sl_runtime_view_all_round(x, y);
     check_look(r, &round, b);
-    check_polygon(r, &round, b);
+    check_polygon(r, &round, 0, b);
+    check_polygon(r, &round, odd_real(random), b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
     sl_runtime_view cone = round;
     cone.all_round = false;
@@ -95,7 +104,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
             sl_random_below(random, 4) ? sl_random_unit(random) - 0.5 : odd_real(random);
     }
     check_look(r, &cone, b);
-    check_polygon(r, &cone, b);
+    check_polygon(r, &cone, sl_random_unit(random) * (r->max_x - r->min_x), b);
 }
 
 static void check_places(const sl_runtime *r, sl_random *random, const buffers *b) {

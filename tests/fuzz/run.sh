@@ -28,7 +28,7 @@ cmake --build "$build" --target $targets >&2 || exit 2
 # The ending of the files that a fuzzer starts from: its name, where nothing else is said.
 seeds_of() {
     case $1 in
-    fuzz_map_text | fuzz_mesh | fuzz_slv | fuzz_runtime) echo map ;;
+    fuzz_map_text | fuzz_mesh | fuzz_slv | fuzz_runtime | fuzz_write) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
     fuzz_image) echo pgm ;;

@@ -79,9 +79,18 @@ static double distance(tracer *r, sl_point point) {
     return hypot(mpq_get_d(r->p), mpq_get_d(r->q));
 }
 
-/// The first wall; sets `hit` and `best`.
+/// The first wall, or glass that the ray comes to from its left; sets `hit` and `best`.
 static bool find_first(tracer *r) {
     bool found = false;
+    for (size_t i = 0; i < r->map->oneway_count; i++) {
+        if (!meets(r, r->map->oneways[i].segment) || (found && mpq_cmp(r->t, r->best) >= 0))
+            continue;
+        // p is the ray's direction x the glass's, as in mirror_at_hit.
+        cross(r->p, &r->to, &r->e, r->q);
+        if (mpq_sgn(r->p) <= 0) continue;
+        found = true;
+        mpq_set(r->best, r->t);
+    }
     for (size_t i = 0; i < r->map->wall_count; i++) {
         const sl_wall *w = &r->map->walls[i];
         if (!meets(r, (sl_segment){w->a, w->b}) || (found && mpq_cmp(r->t, r->best) >= 0)) continue;
@@ -133,6 +142,9 @@ static void follow(tracer *r, uint32_t depth, oracle_ray *out) {
         for (size_t i = 0; i < r->map->mirror_count; i++)
             out->margin = fmin(out->margin, fmin(distance(r, r->map->mirrors[i].segment.a),
                                                  distance(r, r->map->mirrors[i].segment.b)));
+        for (size_t i = 0; i < r->map->oneway_count; i++)
+            out->margin = fmin(out->margin, fmin(distance(r, r->map->oneways[i].segment.a),
+                                                 distance(r, r->map->oneways[i].segment.b)));
         out->legs[out->count++] = (oracle_leg){rounded(&r->at), rounded(&r->hit), mirror};
         mirror = mirror_at_hit(r);
         if (mirror == UINT32_MAX || out->count > depth || out->count == ORACLE_LEGS_MOST) return;

@@ -1,5 +1,5 @@
-/// One ray through a map, reflected by mirrors in any direction: in rationals, from the map's own
-/// segments. Lack of memory aborts.
+/// One ray through a map, reflected by mirrors in any direction, past one-way glass: in rationals,
+/// from the map's own segments. Lack of memory aborts.
 #ifndef SL_TESTS_MIRROR_RAY_H
 #define SL_TESTS_MIRROR_RAY_H
 

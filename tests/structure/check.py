@@ -26,7 +26,8 @@ import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "query", "io", "runtime", "draw"]
+           "from_region", "eye_to_cell", "visibility_graph", "walk", "view_cells", "bake", "query",
+           "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
@@ -38,7 +39,8 @@ HEADERS = {"context": "base", "json_write": "base", "support": "base", "version"
            "steps": "cell_to_cell",
            "mirrored": "eye_to_cell", "moving": "eye_to_cell", "region": "eye_to_cell",
            "sees": "eye_to_cell", "view": "eye_to_cell",
-           "reject": "io", "canvas": "draw"}
+           "vga": "visibility_graph",
+           "geojson": "bake", "reject": "io", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.
@@ -64,6 +66,11 @@ def sources(root, folders, endings):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in endings and path.is_file():
                 yield path
+
+
+def library_sources(root, folders, endings):
+    """Without examples: programs of their own, which include what their users do and print."""
+    return (path for path in sources(root, folders, endings) if path.parent.name != "examples")
 
 
 def header_folder(name):
@@ -105,7 +112,7 @@ def check_layers(root):
         if folder not in FOLDERS:
             yield f"lib/{folder}: unknown to check.py: give it its place in FOLDERS"
     for folder in filter(FOLDERS.__contains__, there):
-        for path in sources(lib, [folder], {".c", ".h"}):
+        for path in library_sources(lib, [folder], {".c", ".h"}):
             for line, how, name in includes(path):
                 fault = include_fault(folder, how, name)
                 if fault:
@@ -158,7 +165,7 @@ def check_sources(root):
     lib = root / "lib"
     text = re.sub(r"#[^\n]*", "", (lib / "CMakeLists.txt").read_text(encoding="utf-8"))
     told = set(re.findall(r"[\w/]+\.c\b", text))
-    there = {path.relative_to(lib).as_posix() for path in lib.rglob("*.c")}
+    there = {path.relative_to(lib).as_posix() for path in library_sources(root, ["lib"], {".c"})}
     for name in sorted(there - told):
         yield f"lib/CMakeLists.txt: does not name {name}"
     for name in sorted(told - there):
@@ -188,7 +195,7 @@ PRINTS = re.compile(r"\b(?:v?printf|puts|putchar|perror|getenv)\s*\(")
 
 
 def check_silent(root):
-    for path in sources(root, ["lib"], {".c", ".h"}):
+    for path in library_sources(root, ["lib"], {".c", ".h"}):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             if found := PRINTS.search(line):
                 yield f"{path.relative_to(root)}:{number}: {found[0]}...) in the library"

@@ -21,6 +21,23 @@ static inline void assert_walls_of(import_reader *read, const sl_import_options 
     sl_context_destroy(context);
 }
 
+/// The map that the text gives is in this unit, also when it is copied and clean.
+static inline void assert_unit_of(import_reader *read, const sl_import_options *options,
+                                  const char *input, const char *unit) {
+    sl_context *context = testing_context(NULL);
+    const sl_import_options usual = sl_import_options_default();
+    sl_map map = {0}, copy = {0};
+    assert_ok(context, read(context, "f", input, strlen(input), options ? options : &usual, &map));
+    assert_ok(context, sl_map_copy(context, &map, &copy));
+    assert_ok(context, sl_map_clean(context, &copy, NULL, NULL));
+    assert_string_equal(map.unit, unit);
+    assert_string_equal(copy.unit, unit);
+    sl_map_destroy(context, &map);
+    sl_map_destroy(context, &copy);
+    assert_string_equal(map.unit, "");
+    sl_context_destroy(context);
+}
+
 /// The text is refused, with a message that starts with `message`, and the map stays empty.
 static inline void assert_refused_of(import_reader *read, const sl_import_options *options,
                                      const char *input, size_t size, sl_status status,

@@ -369,8 +369,8 @@ static found find_colour(cairo_surface_t *picture, uint32_t colour) {
     return f;
 }
 
-#define GREEN     0x009e73 // series of colour 0
-#define VERMILION 0xd55e00 // of colour 1
+#define GREEN     0x00845f // series of colour 0
+#define VERMILION 0xc45200 // of colour 1
 #define SHADE     0xf0ece3 // what a frontier leaves out of reach
 
 static void marks_have_their_colours(void **state) {

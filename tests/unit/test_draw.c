@@ -127,7 +127,7 @@ static void what_makes_no_sense_is_refused(void **state) {
         expect_refusal(b, &bad, "a.png", "width");
     }
     sl_draw_options bad = good;
-    bad.layers |= 128;
+    bad.layers |= 256;
     expect_refusal(b, &bad, "a.png", "layers");
     bad = good;
     bad.cell = b->map.baked.space.cell_count;

@@ -96,7 +96,7 @@ static shown ends_shown(bench *b, int from, int to, uint32_t misses) {
     sl_bytes file = drawn(b, &e, &options, "a.svg");
     strip_blanks(&file);
     const shown result = {count_of(&file, "rgb(0%,44.705882%,69.803922%)"),
-                          count_of(&file, "rgb(83.529412%,36.862745%,0%)")};
+                          count_of(&file, "rgb(76.862745%,32.156863%,0%)")};
     sl_free(b->context, file.data);
     sl_explanation_destroy(b->context, &e);
     return result;

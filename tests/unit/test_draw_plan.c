@@ -580,6 +580,52 @@ static void a_view_zoomed_in_shows_what_is_there(void **state) {
     sl_context_destroy(context);
 }
 
+/// How many pixels in a box of the map are nearer to ink than to any floor.
+static int count_ink(const picture *p, double x0, double y0, double x1, double y1) {
+    const sl_palette palette = sl_palette_make(false);
+    int count = 0;
+    for (int i = 0; i <= 60; i++)
+        for (int k = 0; k <= 60; k++) {
+            const sl_colour c = colour_at(p, x0 + (x1 - x0) * i / 60, y0 + (y1 - y0) * k / 60);
+            count += fabs(c.green - palette.ink.green) < 0.3 && fabs(c.red - palette.ink.red) < 0.3;
+        }
+    return count;
+}
+
+static void numbers_stand_in_cells_that_have_room(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    sl_draw_options options = options_for(SL_LAYER_NUMBERS, SL_NO_CELL, false);
+    const picture p = draw(&map, options);
+    const picture none = draw(&map, options_for(SL_LAYER_CELLS, SL_NO_CELL, false));
+    // In the middles of cells, and nowhere else in them.
+    assert_true(count_ink(&p, 9, 4.5, 11, 5.5) > 10);
+    assert_true(count_ink(&p, 29, 14.5, 31, 15.5) > 10);
+    assert_int_equal(count_ink(&p, 1, 1, 8, 4), 0);
+    assert_int_equal(count_ink(&none, 9, 4.5, 11, 5.5), 0);
+    // Cells that come out tiny have none.
+    cairo_surface_t *small = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 20, 15);
+    cairo_t *cairo = cairo_create(small);
+    sl_scene scene;
+    assert_ok(context, sli_scene_make(context, &map.baked, &options, NULL, &scene));
+    const sl_frame frame = sl_frame_fit(map.baked.space.bounds, 0, 0, 20, 15, 1);
+    cairo_set_source_rgb(cairo, 1, 1, 1);
+    cairo_paint(cairo);
+    sli_draw_numbers(cairo, &scene, &frame);
+    cairo_surface_flush(small);
+    const unsigned char *pixels = cairo_image_surface_get_data(small);
+    for (int i = 0; i < 15 * cairo_image_surface_get_stride(small); i++)
+        if (i % 4 != 3) assert_int_equal(pixels[i], 255);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(small);
+    sli_scene_clear(context, &scene);
+    cairo_surface_destroy(p.surface);
+    cairo_surface_destroy(none.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
 static void lightness_of_the_ramp_runs_one_way(void **state) {
     (void)state;
     for (int dark = 0; dark < 2; dark++) {
@@ -612,6 +658,7 @@ int main(void) {
         cmocka_unit_test(place_and_size_do_not_matter),
         cmocka_unit_test(thin_maps_are_not_stretched),
         cmocka_unit_test(a_view_zoomed_in_shows_what_is_there),
+        cmocka_unit_test(numbers_stand_in_cells_that_have_room),
         cmocka_unit_test(lightness_of_the_ramp_runs_one_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -97,8 +97,21 @@ static void test_cutting(void **state) {
     assert_int_equal(one.corner_count, 4);
 }
 
+static void test_one_portal_is_crossed_straight(void **state) {
+    (void)state;
+    // All slopes have the same margin: the middle one is taken.
+    const sl_portal_ends ends[2] = {{{3, 7}, {3, 2}}, {{-1, 5}, {4, 5}}};
+    for (int i = 0; i < 2; i++) {
+        sl_dual dual;
+        sl_dual_make(&ends[i], 1, 1, &dual);
+        assert_true(fabs(dual.best.slope) < 1e-6 && fabs(dual.best.height) < 1e-6);
+        assert_true(fabs(dual.margin - 1) < 1e-12);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_one_portal_is_crossed_straight),
         cmocka_unit_test(test_like_the_solver),
         cmocka_unit_test(test_frame),
         cmocka_unit_test(test_cutting),

@@ -335,6 +335,36 @@ static void lack_of_memory_leaves_nothing(void **state) {
     end_bench(b);
 }
 
+/// The same where the effect that decides is sought.
+static void lack_of_memory_with_effects(void **state) {
+    (void)state;
+    bench *b = begin_bench("walls 0 0 30 0 30 10 0 10 0 0\nwall 10 0 10 4\nwall 20 0 20 4\n"
+                           "door a 10 4 10 10 shut\noneway 20 4 20 10\nmirror 12 10 18 10\n");
+    const sl_explain_options options = sl_explain_options_default();
+    const bool shut[1] = {true};
+    const sl_explain_state as = {shut, 1};
+    const uint32_t from = cell_at(b, 5, 2), to = cell_at(b, 25, 2);
+    const long live = b->memory.live;
+    sl_effect_explanation e = {0};
+    sl_status status = SL_NO_MEMORY;
+    for (long failures = 0; status == SL_NO_MEMORY; failures++) {
+        b->memory.calls = 0;
+        b->memory.fail_at = failures + 1;
+        status = sl_explain_effects(b->context, &b->space, &b->map, &as, &options, from, to, &e);
+        if (status == SL_NO_MEMORY) assert_int_equal(b->memory.live, live);
+    }
+    b->memory.fail_at = 0;
+    assert_int_equal(status, SL_OK);
+    assert_false(e.direct.seen || e.mirrored.seen);
+    assert_int_equal(e.direct.decides, 0);
+    assert_int_equal(e.direct.without, SL_EFFECT_DOOR | SL_EFFECT_ONEWAY);
+    assert_int_equal(e.mirrored.without, SL_EFFECT_DOOR | SL_EFFECT_ONEWAY);
+    assert_true(e.without.seen && e.bent_without.mirrors == 1);
+    sl_effect_explanation_destroy(b->context, &e);
+    assert_int_equal(b->memory.live, live);
+    end_bench(b);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cell_sees_itself),
@@ -349,6 +379,7 @@ int main(void) {
         cmocka_unit_test(a_limit_ends_the_search),
         cmocka_unit_test(a_long_search_reports_and_can_be_cancelled),
         cmocka_unit_test(lack_of_memory_leaves_nothing),
+        cmocka_unit_test(lack_of_memory_with_effects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,6 +57,30 @@ typedef struct tally {
     size_t maps, left_out, too_close, stabbed, grazing, hidden, unconnected, misses, turns;
 } tally;
 
+/// The portals of a sequence alone, without their space, are in each other's way as it says.
+static void check_alone(sl_context *context, const sl_space *space, const sl_sequence *sequence,
+                        sl_stab_verdict verdict, bool turns) {
+    sl_portal_ends *portals = calloc(sequence->directed_count, sizeof *portals);
+    sl_conflict found;
+    assert_non_null(portals);
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *at = &space->directed[sequence->directed[i]];
+        portals[i] = (sl_portal_ends){at->left, at->right};
+    }
+    assert_ok(context, sl_conflict_find(context, portals, sequence->directed_count, &found));
+    assert_int_equal(found.verdict, verdict);
+    assert_int_equal(found.turns, turns);
+    assert_int_equal(found.end_count, sequence->end_count);
+    for (uint32_t k = 0; k < found.end_count; k++) {
+        assert_int_equal(found.ends[k].portal, sequence->ends[k].portal);
+        assert_int_equal(found.ends[k].left, sequence->ends[k].left);
+    }
+    if (!turns && found.end_count)
+        assert_string_equal(sl_conflict_reason(portals, &found),
+                            sl_sequence_reason(space, sequence));
+    free(portals);
+}
+
 static void check_hidden(sl_context *context, const trial *t, const sl_explanation *e,
                          tally *count) {
     uint32_t missing;
@@ -65,6 +89,7 @@ static void check_hidden(sl_context *context, const trial *t, const sl_explanati
     assert_int_equal(e->misses[0].missing, missing);
     for (uint32_t i = 0; i < e->miss_count; i++) {
         check_miss(context, &t->space, e, i);
+        check_alone(context, &t->space, &e->misses[i].sequence, SL_HIDDEN, e->misses[i].turns);
         count->turns += e->misses[i].turns;
     }
     count->misses += e->miss_count;
@@ -92,6 +117,7 @@ static void check_pair(sl_context *context, const trial *t, uint64_t seed, uint3
         assert_int_equal(e.sequence.directed_count,
                          fewest_portals(&t->space, trees, from, to, &missing));
         check_witness(&t->space, &e);
+        check_alone(context, &t->space, &e.sequence, e.verdict, false);
         if (e.verdict == SL_GRAZING) check_conflict(&t->space, &e.sequence, true);
         // Only the grid of rounded tenths has lines that close together.
         const bool too_close = e.touches && open;

@@ -343,8 +343,7 @@ static void test_tiles(void **state) {
         }
         find_box(&all);
         sl_map map = {0};
-        size_t grids;
-        assert_ok(context, sli_tiles_add_walls(context, &tiles, "tiles", &options, &map, &grids));
+        assert_ok(context, sli_tiles_add_walls(context, &tiles, "tiles", &options, &map));
         const trial blocks = {&map, stay, grids_say, &all, -2, 34, seed};
         check_map(context, &blocks, &random);
         sl_map_destroy(context, &map);

@@ -173,6 +173,17 @@ static void test_units(void **state) {
     assert_walls_of(sl_map_read_dxf, &options, feet, strlen(feet), "wall 0 3.048 30.48 0\n");
     options.unit = "ft";
     assert_walls_of(sl_map_read_dxf, &options, feet, strlen(feet), "wall 0 10 100 0\n");
+    assert_unit_of(sl_map_read_dxf, &options, feet, "ft");
+    options.unit = "mm";
+    assert_unit_of(sl_map_read_dxf, &options, feet, "mm");
+    assert_unit_of(sl_map_read_dxf, NULL, feet, "ft");
+    assert_unit_of(sl_map_read_dxf, NULL, IN(13) HEAD LINE(0, 10, 100, 0) TAIL, "\xc2\xb5m");
+    assert_unit_of(sl_map_read_dxf, NULL, IN(0) HEAD LINE(0, 10, 100, 0) TAIL, "");
+    assert_unit_of(sl_map_read_dxf, NULL, IN(99) HEAD LINE(0, 10, 100, 0) TAIL, "");
+    assert_unit_of(sl_map_read_dxf, NULL, HEAD LINE(0, 10, 100, 0) TAIL, "");
+    options.unit = "mi";
+    assert_refused_of(sl_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
+                      "there is no unit 'mi'; choose from mm, cm, m, km, in, ft, yd");
     options.unit = "ell";
     assert_refused_of(sl_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
                       "there is no unit 'ell'; choose from mm, cm, m, km, in, ft, yd");

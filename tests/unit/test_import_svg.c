@@ -159,11 +159,26 @@ static void test_refused(void **state) {
     assert_refused(text, "f:4: the drawing's uses give more than");
 }
 
+static void test_units(void **state) {
+    (void)state;
+#define SIZED(size) "<svg " size "><line x2='1'/></svg>"
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20mm' viewBox='0 0 20 10'"), "mm");
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20' viewBox='0 0 20 10'"), "px");
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20cm' height='10cm'"), "px");
+    assert_unit_of(sl_map_read_svg, NULL, SIZED(""), "px");
+    // A user unit is another length here.
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='21mm' viewBox='0 0 20 10'"), "");
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20%' viewBox='0 0 20 10'"), "");
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20ell' viewBox='0 0 20 10'"), "");
+    assert_unit_of(sl_map_read_svg, NULL, SIZED("viewBox='0 0 20 10'"), "");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shapes), cmocka_unit_test(test_transforms),
-        cmocka_unit_test(test_paths),  cmocka_unit_test(test_arcs),
-        cmocka_unit_test(test_layers), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_units),      cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_transforms), cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_arcs),       cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -572,6 +572,45 @@ static void test_guess(void **state) {
     assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
 }
 
+/// The layers to choose from, and whether the map says which of them are solid.
+static void test_layers_listed(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *text, *layers;
+        bool unsaid;
+    } cases[] = {
+        {"a.tmx",
+         MAP(SET LAYER("ground", CSV("1,1,1,1,1,1")) "<group name='g'><objectgroup name='things'/>"
+                                                     "</group>"),
+         "ground|things|", true},
+        {"b.tmx", MAP(SET LAYER("ground", CSV("1,1,1,1,1,1")) LAYER("walls", CSV("1,0,0,0,0,0"))),
+         "ground|walls|", false},
+        {"c.tmx", MAP("<tileset firstgid='1' source='gone.tsx'/>" LAYER("a", CSV("1,1,1,1,1,1"))),
+         "a|", true},
+        {"d.tmj",
+         "{\"width\": 1, \"height\": 1, \"tilewidth\": 8, \"tileheight\": 8, \"layers\": ["
+         "{\"type\": \"tilelayer\", \"name\": \"floor\", \"width\": 1, \"height\": 1, "
+         "\"data\": [0]}]}",
+         "floor|", true},
+    };
+    sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char found[256] = "";
+        sl_map_choice choice = {0};
+        assert_ok(context, sl_map_choice_parse(context, cases[i].name, cases[i].text,
+                                               strlen(cases[i].text), &choice));
+        for (size_t k = 0; k < choice.layers.count; k++) {
+            strcat(found, choice.layers.names[k]);
+            strcat(found, "|");
+        }
+        assert_string_equal(found, cases[i].layers);
+        assert_int_equal(choice.layers_unsaid, cases[i].unsaid);
+        sl_map_choice_destroy(context, &choice);
+    }
+    sl_context_destroy(context);
+}
+
 static void test_damaged_data(void **state) {
     (void)state;
 #define BROKEN(how, text, message)                                                                 \
@@ -839,6 +878,7 @@ int main(void) {
         cmocka_unit_test(test_starts_and_doors_on_lattices),
         cmocka_unit_test(test_tile_shapes_on_lattices),
         cmocka_unit_test(test_guess),
+        cmocka_unit_test(test_layers_listed),
         cmocka_unit_test(test_damaged_data),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_entities_are_not_followed),

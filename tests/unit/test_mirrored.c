@@ -6,6 +6,8 @@
 #include "oracle/mirrored.h"
 #include "oracle/random_effects.h"
 
+#include "sightline/sees.h"
+
 #include <math.h>
 
 enum { MAPS = 96, EYES = 4, CELLS_MOST = 128 };
@@ -18,6 +20,9 @@ typedef struct trial {
     double scale;
     sl_map map;
     sl_space whole, space; ///< as it was made; with doors shut and glass that is dark
+    sl_space walled;       ///< the same with a wall on the dark side of glass
+    sl_space shut;         ///< with doors shut alone
+    bool is_shut[3];       ///< by door
     uint32_t depth;
 } trial;
 
@@ -34,17 +39,24 @@ static void begin(trial *t, uint64_t seed) {
         t->map.range = (double)(1 + sl_random_below(&t->random, 20)) * t->scale / 2;
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
-    bool shut[3];
+    bool *shut = t->is_shut;
     for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
-    const sl_filtered_space filtered = {.shut = shut, .one_way = true};
+    sl_filtered_space filtered = {.shut = shut, .one_way = true};
     assert_ok(t->context,
               sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->space));
+    filtered.dark_walls = true;
+    assert_ok(t->context,
+              sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->walled));
+    const sl_filtered_space doors = {.shut = shut};
+    assert_ok(t->context, sl_filtered_space_make(t->context, &t->whole, &doors, NULL, &t->shut));
     assert_true(t->space.cell_count <= CELLS_MOST);
 }
 
 static void end(trial *t) {
     sl_space_destroy(t->context, &t->whole);
     sl_space_destroy(t->context, &t->space);
+    sl_space_destroy(t->context, &t->walled);
+    sl_space_destroy(t->context, &t->shut);
     sl_map_destroy(t->context, &t->map);
     sl_context_destroy(t->context);
 }
@@ -146,14 +158,15 @@ static void check_part(const trial *t, const sl_view *view, const sl_mirror_part
         complain(t, view, "a part and its image differ");
 }
 
-static void ask_region(const trial *t, const sl_view *view, const oracle_mirrored *truth) {
+static void ask_region(const trial *t, const sl_space *space, const sl_view *view,
+                       const oracle_mirrored *truth) {
     sl_outline outline;
     sl_room_mirrors mirrors;
     sl_mirrored_region region = {0};
     const size_t chains = oracle_chains(&t->map, t->depth);
     double *areas = calloc(chains, sizeof *areas);
     assert_non_null(areas);
-    assert_ok(t->context, sl_outline_make(t->context, &t->space, &outline));
+    assert_ok(t->context, sl_outline_make(t->context, space, &outline));
     assert_ok(t->context, sl_room_mirrors_make(t->context, &outline, &t->map, &mirrors));
     assert_ok(t->context,
               sl_mirrored_region_make(t->context, &mirrors, view, t->map.range, t->depth, &region));
@@ -209,7 +222,7 @@ static void random_maps(void **state) {
                 oracle_mirrored_of(&t.space, &t.map, &view, t.map.range, t.depth);
             ask_cells(&t, &view, &truth, SL_CLOSED);
             ask_cells(&t, &view, &truth, SL_OPEN);
-            if (!truth.on_wall && !(t.effects & SL_EFFECT_ONEWAY)) ask_region(&t, &view, &truth);
+            if (!truth.on_wall) ask_region(&t, &t.walled, &view, &truth);
             for (uint32_t c = 0; c < t.space.cell_count; c++) seen += truth.open[c];
             areas += !truth.on_wall && truth.areas[1] > 0;
             oracle_mirrored_free(&truth);
@@ -221,6 +234,34 @@ static void random_maps(void **state) {
 }
 
 // --- past glass
+
+/// Glass as a wall for this eye, and as a wall on its dark side alone, shows the same region and
+/// the same points; also for an eye on the glass.
+static void compare_outlines(trial *t, const sl_space *past, const sl_view *view) {
+    const sl_space *spaces[2] = {past, &t->walled};
+    sl_outline outlines[2];
+    double areas[2];
+    for (int i = 0; i < 2; i++) {
+        sl_region region = {0};
+        assert_ok(t->context, sl_outline_make(t->context, spaces[i], &outlines[i]));
+        assert_ok(t->context,
+                  sl_region_make(t->context, &outlines[i], view, t->map.range, &region));
+        areas[i] = sl_region_area(&region);
+        sl_region_destroy(t->context, &region);
+    }
+    if (fabs(areas[0] - areas[1]) > 1e-10 * t->scale * t->scale)
+        complain(t, view, "the regions past glass differ");
+    for (int i = 0; i < 40; i++) {
+        const sl_point point = random_point(t);
+        bool seen[2];
+        const sl_sight sight = i % 2 ? SL_OPEN : SL_CLOSED;
+        for (int k = 0; k < 2; k++)
+            assert_ok(t->context,
+                      sl_sees(t->context, &outlines[k], view->eye, point, sight, &seen[k]));
+        if (seen[0] != seen[1]) complain(t, view, "a point past glass differs");
+    }
+    for (int i = 0; i < 2; i++) sl_outline_destroy(t->context, &outlines[i]);
+}
 
 /// The region of an eye, and the cells that it sees, where glass that is dark for it is a wall.
 static void past_glass(void **state) {
@@ -239,16 +280,20 @@ static void past_glass(void **state) {
             uint64_t cells[CELLS_MOST / 64 + 1];
             sl_eye_account account;
             sl_eye_search *search;
-            trial past = t, all = t;
+            trial past = t, all = t, open = t;
             // Of what the glass itself says, and of its being a wall.
             const sl_filtered_space one_way = {.one_way = true};
+            const sl_filtered_space dark = {.one_way = true, .dark_walls = true};
             assert_ok(t.context,
                       sl_filtered_space_make(t.context, &t.whole, &one_way, NULL, &all.space));
+            assert_ok(t.context,
+                      sl_filtered_space_make(t.context, &t.whole, &dark, NULL, &open.walled));
             assert_ok(t.context,
                       sl_filtered_space_make(t.context, &t.whole, &filtered, NULL, &past.space));
             assert_ok(t.context, sl_space_check(t.context, &past.space));
             oracle_mirrored truth = oracle_mirrored_of(&all.space, &t.map, &view, t.map.range, 0);
-            if (!truth.on_wall) ask_region(&past, &view, &truth);
+            if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
+            compare_outlines(&open, &past.space, &view);
             assert_ok(t.context, sl_eye_search_create(t.context, &past.space, &bare, &search));
             sl_eye_search_limit(search, t.map.range);
             assert_ok(t.context, exact->cull(t.context, search, &view, cells, &account));
@@ -258,6 +303,7 @@ static void past_glass(void **state) {
             oracle_mirrored_free(&truth);
             sl_space_destroy(t.context, &past.space);
             sl_space_destroy(t.context, &all.space);
+            sl_space_destroy(t.context, &open.walled);
         }
         end(&t);
     }
@@ -306,12 +352,29 @@ static void compare_past(const trial *t, sl_moving *moving, const sl_view *view,
     compare_cells(t, view, cells, expected, sight, "by mirror past boxes");
 }
 
+/// The oracle on a space with boxes, whose directed portals tell where glass is dark.
+static oracle_mirrored ask_past(const trial *t, const sl_moving_box *boxes, size_t count,
+                                const sl_view *view) {
+    const sl_visibility bare = {.sight = SL_OPEN};
+    const sl_filtered_space one_way = {.one_way = true};
+    sl_moving *moving;
+    sl_space dark;
+    assert_ok(t->context, sl_moving_create(t->context, &t->shut, &bare, &moving));
+    assert_ok(t->context, sl_moving_place(t->context, moving, boxes, count));
+    assert_ok(t->context, sl_filtered_space_make(t->context, sl_moving_space(moving, NULL),
+                                                 &one_way, NULL, &dark));
+    oracle_mirrored truth = oracle_mirrored_of(&dark, &t->map, view, t->map.range, t->depth);
+    sl_space_destroy(t->context, &dark);
+    sl_moving_destroy(t->context, moving);
+    return truth;
+}
+
 /// Whether a cell within a box is seen by mirror, with nothing of the box in the way.
 static bool is_entered(const trial *t, sl_moving *moving, sl_box box, const sl_view *view) {
     const sl_moving_box glass = {box, false};
     assert_ok(t->context, sl_moving_place(t->context, moving, &glass, 1));
     const sl_space *boxed = sl_moving_space(moving, NULL);
-    oracle_mirrored truth = oracle_mirrored_of(boxed, &t->map, view, t->map.range, t->depth);
+    oracle_mirrored truth = ask_past(t, &glass, 1, view);
     bool entered = false;
     for (uint32_t c = 0; c < boxed->cell_count; c++) {
         const sl_point *v = boxed->vertices + boxed->cells[c].first_vertex;
@@ -332,17 +395,19 @@ static void try_boxes(trial *t, sl_sight sight, size_t *seen, size_t *hidden) {
     sl_eye_account account;
     const size_t count = sight == SL_OPEN ? 1 : 1 + sl_random_below(&t->random, BOXES);
     for (size_t i = 0; i < count; i++) boxes[i] = random_box(t);
-    assert_ok(t->context, sl_moving_create(t->context, &t->space, &bare, &moving));
+    assert_ok(t->context, sl_moving_create(t->context, &t->shut, &bare, &moving));
+    if (t->effects & SL_EFFECT_ONEWAY)
+        assert_ok(t->context, sl_moving_add_glass(t->context, moving));
     assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &t->map, t->depth));
     sl_moving_limit(moving, t->map.range);
     assert_ok(t->context, sl_moving_place(t->context, moving, boxes, count));
     const sl_space *boxed = sl_moving_space(moving, NULL);
-    oracle_mirrored truth = oracle_mirrored_of(boxed, &t->map, &view, t->map.range, t->depth);
+    oracle_mirrored truth = ask_past(t, boxes, count, &view);
     assert_ok(t->context, sl_moving_look_mirrored(t->context, moving, &view, cells, met, &account));
     compare_past(t, moving, &view, sight, &truth, cells);
     trial past = *t;
     past.space = *boxed;
-    if (!truth.on_wall) ask_region(&past, &view, &truth);
+    if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
     oracle_mirrored_free(&truth);
     if (count == 1 && sight == SL_OPEN && is_plain(t, boxes[0].box, view.eye)) {
         // One that blocks may stand between itself and a mirror.
@@ -361,8 +426,7 @@ static void past_boxes(void **state) {
     for (uint64_t seed = 1; seed <= maps; seed++) {
         trial t;
         begin(&t, seed);
-        for (int i = 0; i < 5 && !(t.effects & SL_EFFECT_ONEWAY); i++)
-            try_boxes(&t, i < 2 ? SL_CLOSED : SL_OPEN, &seen, &hidden);
+        for (int i = 0; i < 5; i++) try_boxes(&t, i < 2 ? SL_CLOSED : SL_OPEN, &seen, &hidden);
         end(&t);
     }
     assert_true(seen > maps / 30 && hidden > maps / 30);
@@ -390,41 +454,95 @@ static void check_bends(const trial *t, const sl_bent_sightline *bent) {
     assert_int_equal(bend, bent->mirrors);
 }
 
-/// What explaining finds is what the bake finds.
+/// Who sees whom without some effects, by bakes.
+typedef struct bakes {
+    unsigned effects;       ///< that can hide something
+    sl_visibility seen[16]; ///< by the bits left out
+} bakes;
+
+static void bake_without(const trial *t, const sl_see_options *usual, unsigned without,
+                         sl_visibility *out) {
+    sl_plan plan = sl_plan_make(&t->map);
+    sl_see_options options = *usual;
+    plan.mirror_depth = t->depth;
+    plan.effects &= ~without;
+    if (without & SL_EFFECT_RANGE) plan.range = 0;
+    options.plan = &plan;
+    assert_ok(t->context, testing_method("dfs")->see(t->context, &t->whole, &options, out));
+}
+
+static bool bake_sees(const trial *t, const bakes *b, unsigned without, bool mirrored,
+                      uint32_t from, uint32_t to) {
+    const sl_visibility *v = &b->seen[without];
+    if (!sl_pvs_sees(mirrored ? &v->mirrored : &v->pvs, from, to)) return false;
+    return without & SL_EFFECT_DOOR ||
+           sl_door_sets_open(mirrored ? &v->mirrored_doors : &v->doors, from, to, t->is_shut);
+}
+
+/// The effect that is said to decide is the one without which a bake sees the pair.
+static void check_verdict(const trial *t, const bakes *b, const sl_effect_verdict *said,
+                          bool mirrored, uint32_t from, uint32_t to) {
+    const bool seen = bake_sees(t, b, 0, mirrored, from, to);
+    unsigned decides = 0, without = 0;
+    for (unsigned size = 1; size <= 3 && !seen && !without; size++)
+        for (unsigned bits = 1; bits <= b->effects; bits++) {
+            if (bits & ~b->effects || (unsigned)__builtin_popcount(bits) != size ||
+                !bake_sees(t, b, bits, mirrored, from, to))
+                continue;
+            if (size == 1) decides |= bits;
+            if (!without) without = bits;
+        }
+    if (said->seen != seen || said->decides != decides || said->without != without)
+        fail_msg("seed %llu, cells %u and %u, mirrored %d: seen %d, not %d; %x and %x decide, not "
+                 "%x and %x",
+                 (unsigned long long)t->seed, from, to, mirrored, said->seen, seen, said->decides,
+                 said->without, decides, without);
+}
+
+/// What explaining finds is what the bake finds; and the effect that decides is the one that does.
 static void explained_as_baked(void **state) {
     (void)state;
-    size_t found = 0, twice = 0;
-    for (uint64_t seed = 8; seed <= 8 * (uint64_t)MAPS; seed += 8) {
+    const uint64_t maps = testing_seeds(MAPS);
+    size_t found = 0, twice = 0, decided[2] = {0, 0}, together = 0;
+    for (uint64_t seed = 1; seed <= maps; seed++) {
         trial t;
         begin(&t, seed);
-        sl_plan plan = sl_plan_make(&t.map);
-        plan.mirror_depth = t.depth;
-        size_t count;
-        const sl_see_method *methods = sl_see_methods(&count);
-        while (strcmp(methods->name, "dfs") != 0) methods++;
         sl_see_options options = sl_see_options_default();
         sl_explain_options how = sl_explain_options_default();
         options.solver = sl_funnel();
-        options.plan = &plan;
         options.sight = how.sight = seed / 8 % 2 ? SL_CLOSED : SL_OPEN;
-        sl_visibility baked = {0};
-        assert_ok(t.context, methods->see(t.context, &t.whole, &options, &baked));
-        for (uint32_t a = 0; a < t.whole.cell_count; a++)
-            for (uint32_t b = 0; b < t.whole.cell_count; b++) {
-                sl_explanation e = {.from = a, .to = b, .sight = how.sight};
+        bakes b = {.effects = t.effects & (SL_EFFECT_ONEWAY | SL_EFFECT_RANGE)};
+        for (int i = 0; i < 3 && t.effects & SL_EFFECT_DOOR; i++)
+            if (t.is_shut[i]) b.effects |= SL_EFFECT_DOOR;
+        for (unsigned bits = 0; bits <= b.effects; bits++)
+            if (!(bits & ~b.effects)) bake_without(&t, &options, bits, &b.seen[bits]);
+        const sl_explain_state as = {t.is_shut, t.depth};
+        for (uint32_t from = 0; from < t.whole.cell_count; from++)
+            for (uint32_t to = 0; to < t.whole.cell_count; to++) {
+                sl_effect_explanation e;
                 assert_ok(t.context,
-                          sl_explain_by_mirror(t.context, &t.whole, &t.map, &how, t.depth, &e));
-                if ((e.bent.verdict != SL_HIDDEN) != sl_pvs_sees(&baked.mirrored, a, b))
-                    fail_msg("seed %llu: cells %u and %u", (unsigned long long)seed, a, b);
-                if (e.bent.bends) check_bends(&t, &e.bent);
-                found += e.bent.mirrors > 0;
-                twice += e.bent.mirrors > 1;
-                sl_explanation_destroy(t.context, &e);
+                          sl_explain_effects(t.context, &t.whole, &t.map, &as, &how, from, to, &e));
+                check_verdict(&t, &b, &e.direct, false, from, to);
+                check_verdict(&t, &b, &e.mirrored, true, from, to);
+                if (e.now.bent.bends) check_bends(&t, &e.now.bent);
+                if (e.bent_without.bends) check_bends(&t, &e.bent_without);
+                if (e.direct.without && !e.without.seen) fail_msg("what is without is hidden");
+                if (t.map.range > 0 && e.now.seen && !(e.now.length <= t.map.range * (1 + 1e-9)))
+                    fail_msg("a sightline of %g within %g", e.now.length, t.map.range);
+                found += e.now.bent.mirrors > 0;
+                twice += e.now.bent.mirrors > 1;
+                decided[0] += e.direct.decides != 0;
+                decided[1] += e.mirrored.decides != 0;
+                together += e.direct.without && !e.direct.decides;
+                sl_effect_explanation_destroy(t.context, &e);
             }
-        sl_visibility_destroy(t.context, &baked);
+        for (size_t i = 0; i < sizeof b.seen / sizeof *b.seen; i++)
+            sl_visibility_destroy(t.context, &b.seen[i]);
         end(&t);
     }
-    assert_true(found > 100 && twice > 0);
+    if (maps < MAPS) return; // too few for the rare ones
+    assert_true(found > 8 * maps && twice > maps / 16);
+    assert_true(decided[0] > 4 * maps && decided[1] > 4 * maps && together > 0);
 }
 
 int main(void) {

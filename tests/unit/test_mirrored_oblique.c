@@ -2,8 +2,8 @@
 /// of all ends of walls and mirrors is found, by the bake, by the cells of an eye and by its
 /// region; and what the region shows is where the sightline to it ends. Likewise past boxes that
 /// move, and boxes on the way are found. Against single rays in rationals, on random maps with
-/// walls and mirrors in any direction. SIGHTLINE_SEEDS in the environment: how many maps (60 by
-/// default).
+/// walls, mirrors and one-way glass in any direction. SIGHTLINE_SEEDS in the environment: how many
+/// maps (60 by default).
 #include "testing.h"
 
 #include "oracle/mirror_ray.h"
@@ -22,6 +22,7 @@ typedef struct trial {
     uint64_t seed;
     sl_map map;
     sl_space space;
+    sl_space dark; ///< with a wall on the dark side of glass
     sl_outline outline;
     sl_room_mirrors mirrors;
     sl_visibility baked;
@@ -48,6 +49,20 @@ static void add_walls(trial *t, oblique_grid grid) {
         } else {
             assert_ok(t->context, sl_map_add_wall(t->context, &t->map, s.a, s.b, 0));
         }
+    }
+}
+
+/// Every other map has two panes.
+static void add_glass(trial *t, oblique_grid grid) {
+    for (uint64_t i = 2 * (t->seed / 3 % 2); i > 0; i--) {
+        sl_segment s;
+        do {
+            s.a.x = oblique_coordinate(&t->random, grid),
+            s.a.y = oblique_coordinate(&t->random, grid);
+            s.b.x = oblique_coordinate(&t->random, grid),
+            s.b.y = oblique_coordinate(&t->random, grid);
+        } while (s.a.x == s.b.x && s.a.y == s.b.y);
+        assert_ok(t->context, sl_map_add_oneway(t->context, &t->map, s, 0));
     }
 }
 
@@ -78,9 +93,12 @@ static void begin(trial *t, uint64_t seed) {
     for (int i = 0; i < 4; i++)
         assert_ok(t->context, sl_map_add_wall(t->context, &t->map, corners[i], corners[i + 1], 0));
     add_walls(t, grids[seed % 3]);
+    add_glass(t, grids[seed % 3]);
     assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
-    assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
+    const sl_filtered_space one_way = {.one_way = true, .dark_walls = true};
+    assert_ok(t->context, sl_filtered_space_make(t->context, &t->space, &one_way, NULL, &t->dark));
+    assert_ok(t->context, sl_outline_make(t->context, &t->dark, &t->outline));
     assert_ok(t->context, sl_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
     bake(t);
 }
@@ -90,6 +108,7 @@ static void end(trial *t) {
     sl_room_mirrors_destroy(t->context, &t->mirrors);
     sl_outline_destroy(t->context, &t->outline);
     sl_space_destroy(t->context, &t->space);
+    sl_space_destroy(t->context, &t->dark);
     sl_map_destroy(t->context, &t->map);
     sl_context_destroy(t->context);
 }
@@ -239,7 +258,7 @@ static void check_eye(trial *t, sl_point eye) {
     sl_mirrored_region region = {0};
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &bare, &search));
+    assert_ok(t->context, sl_eye_search_create(t->context, &t->dark, &bare, &search));
     assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, DEPTH));
     assert_ok(t->context, exact->mirrored(t->context, search, &view, cells, &account));
     assert_ok(t->context,
@@ -334,6 +353,7 @@ static void check_boxes(trial *t, sl_point eye) {
     for (size_t i = 0; i < BOXES; i++)
         t->boxes[i] = (sl_moving_box){random_box(t), sl_random_below(&t->random, 2)};
     assert_ok(t->context, sl_moving_create(t->context, &t->space, &bare, &moving));
+    assert_ok(t->context, sl_moving_add_glass(t->context, moving));
     assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &map, DEPTH));
     assert_ok(t->context, sl_moving_place(t->context, moving, t->boxes, BOXES));
     assert_ok(t->context,
@@ -375,9 +395,61 @@ static void random_maps(void **state) {
     assert_true(t.boxes_met > maps && t.boxes_hidden > maps);
 }
 
+/// Without glass, who is seen by mirror sees as well; also where ends of walls and mirrors are in
+/// line. `hidden`: two cells that see nothing of each other by mirror, or the same cell.
+static void check_mutual(trial *t, const char *name, const uint32_t hidden[2]) {
+    sl_plan plan = sl_plan_make(&t->map);
+    sl_see_options options = sl_see_options_default();
+    sl_visibility open = {0};
+    plan.mirror_depth = DEPTH;
+    options.solver = sl_funnel();
+    options.threads = 1;
+    options.plan = &plan;
+    options.sight = t->seed % 2 && hidden[0] == hidden[1] ? SL_CLOSED : SL_OPEN;
+    assert_ok(t->context, testing_method("dfs")->see(t->context, &t->space, &options, &open));
+    if (hidden[0] != hidden[1]) assert_false(sl_pvs_sees(&open.mirrored, hidden[0], hidden[1]));
+    for (uint32_t a = 0; a < t->space.cell_count; a++)
+        for (uint32_t b = 0; b < t->space.cell_count; b++)
+            if (sl_pvs_sees(&open.mirrored, a, b) && !sl_pvs_sees(&open.mirrored, b, a))
+                fail_msg("%s %llu: cell %u sees cell %u by mirror, and not the other way round",
+                         name, (unsigned long long)t->seed, a, b);
+    t->points += sl_pvs_count(&open.mirrored, 0);
+    sl_visibility_destroy(t->context, &open);
+}
+
+static void sight_by_mirror_is_mutual(void **state) {
+    (void)state;
+    // The end of the first mirror and two portals are in one line: the one cell sees the other
+    // along that line at most, which open sight does not count. And a mirror seen from one side.
+    static const struct {
+        const char *text;
+        sl_point from, to; ///< in cells that see nothing of each other by mirror with open sight
+    } cases[] = {
+        {"walls 0 0 4 0 4 7 0 7 0 0\nmirror 1 7 2 4\nmirror 4 1 3 2 one\n", {3, 6}, {3.75, 1}},
+        {"walls 0 0 5 0 5 12 0 12 0 0\nmirror 1 5 3 6 one\n", {4, 9}, {2, 2}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        trial t = {.context = testing_context(NULL), .seed = i};
+        testing_space(t.context, cases[i].text, &t.map, &t.space);
+        const uint32_t hidden[] = {sl_space_locate(&t.space, cases[i].from),
+                                   sl_space_locate(&t.space, cases[i].to)};
+        assert_int_not_equal(hidden[0], hidden[1]);
+        check_mutual(&t, "text", hidden);
+        end(&t);
+    }
+    const uint32_t none[2] = {0, 0};
+    const uint64_t maps = testing_seeds(MAPS);
+    for (uint64_t seed = 1; seed <= maps; seed++) {
+        trial t = {0};
+        begin(&t, seed);
+        if (!t.map.oneway_count) check_mutual(&t, "seed", none);
+        end(&t);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_maps),
+        cmocka_unit_test(sight_by_mirror_is_mutual),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -145,6 +145,7 @@ static void mirrors_show_what_the_depth_allows(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     static const char text[] = "sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\n"
+                               "wall 10 8 10 10\n"
                                "mirror 4 10 16 10\ndoor out 10 6 10 8 open\n";
     const char *const parts[] = {text, NULL};
     sl_baked baked = {0};
@@ -165,10 +166,17 @@ static void mirrors_show_what_the_depth_allows(void **state) {
     assert_ok(context, sl_query_look_mirrored(context, query, &view, NULL, cells, NULL));
     assert_int_equal(cells[0], 0);
     assert_int_equal(sl_query_set_mirror_depth(context, query, 17), SL_BAD_ARGUMENT);
-    sl_query_set_doors(context, query, false);
-    assert_int_equal(sl_query_look(context, query, &view, NULL, cells, NULL), SL_UNSUPPORTED);
-    assert_ok(context, sl_query_set_door(context, query, "out", true));
-    assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
+    assert_ok(context, sl_query_set_mirror_depth(context, query, 1));
+    const sl_eye_method *loosest = sl_eye_methods(&(size_t){0});
+    for (int open = 0; open < 2; open++) {
+        const uint32_t behind = sl_query_locate(query, (sl_point){15, 1});
+        sl_query_set_doors(context, query, open);
+        for (int exact = 0; exact < 2; exact++) {
+            assert_ok(context, sl_query_look_mirrored(context, query, &view, exact ? NULL : loosest,
+                                                      cells, NULL));
+            assert_int_equal(sl_eye_sees(cells, behind), open);
+        }
+    }
     sl_mirrored_region_destroy(context, &region);
     sl_query_destroy(context, query);
     sl_baked_destroy(context, &baked);
@@ -324,14 +332,14 @@ static void an_eye_in_rock_sees_nothing(void **state) {
     sl_context_destroy(context);
 }
 
-static sl_status bake_and_ask(sl_context *context) {
-    const char *const parts[] = {rooms, door, glass, NULL};
+static sl_status bake_and_ask(sl_context *context, const char *const *parts) {
     char text[1024] = "";
     for (size_t i = 0; parts[i]; i++) strcat(text, parts[i]);
     sl_map map = {0};
     sl_baked baked = {0};
     sl_query *query = NULL;
     sl_region region = {0};
+    sl_mirrored_region mirrored = {0};
     uint64_t cells[8];
     sl_status status = sl_map_read_text(context, "rooms", text, strlen(text), &map);
     sl_bake_options options = sl_bake_options_default();
@@ -344,16 +352,19 @@ static sl_status bake_and_ask(sl_context *context) {
         const sl_view view = sl_query_view(query, (sl_point){i ? 25 : 5, 4}, 0, 360);
         status = sl_query_look(context, query, &view, NULL, cells, NULL);
         if (status == SL_OK) status = sl_query_region(context, query, &view, &region);
+        if (status != SL_OK || !sl_query_baked(query)->map.mirror_count) continue;
+        status = sl_query_look_mirrored(context, query, &view, NULL, cells, NULL);
+        if (status == SL_OK) status = sl_query_mirrored_region(context, query, &view, &mirrored);
     }
     sl_region_destroy(context, &region);
+    sl_mirrored_region_destroy(context, &mirrored);
     sl_query_destroy(context, query);
     sl_baked_destroy(context, &baked);
     sl_map_destroy(context, &map);
     return status;
 }
 
-static void without_memory_nothing_leaks(void **state) {
-    (void)state;
+static void ask_without_memory(const char *const *parts) {
     testing_memory memory = {0};
     sl_status status = SL_NO_MEMORY;
     for (long n = 1; status == SL_NO_MEMORY; n++) {
@@ -361,7 +372,7 @@ static void without_memory_nothing_leaks(void **state) {
         sl_context *context = testing_context(&memory);
         memory.calls = 0;
         memory.fail_at = n;
-        status = bake_and_ask(context);
+        status = bake_and_ask(context, parts);
         memory.fail_at = 0;
         sl_context_destroy(context);
         assert_int_equal(memory.live, 0);
@@ -370,12 +381,84 @@ static void without_memory_nothing_leaks(void **state) {
     assert_int_equal(status, SL_OK);
 }
 
+static void without_memory_nothing_leaks(void **state) {
+    (void)state;
+    static const char *const maps[][5] = {
+        {rooms, door, glass, NULL},
+        {rooms, door, glass, "mirror 12 10 18 10\n", NULL},
+        {rooms, "mirror 22 2 28 4\n", NULL},
+        {rooms, "mirror 22 2 28 4\noneway 1 9 9 7\n", NULL},
+    };
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) ask_without_memory(maps[i]);
+}
+
+/// Doors, mirrors, glass, boxes and a range at once. The mirror shows what walls leave of it; glass
+/// is dark from its left alone, also for a sightline that has come back.
+static void all_effects_at_once(void **state) {
+    (void)state;
+    static const char mirrors[] = "mirror 1 10 3 10\nmirror 22 0 28 0\nmirror 30 1 30 9\n"
+                                  "mirror 12 0 18 0\n";
+    static const sl_point eyes[] = {{5, 5}, {15, 4}, {25, 4}, {20, 4}, {5, 15}, {2, 9}};
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    const char *const parts[] = {rooms, door, mirrors, glass, NULL};
+    const char *const open_parts[] = {rooms, door, mirrors, NULL};
+    sl_baked baked = {0}, open = {0};
+    sl_query *query, *both;
+    double less = 0;
+    bake(context, parts, &baked);
+    bake(context, open_parts, &open);
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    assert_ok(context, sl_query_create(context, &open, &both));
+    for (unsigned bits = 0; bits < 8; bits++) {
+        const char *const walls[] = {rooms,   bits & 1 ? door_shut : "", glass,
+                                     mirrors, bits & 2 ? box_walls : "", NULL};
+        sl_baked other = {0};
+        sl_query *plain;
+        bake(context, walls, &other);
+        assert_ok(context, sl_query_create(context, &other, &plain));
+        sl_query *const all[] = {query, plain, both};
+        for (int i = 0; i < 3; i++) {
+            assert_ok(context, sl_query_set_mirror_depth(context, all[i], 3));
+            assert_ok(context, sl_query_set_range(context, all[i], bits & 4 ? 17 : 0));
+            if (all[i] == plain) continue;
+            assert_ok(context, sl_query_set_door(context, all[i], "west", !(bits & 1)));
+            assert_ok(context, sl_query_set_boxes(context, all[i], &box, bits & 2 ? 1 : 0));
+        }
+        for (size_t i = 0; i < sizeof eyes / sizeof *eyes; i++) {
+            double direct[3], mirrored[3];
+            for (int k = 0; k < 3; k++) {
+                const sl_view view = sl_query_view(all[k], eyes[i], 0, 360);
+                sl_mirrored_region region = {0};
+                assert_ok(context, sl_query_mirrored_region(context, all[k], &view, &region));
+                direct[k] = sl_region_area(&region.direct);
+                mirrored[k] = sl_mirrored_area(&region);
+                sl_mirrored_region_destroy(context, &region);
+            }
+            assert_float_equal(direct[0], direct[1], 1e-9);
+            assert_float_equal(mirrored[0], mirrored[1], 1e-9);
+            assert_true(mirrored[0] <= mirrored[2] + 1e-9);
+            less += mirrored[2] - mirrored[0];
+        }
+        sl_query_destroy(context, plain);
+        sl_baked_destroy(context, &other);
+    }
+    assert_true(less > 100);
+    sl_query_destroy(context, query);
+    sl_query_destroy(context, both);
+    sl_baked_destroy(context, &baked);
+    sl_baked_destroy(context, &open);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_bake_is_its_stages),
         cmocka_unit_test(settings_hide_as_walls_do),
         cmocka_unit_test(a_file_answers_as_memory_does),
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
+        cmocka_unit_test(all_effects_at_once),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),
         cmocka_unit_test(an_eye_in_rock_sees_nothing),

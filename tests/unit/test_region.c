@@ -113,6 +113,28 @@ static void range_is_a_circle(void **state) {
     leave(&p);
 }
 
+/// An eye on an oblique wall sees half a circle. Rounding may turn the sign of its arc.
+static void half_a_circle_on_a_wall(void **state) {
+    (void)state;
+    for (int i = 1; i <= 60; i++) {
+        const int x = 3 + i % 7, y = 1 + i;
+        char text[128];
+        place p;
+        snprintf(text, sizeof text, "walls 0 0 %d %d %d %d %d %d 0 0\n", 2 * x, 2 * y,
+                 2 * x - 2 * y, 2 * y + 2 * x, -2 * y, 2 * x);
+        enter(&p, NULL, text);
+        for (int k = 1; k < 16; k++) {
+            const double range = 0.1 + 0.01 * k;
+            const sl_point eye = {x * k / 8.0, y * k / 8.0};
+            const sl_region_measures m = look(&p, sl_view_all_round(eye), range);
+            assert_close(m.area, pi * range * range / 2);
+            assert_close(m.perimeter, (pi + 2) * range);
+            assert_true(sl_region_flatten(&p.region, 1e-3 * range, NULL, 0) > 32);
+        }
+        leave(&p);
+    }
+}
+
 /// The radial function beside that of the whole region: with a range it is cut, and no more.
 static void range_on_a_floor(void **state) {
     (void)state;
@@ -244,10 +266,15 @@ static void memory_is_kept_and_may_fail(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(measures_of_a_room),    cmocka_unit_test(a_wall_hides_what_is_behind_it),
-        cmocka_unit_test(range_is_a_circle),     cmocka_unit_test(range_on_a_floor),
-        cmocka_unit_test(eyes_in_odd_places),    cmocka_unit_test(far_from_the_origin),
-        cmocka_unit_test(arguments_are_checked), cmocka_unit_test(memory_is_kept_and_may_fail),
+        cmocka_unit_test(measures_of_a_room),
+        cmocka_unit_test(a_wall_hides_what_is_behind_it),
+        cmocka_unit_test(half_a_circle_on_a_wall),
+        cmocka_unit_test(range_is_a_circle),
+        cmocka_unit_test(range_on_a_floor),
+        cmocka_unit_test(eyes_in_odd_places),
+        cmocka_unit_test(far_from_the_origin),
+        cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(memory_is_kept_and_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -192,7 +192,7 @@ static void a_damaged_text_is_refused(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     baked_file f = baked_file_of_text(
-        context, "walls 0 0 9 0 9 9 0 9 0 0\ndoor front 4 0 4 9\nstart 1.5 2 90\n");
+        context, "walls 0 0 9 0 9 9 0 9 0 0\ndoor front 4 0 4 9\nrange 12.5\nstart 1.5 2 90\n");
     assert_int_equal(open_with(&f, "start", "start"), SL_RUNTIME_OK);
     assert_int_equal(open_with(&f, "start 1.5", "start 1x5"), SL_RUNTIME_TEXT);
     assert_int_equal(open_with(&f, "start 1.5 2", "start 9e150"), SL_RUNTIME_TEXT);
@@ -202,6 +202,10 @@ static void a_damaged_text_is_refused(void **state) {
     assert_int_equal(open_with(&f, "1.5 2 90", "1.5 2 #9"), SL_RUNTIME_TEXT);
     assert_int_equal(open_with(&f, "door front", "dour front"), SL_RUNTIME_TEXT);
     assert_int_equal(open_with(&f, "door front", "door #ront"), SL_RUNTIME_TEXT);
+    assert_int_equal(open_with(&f, "range 12.5", "range  2.5"), SL_RUNTIME_OK);
+    assert_int_equal(open_with(&f, "range 12.5", "range 0000"), SL_RUNTIME_TEXT);
+    assert_int_equal(open_with(&f, "range 12.5", "range -2.5"), SL_RUNTIME_TEXT);
+    assert_int_equal(open_with(&f, "range 12.5", "range     "), SL_RUNTIME_TEXT);
     assert_int_equal(open_with(&f, "start", "stars"), SL_RUNTIME_OK); // another statement
     baked_file_destroy(context, &f);
     sl_context_destroy(context);

@@ -34,24 +34,39 @@ static bool leaves_by(sl_point eye, sl_point through, const sl_directed_portal *
            !sl_view_holds(&to_left, directed->right) || sl_view_holds(&ray, directed->right);
 }
 
-/// Adds what one line sees within the row of the eye's cell.
+enum { CROSSED_LEFT = 1, CROSSED_RIGHT = 2, CROSSED_BOTH = 3, STATES = 4 };
+
+/// To which side a ray in line with a directed portal crosses it; 0 if it is not in line.
+static unsigned crossing_along(sl_point eye, sl_point through, const sl_directed_portal *directed) {
+    const sl_point right = directed->right, left = directed->left;
+    if (sli_orient(eye, through, right) || sli_orient(eye, through, left)) return 0;
+    const double ray = through.x != eye.x ? through.x - eye.x : through.y - eye.y;
+    const double portal = through.x != eye.x ? left.x - right.x : left.y - right.y;
+    return (ray > 0) == (portal > 0) ? CROSSED_RIGHT : CROSSED_LEFT;
+}
+
+/// Adds what one line sees within the row of the eye's cell. A line that runs along portals crosses
+/// them all to its left, or all to its right: then a line beside it passes them strictly.
 static void follow(trial *t, sl_point eye, uint32_t from, sl_point through) {
     const sl_space *s = &t->f->baked.space;
-    memset(t->reached, 0, s->cell_count * sizeof *t->reached);
+    memset(t->reached, 0, STATES * s->cell_count * sizeof *t->reached);
     uint32_t count = 0;
-    t->reached[from] = true;
-    t->stack[count++] = from;
+    t->reached[STATES * from] = true;
+    t->stack[count++] = STATES * from;
     while (count) {
-        const sl_cell *c = &s->cells[t->stack[--count]];
+        const uint32_t state = t->stack[--count];
+        const sl_cell *c = &s->cells[state / STATES];
         t->is_seen[c - s->cells] = true;
         for (uint32_t i = 0; i < c->directed_count; i++) {
             const sl_directed_portal *directed = &s->directed[c->first_directed + i];
-            if (t->reached[directed->cell] ||
-                !sl_runtime_can_see(&t->f->runtime, from, directed->cell) ||
+            if (!sl_runtime_can_see(&t->f->runtime, from, directed->cell) ||
                 !leaves_by(eye, through, directed))
                 continue;
-            t->reached[directed->cell] = true;
-            t->stack[count++] = directed->cell;
+            const unsigned sides = state % STATES | crossing_along(eye, through, directed);
+            const uint32_t next = STATES * directed->cell + sides;
+            if (sides == CROSSED_BOTH || t->reached[next]) continue;
+            t->reached[next] = true;
+            t->stack[count++] = next;
         }
     }
 }
@@ -95,8 +110,10 @@ static void compare(trial *t, const sl_view *view) {
         t->said[t->cells[i]] = true;
     }
     ask_oracle(t, view, cell);
+    // The oracle knows neither ranges nor glass; test_runtime_query does.
+    const bool less = r->range > 0 || t->f->baked.map.oneway_count;
     for (uint32_t i = 0; i < r->cell_count; i++) {
-        if (t->said[i] != t->is_seen[i])
+        if (t->said[i] != t->is_seen[i] && (t->said[i] || !less))
             fail_msg("%s: (%.17g, %.17g)%s: cell %u is %s", t->f->name, eye.x, eye.y,
                      view->full ? "" : " with a cone", i, t->is_seen[i] ? "missed" : "added");
     }
@@ -139,8 +156,8 @@ static void looks_are_exact(const baked_file *f) {
     trial t = {.f = f, .lines_left = 100000};
     t.scratch = malloc(sl_runtime_scratch_count(&f->runtime) * sizeof *t.scratch);
     t.cells = calloc(n, sizeof *t.cells);
-    t.stack = calloc(n, sizeof *t.stack);
-    t.reached = calloc(n, sizeof *t.reached);
+    t.stack = calloc(n, STATES * sizeof *t.stack);
+    t.reached = calloc(n, STATES * sizeof *t.reached);
     t.is_seen = calloc(n, sizeof *t.is_seen);
     t.said = calloc(n, sizeof *t.said);
     assert_true(t.scratch && t.cells && t.stack && t.reached && t.is_seen && t.said);

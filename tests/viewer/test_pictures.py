@@ -14,7 +14,7 @@ SIZE = "size 640 480\ntext 0.75\n"
 # name: (map, script). All end in a picture of that name.
 PICTURES = {
     "explore": ("office.map", "eye 53 20 160 90\nkey B\n"),
-    "panes": ("office.map", "eye 53 20 160 90\nkey X\nkey Tab\n"),
+    "panes": ("office.map", "eye 53 20 160 90\nkey X\naction side_panel\n"),
     "difference": ("office.map", "eye 53 20 160 90\nkey X\nkey X\n"),
     "splits_dark": ("dungeon.txt", "key K\nkey T\nkey M\nkey R\n"),
     # The eye in rock, and a click there, which leaves the eye where it is.
@@ -26,34 +26,34 @@ PICTURES = {
     "lesson_doors": ("effects/doors.map", "key F2\n" + "key U\n" * 3 + "key Right\nkey N\n"),
     "lesson_mirrors": ("effects/mirrors.map", "key F2\n" + "key U\n" * 3),
     "lesson_range": ("effects/range.map", "key F2\n" + "key U\n" * 3 + "key End\n"),
-    "draw": ("office.map", "key Tab\nkey F3\ndrag 200 100 200 300\nkey Tab\n"),
+    "draw": ("office.map", "action side_panel\nkey F3\ndrag 200 100 200 300\naction side_panel\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
-    "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\nkey Tab\n"),
-    "views": ("office.map", "eye 53 20 160 90\nkey M\nkey R\nkey F5\ndrag 573 249 530 249\n"
+    "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\naction side_panel\n"),
+    "views": ("office.map", "eye 53 20 160 90\nkey M\nkey R\nkey F5\ndrag 573 448 530 448\n"
                             "key F6\nmove 200 200\n"),
-    "oblique_views": ("oblique/rotunda.map", "key Tab\nkey M\nkey R\nkey F5\n"),
-    "account": ("office.map", "eye 53 20 160 90\nkey Tab\nkey L\n"),
+    "oblique_views": ("oblique/rotunda.map", "action side_panel\nkey M\nkey R\nkey F5\n"),
+    "account": ("office.map", "eye 53 20 160 90\naction side_panel\nkey L\n"),
     "oblique": ("oblique/rotunda.map", "key B\n"),
     "oblique_delaunay": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 2),
     "oblique_subdivision": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 35),
     "oblique_corner": ("oblique/chapel.map", "key F2\nkey U\n" + "key Right\n" * 20),
     "oblique_search": ("oblique/rotunda.map", "key F2\n" + "key Right\n" * 12),
-    "oblique_first_person": ("oblique/rotunda.map", "key I\nkey Tab\nwait 2\n"),
+    "oblique_first_person": ("oblique/rotunda.map", "key I\naction side_panel\nwait 2\n"),
     "doors": ("effects/doors.map", "key V\nkey M\n"),
-    "mirrors": ("effects/mirrors.map", "key V\nkey M\nkey Tab\n"),
-    "reflections": ("effects/mirrors.map", "eye 10 5 0 40\nkey V\nkey F8\ndrag 482 249 520 249\n"),
-    "oneway": ("effects/oneway.map", "eye 25 10 180 60\nkey Tab\n"),
+    "mirrors": ("effects/mirrors.map", "key V\nkey M\naction side_panel\n"),
+    "reflections": ("effects/mirrors.map", "eye 10 5 0 40\nkey V\nkey F8\ndrag 482 432 520 432\n"),
+    "oneway": ("effects/oneway.map", "eye 25 10 180 60\naction side_panel\n"),
     "watch": ("effects/oneway.map", "eye 5 5 0 60\nkey M\nkey Y\nkey F8\n"),
-    "objects": ("effects/objects.map", "key Tab\neye 3 10 0 360\nclick 320 262\nmove 5 5\n"),
-    "range": ("effects/range.map", "key V\nkey M\nkey Tab\n"),
-    "first_person": ("pillars.map", "key I\nkey Tab\nwait 2\n"),
+    "objects": ("effects/objects.map", "action side_panel\neye 3 10 0 360\nclick 320 262\nmove 5 5\n"),
+    "range": ("effects/range.map", "key V\nkey M\naction side_panel\n"),
+    "first_person": ("pillars.map", "key I\naction side_panel\nwait 2\n"),
 }
 
 # Keys that change the plan, each on its own; and how each is taken back. A mesh has no splits, and
 # its cells end at walls and portals alone: their outlines are seen where portals are not shown.
 LAYERS = ["C", "P", "K", "F5", "V", "B", "M", "R", "J", "Q"]
 MESH_LAYERS = [key for key in LAYERS if key != "K"]
-SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Tab": "Tab", "?": "Escape", "O": "Escape",
+SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Ctrl+B": "Ctrl+B", "?": "Escape", "O": "Escape",
             "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
 
 
@@ -71,7 +71,7 @@ def check_stored(viewer, folder, stored):
 
 def check_switches(viewer, folder, map_name, eye, least, layers, before=""):
     """Each key changes the picture, a layer by at least a share, and back again."""
-    script = SIZE + f"eye {eye}\nkey Tab\nkey M\nkey R\n{before}save before.png\n"
+    script = SIZE + f"eye {eye}\naction side_panel\nkey M\nkey R\n{before}save before.png\n"
     for key in layers:
         script += f"key {key}\nsave {key}.png\nkey {key}\n"
     for i, (key, back) in enumerate(SWITCHES.items()):
@@ -110,7 +110,7 @@ def check_undo(viewer, folder):
     steps = ["plain", "drawn", "moved", "deleted", "undone", "all", "redone"]
     commands = ["", "drag 60 80 60 390", "drag 60 225 250 225", "click 250 225\nkey Delete",
                 "key Ctrl+Z\nkey Ctrl+Z", "key Ctrl+Z", "key Ctrl+Y\nkey Ctrl+Y"]
-    script = SIZE + "key Tab\nkey F3\n"
+    script = SIZE + "action side_panel\nkey F3\n"
     for name, command in zip(steps, commands):
         script += f"{command}\nmove 5 5\nsave {name}.png\n"
     viewer.script(folder, "office.map", script)
@@ -142,7 +142,7 @@ def walled(plan, shut):
 def check_doors(viewer, folder):
     """Doors turned by hand, against maps with walls in place of those that are shut."""
     plan = (viewer.root / "maps/effects/doors.map").read_text()
-    before = SIZE + "key Tab\nkey C\nkey P\nkey V\nkey J\nkey F8\n"
+    before = SIZE + "action side_panel\nkey C\nkey P\nkey V\nkey J\nkey F8\n"
     # As the map begins; two turned by clicks; the one nearest to the eye turned back; the clicks
     # undone, and one redone.
     states = {"begin": (["north-east"], ""),
@@ -171,7 +171,7 @@ def check_glass(viewer, folder):
     """What is seen past glass that lets sight through, and past glass that is dark, against maps
     that have nothing there, or walls; whole, and cut by oblique walls."""
     starts = "start 5 5 0\nstart 5 15 0\n"
-    before = SIZE + "key Tab\nkey C\nkey P\nkey J\nkey F8\n"
+    before = SIZE + "action side_panel\nkey C\nkey P\nkey J\nkey F8\naction legend\n"
     for more in ["", "wall 16 2 20 3\nwall 17 12 19 11.5\n"]:
         plan = (viewer.root / "maps/effects/oneway.map").read_text() + more
         (folder / "glass.map").write_text(plan)
@@ -190,7 +190,7 @@ def check_glass(viewer, folder):
 def check_mirrors(viewer, folder):
     """A mirror dragged whole, then by an end, and both undone, against maps that have it there."""
     plan = (viewer.root / "maps/effects/mirrors.map").read_text()
-    before = SIZE + "key Tab\nkey F8\nkey V\neye 5 25 0 90\n"
+    before = SIZE + "action side_panel\nkey F8\nkey V\neye 5 25 0 90\n"
     states = {"given": ("20 12 20 28", ""), "whole": ("18 12 18 28", "drag 457 140 430 140\n"),
               "end": ("18 12 14 26", "drag 430 63 375 90\n"),
               "again": ("20 12 20 28", "key Ctrl+Z\n" * 2)}
@@ -211,7 +211,7 @@ def check_objects(viewer, folder):
     box = "walls 48.5 22.5 51 22.5 51 23.5 48.5 23.5 48.5 22.5"
     (folder / "moved.map").write_text(plan.replace(sofa, "object sofa 48.5 22.5 51 23.5"))
     (folder / "blocks.map").write_text(plan.replace(sofa, box))
-    before = "size 1200 760\nkey Tab\nkey C\nkey P\nkey M\neye 53 20 160 360\n"
+    before = "size 1200 760\naction side_panel\nkey C\nkey P\nkey M\neye 53 20 160 360\n"
     after = "move 5 5\nsave {0}.png\n"
     viewer.script(folder, "office.map", before + "save given.png\ndrag 977 92 894 341\n" +
                   after.format("moved") + "click 894 341\nkey J\n" + after.format("blocks") +
@@ -234,8 +234,8 @@ def check_range(viewer, folder):
     after = "action side_panel\nmove 5 5\nsave {0}.png\naction side_panel\n"
     # The slider dragged to its end, and back; clicked where it stands, which is no change to undo, and
     # undone; no range; the one that is set first.
-    states = {"given": ("20", ""), "farther": ("60.8", "drag 566 249 600 249\n"),
-              "nearer": ("9.69", "drag 588 249 511 249\n"), "undone": ("60.8", "click 511 249\nkey Ctrl+Z\n"),
+    states = {"given": ("20", ""), "farther": ("60.8", "drag 534 374 600 374\n"),
+              "nearer": ("9.58", "drag 588 374 511 374\n"), "undone": ("60.8", "click 511 374\nkey Ctrl+Z\n"),
               "lifted": (None, "key Ctrl+R\n"), "set": ("18.2", "key Ctrl+R\n")}
     viewer.script(folder, "effects/range.map", before + "".join(
         done + after.format(name) for name, (_, done) in states.items()))
@@ -252,7 +252,7 @@ def check_views(viewer, folder):
     steps = {"cut": "key F5", "fewer": "key Ctrl+Left", "again": "key Ctrl+Right",
              "largest": "key F6", "next": "key F6",
              "unmarked": "key Ctrl+Left\nkey Ctrl+Right", "off": "key F5", "on": "key F5"}
-    script = SIZE + "key Tab\nkey M\nkey R\n"
+    script = SIZE + "action side_panel\nkey M\nkey R\n"
     for name, command in steps.items():
         script += f"{command}\nsave {name}.png\n"
     viewer.script(folder, "office.map", script)

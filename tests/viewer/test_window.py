@@ -19,7 +19,7 @@ PATIENCE = 30
 DROP = pathlib.Path(sys.argv[2]).with_name("drop_file")
 
 # Where the cone's slider stands in a window of 1200 x 760: its knob at 90 degrees, and farther on.
-CONE, WIDER = (1045, 290), (1090, 290)
+CONE, WIDER = (1045, 496), (1090, 496)
 
 # name, what is done in the window (a list of acts), and the same for the script.
 # Acts: a key by its name for X; ("drag", X, Y, X2, Y2); ("wheel", X, Y, TURNS); ("drop", MAP).
@@ -36,6 +36,12 @@ STEPS = [
     ("fit", ["f"], "key F\n"),
     ("learn", ["F2", "Right", "Right", "Right"], "key F2\n" + "key Right\n" * 3),
     ("back", ["Left"], "key Left\n"),
+    ("moved", ["period", "period", "Up", "Up", "period", "Right"],
+     "key .\nkey .\nkey Up\nkey Up\nkey .\nkey Right\n"),
+    ("one_back", ["comma", "ctrl+z"], "key ,\nkey Ctrl+Z\n"),
+    ("reset", ["Delete", "Escape", "r"], "key Delete\nkey Escape\nkey R\n"),
+    ("unnamed", ["0"], "key 0\n"),
+    ("named", ["0"], "key 0\n"),
     ("wall", ["F3", ("drag", 225, 260, 225, 320)], "key F3\ndrag 225 260 225 320\n"),
     ("undone", ["ctrl+z"], "key Ctrl+Z\n"),
     ("dropped", ["F1", ("drop", "oblique/rotunda.map")], "key F1\nopen {maps}/oblique/rotunda.map\n"),
@@ -61,7 +67,7 @@ def start_display():
     """The server and its name; it chooses a free one itself."""
     read, write = os.pipe()
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset"],
         pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     with os.fdopen(read) as pipe:
@@ -116,13 +122,24 @@ class Window:
             getattr(self, act[0])(*act[1:])
 
     def save(self):
-        """The picture that is saved next. The pointer rests on the panel, where it changes nothing."""
+        """The picture that is saved next. The pointer rests on the bar, where it changes nothing."""
         self.saved += 1
         path = self.folder / f"sightline-{self.saved}.png"
-        self.do("mousemove", "--window", self.id, 1100, 600)
-        self.do("key", "ctrl+s")
+        self.do("mousemove", "--window", self.id, 1150, 15)
+        self.do("key", "ctrl+e")
         self.viewer.check(wait_for_file(path), f"{path.name} was not saved")
         return path
+
+    def save_after(self, series):
+        """Saves the plan once the series is written: until then that is refused."""
+        end = time.monotonic() + PATIENCE
+        count = -1
+        while time.monotonic() < end and len(list(series.iterdir())) != count:
+            count = len(list(series.iterdir()))
+            time.sleep(1)
+        self.viewer.check(all(path.name.startswith("frame-") and path.suffix == ".png"
+                              for path in series.iterdir()), "parts of pictures are left")
+        self.save()
 
     def shows(self, picture):
         """How far the window is from a picture, once it has had time: what follows from a change of
@@ -163,7 +180,42 @@ def drive(viewer, window):
     window.do("keyup", "w")
     share = viewer.difference(before, window.save())
     viewer.check(share > TOLERANCE, f"the eye did not walk: {share:.2%}")
+    export(viewer, window)
     window.do("key", "ctrl+q")
+
+
+def export(viewer, window):
+    """A recorded way becomes numbered pictures in the background: keys work meanwhile."""
+    for act in ["F9", "w", "F9", "ctrl+m", "End", "Up", "Return", "s"]:
+        window.act(act)
+        time.sleep(0.3)
+    window.act("m")
+    window.act("m")
+    series = window.folder / "sightline-frames"
+    viewer.check(wait_for_file(series / "frame-0002.png"), "no numbered pictures")
+    window.save_after(series)
+
+
+def open_wrong(viewer, folder, shown, path):
+    """A file that cannot be opened: the window is there, and ends as it is told."""
+    program = subprocess.Popen([viewer.view, path], cwd=folder, env=shown, stderr=subprocess.PIPE,
+                               text=True)
+    window = Window(shown, viewer, folder)
+    window.id = window.wait_for("Sightline")
+    viewer.check(window.id is not None, f"{path.name}: no window")
+    if window.id:
+        window.do("windowfocus", window.id)
+        time.sleep(0.5)
+        viewer.check(program.poll() is None, f"{path.name}: the window did not stay")
+        window.do("key", "Return")  # the message that says why
+        time.sleep(0.3)
+        window.do("key", "ctrl+q")
+    try:
+        _, said = program.communicate(timeout=PATIENCE)
+        viewer.check(program.returncode == 0, f"{path.name}: status {program.returncode}: {said}")
+    except subprocess.TimeoutExpired:
+        program.kill()
+        viewer.check(False, f"{path.name}: Ctrl+Q does not quit")
 
 
 def draw_expected(viewer, folder):
@@ -171,7 +223,7 @@ def draw_expected(viewer, folder):
     script = "size 1200 760\n"
     for name, _, commands in steps():
         commands = commands.replace("{maps}", str(viewer.root / "maps"))
-        script += f"{commands}move 1100 600\nsave {name}.png\n"
+        script += f"{commands}move 1150 15\nsave {name}.png\n"
     viewer.script(folder, "office.map", script)
 
 
@@ -185,7 +237,8 @@ def main():
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             draw_expected(viewer, folder)
-            shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"))
+            shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                                XDG_STATE_HOME=str(folder / "state"))
             program = subprocess.Popen([viewer.view, viewer.root / "maps/office.map"], cwd=folder,
                                        env=shown, stderr=subprocess.PIPE, text=True)
             drive(viewer, Window(shown, viewer, folder))
@@ -196,6 +249,10 @@ def main():
                 program.kill()
                 viewer.check(False, "Ctrl+Q does not quit")
             viewer.check((folder / "config/sightline/view.conf").exists(), "nothing is remembered")
+            broken = folder / "broken.map"
+            broken.write_text("sightline 1\nwall 0 0 1\n")
+            for path in (broken, folder / "missing.map"):
+                open_wrong(viewer, folder, shown, path)
     finally:
         server.terminate()
         server.wait()

@@ -127,7 +127,13 @@ typedef struct sl_export_options {
     const char *wad;       ///< "reject": the WAD that holds the map that was baked
     const char *map;       ///< "reject": that map's name
     uint32_t json_version; ///< "json": 1 or 2; 0: the newest
+    const char *prefix;    ///< "c": what names begin with; NULL: SL_PREFIX_DEFAULT
 } sl_export_options;
+
+/// What names of "c" begin with by default.
+#define SL_PREFIX_DEFAULT "visible"
+/// The longest prefix of "c".
+#define SL_PREFIX_MOST 40
 
 /// The newest version of "json" (lib/bake/EXPORT.md).
 #define SL_JSON_VERSION 2
@@ -155,13 +161,14 @@ SL_API sl_status sl_export_formats_add(sl_context *context, const sl_export_form
 SL_API sl_status sl_export_json(sl_context *context, const sl_baked *baked,
                                 const sl_export_options *options, const char *path);
 /// "geojson": a FeatureCollection of cells, portals, walls, doors, mirrors, one-way glass and
-/// starts, in the map's own coordinates.
+/// starts, in the map's own coordinates. Its writer is in sightline/geojson.h.
 SL_API sl_status sl_export_geojson(sl_context *context, const sl_baked *baked,
                                    const sl_export_options *options, const char *path);
 /// "csv": a line "from,to" for each ordered pair seen.
 SL_API sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
                                const sl_export_options *options, const char *path);
-/// "c": a C header with the matrix, a bit a pair.
+/// "c": a C header with tables: cells, portals, doors by name, starts, and a bit for each pair that
+/// is seen. SL_BAD_ARGUMENT for a prefix that is no C identifier.
 SL_API sl_status sl_export_c(sl_context *context, const sl_baked *baked,
                              const sl_export_options *options, const char *path);
 

@@ -91,7 +91,8 @@ SL_API sl_colour sl_colour_mix(sl_colour a, sl_colour b, double share);
 /// Makes a colour the context's source.
 SL_API void sl_set_colour(cairo_t *cairo, sl_colour colour);
 
-// --- text
+// --- text, UTF-8. Letters that the font lacks come from other fonts. A surface keeps the last
+// texts that were set on it: draw on one surface in one thread alone.
 
 /// Sets the font and its size. Letters are not fitted to pixels, so that pictures of any width and
 /// kind are laid out alike.
@@ -107,6 +108,15 @@ SL_API void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, c
 /// cut.
 SL_API void sl_text_show_within(cairo_t *cairo, sl_colour colour, double x, double y, double width,
                                 double size, bool bold, const char *text);
+
+/// The number of lines that a text takes in the font that is set, where none is wider than `width`.
+/// Lines break between words, and within a word that is wider; '\n' begins a new one.
+SL_API unsigned sl_text_lines(cairo_t *cairo, double width, const char *text);
+
+/// Draws a text in such lines, from the left end of the first base line; the next ones are
+/// `spacing` apart. Returns their number.
+SL_API unsigned sl_text_show_lines(cairo_t *cairo, sl_colour colour, double x, double y,
+                                   double width, double spacing, const char *text);
 
 /// The longest text of sl_text_count, its 0 included.
 #define SL_COUNT_TEXT 64
@@ -182,6 +192,16 @@ SL_API void sl_draw_eye_mark(cairo_t *cairo, const sl_palette *palette, const sl
 SL_API void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                                 const sl_portal_ends *portals, uint32_t count, bool last_stops);
 
+/// Draws what keeps lines from portals: the ends of a conflict, large, and between those of either
+/// side a segment or triangle. Portals that turn get an arrow each way that they are crossed. "L3"
+/// is the left end of portal 3, counted from 1.
+SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                             const sl_portal_ends *portals, const sl_conflict *conflict);
+
+/// Draws a ring about a place of the map.
+SL_API void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double radius,
+                         sl_colour colour, double width);
+
 /// Draws a straight line between two points of the map.
 SL_API void sl_draw_line(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b,
                          sl_colour colour, double width);
@@ -199,14 +219,39 @@ typedef struct sl_dual_frame {
 SL_API sl_dual_frame sl_dual_frame_fit(const sl_dual *before, double left, double top, double width,
                                        double height, double unit);
 
+/// The same, and what contradicts itself is inside.
+SL_API sl_dual_frame sl_dual_frame_fit_conflict(const sl_dual *dual, const sl_dual *before,
+                                                const sl_portal_ends *portals,
+                                                const sl_conflict *conflict, double left,
+                                                double top, double width, double height,
+                                                double unit);
+
+/// What is marked in a dual plane. Zeroed: nothing.
+typedef struct sl_dual_marks {
+    const sl_conflict *conflict; ///< its borders are thick, its place is framed; NULL for none
+    const sl_stab_end *end;      ///< one border is thick, with its equation; NULL for none
+    double text; ///< the size of numbers on the axes and of names at borders; 0 for none
+} sl_dual_marks;
+
+/// The place of a line on the page.
+SL_API sl_point sl_dual_frame_point(const sl_dual_frame *frame, sl_dual_line line);
+
 /// The line at a place of the page.
 SL_API sl_dual_line sl_dual_frame_line(const sl_dual_frame *frame, sl_point page);
 
 /// Draws the border of each end's half-plane, the polygon, the optimum with its margin, and the
-/// chosen line. Teeth on the last borders point to the side that is forbidden.
+/// chosen line. Teeth on the last borders point to the side that is forbidden. `marks`: NULL for
+/// none.
 SL_API void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame *frame,
                          const sl_dual *dual, const sl_portal_ends *portals, uint32_t count,
-                         sl_dual_line chosen);
+                         sl_dual_line chosen, const sl_dual_marks *marks);
+
+/// Room for an equation.
+#define SL_EQUATION_TEXT 96
+
+/// The half-plane of an end: "b <= 0.52 - 0.31 a" for a left one, with the signs of print.
+SL_API void sl_dual_equation(const sl_dual *dual, sl_point end, bool left,
+                             char text[SL_EQUATION_TEXT]);
 
 // --- charts and files
 

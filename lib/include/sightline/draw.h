@@ -22,6 +22,8 @@ typedef enum sl_layer {
     SL_LAYER_STAB_TREE = 16, ///< the chosen cell's stab tree, from portal to portal or mirror
     SL_LAYER_STARTS = 32,    ///< starts with their heading, paths, objects
     SL_LAYER_LEGEND = 64,    ///< what the picture shows, its colours and counts, a scale bar
+    SL_LAYER_NUMBERS = 128,  ///< the numbers of cells, and of portals with a "p", where they have
+                             ///< room
 } sl_layer;
 
 /// The narrowest picture, in pixels (PDF: points).
@@ -37,7 +39,7 @@ typedef struct sl_drawn_box {
 
 /// Start from sl_draw_options_default().
 typedef struct sl_draw_options {
-    unsigned layers; ///< of sl_layer, or-ed; usually all but the stab tree
+    unsigned layers; ///< of sl_layer, or-ed; usually all but the stab tree and numbers
     uint32_t cell;   ///< the chosen cell; usually SL_NO_CELL, for none
     double width; ///< of the picture, pixels (PDF: points), SL_DRAW_WIDTH_MIN to ..._MAX; usually
                   ///< 1200. Lines and text grow with it; the height follows the map
@@ -116,7 +118,7 @@ typedef struct sl_field {
     double step;          ///< side of a square
     size_t columns, rows; ///< at least 1
     const double *values; ///< NaN for none
-    const char *unit;     ///< of the values: "m2"; NULL for none
+    const char *unit;     ///< of the values: "m²"; NULL for none
     /// The ends of the colour scale, so that several pictures can be compared. Values beyond have
     /// the colours of the ends. Equal, as in a zeroed field: the least and the largest value.
     double least, most;

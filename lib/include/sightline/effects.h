@@ -48,10 +48,20 @@ SL_API sl_plan sl_plan_make(const sl_map *map);
 /// Takes effects out of a map, and notes what was taken.
 SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects);
 
+/// Doors as they stand, for methods that know no doors: walls take the place of those that are
+/// shut, and open ones go. It is noted. Rooms that no start reaches but through a shut door are
+/// outside then. Clean the map after it.
+SL_API sl_status sl_effects_settle_doors(sl_context *context, sl_map *map);
+/// The note alone: how many doors are open, how many are shut.
+SL_API void sl_effects_note_doors(sl_context *context, const sl_map *map);
+
 /// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
 /// what messages call the method.
 SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
                                   unsigned known);
+/// The same for a method that has a reason not to know an effect: "its lines end at walls alone".
+SL_API sl_status sl_effects_check_because(sl_context *context, const sl_map *map,
+                                          const char *method, unsigned known, const char *reason);
 
 /// The space as sight finds it for the time being, with what holds it back made part of the space:
 /// portals on doors that are shut become walls, and one-way glass has no directed portal on the
@@ -60,6 +70,9 @@ SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const 
 typedef struct sl_filtered_space {
     const bool *shut; ///< by door of the map; NULL: all are open
     bool one_way;     ///< with its glass; else that is open both ways
+    /// With `one_way`: the dark side of glass is a wall, after all other walls. Such a space has an
+    /// outline, in which regions see one way (outline.h).
+    bool dark_walls;
     /// Glass that is dark for this eye is a wall, all other is open both ways: what one eye sees
     /// straight on, without mirrors, is then what it sees past walls. NULL for none.
     const sl_point *eye;
@@ -67,7 +80,8 @@ typedef struct sl_filtered_space {
 
 /// A copy of a space for a filtered space. It is as sl_space_check wants it where the passage is
 /// not one-way: then all methods work on it. With one-way directed portals missing, only those that
-/// go through directed portals do, one way: "dfs", and eye-to-cell. Portals that are walls have no
+/// go through directed portals do, one way: "dfs", and eye-to-cell, directly and by mirror; with
+/// `dark_walls` also regions and single lines of sight. Portals that are walls have no
 /// directed portals and are left out; `portals` (portal_count of `space`, or NULL) gets the new
 /// number of each, UINT32_MAX for none.
 SL_API sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,

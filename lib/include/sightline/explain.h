@@ -3,6 +3,7 @@
 #ifndef SIGHTLINE_EXPLAIN_H
 #define SIGHTLINE_EXPLAIN_H
 
+#include "sightline/effects.h"
 #include "sightline/map.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
@@ -20,6 +21,8 @@ typedef struct sl_explain_options {
     const sl_solver *solver; ///< exact, and one that tells conflicts; usually sl_funnel()
     uint32_t most_misses;    ///< to be told of a hidden pair; usually 3
     uint64_t most_tests;     ///< stabbing tests after which to give up; 0, as usual, for no limit
+    double range; ///< nothing farther is seen; 0, as usual, for no limit; INFINITY for none, but
+                  ///< with lengths told. Only with sl_funnel()
 } sl_explain_options;
 
 /// The usual options, as told at each field.
@@ -63,6 +66,7 @@ typedef struct sl_bent_sightline {
     /// From the middle of its way through the first cell to that through the last, by a bend at
     /// each mirror: mirrors + 2 points. Rounded: to be shown.
     sl_point *bends;
+    double length;  ///< as that of sl_explanation
     bool rounded;   ///< a portal's place in a mirror is rounded, and so is the verdict
     uint64_t tests; ///< stabbing tests
 } sl_bent_sightline;
@@ -81,6 +85,9 @@ typedef struct sl_explanation {
     /// A line through the sequence, proven by exact orientation tests; of few decimals where it
     /// can.
     sl_line witness;
+    /// With a range: the length of the shortest sightline of the sequence, between its first portal
+    /// and its last. Rounded.
+    double length;
     bool touches; ///< the witness touches ends: where SL_GRAZING, and where all lines that do not
                   ///< lie too close together for doubles
     /// Along the witness from the middle of its way through the first cell to that through the
@@ -98,7 +105,8 @@ typedef struct sl_explanation {
 /// Searches for sightlines from cell `from` to cell `to`. Exact. The fewest portals first, by ever
 /// longer searches, so that a pair that is seen is found before all that is near has been tried; a
 /// hidden pair takes a search of all that `from` sees. Reports stage "explain", unit "tests".
-/// SL_BAD_ARGUMENT where a cell is none of the space or the solver cannot tell.
+/// SL_BAD_ARGUMENT where a cell is none of the space or the solver cannot tell. In a space with
+/// directed portals missing (sl_filtered_space.one_way), sight goes through those that are there.
 SL_API sl_status sl_explain(sl_context *context, const sl_space *space,
                             const sl_explain_options *options, uint32_t from, uint32_t to,
                             sl_explanation *out);
@@ -112,6 +120,62 @@ SL_API sl_status sl_explain_by_mirror(sl_context *context, const sl_space *space
 
 SL_API void sl_explanation_destroy(sl_context *context,
                                    sl_explanation *explanation); ///< and zeroes it
+
+/// What keeps lines from a sequence of portals. Zeroed: nothing does.
+typedef struct sl_conflict {
+    sl_stab_verdict verdict; ///< of the sequence, with closed sight and open
+    bool turns;              ///< SL_HIDDEN as no direction crosses all portals forwards
+    /// Where not SL_STABBED: the ends that alone prove it. If the sequence turns, they are those of
+    /// the portals that turn, as in sl_miss. None can be spared otherwise.
+    uint32_t end_count;
+    sl_stab_end ends[SL_CONFLICT_MOST];
+} sl_conflict;
+
+/// Finds what keeps lines from portals crossed in this order, which need not be those of a space.
+/// Exact. The first portals that alone leave no line decide; the others are not looked at.
+SL_API sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals,
+                                  uint32_t count, sl_conflict *out);
+
+/// What the ends of a conflict are to each other, as a clause, like sl_sequence_reason.
+SL_API const char *sl_conflict_reason(const sl_portal_ends *portals, const sl_conflict *conflict);
+
+// --- with all effects of a map
+
+/// What stands as it stands while a pair is explained.
+typedef struct sl_explain_state {
+    const bool *shut;      ///< by door of the map; NULL: all are open
+    uint32_t mirror_depth; ///< reflections of a sightline, at most; 0: mirrors are walls
+} sl_explain_state;
+
+/// What effects do to a pair, directly or by mirror.
+typedef struct sl_effect_verdict {
+    bool seen;
+    unsigned decides; ///< where not seen: the effects (bits) without any one of which it would be
+    unsigned without; ///< the effects left out in the explanation kept; 0: walls hide it anyway
+} sl_effect_verdict;
+
+/// A pair explained with doors, one-way glass, the range and mirrors. Zeroed, it is empty.
+typedef struct sl_effect_explanation {
+    unsigned effects;   ///< those of the map that can hide something: bits
+    sl_explanation now; ///< with all of them, by mirror too where the map has mirrors
+    sl_effect_verdict direct, mirrored;
+    /// The pair without the effects `direct.without`, and its way by mirror without those of
+    /// `mirrored.without`: one that decides, or else as few as have to go together.
+    sl_explanation without;
+    sl_bent_sightline bent_without;
+    bool complete;  ///< false: most_tests ended a search
+    uint64_t tests; ///< of all searches
+} sl_effect_explanation;
+
+/// Explains a pair with the effects that a map has, and finds the effect that decides. The numbers
+/// are those of `space`, which has all doors open. The range is the map's; options->range is not
+/// used. Fails as sl_explain does. A map without effects costs what sl_explain does.
+SL_API sl_status sl_explain_effects(sl_context *context, const sl_space *space, const sl_map *map,
+                                    const sl_explain_state *state,
+                                    const sl_explain_options *options, uint32_t from, uint32_t to,
+                                    sl_effect_explanation *out);
+SL_API void sl_effect_explanation_destroy(sl_context *context,
+                                          sl_effect_explanation *explanation); ///< and zeroes it
 
 /// The place of an end of a sequence.
 SL_API sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence,

@@ -5,7 +5,9 @@
 /// The eye is in the cell that sl_space_locate gives, border included. A cell is seen through a
 /// portal sequence from the eye's cell if a line through the eye, in a direction within the cone,
 /// crosses the sequence. As everywhere, some direction must cross all portals strictly forwards.
-/// Closed sight takes lines that touch portal ends or run along portals. So:
+/// Closed sight takes lines that touch portal ends or run along portals. A line may cross portals
+/// that it runs along to its left or to its right, but not some to the left and others to the
+/// right. The runtime header keeps the same rule. So:
 ///
 /// - An eye on a portal, or where portals meet, sees to all sides, whichever cell it is in. Cells
 ///   that a line passes at the eye itself count.

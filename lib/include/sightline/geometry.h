@@ -1,6 +1,8 @@
-/// Points, segments and boxes: plain doubles, y up, any unit.
+/// Points, segments, boxes and shapes: plain doubles, y up, any unit.
 #ifndef SIGHTLINE_GEOMETRY_H
 #define SIGHTLINE_GEOMETRY_H
+
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,6 +28,16 @@ typedef struct sl_segment {
 typedef struct sl_box {
     sl_point min, max;
 } sl_box;
+
+/// Shapes of polygons with holes, in three levels. Rings are not closed: the last point is not the
+/// first one again. Outer rings are counter-clockwise, holes clockwise.
+typedef struct sl_shapes {
+    sl_point *points;
+    uint32_t *rings;    ///< by ring, and one more: points[rings[i] .. rings[i + 1])
+    uint32_t *polygons; ///< by polygon, and one more: its rings; the first is the outer one
+    uint32_t *shapes;   ///< by shape, and one more: its polygons
+    uint32_t count;     ///< of shapes
+} sl_shapes;
 
 #ifdef __cplusplus
 }

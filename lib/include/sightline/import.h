@@ -7,6 +7,8 @@
 
 #include "sightline/map.h"
 
+#include <stdio.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -65,6 +67,23 @@ typedef enum sl_import_takes {
     SL_TAKES_STARTS = 256,
 } sl_import_takes;
 
+/// What a format has a place for, beside walls. sl_map_write() reports what it leaves out.
+typedef enum sl_map_keeps {
+    SL_KEEPS_DOORS = 1, ///< with their names, and whether they are open
+    SL_KEEPS_SOLID = 2, ///< solid ground; else its outlines are written as walls
+    SL_KEEPS_MIRRORS = 4,
+    SL_KEEPS_ONEWAYS = 8,
+    SL_KEEPS_SEAMS = 16,
+    SL_KEEPS_RANGE = 32,
+    SL_KEEPS_STARTS = 64,
+    SL_KEEPS_PATHS = 128,
+    SL_KEEPS_OBJECTS = 256,
+    SL_KEEPS_CELLS = 512, ///< cells of the map's own, and their snap
+    SL_KEEPS_NOTES = 1024,
+    SL_KEEPS_COMMENTS = 2048,
+    SL_KEEPS_ALL = 4095,
+} sl_map_keeps;
+
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read
 /// it. `text` is bytes where the format is binary; a 0 stands behind it.
 typedef struct sl_map_format {
@@ -78,9 +97,17 @@ typedef struct sl_map_format {
     /// Between which heights a 3D model lies; NULL for a format of plans.
     sl_status (*heights)(sl_context *context, const char *name, const char *text, size_t size,
                          double *lowest, double *highest);
+    /// Lists the layers that options->layers may name into an empty list. *unsaid is set where the
+    /// file does not say which of them are solid: the reader then guesses, or refuses. NULL for a
+    /// format that does not list its layers.
+    sl_status (*layers)(sl_context *context, const char *name, const char *text, size_t size,
+                        sl_map_list *list, bool *unsaid);
     /// Whether the bytes look like this format's: asked where the ending does not tell. NULL:
     /// never.
     bool (*knows)(const char *text, size_t size);
+    /// Writes a map; NULL for a format that is only read. What `keeps` does not name is left out.
+    sl_status (*write)(sl_context *context, const sl_map *map, FILE *stream);
+    unsigned keeps; ///< bits of sl_map_keeps
 } sl_map_format;
 
 /// The formats that the context knows; the first is the map text.
@@ -113,6 +140,8 @@ typedef struct sl_map_choice {
     const sl_map_format *format; ///< by which sl_map_read reads it
     sl_map_list maps;            ///< none for a format of one map a file
     double lowest, highest;      ///< of a 3D model; equal for all else
+    sl_map_list layers;          ///< none where the format does not list them
+    bool layers_unsaid;          ///< the file does not say which layers are solid
 } sl_map_choice;
 
 /// Fails as sl_map_read does where the file is broken; `out` then stays as it was.
@@ -120,6 +149,21 @@ SL_API sl_status sl_map_choice_read(sl_context *context, const char *path, sl_ma
 SL_API sl_status sl_map_choice_parse(sl_context *context, const char *path, const char *text,
                                      size_t size, sl_map_choice *out);         ///< as sl_map_parse
 SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); ///< and zeroes it
+
+// --- writing
+
+/// The format to write a file in: by its name, or where that is NULL by the ending of `path`; for
+/// "-", a pipe or a device the map text. SL_BAD_ARGUMENT, with the names or endings to choose from,
+/// where no format that can be written fits, or several do. `option` is what messages begin with:
+/// "-o plan.xyz: ...".
+SL_API sl_status sl_map_format_to_write(sl_context *context, const char *option, const char *path,
+                                        const char *name, const sl_map_format **out);
+
+/// Writes a map to a file in this format; "-" is stdout. The target is replaced only after all is
+/// written. Notes, in a sentence each, what the format has no place for. Coordinates read back to
+/// the same doubles.
+SL_API sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
+                              const char *path);
 
 #ifdef __cplusplus
 }

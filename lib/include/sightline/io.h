@@ -51,14 +51,15 @@ SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name,
                                           size_t size, double *lowest, double *highest);
 
 /// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
-/// as inserted, on layers that are on and not frozen or on those asked for. What was taken is
-/// noted. SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing
-/// does not name its own.
+/// as inserted, on layers that are on and not frozen or on those asked for. Layers named
+/// "sightline-..." hold doors, solid ground and so on (lib/io/FORMATS.md). What was taken is noted.
+/// SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing does
+/// not name its own.
 SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
 /// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
-/// or label. What was taken is noted.
+/// or label, also those named "sightline-...". What was taken is noted.
 SL_API sl_status sl_map_read_svg(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
@@ -82,6 +83,14 @@ SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const ch
 /// As sl_map_read_tmx, from JSON.
 SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
+
+/// Lists the layers of tiles and objects of a map of Tiled into an empty list. *unsaid is set where
+/// nothing in the map says what is solid.
+SL_API sl_status sl_map_layers_tmx(sl_context *context, const char *name, const char *text,
+                                   size_t size, sl_map_list *list, bool *unsaid);
+/// As sl_map_layers_tmx, from JSON.
+SL_API sl_status sl_map_layers_tmj(sl_context *context, const char *name, const char *text,
+                                   size_t size, sl_map_list *list, bool *unsaid);
 
 /// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
 /// the world's name): the cells of its IntGrid layers, and entities named as starts or doors. Unit:
@@ -118,6 +127,28 @@ SL_API sl_status sl_map_read_wad(sl_context *context, const char *name, const ch
 /// Its maps, each name once, in the order of the directory.
 SL_API sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text,
                                  size_t size, sl_map_list *list);
+
+// --- writers of maps, as sl_map_format has them; sl_map_write() in sightline/import.h calls them.
+// --- Numbers read back to the same doubles, y too: each writer finds a place where turning y
+// --- rounds nothing. Notes say what another program may do to the file; sl_map_write() notes what
+// --- the format has no place for. SL_NO_MEMORY, SL_CANCELLED; SL_UNSUPPORTED for a name with
+// U+FFFE or
+// --- U+FFFF in the formats of XML.
+
+/// Writes a DXF drawing of release 12. Layers named "sightline-..." say what is what.
+SL_API sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes an SVG drawing. Layers as in DXF drawings.
+SL_API sl_status sl_map_print_svg(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes an orthogonal map of Tiled, of object layers. Layers as in DXF drawings.
+SL_API sl_status sl_map_print_tmx(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes a Universal VTT file: walls and portals; a map unit is a square of its grid.
+SL_API sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Writes a scene of Foundry VTT; a unit of the map is a power of two pixels.
+SL_API sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream);
 
 // --- pictures by their pixels
 

@@ -126,6 +126,16 @@ typedef struct sl_map {
     /// units; 0 for a map whose numbers are exact. Readers of drawings set it, cleaning sets it
     /// back to 0.
     double precision;
+    /// How a file with y down lays the map out: its y that is 0 in the map, and its page in the
+    /// map's places. Readers of such files set both, so that a writer can put all back in its
+    /// place. An empty box stands for none. Map text and .slv files do not keep them.
+    double top;
+    sl_box page;
+    double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
+    int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
+    /// What the file says its coordinates are in: "m", "mm", "ft", "px" ...; "" where it does not
+    /// say. For people: nothing depends on it. Map text and .slv files do not keep it.
+    char unit[16];
     double range; ///< the view range; 0 for no limit
     uint32_t range_line;
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv

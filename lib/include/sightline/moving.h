@@ -20,7 +20,7 @@ typedef struct sl_moving sl_moving;
 
 /// Creates it without boxes. The space and the visible sets must outlive it. `visibility` is as for
 /// sl_eye_search_create; stab trees are not used. SL_UNSUPPORTED for a loose space, and for one in
-/// which a portal lacks a direction (one-way glass).
+/// which a portal lacks a direction: glass is added by sl_moving_add_glass().
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
 /// Frees what sl_moving_create gave; NULL is fine.
@@ -44,11 +44,15 @@ SL_API void sl_moving_limit(sl_moving *moving, double range);
 SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
                                        uint32_t depth);
 
+/// Makes one-way glass of the space count, which else is open both ways.
+SL_API sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving);
+
 /// The space with the boxes: cells are cut along the boxes' sides, which are walls where they
 /// block. Cell c of it is cell parents[c] of the space without boxes, or a part of it. Cells and
 /// walls keep their numbers. A cell as narrow as a step of doubles may vanish: the last cell then
-/// takes its number. In a mesh, a crossed wall is several sides of cells (sl_space.cut_walls), and
-/// there are no seams. Valid until boxes are placed again.
+/// takes its number. In a mesh, a crossed wall is several sides of cells (sl_space.cut_walls). With
+/// glass it has walls on the dark sides (sl_filtered_space.dark_walls). Valid until boxes are
+/// placed again.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
 
 /// Its outline, for sl_region_make, sl_sees, sl_ray_cast and sl_room_mirrors_make. Made by the

@@ -32,9 +32,13 @@ typedef struct sl_outline {
     uint32_t *first_part;  ///< by cell of the space, and one more
     uint32_t *parts;       ///< rooms; those with a part of cell c: from first_part[c] on
     uint32_t side_count, room_count;
+    /// One-way glass: walls from this number on are its dark sides. The other side of wall w is
+    /// sides[lit[w - first_dark]], a portal that leads to the wall's side. NULL without glass.
+    uint32_t first_dark, *lit;
 } sl_outline;
 
-/// Makes the outline of a space that passes sl_space_check. No coordinate is computed. Cells are
+/// Makes the outline of a space that passes sl_space_check, or of one with glass that is dark from
+/// one side (sl_filtered_space.dark_walls). No coordinate is computed. Cells are
 /// joined to rooms across their longest portals first, where the room is convex. SL_BAD_ARGUMENT
 /// for a piece of a cell's boundary that is neither portal nor wall nor border. Time O(n log n) for
 /// n walls and sides, if few walls are near to one line.
@@ -48,6 +52,12 @@ SL_API uint32_t sl_outline_room(const sl_outline *outline, uint32_t cell, sl_poi
 /// Whether a side is a portal.
 static inline bool sl_side_is_portal(const sl_side *side) {
     return side->neighbour < SL_SIDE_WALL;
+}
+
+/// Whether a side is the dark side of glass.
+static inline bool sl_side_is_dark(const sl_outline *outline, const sl_side *side) {
+    return outline->lit && side->neighbour >= SL_SIDE_WALL + outline->first_dark &&
+           side->neighbour < SL_SIDE_BORDER;
 }
 
 #ifdef __cplusplus

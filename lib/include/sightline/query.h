@@ -9,9 +9,9 @@
 ///     sl_query_look(context, query, &view, NULL, cells, NULL);
 ///
 /// Answers are exact where the bake is, unless a method of culling is asked for that is looser. An
-/// eye outside the bounds or in solid ground sees nothing: the answer is empty, not a failure. All
-/// questions about an eye fail (SL_UNSUPPORTED) on a map that has mirrors and one-way glass.
-/// Numbers of cells are those of the baked space.
+/// eye outside the bounds or in solid ground sees nothing: the answer is empty, not a failure.
+/// Doors, mirrors, one-way glass, the range and boxes may come together. Numbers of cells are those
+/// of the baked space.
 #ifndef SIGHTLINE_QUERY_H
 #define SIGHTLINE_QUERY_H
 
@@ -44,7 +44,7 @@ SL_API const sl_baked *sl_query_baked(const sl_query *query);
 // --- settings
 
 /// Opens or shuts all doors of a name. SL_BAD_ARGUMENT, with the names there are, for one that the
-/// map does not have. Questions to a map with mirrors fail (SL_UNSUPPORTED) while a door is shut.
+/// map does not have.
 SL_API sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *name,
                                    bool open);
 /// All doors at once: open, or shut.

@@ -291,6 +291,14 @@ SL_API sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree,
 /// Frees what sl_view_borders gave; NULL is fine.
 SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 
+/// The shapes of the view cells of a cut, `count` of them: what their elementary cells cover, as
+/// polygons with holes. Points are corners of the tree. Polygons of one shape meet in single points
+/// at most. Free it with sl_view_shapes_free.
+SL_API sl_status sl_view_shapes(sl_context *context, const sl_view_tree *tree,
+                                const uint32_t *view_cells, uint32_t count, sl_shapes *out);
+/// Frees what sl_view_shapes gave and zeroes it.
+SL_API void sl_view_shapes_free(sl_context *context, sl_shapes *shapes);
+
 // --- exact sets, for use
 
 /// Adds the borders of view cells to a map as seams. Then no cell of a space made of it lies in two

@@ -1,0 +1,129 @@
+/// Visibility graph analysis (Turner, Doxa, O'Sullivan and Penn 2001): a grid of points, which of
+/// them see each other, and measures of that graph under the names that depthmapX gives them.
+///
+///     sl_vga_grid grid = {0};
+///     sl_vga_graph graph = {0};
+///     sl_vga_options options = sl_vga_options_default();
+///     sl_vga_grid_fill(context, &outline, 0.5, seeds, seed_count, &grid);
+///     sl_vga_graph_make(context, &outline, &grid, 0, 0, &graph);
+///     sl_vga_measures *measures = calloc(grid.count, sizeof *measures);
+///     sl_vga_measure(context, &outline, &grid, &graph, &options, measures);
+///
+/// Which points see each other is exact: closed sight, as sl_sees says. So is the graph, and so are
+/// all counts. Measures are doubles.
+#ifndef SIGHTLINE_VGA_H
+#define SIGHTLINE_VGA_H
+
+#include "sightline/outline.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Points at multiples of a step, column by column, each from the lowest up. Zero it to start.
+typedef struct sl_vga_grid {
+    double step;
+    int64_t left, bottom;   ///< the square of the first column and row: x = left * step
+    uint32_t columns, rows; ///< of the squares around all points
+    uint32_t count;
+    sl_point *points;
+    uint32_t *squares; ///< by point: column * rows + row
+} sl_vga_grid;
+
+/// Fills a grid: all points that free steps to a neighbour, up, down, left or right, lead to from
+/// the seeds. Each seed stands for the grid point nearest to it. Without seeds: all points inside,
+/// which are neither on a wall nor in solid ground. Points lie at multiples of the step, as
+/// depthmapX puts them. SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is
+/// not inside the bounds, and for more than 2^31 squares.
+SL_API sl_status sl_vga_grid_fill(sl_context *context, const sl_outline *outline, double step,
+                                  const sl_point *seeds, size_t seed_count, sl_vga_grid *out);
+SL_API void sl_vga_grid_destroy(sl_context *context, sl_vga_grid *grid); ///< and zeroes it
+
+/// Which points see each other: a square matrix of bits, row by row. No point sees itself. Zero it
+/// to start.
+typedef struct sl_vga_graph {
+    uint32_t count; ///< of points
+    size_t words;   ///< of a row, 64 bits each
+    uint64_t *rows; ///< count * words
+    uint64_t edges; ///< ordered pairs that see each other
+} sl_vga_graph;
+
+/// The bytes of a graph with so many points, for those who ask before the work.
+SL_API uint64_t sl_vga_graph_bytes(uint32_t points);
+
+/// Connects the points of a grid that see each other. `range`: no farther than this; 0 for no
+/// limit. `threads`: 0 for one per core; the graph is the same for any number. SL_NO_MEMORY. Cost:
+/// for each point, the rooms that it sees and the points in them.
+SL_API sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline,
+                                   const sl_vga_grid *grid, double range, unsigned threads,
+                                   sl_vga_graph *out);
+SL_API void sl_vga_graph_destroy(sl_context *context, sl_vga_graph *graph); ///< and zeroes it
+
+/// Groups of measures, or-ed.
+typedef enum sl_vga_part {
+    SL_VGA_LOCAL = 1,   ///< of a point, its neighbours and theirs
+    SL_VGA_GLOBAL = 2,  ///< of the steps along the graph to all points
+    SL_VGA_THROUGH = 4, ///< of the lines that pass a point
+    SL_VGA_METRIC = 8,  ///< of shortest paths
+    SL_VGA_ANGULAR = 16 ///< of paths that turn least
+} sl_vga_part;
+
+/// Start from sl_vga_options_default().
+typedef struct sl_vga_options {
+    unsigned parts;        ///< of sl_vga_part; by default local and global
+    uint32_t radius;       ///< steps up to this number; 0 (default): no limit
+    double metric_radius;  ///< paths up to this length; 0 (default): no limit
+    double angular_radius; ///< paths up to this turn, in right angles; 0 (default): no limit
+    unsigned threads;      ///< 0: one per core; the result is the same for any number
+} sl_vga_options;
+
+/// The default options.
+SL_API sl_vga_options sl_vga_options_default(void);
+
+/// What depthmapX gives a point. NAN for a measure that is not defined (no neighbour, one point),
+/// or of a part that was not asked for.
+typedef struct sl_vga_measures {
+    double connectivity;                  ///< number of points seen
+    double point_first_moment;            ///< sum of their distances
+    double point_second_moment;           ///< sum of their squared distances
+    double visual_clustering_coefficient; ///< share of the pairs of neighbours that see each other
+    double visual_control;                ///< sum over the neighbours of 1 / their connectivity
+    double visual_controllability; ///< neighbours, of all points that the neighbours see together
+
+    double visual_node_count; ///< points that steps along the graph lead to, itself included
+    double visual_mean_depth; ///< mean number of steps to them
+    double visual_entropy;    ///< of the numbers of points by depth, in bits
+    double visual_relativised_entropy; ///< against a Poisson distribution of the same mean
+    double visual_integration_hh;      ///< Hillier and Hanson 1984: 1 / real relative asymmetry
+    double visual_integration_pvalue;  ///< likewise, relative to a pyramid
+    double visual_integration_tekl;    ///< Teklenburg, Timmermans and van Wagenberg 1993
+
+    double through_vision; ///< lines between two points that see each other, both ways, through it
+
+    double metric_mean_shortest_path_distance; ///< mean length of the shortest paths
+    double metric_mean_shortest_path_angle;    ///< mean turn along them, in right angles
+    double metric_mean_straight_line_distance; ///< mean distance, through walls
+    double metric_node_count;                  ///< points that paths lead to, itself included
+
+    double angular_mean_depth;  ///< mean turn along the paths that turn least, in right angles
+    double angular_total_depth; ///< its sum
+    double angular_node_count;  ///< points that paths lead to, itself included
+} sl_vga_measures;
+
+/// Measures all points; `measures` has an entry for each. Paths go from point to point along the
+/// graph. They turn at points beside walls, as those of depthmapX do: where a wall touches one of
+/// the nine squares about the point.
+SL_API sl_status sl_vga_measure(sl_context *context, const sl_outline *outline,
+                                const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                const sl_vga_options *options, sl_vga_measures *measures);
+
+/// The number of steps from the nearest of some points to each point; UINT32_MAX for those that no
+/// steps lead to. `depths` has an entry for each point.
+SL_API sl_status sl_vga_step_depth(sl_context *context, const sl_vga_graph *graph,
+                                   const uint32_t *from, size_t from_count, uint32_t *depths);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,95 @@
+// What visibility graph analysis costs, part by part, on one thread and in processor time.
+//   bench_vga MAP STEP [SECONDS]   CSV: machine, map, points, edges, part, seconds, microseconds a
+//                                  point, and how often that goes into SECONDS: the time that
+//                                  another program takes for the part
+#include "read_space.h"
+
+#include "sightline/sightline.h"
+#include "sightline/support.h"
+#include "sightline/vga.h"
+
+#include <stdio.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+static void must(sl_context *context, sl_status status) {
+    if (status == SL_OK) return;
+    fprintf(stderr, "bench_vga: %s\n", sl_context_message(context));
+    exit(1);
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+typedef struct table {
+    const char *map;
+    struct utsname machine;
+    uint32_t points;
+    uint64_t edges;
+    double other; ///< seconds; 0 where none are given
+} table;
+
+static void print_row(const table *t, const char *part, double seconds) {
+    printf("%s %s,%s,%u,%llu,%s,%.4f,%.2f,", t->machine.sysname, t->machine.machine, t->map,
+           t->points, (unsigned long long)t->edges, part, seconds,
+           t->points ? 1e6 * seconds / t->points : 0);
+    if (t->other > 0) printf("%.1f", t->other / seconds);
+    putchar('\n');
+}
+
+static void measure(sl_context *context, const sl_space *space, double step, table *t) {
+    static const struct {
+        const char *name;
+        unsigned parts;
+    } parts[] = {{"visual", SL_VGA_LOCAL | SL_VGA_GLOBAL},
+                 {"through", SL_VGA_THROUGH},
+                 {"metric", SL_VGA_METRIC},
+                 {"angular", SL_VGA_ANGULAR}};
+    sl_outline outline = {0};
+    sl_vga_grid grid = {0};
+    sl_vga_graph graph = {0};
+    must(context, sl_outline_make(context, space, &outline));
+    double start = now();
+    must(context, sl_vga_grid_fill(context, &outline, step, NULL, 0, &grid));
+    must(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
+    const double made = now() - start;
+    t->points = grid.count;
+    t->edges = graph.edges;
+    puts("machine,map,points,edges,part,seconds,us_a_point,ratio");
+    print_row(t, "graph", made);
+    sl_vga_measures *measures = sl_alloc_array(context, grid.count + 1, sizeof *measures);
+    if (!measures) must(context, SL_NO_MEMORY);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        sl_vga_options options = sl_vga_options_default();
+        options.parts = parts[i].parts;
+        options.threads = 1;
+        start = now();
+        must(context, sl_vga_measure(context, &outline, &grid, &graph, &options, measures));
+        print_row(t, parts[i].name, now() - start);
+    }
+    sl_free(context, measures);
+    sl_vga_graph_destroy(context, &graph);
+    sl_vga_grid_destroy(context, &grid);
+    sl_outline_destroy(context, &outline);
+}
+
+int main(int argc, char **argv) {
+    const double step = argc > 2 ? strtod(argv[2], NULL) : 0;
+    if (!(step > 0)) {
+        fputs("usage: bench_vga MAP STEP [SECONDS]\n", stderr);
+        return 2;
+    }
+    sl_space space = {0};
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return 1;
+    must(context, bench_read_space(context, argv[1], NULL, &space));
+    table t = {.map = argv[1], .other = argc > 3 ? strtod(argv[3], NULL) : 0};
+    uname(&t.machine);
+    measure(context, &space, step, &t);
+    sl_space_destroy(context, &space);
+    sl_context_destroy(context);
+    return 0;
+}

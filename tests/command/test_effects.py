@@ -1,0 +1,144 @@
+"""Every command and method on small maps with every effect and every pair of effects.
+
+test_effects.py PROGRAM          checks the table of tools/EFFECTS.md
+test_effects.py PROGRAM --print  prints the table, to be put there
+"""
+import itertools
+import pathlib
+import re
+import sys
+import unittest
+
+import sandbox
+
+DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "tools" / "EFFECTS.md"
+BEGIN, END = "<!-- the table -->\n", "<!-- the end of the table -->\n"
+
+# Three rooms in a row and one above them; each effect stands in a place of its own.
+ROOMS = """sightline 1
+walls 0 0 30 0 30 20 0 20 0 0
+wall 10 0 10 3
+wall 10 5 10 10
+wall 20 0 20 3
+wall 20 5 20 10
+wall 0 10 4 10
+wall 6 10 30 10
+start 5 5 0
+path tour 2 2 8 8 2 8
+"""
+EFFECTS = {
+    "doors": "door west 10 3 10 5 open\n",
+    "shut": "door above 4 10 6 10 shut\n",
+    "mirrors": "mirror 12 10 18 10\n",
+    "glass": "oneway 20 3 20 5\n",
+    "range": "range 12\n",
+    "boxes": "object crate 6 3 7 4\n",
+}
+COLUMNS = [(name,) for name in EFFECTS] + list(itertools.combinations(EFFECTS, 2)) + [tuple(EFFECTS)]
+METHODS = ["sweep", "prune", "dfs", "multipass", "flood", "sampling"]
+FORMATS = {"json": "json", "geojson": "geojson", "csv": "csv", "c": "h", "png": "png"}
+
+
+def rows():
+    """What is run: a name, the arguments, and what is given besides where there are boxes."""
+    for method in METHODS:
+        yield f"bake --method {method}", ["bake", "MAP", "-o", "out.slv", "--method", method], None
+    yield "info", ["info", "SLV"], None
+    yield "eye", ["eye", "SLV", "--at", "5,5", "--json", "-o", "out.png"], ["--object", "crate,block"]
+    yield "isovist", ["isovist", "MAP", "--at", "5,5", "--picture", "out.png"], None
+    yield "vga", ["vga", "MAP", "--grid", "1"], None
+    yield "explain", ["explain", "SLV", "5,5", "25,2"], None
+    yield "walk", ["walk", "SLV", "--steps", "5", "--repeat", "1"], None
+    yield "regions", ["regions", "MAP", "--grid", "2", "--objects", "walls", "--points", "16",
+                      "--pixels", "4"], None
+    yield "viewcells", ["viewcells", "MAP", "--cells", "4", "--samples", "200", "--evaluate", "0"], None
+    yield "compare", ["compare", "MAP", "--methods", "prune,dfs", "--solvers", "funnel",
+                      "--repeat", "1"], None
+    yield "compare --eye", ["compare", "MAP", "--eye", "--viewpoints", "20"], None
+    yield "draw", ["draw", "SLV", "-o", "out.png"], None
+    for name, ending in FORMATS.items():
+        yield (f"export --format {name}",
+               ["export", "SLV", "--format", name, "-o", "out." + ending], None)
+
+
+class Matrix:
+    def __init__(self, box):
+        self.box = box
+        self.reasons = {}  # the reason: its letter
+
+    def letter(self, reason):
+        return self.reasons.setdefault(reason, chr(ord("a") + len(self.reasons)))
+
+    def entry(self, arguments, boxes, column):
+        base = "-".join(column)
+        arguments = [{"MAP": base + ".map", "SLV": base + ".slv"}.get(a, a) for a in arguments]
+        if boxes and "boxes" in column:
+            arguments += boxes
+        result = self.box.run(arguments)
+        for name in result.new_files:
+            path = self.box.path(name)
+            if path.is_file():
+                path.unlink()
+        if result.status == 0:
+            return "+" + "".join(self.letter(note) for note in notes_of(result.stderr))
+        sandbox.check(result.status == 2, f"{arguments}: status {result.status}, {result.stderr}")
+        return self.letter(reason_of(result.stderr))
+
+    def make_maps(self):
+        for column in COLUMNS:
+            base = "-".join(column)
+            text = ROOMS + "".join(EFFECTS[name] for name in column)
+            self.box.path(base + ".map").write_text(text)
+            result = self.box.run(["bake", base + ".map", "-o", base + ".slv", "--quiet"])
+            sandbox.check(result.status == 0, f"{base}.map is not baked: {result.stderr}")
+
+    def commands(self):
+        """Those of rows() that the program has."""
+        known = self.box.run(["--help"]).stdout
+        return [row for row in rows() if re.search(rf"^  {row[1][0]} ", known, re.M)]
+
+    def table(self):
+        self.make_maps()
+        short = {name: name[0].upper() for name in EFFECTS}
+        heads = ["".join(short[name] for name in column) for column in COLUMNS[:-1]] + ["all"]
+        lines = ["| | " + " | ".join(heads) + " |", "| --- |" + " :-: |" * len(heads)]
+        for name, arguments, boxes in self.commands():
+            entries = [self.entry(arguments, boxes, column) for column in COLUMNS]
+            lines.append(f"| `{name}` | " + " | ".join(entries) + " |")
+        lines.append("")
+        lines += [f"- {letter}: {reason}" for reason, letter in self.reasons.items()]
+        return "\n".join(lines).rstrip() + "\n"
+
+
+def reason_of(message):
+    """What the program says last, without the file and what differs from column to column."""
+    text = message.strip().splitlines()[-1]
+    text = re.sub(r"^sightline: (\S+\.(map|slv)(:\d+)?: )?", "", text)
+    text = re.sub(r"calls for [^;]*?, which", "calls for what", text)
+    return re.sub(r"; (bake )?--without .*", "", text)
+
+
+def notes_of(text):
+    """What is noted of effects that are taken in part."""
+    return re.findall(r"^note: (doors stand as the map has them|mirrors are walls here.*"
+                      r"|one-way glass is open.*|the walk's own methods.*)", text, re.M)
+
+
+class Effects(unittest.TestCase):
+    def test_table(self):
+        with sandbox.Sandbox(PROGRAM) as box:
+            made = Matrix(box).table()
+        text = DOCUMENT.read_text()
+        stored = text[text.index(BEGIN) + len(BEGIN):text.index(END)]
+        self.maxDiff = None
+        self.assertEqual(stored.strip(), made.strip(),
+                         "the table is out of date: put in what --print prints")
+
+
+if __name__ == "__main__":
+    PROGRAM = sandbox.program_argument()
+    if sys.argv[1:] == ["--print"]:
+        with sandbox.Sandbox(PROGRAM) as sandbox_box:
+            print(Matrix(sandbox_box).table(), end="")
+        sys.exit()
+    unittest.main()

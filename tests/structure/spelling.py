@@ -1,0 +1,58 @@
+"""Spelling of documents and comments: spelling.py ROOT
+
+aspell knows the words of English. words.txt beside this file has the project's own: names, terms, formats.
+Exit status 77 where there is no aspell.
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+OWN = pathlib.Path(__file__).with_name("words.txt")
+
+
+def prose_of_markdown(text):
+    text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"`[^`]*`", " ", text)
+    return re.sub(r"\]\([^)]*\)", "]", text)
+
+
+def prose_of_c(text):
+    comments = re.findall(r"/\*.*?\*/|//[^\n]*", text, re.DOTALL)
+    kept = [each for each in comments if not re.match(r"///?\s{4,}", each)]  # examples in code
+    return re.sub(r"`[^`]*`|'[^'\s]+'|\"[^\"\n]*\"", " ", "\n".join(kept))
+
+
+def words(prose):
+    """Words with the line's other text gone: no identifiers, numbers or options."""
+    prose = re.sub(r"--?[\w-]+|\S*[_/\\<>=@#$%^*{}()\[\].]+\w\S*|\b\w*\d\w*\b", " ", prose)
+    return {re.sub(r"'s?$", "", each) for each in re.findall(r"(?<![\w-])[A-Za-z][a-z']{2,}(?![\w-]*[A-Z_\d])", prose)}
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    if not shutil.which("aspell"):
+        print("skipped: there is no aspell")
+        return 77
+    own = {line.strip() for line in OWN.read_text(encoding="utf-8").splitlines()} - {""}
+    found = {}
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root)
+        if name.parts[0] in ("build", "out", ".git") or path.suffix not in (".md", ".c", ".h"):
+            continue
+        text = path.read_text(encoding="utf-8")
+        for word in words(prose_of_markdown(text) if path.suffix == ".md" else prose_of_c(text)):
+            found.setdefault(word, name)
+    ask = subprocess.run(["aspell", "list", "--lang=en", "--encoding=utf-8"], input="\n".join(found),
+                         text=True, capture_output=True, check=True)
+    wrong = sorted(set(ask.stdout.split()) - own, key=str.lower)
+    for word in wrong:
+        print(f"{found.get(word, '?')}: {word}")
+    if not found:
+        print("there is no text")
+    return 1 if wrong or not found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

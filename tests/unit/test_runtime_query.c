@@ -1,0 +1,338 @@
+// The runtime's eye against the library's query: which cells an eye sees past shut doors, one-way
+// glass and a view range. Many eyes are on corners, on portals, on walls and on their lines.
+//   test_runtime_query [EYES]    so many eyes on each map instead of 600
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "sightline/eye_to_cell.h"
+#include "sightline/query.h"
+#include "sightline/support.h"
+
+#include <math.h>
+
+static uint64_t eyes = 600;
+
+typedef struct trial {
+    sl_context *context;
+    const baked_file *f;
+    sl_query *query;
+    sl_random random;
+    uint32_t *scratch, *cells;
+    uint64_t *seen;
+    unsigned char *shut;
+    bool *said;
+    double range; ///< 0: the map's own
+    size_t asked;
+} trial;
+
+static trial trial_of(sl_context *context, const baked_file *f) {
+    const sl_runtime *r = &f->runtime;
+    trial t = {.context = context, .f = f, .random = {31}};
+    assert_ok(context, sl_query_create(context, &f->baked, &t.query));
+    t.scratch = malloc(sl_runtime_scratch_count(r) * sizeof *t.scratch);
+    t.cells = malloc(r->cell_count * sizeof *t.cells);
+    t.seen = malloc(sl_eye_words(&f->baked.space) * sizeof *t.seen);
+    t.shut = calloc(r->door_count + 1, 1);
+    t.said = malloc(r->cell_count * sizeof *t.said);
+    assert_true(t.scratch && t.cells && t.seen && t.shut && t.said);
+    return t;
+}
+
+static void trial_end(trial *t) {
+    sl_query_destroy(t->context, t->query);
+    free(t->scratch);
+    free(t->cells);
+    free(t->seen);
+    free(t->shut);
+    free(t->said);
+}
+
+static void compare(trial *t, const sl_view *view) {
+    const sl_runtime *r = &t->f->runtime;
+    const sl_point eye = view->eye;
+    const sl_runtime_view same = {eye.x,
+                                  eye.y,
+                                  view->full,
+                                  {view->right.x - eye.x, view->right.y - eye.y},
+                                  {view->left.x - eye.x, view->left.y - eye.y}};
+    assert_ok(t->context, sl_query_look(t->context, t->query, view, NULL, t->seen, NULL));
+    const uint32_t count =
+        sl_runtime_look_past(r, &same, t->shut, t->range, t->scratch, t->cells, r->cell_count);
+    memset(t->said, 0, r->cell_count * sizeof *t->said);
+    for (uint32_t i = 0; i < count; i++) t->said[t->cells[i]] = true;
+    t->asked++;
+    for (uint32_t i = 0; i < r->cell_count; i++)
+        if (t->said[i] != sl_eye_sees(t->seen, i))
+            fail_msg("%s: (%.17g, %.17g)%s: cell %u is %s", t->f->name, eye.x, eye.y,
+                     view->full ? "" : " with a cone", i, t->said[i] ? "added" : "missed");
+}
+
+/// A point in a direction with a straight or diagonal border, exact to subtract again; the eye
+/// itself where there is none.
+static sl_point border(sl_random *random, sl_point eye, double reach) {
+    const double step = ldexp(1, ilogb(reach) - 4);
+    const sl_point by = {step * ((double)sl_random_below(random, 5) - 2),
+                         step * ((double)sl_random_below(random, 5) - 2)};
+    const sl_point at = {eye.x + by.x, eye.y + by.y};
+    const bool exact = at.x - eye.x == by.x && at.y - eye.y == by.y && at.x - by.x == eye.x &&
+                       at.y - by.y == eye.y;
+    return exact ? at : eye;
+}
+
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static void look_from(trial *t, sl_point eye) {
+    const sl_box *b = &t->f->baked.space.bounds;
+    const double reach = fmin(b->max.x - b->min.x, b->max.y - b->min.y);
+    sl_view view = sl_view_all_round(eye);
+    if (sl_query_locate(t->query, eye) == SL_NO_CELL || reach < 1e-100) return;
+    compare(t, &view);
+    view = (sl_view){eye, false, border(&t->random, eye, reach), border(&t->random, eye, reach)};
+    if (!same_point(view.left, eye) && !same_point(view.right, eye)) compare(t, &view);
+}
+
+static sl_point between(sl_point a, sl_point b, double part) {
+    return (sl_point){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+}
+
+static sl_point point_within(sl_random *random, const sl_box *b) {
+    return (sl_point){b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
+                      b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
+}
+
+static void set_doors(trial *t) {
+    const sl_map *map = &t->f->baked.map;
+    for (uint32_t i = 0; i < t->f->runtime.door_count; i++) t->shut[i] = 0;
+    sl_query_set_doors(t->context, t->query, true);
+    if (map->mirror_count) return; // the library refuses shut doors there
+    for (uint32_t i = 0; i < t->f->runtime.door_count; i++) {
+        const bool open = sl_random_below(&t->random, 2);
+        assert_ok(t->context, sl_query_set_door(t->context, t->query, map->doors[i].name, open));
+        for (uint32_t k = 0; k < t->f->runtime.door_count; k++)
+            if (strcmp(map->doors[k].name, map->doors[i].name) == 0) t->shut[k] = !open;
+    }
+}
+
+/// A corner or a place on a wall, a portal, a seam or the line of one.
+static sl_point special_point(trial *t) {
+    const sl_space *s = &t->f->baked.space;
+    const sl_point v = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+    const sl_point w = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+    const double part = (double)sl_random_below(&t->random, 5) / 4;
+    switch (sl_random_below(&t->random, 4)) {
+    case 0:
+        return v;
+    case 1:
+        if (s->seam_count) {
+            const sl_segment at = s->seams[sl_random_below(&t->random, s->seam_count)].at;
+            return between(at.a, at.b, part);
+        }
+        return (sl_point){v.x, w.y};
+    case 2:
+        return (sl_point){v.x, w.y};
+    default:
+        if (!s->portal_count) return v;
+        const sl_portal *p = &s->portals[sl_random_below(&t->random, s->portal_count)];
+        return between(p->left, p->right, part);
+    }
+}
+
+/// Eyes in the middle of cells in view see nothing that is not in the set.
+static void look_from_within(trial *t, const unsigned char *shut, uint32_t count,
+                             const unsigned char *bits) {
+    const sl_runtime *r = &t->f->runtime;
+    uint32_t *seen = malloc(r->cell_count * sizeof *seen);
+    assert_non_null(seen);
+    for (uint32_t i = 0; i < count && i < 20; i++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(r, t->cells[i]);
+        sl_runtime_view view = sl_runtime_view_all_round(0, 0);
+        for (uint32_t k = 0; k < c.vertex_count; k++) {
+            double x, y;
+            sl_runtime_get_vertex(r, c.first_vertex + k, &x, &y);
+            view.x += x / c.vertex_count;
+            view.y += y / c.vertex_count;
+        }
+        // Far from the origin, rounding may leave the cell.
+        if (sl_runtime_locate(r, view.x, view.y) != t->cells[i]) continue;
+        const uint32_t more =
+            sl_runtime_look_past(r, &view, shut, 0, t->scratch, seen, r->cell_count);
+        for (uint32_t k = 0; k < more; k++) assert_true(bits[seen[k] / 8] >> seen[k] % 8 & 1);
+    }
+    free(seen);
+}
+
+/// What the cells in view see, against the pairs one by one.
+static void seen_from_is_the_union(trial *t, sl_point eye) {
+    const sl_runtime *r = &t->f->runtime;
+    const size_t bytes = (r->cell_count + 7) / 8;
+    unsigned char *bits = malloc(bytes + 1);
+    assert_non_null(bits);
+    const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
+    const unsigned char *shut = sl_random_below(&t->random, 4) ? t->shut : NULL;
+    const uint32_t count =
+        sl_runtime_look_past(r, &view, shut, 0, t->scratch, t->cells, r->cell_count);
+    memset(bits, 0xa5, bytes + 1);
+    uint32_t seen = sl_runtime_seen_from(r, t->cells, count, shut, bits);
+    assert_int_equal(bits[bytes], 0xa5);
+    for (uint32_t to = 0; to < r->cell_count; to++) {
+        bool is = false;
+        for (uint32_t i = 0; i < count && !is; i++)
+            is = shut ? sl_runtime_can_see_past(r, t->cells[i], to, shut)
+                      : sl_runtime_can_see(r, t->cells[i], to);
+        if (is != (bits[to / 8] >> to % 8 & 1))
+            fail_msg("%s: (%.17g, %.17g): cell %u is %s", t->f->name, eye.x, eye.y, to,
+                     is ? "missed" : "added");
+        seen -= is;
+    }
+    assert_int_equal(seen, 0);
+    look_from_within(t, shut, count, bits);
+    for (size_t i = r->cell_count; i < 8 * bytes; i++) assert_false(bits[i / 8] >> i % 8 & 1);
+    const uint32_t none[2] = {r->cell_count, SL_RUNTIME_NO_CELL};
+    assert_int_equal(sl_runtime_seen_from(r, none, 2, shut, bits), 0);
+    free(bits);
+}
+
+static size_t asked;
+
+static void looks_are_the_same(const baked_file *f) {
+    sl_context *context = testing_context(NULL);
+    const sl_map *map = &f->baked.map;
+    if (!(map->mirror_count && map->oneway_count)) { // that the library refuses
+        trial t = trial_of(context, f);
+        for (uint64_t i = 0; i < eyes; i++) {
+            if (i % 50 == 0) set_doors(&t);
+            if (i % 10 == 0)
+                seen_from_is_the_union(&t, point_within(&t.random, &f->baked.space.bounds));
+            look_from(&t,
+                      i % 4 ? special_point(&t) : point_within(&t.random, &f->baked.space.bounds));
+        }
+        asked += t.asked;
+        trial_end(&t);
+    }
+    sl_context_destroy(context);
+}
+
+static void on_every_map(void **state) {
+    (void)state;
+    asked = 0;
+    baked_file_each(looks_are_the_same);
+    print_message("%zu views\n", asked);
+    assert_true(asked > 1000);
+}
+
+static void on_turned_maps(void **state) {
+    (void)state;
+    static const char *const names[] = {"office", "gallery", "oblique/star"};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 3; i++) {
+        baked_file f = baked_file_turned(context, names[i], 17.3, 0);
+        looks_are_the_same(&f);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
+// --- random maps with doors and glass on a grid, where eyes meet many lines
+
+enum { SIZE = 12, MAPS = 60, DOORS = 4, GLASS = 6 };
+
+static sl_segment random_segment(sl_random *random) {
+    const bool upright = sl_random_below(random, 2), turned = sl_random_below(random, 2);
+    const double at = (double)sl_random_below(random, SIZE + 1);
+    const double from = (double)sl_random_below(random, SIZE);
+    const double to = fmin(from + 1 + (double)sl_random_below(random, 4), SIZE);
+    const sl_segment s =
+        upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
+    return turned ? (sl_segment){s.b, s.a} : s;
+}
+
+static void random_map(sl_context *context, sl_random *random, sl_map *map) {
+    const sl_point c[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(context, sl_map_add_wall(context, map, c[i], c[i + 1], 0));
+    for (int i = 0; i < 10; i++) {
+        const sl_segment at = random_segment(random);
+        assert_ok(context, sl_map_add_wall(context, map, at.a, at.b, 0));
+    }
+    for (int i = 0; i < DOORS; i++) {
+        const char name[2] = {(char)('a' + i), 0};
+        assert_ok(context, sl_map_add_door(context, map, name, random_segment(random), true, 0));
+    }
+    for (int i = 0; i < GLASS; i++)
+        assert_ok(context, sl_map_add_oneway(context, map, random_segment(random), 0));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
+}
+
+static void past_doors_and_glass(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (uint64_t seed = 1; seed <= MAPS; seed++) {
+        sl_random random = {seed};
+        baked_file f = {.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
+        random_map(context, &random, &f.baked.map);
+        baked_file_make(context, &f, false);
+        looks_are_the_same(&f);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
+// --- by hand
+
+static uint32_t cells_seen(const baked_file *f, double x, double y, double range) {
+    uint32_t scratch[256], cells[32];
+    const sl_runtime_view view = sl_runtime_view_all_round(x, y);
+    assert_true(sl_runtime_scratch_count(&f->runtime) <= 256);
+    return sl_runtime_look_past(&f->runtime, &view, NULL, range, scratch, cells, 32);
+}
+
+/// The first glass is seen through from the left room only, the second one from the middle only.
+static void glass_is_dark_from_one_side(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(
+        context, "walls 0 0 30 0 30 10 0 10 0 0\nwall 10 0 10 1\noneway 10 1 10 3\n"
+                 "wall 10 3 10 8\noneway 10 9 10 8\nwall 10 9 10 10\nwall 20 0 20 1\n"
+                 "wall 20 3 20 10\n");
+    looks_are_the_same(&f);
+    baked_file_destroy(context, &f);
+    f = baked_file_of_text(context, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\n"
+                                    "oneway 10 4 10 6\nwall 10 6 10 10\n");
+    assert_int_equal(f.runtime.cell_count, 2);
+    assert_int_equal(cells_seen(&f, 5, 5, 0), 1);
+    assert_int_equal(cells_seen(&f, 15, 5, 0), 2);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+/// The map's own range holds without a word, and a larger one changes nothing.
+static void the_range_of_the_level_counts(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\n"
+                                               "wall 10 6 10 10\nrange 4\n");
+    assert_true(f.runtime.range == 4);
+    assert_int_equal(cells_seen(&f, 5, 5, 0), 1);
+    assert_int_equal(cells_seen(&f, 5, 5, 9), 1);
+    assert_int_equal(cells_seen(&f, 7, 5, 0), 2);
+    assert_int_equal(cells_seen(&f, 7, 5, 2), 1);
+    baked_file_destroy(context, &f);
+    f = baked_file_of_text(context, "walls 0 0 20 0 20 10 0 10 0 0\n");
+    assert_true(f.runtime.range == 0);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(glass_is_dark_from_one_side),
+        cmocka_unit_test(the_range_of_the_level_counts),
+        cmocka_unit_test(past_doors_and_glass),
+        cmocka_unit_test(on_every_map),
+        cmocka_unit_test(on_turned_maps),
+    };
+    if (argc == 2) eyes = strtoull(argv[1], NULL, 10);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

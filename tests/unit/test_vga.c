@@ -1,0 +1,233 @@
+/// Visibility graphs: each pair beside sl_sees, measures beside sums over all pairs.
+#include "testing.h"
+
+#include "oracle/random_map.h"
+#include "oracle/random_oblique.h"
+#include "sightline/sees.h"
+#include "sightline/vga.h"
+
+#include <math.h>
+
+typedef struct fixture {
+    sl_map map;
+    sl_space space;
+    sl_outline outline;
+    sl_vga_grid grid;
+    sl_vga_graph graph;
+} fixture;
+
+static void fixture_destroy(sl_context *context, fixture *f) {
+    sl_vga_graph_destroy(context, &f->graph);
+    sl_vga_grid_destroy(context, &f->grid);
+    sl_outline_destroy(context, &f->outline);
+    sl_space_destroy(context, &f->space);
+    sl_map_destroy(context, &f->map);
+}
+
+static bool has_edge(const sl_vga_graph *graph, uint32_t a, uint32_t b) {
+    return sl_bits_has(graph->rows + a * graph->words, b);
+}
+
+/// Half of a unit puts points on walls' lines, at ends and on portals.
+static void fill_and_connect(sl_context *context, double step, fixture *f) {
+    assert_ok(context, sl_outline_make(context, &f->space, &f->outline));
+    assert_ok(context, sl_vga_grid_fill(context, &f->outline, step, NULL, 0, &f->grid));
+    assert_ok(context, sl_vga_graph_make(context, &f->outline, &f->grid, 0, 1, &f->graph));
+}
+
+static size_t check_pairs(sl_context *context, const fixture *f) {
+    size_t seen = 0;
+    for (uint32_t a = 0; a < f->grid.count; a++) {
+        assert_false(has_edge(&f->graph, a, a));
+        for (uint32_t b = 0; b < f->grid.count; b++) {
+            bool sees;
+            if (a == b) continue;
+            assert_ok(context, sl_sees(context, &f->outline, f->grid.points[a], f->grid.points[b],
+                                       SL_CLOSED, &sees));
+            assert_int_equal(has_edge(&f->graph, a, b), sees);
+            assert_int_equal(has_edge(&f->graph, b, a), sees);
+            seen += sees;
+        }
+    }
+    assert_int_equal(f->graph.edges, seen);
+    return seen;
+}
+
+static void pairs_are_those_of_single_sightlines(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_subdivide_options options = sl_subdivide_options_default();
+    size_t seen = 0, points = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(60); seed++) {
+        fixture f = {0};
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &f.map));
+        assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
+        const bool mesh = seed % 3 == 0;
+        const sl_status made = !f.map.wall_count ? SL_BAD_ARGUMENT
+                               : mesh            ? sl_subdivide_mesh(context, &f.map, &f.space)
+                                      : sl_subdivide_kd(context, &f.map, &options, &f.space);
+        if (made == SL_OK) {
+            fill_and_connect(context, seed % 2 ? 0.5 : 1, &f);
+            seen += check_pairs(context, &f);
+            points += f.grid.count;
+        }
+        fixture_destroy(context, &f);
+    }
+    assert_true(points > 1000 && seen > 10000);
+    sl_context_destroy(context);
+}
+
+static void oblique_pairs_too(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    size_t seen = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(60); seed++) {
+        fixture f = {0};
+        assert_ok(context, oblique_random_map(context, seed, (oblique_grid)(seed % OBLIQUE_GRIDS),
+                                              12, &f.map));
+        assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
+        if (sl_subdivide_mesh(context, &f.map, &f.space) == SL_OK) {
+            const sl_box b = f.space.bounds;
+            const double step = fmax(b.max.x - b.min.x, b.max.y - b.min.y) / 12;
+            if (step > 0 && fabs(b.min.x) / step < 1e6 && fabs(b.min.y) / step < 1e6) {
+                fill_and_connect(context, step, &f);
+                seen += check_pairs(context, &f);
+            }
+        }
+        fixture_destroy(context, &f);
+    }
+    assert_true(seen > 1000);
+    sl_context_destroy(context);
+}
+
+// --- measures, beside brute force
+
+static void make_plan(sl_context *context, fixture *f) {
+    static const char text[] =
+        "sightline 1\nwalls 0 0 9 0 9 6 0 6 0 0\nwall 3 0 3 2\nwall 3 3 3 6\n"
+        "wall 6 1.5 6 6\nwall 3 4 5 4.5\n";
+    assert_ok(context, sl_map_read_text(context, "plan", text, sizeof text - 1, &f->map));
+    assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &f->map, &f->space));
+    fill_and_connect(context, 0.5, f);
+}
+
+static void local_measures(const fixture *f, uint32_t p, sl_vga_measures *m) {
+    double degree = 0, pairs = 0, both = 0, control = 0, first = 0;
+    for (uint32_t q = 0; q < f->grid.count; q++) {
+        bool near = false;
+        double of_q = 0;
+        for (uint32_t r = 0; r < f->grid.count; r++) {
+            near |= has_edge(&f->graph, p, r) && has_edge(&f->graph, r, q);
+            of_q += has_edge(&f->graph, q, r);
+            pairs +=
+                has_edge(&f->graph, p, q) && has_edge(&f->graph, p, r) && has_edge(&f->graph, q, r);
+        }
+        both += near;
+        if (!has_edge(&f->graph, p, q)) continue;
+        degree++;
+        control += 1 / of_q;
+        first += hypot(f->grid.points[q].x - f->grid.points[p].x,
+                       f->grid.points[q].y - f->grid.points[p].y);
+    }
+    assert_true(m->connectivity == degree);
+    assert_true(fabs(m->point_first_moment - first) < 1e-9 * first);
+    assert_true(fabs(m->visual_clustering_coefficient - pairs / (degree * (degree - 1))) < 1e-12);
+    assert_true(fabs(m->visual_control - control) < 1e-12 * control);
+    assert_true(m->visual_controllability == degree / both);
+}
+
+/// Floyd and Warshall, on steps and on lengths. Paths turn at points beside walls only, so they are
+/// a little longer than the shortest of all.
+static void global_measures(const fixture *f, const sl_vga_measures *m) {
+    const uint32_t n = f->grid.count;
+    double *steps = test_calloc((size_t)n * n, sizeof *steps);
+    double *lengths = test_calloc((size_t)n * n, sizeof *lengths);
+    for (uint32_t a = 0; a < n; a++)
+        for (uint32_t b = 0; b < n; b++) {
+            const sl_point p = f->grid.points[a], q = f->grid.points[b];
+            const bool edge = has_edge(&f->graph, a, b);
+            steps[a * n + b] = a == b ? 0 : edge ? 1 : INFINITY;
+            lengths[a * n + b] = a == b ? 0 : edge ? hypot(p.x - q.x, p.y - q.y) : INFINITY;
+        }
+    for (uint32_t k = 0; k < n; k++)
+        for (uint32_t a = 0; a < n; a++)
+            for (uint32_t b = 0; b < n; b++) {
+                steps[a * n + b] = fmin(steps[a * n + b], steps[a * n + k] + steps[k * n + b]);
+                lengths[a * n + b] =
+                    fmin(lengths[a * n + b], lengths[a * n + k] + lengths[k * n + b]);
+            }
+    for (uint32_t a = 0; a < n; a++) {
+        double total = 0, length = 0;
+        for (uint32_t b = 0; b < n; b++) {
+            total += steps[a * n + b];
+            length += lengths[a * n + b];
+        }
+        assert_true(m[a].visual_node_count == n);
+        assert_true(fabs(m[a].visual_mean_depth - total / (n - 1)) < 1e-12 * total);
+        const double metric = m[a].metric_mean_shortest_path_distance;
+        assert_true(metric > (1 - 1e-6) * length / n && metric < 1.02 * length / n);
+    }
+    test_free(steps);
+    test_free(lengths);
+}
+
+static void measures_are_those_of_brute_force(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    make_plan(context, &f);
+    sl_vga_options options = sl_vga_options_default();
+    options.parts = SL_VGA_LOCAL | SL_VGA_GLOBAL | SL_VGA_THROUGH | SL_VGA_METRIC | SL_VGA_ANGULAR;
+    sl_vga_measures *one = test_calloc(f.grid.count, sizeof *one);
+    sl_vga_measures *three = test_calloc(f.grid.count, sizeof *three);
+    options.threads = 1;
+    assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, one));
+    options.threads = 3;
+    assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, three));
+    assert_memory_equal(one, three, f.grid.count * sizeof *one);
+    for (uint32_t p = 0; p < f.grid.count; p++) local_measures(&f, p, &one[p]);
+    global_measures(&f, one);
+    uint32_t *depths = test_calloc(f.grid.count, sizeof *depths);
+    const uint32_t from = 0;
+    double total = 0;
+    assert_ok(context, sl_vga_step_depth(context, &f.graph, &from, 1, depths));
+    for (uint32_t p = 0; p < f.grid.count; p++) total += depths[p];
+    assert_true(fabs(total / (f.grid.count - 1) - one[0].visual_mean_depth) < 1e-12);
+    test_free(depths);
+    test_free(one);
+    test_free(three);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+static void seeds_stay_in_their_room(void **state) {
+    (void)state;
+    static const char text[] = "sightline 1\nwalls 0 0 4 0 4 2 0 2 0 0\nwall 2 0 2 2\n";
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    assert_ok(context, sl_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
+    assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &f.map, &f.space));
+    assert_ok(context, sl_outline_make(context, &f.space, &f.outline));
+    const sl_point seed = {0.9, 1.1}, outside = {9, 9};
+    assert_ok(context, sl_vga_grid_fill(context, &f.outline, 0.5, &seed, 1, &f.grid));
+    assert_int_equal(f.grid.count, 9);
+    sl_vga_grid other = {0};
+    assert_int_equal(sl_vga_grid_fill(context, &f.outline, 0.5, &outside, 1, &other),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_vga_grid_fill(context, &f.outline, 0, NULL, 0, &other), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_vga_grid_fill(context, &f.outline, 1e-9, NULL, 0, &other), SL_BAD_ARGUMENT);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_are_those_of_single_sightlines),
+        cmocka_unit_test(oblique_pairs_too),
+        cmocka_unit_test(measures_are_those_of_brute_force),
+        cmocka_unit_test(seeds_stay_in_their_room),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,36 @@
+#include "heat_map.h"
+
+#include "json_print.h"
+#include "sightline/support.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// The name of a measure in words.
+static void write_measure(const char *measure, char *text, size_t size) {
+    snprintf(text, size, "%s", measure);
+    for (char *at = text; *at; at++)
+        if (*at == '_') *at = ' ';
+}
+
+static void write_title(const heat_map *heat, const char *measure, char *text, size_t size) {
+    const char *slash = strrchr(heat->input, '/'), *map = heat->map;
+    char name[256], readable[256];
+    snprintf(name, sizeof name, "%s", slash ? slash + 1 : heat->input);
+    char *ending = strrchr(name, '.');
+    if (ending && ending != name && !map) *ending = '\0';
+    text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);
+    const char *known = map && sl_text_is_utf8(map) ? map : "";
+    snprintf(text, size, "%s%s%.64s: %s", readable, *known ? " " : "", known, measure);
+}
+
+sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
+                        sl_field *field) {
+    char measure[64], title[512];
+    write_measure(heat->measure, measure, sizeof measure);
+    write_title(heat, measure, title, sizeof title);
+    sl_draw_options drawing = *heat->drawing;
+    if (!drawing.title) drawing.title = title;
+    field->name = measure;
+    return sl_draw_field_file(context, baked, field, &drawing, heat->path);
+}

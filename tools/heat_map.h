@@ -1,0 +1,21 @@
+/// Heat maps: the values of one measure on a grid of squares, drawn over the plan.
+#ifndef HEAT_MAP_H
+#define HEAT_MAP_H
+
+#include "sightline/draw.h"
+
+/// What a picture shows of which map.
+typedef struct heat_map {
+    const char *input;   ///< the map's file, for the title
+    const char *map;     ///< the name of one of several maps in it; NULL for none
+    const char *measure; ///< by its name in tables: "visual_control"
+    const sl_draw_options *drawing;
+    const char *path; ///< of the picture
+} heat_map;
+
+/// Draws `field`; its name is set to the measure's, in words. The title, without one in the
+/// options, is "office: area", or "doom.wad E1M1: area" for one of several maps.
+sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
+                        sl_field *field);
+
+#endif

@@ -1,0 +1,45 @@
+#!/bin/sh
+# Builds packages: sh tools/package.sh [deb | tarball] [FOLDER]
+#
+# deb      Debian packages (default), by dpkg-buildpackage from a copy of the sources
+# tarball  an archive of what 'cmake --install' puts down; it can be unpacked anywhere
+#
+# Packages are written to FOLDER (default: build/packages). tools/packages/ has the recipes, those for
+# Homebrew, vcpkg and Conan too, which are written but untried.
+set -eu
+cd "$(dirname "$0")/.."
+
+kind=${1:-deb}
+folder=${2:-build/packages}
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+version=$(sed -n 's/^#define SL_VERSION_M[AI][JN]OR \([0-9]*\).*/\1/p;s/^#define SL_VERSION_PATCH \([0-9]*\).*/\1/p' \
+    lib/include/sightline/version.h | paste -sd.)
+
+case $kind in
+deb)
+    for each in dpkg-buildpackage dh doxygen; do
+        command -v $each >/dev/null || {
+            echo "package: $each is missing; as root: apt-get install debhelper doxygen" >&2
+            exit 1
+        }
+    done
+    copy=$folder/sightline-$version
+    rm -rf "$copy"
+    mkdir "$copy"
+    git ls-files -z | tar -c --null -T - | tar -x -C "$copy"
+    mv "$copy/tools/packages/debian" "$copy/debian"
+    (cd "$copy" && dpkg-buildpackage -us -uc -b)
+    rm -rf "$copy"
+    ;;
+tarball)
+    cmake --preset release
+    cmake --build --preset release
+    cpack --config build/release/CPackConfig.cmake -B "$folder"
+    ;;
+*)
+    echo "package: there is no kind '$kind'; choose deb or tarball" >&2
+    exit 2
+    ;;
+esac
+ls -l "$folder"

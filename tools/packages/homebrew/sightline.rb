@@ -1,0 +1,32 @@
+# Untried. URL and checksum are those of a release archive, once there is one.
+class Sightline < Formula
+  desc "2D cell-and-portal visibility toolkit"
+  license "GPL-3.0-only" # because of GLPK; the library without it is MIT
+  head "https://example.org/sightline.git", branch: "main"
+
+  depends_on "cmake" => :build
+  depends_on "ninja" => :build
+  depends_on "pkg-config" => :build
+  depends_on "cairo"
+  depends_on "glpk"
+  depends_on "jansson"
+  depends_on "libpng"
+  depends_on "libxml2"
+  depends_on "libyaml"
+  depends_on "pango"
+  depends_on "sdl2"
+  depends_on "zstd"
+
+  def install
+    system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DBUILD_SHARED_LIBS=ON",
+           "-DSIGHTLINE_TESTS=OFF", *std_cmake_args
+    system "cmake", "--build", "build"
+    system "cmake", "--install", "build"
+    pkgshare.install "maps"
+  end
+
+  test do
+    system bin/"sightline", "bake", pkgshare/"maps/office.map", "-o", "office.slv"
+    assert_match "107", shell_output("#{bin}/sightline info office.slv")
+  end
+end

@@ -1,0 +1,40 @@
+/// The measures of `sightline vga` as a table: its columns, the files that it is written to, and a
+/// summary of it.
+#ifndef VGA_TABLE_H
+#define VGA_TABLE_H
+
+#include "isovist.h"
+#include "sightline/vga.h"
+
+/// What is measured of each point. A group of measures is a bit by its place in vga_parts().
+typedef struct vga_table {
+    sl_vga_grid grid;
+    sl_vga_measures *measures;
+    isovist_result *isovists; ///< NULL where they are not measured
+    uint32_t *depths;         ///< steps from chosen points; NULL where there are none
+    unsigned parts;
+} vga_table;
+
+enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_ANGULAR = 8 };
+enum { VGA_PART_ISOVIST = 16, VGA_PART_ALL = 32, VGA_PART_STEPS = 64 };
+
+/// The groups that can be chosen, numbered as the bits are; the last is "all".
+name_table vga_parts(void);
+
+/// The measures in the order of the columns. All but the last, steps from chosen points, can be
+/// computed at any time.
+name_table vga_measures(void);
+/// The group of a measure.
+unsigned vga_measure_part(size_t measure);
+
+/// NAN where the measure is not defined.
+double vga_value(const vga_table *table, size_t measure, uint32_t point);
+
+/// Writes the columns of the table's groups: GeoJSON where the name ends so, else CSV. "-" is
+/// stdout.
+sl_status vga_write(sl_context *context, const vga_table *table, const char *path);
+
+/// Prints mean and standard deviation of each column, and the ten highest values of one.
+void vga_print_summary(const vga_table *table, size_t measure);
+
+#endif
