@@ -29,38 +29,78 @@ typedef struct arguments {
     unsigned long long seed;
 } arguments;
 
+// --- options: one table for getopt, for --help and for the manual page
+
+typedef struct option_row {
+    const char *name, *argument, *help;
+    int code;
+} option_row;
+
+static const option_row option_rows[] = {
+    {"map", "NAME", "which map of a file that holds several", 'm'},
+    {"slice", "Z", "cut a 3D model at this height (default: in its middle)", 'z'},
+    {"layers", "LAYER,...", "which layers of a drawing or a tile map to read", 'l'},
+    {"start-names", "NAME,...", "which objects of a game map are starts; 'none': no starts", 'n'},
+    {"tolerance", "T", "largest distance of a curve from its walls", 't'},
+    {"unit", "UNIT", "convert a drawing to this unit: mm cm m km in ft yd", 'u'},
+    {"threshold", "T", "darkness from which a pixel is solid, up to 1", 'd'},
+    {"doors", NULL, "keep the doors of the format as doors", 'r'},
+    {"cells", NULL, "take the cells that the file has (GL nodes of a WAD)", 'c'},
+    {"start", "X,Y", "where the eye begins; inside is all that starts reach", 'p'},
+    {"script", "FILE", "run a script, without a window", 's'},
+    {"screenshot", "OUT", "save the window as .png, .svg or .pdf, without a display", 'o'},
+    {"bench", NULL, "print frame times with all layers on, without a display", 'b'},
+    {"frames", "N", "number of frames for --bench (default 300)", 'f'},
+    {"soak", "SECONDS", "send random events, without a display", 'k'},
+    {"seed", "N", "seed of the random events (default 1)", 'e'},
+    {"help", NULL, "show this text", 'h'},
+    {"version", NULL, "show the version", 'v'},
+};
+enum { OPTION_COUNT = sizeof option_rows / sizeof *option_rows };
+
+#define PURPOSE                                                                                    \
+    "Shows a map or a baked .slv file: what is seen in it, and how that is computed.\n"            \
+    "'?' in the window lists all keys."
+#define SCRIPTS                                                                                    \
+    "A script has a command on each line: open FILE; key NAME; down NAME; up NAME;\n"              \
+    "action NAME; move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS;\n"                  \
+    "wait FRAMES; size W H; eye X Y HEADING [CONE]; text SCALE; screenshot FILE;\n"                \
+    "save FILE; account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT;\n"                 \
+    "print STATE (" PRINT_NAMES ");\n"                                                             \
+    "fits (fails if a text does not fit its panel)."
+#define STATUS                                                                                     \
+    "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are\nwrong."
+
 static void print_help(void) {
-    puts("usage: sightline-view [MAP] [options]\n\n"
-         "Shows a map (or a baked .slv file), what is seen in it, and how that is found out.\n"
-         "'?' in the window tells keys and mouse.\n\n"
-         "  --map NAME           which map of a file that holds several\n"
-         "  --slice Z            cut a 3D model at this height, not in its middle\n"
-         "  --layers LAYER,...   the layers of a drawing or tile map to take\n"
-         "  --start-names NAME,...\n"
-         "                       objects of a game map that are starts; 'none': no starts\n"
-         "  --tolerance T        how far curves may be from their walls\n"
-         "  --unit UNIT          of a drawing, turned into this: mm cm m km in ft yd\n"
-         "  --threshold T        darkness from which a pixel is solid, up to 1\n"
-         "  --doors              take doors as doors; without it as what they are when the map\n"
-         "                       begins\n"
-         "  --cells              take the cells that the file brings along (GL nodes of a WAD)\n"
-         "  --start X,Y          where the eye begins; tells inside from outside too\n\n"
-         "  --script FILE        do what the file says, without a window\n"
-         "  --screenshot OUT     save the window (.png, .svg, .pdf), after the script; no display\n"
-         "                       is needed\n"
-         "  --bench [--frames N] print frame times with all layers on, without a display\n"
-         "  --soak SECONDS [--seed N]\n"
-         "                       random events, without a display\n"
-         "  --help, --version\n\n"
-         "A script has a command a line: open FILE; key NAME; down NAME; up NAME; action NAME;\n"
-         "move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS; wait FRAMES; size W H;\n"
-         "eye X Y HEADING [CONE]; text SCALE; screenshot FILE; save FILE;\n"
-         "account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT;\n"
-         "print STATE (" PRINT_NAMES ");\n"
-         "fits (fails if a text does not fit its panel).\n\n"
-         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
-         "example:\n"
-         "  sightline-view maps/office.map");
+    puts("usage: sightline-view [MAP] [options]\n\n" PURPOSE "\n");
+    for (size_t i = 0; i < OPTION_COUNT; i++) {
+        const option_row *o = &option_rows[i];
+        char head[40];
+        snprintf(head, sizeof head, "--%s%s%s", o->name, o->argument ? " " : "",
+                 o->argument ? o->argument : "");
+        if (strlen(head) > 20)
+            printf("  %s\n%23s%s\n", head, "", o->help);
+        else
+            printf("  %-21s%s\n", head, o->help);
+    }
+    puts("\n" SCRIPTS "\n\n" STATUS "\n\nexample:\n  sightline-view maps/office.map");
+}
+
+/// A manual page, in the macros of man(7).
+static void print_manual(void) {
+    puts(".TH SIGHTLINE\\-VIEW 1 \"\" \"sightline " SIGHTLINE_VERSION "\" \"Sightline\"\n"
+         ".SH NAME\nsightline\\-view \\- viewer of 2D cell-and-portal visibility\n"
+         ".SH SYNOPSIS\n.B sightline\\-view\n[MAP] [options]\n"
+         ".SH DESCRIPTION\n" PURPOSE "\n.SH OPTIONS");
+    for (size_t i = 0; i < OPTION_COUNT; i++) {
+        const option_row *o = &option_rows[i];
+        fputs(".TP\n.B \\-\\-", stdout);
+        for (const char *at = o->name; *at; at++) printf(*at == '-' ? "\\-" : "%c", *at);
+        printf(" %s\n%s%s\n", o->argument ? o->argument : "", *o->help == '\'' ? "\\&" : "",
+               o->help);
+    }
+    puts(".SH SCRIPTS\n" SCRIPTS "\n.SH EXIT STATUS\n" STATUS "\n.SH SEE ALSO\n"
+         ".BR sightline (1)");
 }
 
 static sl_status read_number(sl_context *context, const char *option, const char *text, double low,
@@ -156,27 +196,11 @@ static sl_status read_option(sl_context *context, int option, arguments *a) {
 }
 
 static sl_status read_arguments(sl_context *context, int argc, char **argv, arguments *a) {
-    static const struct option options[] = {
-        {"slice", required_argument, NULL, 'z'},
-        {"map", required_argument, NULL, 'm'},
-        {"layers", required_argument, NULL, 'l'},
-        {"start-names", required_argument, NULL, 'n'},
-        {"tolerance", required_argument, NULL, 't'},
-        {"unit", required_argument, NULL, 'u'},
-        {"threshold", required_argument, NULL, 'd'},
-        {"doors", no_argument, NULL, 'r'},
-        {"cells", no_argument, NULL, 'c'},
-        {"start", required_argument, NULL, 'p'},
-        {"script", required_argument, NULL, 's'},
-        {"screenshot", required_argument, NULL, 'o'},
-        {"bench", no_argument, NULL, 'b'},
-        {"frames", required_argument, NULL, 'f'},
-        {"soak", required_argument, NULL, 'k'},
-        {"seed", required_argument, NULL, 'e'},
-        {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'v'},
-        {NULL, 0, NULL, 0},
-    };
+    struct option options[OPTION_COUNT + 1] = {{0}};
+    for (size_t i = 0; i < OPTION_COUNT; i++)
+        options[i] = (struct option){option_rows[i].name,
+                                     option_rows[i].argument ? required_argument : no_argument,
+                                     NULL, option_rows[i].code};
     *a = (arguments){.frames = 300, .seed = 1, .options = sl_import_options_default()};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, ":h", options, NULL)) != -1;) {
@@ -242,7 +266,10 @@ static sl_status run_window(app_state *app, const arguments *a) {
 static sl_status run(sl_context *context, int argc, char **argv) {
     arguments a;
     SL_TRY(read_arguments(context, argc, argv, &a));
-    if (a.help) print_help();
+    if (a.help && a.map && strcmp(a.map, "man") == 0)
+        print_manual();
+    else if (a.help)
+        print_help();
     if (a.version) puts("sightline-view " SIGHTLINE_VERSION);
     if (a.help || a.version) return SL_OK;
     app_state *app = sl_alloc_array(context, 1, sizeof *app);
