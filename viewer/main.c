@@ -59,8 +59,8 @@ static const option_row option_rows[] = {
 enum { OPTION_COUNT = sizeof option_rows / sizeof *option_rows };
 
 #define PURPOSE                                                                                    \
-    "Shows a map or a baked .slv file: what is seen in it, and how that is computed.\n"            \
-    "'?' in the window lists all keys."
+    "Shows a map or a baked .slv file, what is seen in it, and how that is computed.\n"            \
+    "Press '?' in the window to list all keys."
 #define SCRIPTS                                                                                    \
     "A script has a command on each line: open FILE; key NAME; down NAME; up NAME;\n"              \
     "action NAME; move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS;\n"                  \
