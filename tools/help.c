@@ -8,18 +8,12 @@
 
 enum { LINE = 79, COLUMN = 26 };
 
-sl_status help_form_read(sl_context *context, const char *word, help_form *form) {
+help_form help_form_of(const char *word) {
     static const char *const words[] = {
         [HELP_ALL] = "all", [HELP_MAN] = "man", [HELP_WORDS] = "words"};
-    *form = HELP_SHORT;
-    if (!word) return SL_OK;
-    for (size_t i = 1; i < sizeof words / sizeof *words; i++) {
-        if (strcmp(word, words[i]) != 0) continue;
-        *form = (help_form)i;
-        return SL_OK;
-    }
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--help %s: there is '--help' and '--help all' (and 'man' and 'words')", word);
+    for (size_t i = 1; word && i < sizeof words / sizeof *words; i++)
+        if (strcmp(word, words[i]) == 0) return (help_form)i;
+    return HELP_SHORT;
 }
 
 void help_wrap(const char *text, int column, int indent) {

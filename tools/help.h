@@ -11,9 +11,9 @@ typedef enum help_form {
     HELP_WORDS, ///< a line for each option, for shells that complete: its name and what it takes
 } help_form;
 
-/// The form that the word after --help asks for: "all", "man" or "words"; no word (NULL) asks for
-/// the short one.
-sl_status help_form_read(sl_context *context, const char *word, help_form *form);
+/// The form that the word after --help asks for: "all", "man" or "words". Any other word, or none
+/// (NULL), asks for the short one.
+help_form help_form_of(const char *word);
 
 /// Prints how a command is used. `options` are those of the usage and of its groups, in order.
 void help_print(const command_usage *usage, const option_spec *options, size_t count,

@@ -421,9 +421,7 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
     add_options(&p, common, sizeof common / sizeof *common);
     SL_TRY(take_arguments(&p, argc, argv));
     if (*helped) {
-        help_form form;
-        SL_TRY(help_form_read(p.context, optind < argc ? argv[optind] : NULL, &form));
-        help_print(usage, p.options, p.count, form);
+        help_print(usage, p.options, p.count, help_form_of(optind < argc ? argv[optind] : NULL));
         return SL_OK;
     }
     SL_TRY(take_operands(&p, argc, argv, operands));

@@ -80,16 +80,14 @@ static void print_manual(void) {
         printf(".BR sightline\\-%s (1)%s\n", commands[i].name, i + 1 < COMMAND_COUNT ? "," : "");
 }
 
-static sl_status print_help_form(sl_context *context, const char *word) {
-    help_form form;
-    SL_TRY(help_form_read(context, word, &form));
+static void print_help_form(const char *word) {
+    const help_form form = help_form_of(word);
     if (form == HELP_MAN)
         print_manual();
     else if (form != HELP_WORDS)
         print_help();
     for (size_t i = 0; form == HELP_WORDS && i < COMMAND_COUNT; i++)
         printf("%s\t\t\t%s\n", commands[i].name, commands[i].summary);
-    return SL_OK;
 }
 
 // --- commands
@@ -104,8 +102,10 @@ static sl_status run(command_console *console, int argc, char **argv) {
         char *about[] = {argv[0], argv[2], "--help", argc > 3 ? argv[3] : NULL, NULL};
         return run(console, argc > 3 ? 4 : 3, about);
     }
-    if (asks || strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
-        return print_help_form(console->context, argc > 2 ? argv[2] : NULL);
+    if (asks || strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
+        print_help_form(argc > 2 ? argv[2] : NULL);
+        return SL_OK;
+    }
     if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) {
         puts("sightline " SIGHTLINE_VERSION "\nbuilt by " BUILT_BY "\nlibraries: " BUILT_WITH
              "\nlicence: " BUILT_LICENCE);
