@@ -64,6 +64,14 @@ static const char *ending(uint32_t count) {
     return count == 1 ? "" : "s";
 }
 
+/// How the search takes what the map has beside walls.
+static const char *said_of_effects(const document_state *document) {
+    const bool doors = document->map.door_count, mirrors = document->map.mirror_count;
+    if (doors && mirrors) return " To this search all doors are open, and mirrors are walls.";
+    if (doors) return " To this search all doors are open.";
+    return mirrors ? " Mirrors are walls to this search." : "";
+}
+
 static void say_end(const sl_step *s, const document_state *document, uint32_t source,
                     char text[SENTENCE]) {
     char aside[128] = "";
@@ -71,12 +79,13 @@ static void say_end(const sl_step *s, const document_state *document, uint32_t s
     if (by_mirror)
         snprintf(aside, sizeof aside, " %u more %s seen by mirror alone: U, \"%s\", tells which.",
                  by_mirror, by_mirror == 1 ? "is" : "are", lesson_effects.title);
-    snprintf(text, SENTENCE, "All portals of cell %u are tried: it sees %u cell%s.%s", s->cell,
-             s->seen, ending(s->seen), aside);
+    snprintf(text, SENTENCE, "All portals of cell %u are tried: it sees %u cell%s%s.%s", s->cell,
+             s->seen, ending(s->seen), document->map.door_count ? " with all doors open" : "",
+             aside);
 }
 
 static void say(const lesson_state *lesson, const document_state *document, char text[SENTENCE]) {
-    const char *aside = document->map.mirror_count ? " Mirrors are walls to this search." : "";
+    const char *aside = said_of_effects(document);
     const sl_step *s = &lesson->steps.steps[lesson->at];
     const uint32_t here = lesson->steps.steps[s->parent].cell;
     const char *plural = ending(s->depth);

@@ -3,6 +3,7 @@
 /// the map; what is wrong with the file is told in it.
 #include "bench.h"
 #include "browser.h"
+#include "dialog.h"
 #include "files.h"
 #include "print.h"
 #include "recovery.h"
@@ -251,8 +252,8 @@ static sl_status run_window(app_state *app, const arguments *a) {
     app_window *window;
     settings_load(app);
     SL_TRY(window_open(app, false, &window));
-    if (!a->map) browser_open(app);
     recovery_begin(app);
+    if (!a->map && dialog_open_now(app) == DIALOG_NONE) browser_open(app);
     sl_status status = window_show(window);
     if (status == SL_OK) {
         files_check(app, a->map ? a->map : "", open_map(app, a, true));

@@ -95,6 +95,13 @@ static const sl_sequence *sequence_of(const sl_explanation *e) {
     return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
 }
 
+static bool is_door_shut(const app_state *app) {
+    const present_state *present = &app->view.present;
+    for (size_t i = 0; present->shut && i < app->document.map.door_count; i++)
+        if (present->shut[i]) return true;
+    return false;
+}
+
 /// Effects can decide otherwise than the portals that the line passes.
 static const char *words_of_effects(const app_state *app) {
     const sl_explanation *e = &app->tool.quiz.explanation;
@@ -107,6 +114,8 @@ static const char *words_of_effects(const app_state *app) {
     if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, e->from, e->to))
         return " It is seen by mirror.";
     const bool sees = present_sees(&app->view.present, d, e->from, e->to);
+    if (!e->seen && !sees && is_door_shut(app) && sl_pvs_sees(&v->pvs, e->from, e->to))
+        return " With all doors open it would be seen.";
     if (e->seen && !sees) return " But glass is dark that way, or it is out of the view's range.";
     return !e->seen && sees ? " From elsewhere in its cell glass lets it through." : "";
 }
@@ -137,7 +146,9 @@ static void write_words(const app_state *app, char *text, size_t room) {
     else if (!e->complete)
         snprintf(text, room, "Not found seen after %llu tests.", (unsigned long long)e->tests);
     else if (!sequence)
-        snprintf(text, room, "Not seen: no portals lead from one to the other.");
+        snprintf(text, room, "Not seen: %s.",
+                 is_door_shut(app) ? "no open way leads from one to the other"
+                                   : "no portals lead from one to the other");
     else if (e->misses[0].turns)
         snprintf(text, room,
                  "Not seen. The sequence that comes nearest would have to turn back at its last "
