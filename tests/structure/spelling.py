@@ -1,4 +1,4 @@
-"""Spelling of documents and comments: spelling.py ROOT
+"""Spelling of documents, comments and help: spelling.py ROOT [PROGRAM]
 
 aspell knows the words of English. words.txt beside this file has the project's own: names, terms, formats.
 Exit status 77 where there is no aspell.
@@ -24,6 +24,23 @@ def prose_of_c(text):
     return re.sub(r"`[^`]*`|'[^'\s]+'|\"[^\"\n]*\"", " ", "\n".join(kept))
 
 
+def help_pages(program):
+    """What `--help all` of each command prints."""
+    def run(*arguments):
+        return subprocess.run([program, *arguments], text=True, capture_output=True, check=True).stdout
+
+    yield run("--help")
+    for line in run("--help", "words").splitlines():
+        yield run(line.split("\t")[0], "--help", "all")
+
+
+def prose_of_help(page):
+    """Without examples, names of options and of what they take, and the first column of tables."""
+    page = page.split("\nexamples:\n")[0]
+    page = re.sub(r"^usage:.*$|^  (?:-\w, )?--\S+(?: \S+)?|^  \S+", " ", page, flags=re.MULTILINE)
+    return re.sub(r"'[^'\n]*'", " ", page)
+
+
 def words(prose):
     """Words with the line's other text gone: no identifiers, numbers or options."""
     prose = re.sub(r"--?[\w-]+|\S*[_/\\<>=@#$%^*{}()\[\].]+\w\S*|\b\w*\d\w*\b", " ", prose)
@@ -44,6 +61,9 @@ def main():
         text = path.read_text(encoding="utf-8")
         for word in words(prose_of_markdown(text) if path.suffix == ".md" else prose_of_c(text)):
             found.setdefault(word, name)
+    for page in help_pages(sys.argv[2]) if len(sys.argv) > 2 else []:
+        for word in words(prose_of_help(page)):
+            found.setdefault(word, "--help")
     ask = subprocess.run(["aspell", "list", "--lang=en", "--encoding=utf-8"], input="\n".join(found),
                          text=True, capture_output=True, check=True)
     wrong = sorted(set(ask.stdout.split()) - own, key=str.lower)
