@@ -78,12 +78,11 @@ sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
         return sl_fail(context, SL_BAD_ARGUMENT, "--shard: the processes of mpirun share the work");
     if (in_parts(parts) && !method->run)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s: the method '%s' is done in one go; sweep, dfs and prune can be done in "
-                       "parts",
+                       "%s: the method '%s' cannot work in parts; sweep, dfs and prune can",
                        reason(parts), method->name);
     if (in_parts(parts) && see->trees)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s: --stab-trees are kept by a bake that is done in one go", reason(parts));
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: a bake in parts cannot keep --stab-trees",
+                       reason(parts));
     return SL_OK;
 }
 

@@ -228,25 +228,18 @@ static void print_list(const char *path, const sl_map_list *list) {
 
 /// Lists the maps of a file that holds several; *done says whether it does. Not for standard input,
 /// which can be read only once.
-static sl_status list_maps(sl_context *context, const info_request *request, sl_map_list *list) {
-    sl_map_choice choice;
-    SL_TRY(sl_map_choice_parse(context, request->path, request->bytes.data, request->bytes.size,
-                               &choice));
-    *list = choice.maps;
-    return SL_OK;
-}
-
 static sl_status inform_of_list(command_console *console, const info_request *request, bool *done) {
-    sl_map_list list = {0};
-    SL_TRY(list_maps(console->context, request, &list));
+    sl_map_choice choice;
+    SL_TRY(sl_map_choice_parse(console->context, request->path, request->bytes.data,
+                               request->bytes.size, &choice));
     progress_line_clear(&console->line);
     sl_status status = SL_OK;
-    *done = list.count > 1;
+    *done = choice.maps.count > 1;
     if (*done && request->json)
-        status = print_list_json(console->context, request->path, &list);
+        status = print_list_json(console->context, request->path, &choice.maps);
     else if (*done)
-        print_list(request->path, &list);
-    sl_map_list_destroy(console->context, &list);
+        print_list(request->path, &choice.maps);
+    sl_map_choice_destroy(console->context, &choice);
     return status;
 }
 

@@ -176,7 +176,7 @@ static sl_status draw_viewpoints(sl_context *context, comparing *all) {
     sl_free(context, before);
     return all->whole > 0 ? SL_OK
                           : sl_fail(context, SL_BAD_INPUT,
-                                    "the map's cells are too small for their areas to be told");
+                                    "the map's cells are too small for their areas to be computed");
 }
 
 // --- the runs

@@ -77,7 +77,7 @@ static void say_end(const sl_step *s, const document_state *document, uint32_t s
     char aside[128] = "";
     const uint32_t by_mirror = count_by_mirror(document, source);
     if (by_mirror)
-        snprintf(aside, sizeof aside, " %u more %s seen by mirror alone: U, \"%s\", tells which.",
+        snprintf(aside, sizeof aside, " %u more %s seen by mirror alone: U, \"%s\", shows which.",
                  by_mirror, by_mirror == 1 ? "is" : "are", lesson_effects.title);
     snprintf(text, SENTENCE, "All portals of cell %u are tried: it sees %u cell%s%s.%s", s->cell,
              s->seen, ending(s->seen), document->map.door_count ? " with all doors open" : "",

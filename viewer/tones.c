@@ -86,8 +86,12 @@ static void draw_tile(cairo_t *cairo, tone_pattern pattern, double n) {
 static cairo_pattern_t *make_pattern(cairo_t *cairo, tone_pattern pattern, sl_colour colour,
                                      double unit, sl_point origin) {
     const int n = (int)fmax(round(8 * unit), 4);
+    // Pixels for SVG too: cairo 1.16 leaks a part of each surface that is similar to an SVG one.
+    cairo_surface_t *target = cairo_get_target(cairo);
     cairo_surface_t *tile =
-        cairo_surface_create_similar(cairo_get_target(cairo), CAIRO_CONTENT_COLOR_ALPHA, n, n);
+        cairo_surface_get_type(target) == CAIRO_SURFACE_TYPE_SVG
+            ? cairo_image_surface_create(CAIRO_FORMAT_ARGB32, n, n)
+            : cairo_surface_create_similar(target, CAIRO_CONTENT_COLOR_ALPHA, n, n);
     cairo_t *c = cairo_create(tile);
     cairo_set_source_rgba(c, colour.red, colour.green, colour.blue, 0.16);
     cairo_paint(c);

@@ -443,7 +443,7 @@ static sl_status check(sl_context *context, const sl_space *space,
                        from >= space->cell_count ? from : to, space->cell_count);
     if (!solver || solver->guarantee != SL_EXACT || !solver->conflict)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "explaining needs an exact solver that tells conflicts");
+                       "an explanation needs an exact solver that reports conflicts");
     if (options->range > 0 && strcmp(solver->name, sl_funnel()->name) != 0)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "explaining within a range needs the solver 'funnel'");

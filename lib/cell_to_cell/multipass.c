@@ -434,7 +434,7 @@ sl_status sli_see_multipass(sl_context *context, const sl_space *space,
         return sl_fail(context, SL_BAD_ARGUMENT, "the method 'multipass' needs a solver");
     if (!options->solver->toward)
         return sl_fail(context, SL_UNSUPPORTED,
-                       "the method 'multipass' needs a solver that tells lines of some directions; "
+                       "the method 'multipass' needs a solver that can limit directions; "
                        "'%s' does not",
                        options->solver->name);
     if (options->trees)

@@ -57,9 +57,10 @@ sl_status sli_partial_begin(sl_context *context, const sl_space *space,
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no shard %u of %u", options->shard,
                        options->shard_count);
     if (options->plan && options->plan->effects)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "a map with effects is baked in one go: leave them out, --without, or do "
-                       "without parts");
+        return sl_fail(
+            context, SL_UNSUPPORTED,
+            "a map with effects cannot be baked in parts: ignore the effects (--without), or "
+            "bake it as a whole");
     if (sl_partial_begun(partial)) {
         if (partial->sure.cell_count != space->cell_count || partial->unit_count != unit_count ||
             partial->inside_only != options->inside_only)

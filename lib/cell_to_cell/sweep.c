@@ -255,8 +255,9 @@ sl_status sli_run_sweep(sl_context *context, const sl_space *space, const sl_see
                         sl_partial *partial) {
     SL_TRY(check_options(context, options));
     if (options->plan && options->plan->effects)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "a sweep done in parts knows no effects: bake in one go");
+        return sl_fail(
+            context, SL_UNSUPPORTED,
+            "the sweep knows no effects when it works in parts: bake the map as a whole");
     sli_sweep all = {.space = space, .options = options};
     pthread_mutex_init(&all.lock, NULL);
     const sl_status status = sweep_some(context, &all, partial);

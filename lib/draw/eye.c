@@ -315,7 +315,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
     const sli_paper_kind *kind;
     SL_TRY(sli_paper_kind_of(context, path, &kind));
     if (layer_count > SL_EYE_LAYERS_MOST)
-        return sl_fail(context, SL_BAD_ARGUMENT, "%zu layers: at most %d can be told apart",
+        return sl_fail(context, SL_BAD_ARGUMENT, "%zu layers: only %d have colours of their own",
                        layer_count, SL_EYE_LAYERS_MOST);
     if (!sl_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT, "the view to be drawn is none");

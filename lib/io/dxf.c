@@ -707,7 +707,7 @@ static const struct {
     bool known;              ///< the sign asks for it
     double metres;
 } units[] = {
-    {"not told", "", false, 0},
+    {"unknown", "", false, 0},
     {"inches", "in", true, 0.0254},
     {"feet", "ft", true, 0.3048},
     {"miles", "mi", false, 1609.344},

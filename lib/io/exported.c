@@ -311,7 +311,7 @@ static void note_taken(const export_reader *reader, const char *file, size_t wal
                                        kinds[i].count,
                                        kinds[i].count == 1 ? kinds[i].one : kinds[i].several);
     sl_note(reader->context,
-            "%s: an export; taken: %zu walls%s%s; made anew: cells, portals and what they see",
+            "%s: an export; taken: %zu walls%s%s; computed again: cells, portals and what they see",
             file, walls, solid ? ", solid ground" : "", others);
 }
 

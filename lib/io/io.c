@@ -165,7 +165,7 @@ static const sl_export_format export_formats[] = {
      .what = "the matrix of pairs as a picture, black where row sees column",
      .write = sl_export_png},
     {.name = "reject",
-     .what = "a copy of a Doom WAD with the map's REJECT made anew; needs --wad and --map",
+     .what = "a copy of a Doom WAD with a new REJECT for the map; needs --wad and --map",
      .takes_wad = true,
      .write = sl_export_reject},
 };

@@ -167,7 +167,7 @@ sl_status sli_box_ground_create(sl_context *context, const sl_space *space, sli_
     if (space->loose)
         return sl_fail(context, SL_UNSUPPORTED,
                        "boxes need cells that fit together, which a file of version 1 does not "
-                       "have: bake the map anew");
+                       "have: bake the map again");
     if (space->neighbour) return gather_axial(context, space, out);
     sli_piece *walls = NULL;
     SL_TRY(sli_wall_lines(context, NULL, space->walls, space->wall_count, &walls));

@@ -190,7 +190,7 @@ static void test_units(void **state) {
     options.unit = "m";
     const char *const untold = HEAD LINE(0, 10, 100, 0) TAIL;
     assert_refused_of(sl_map_read_dxf, &options, untold, strlen(untold), SL_BAD_ARGUMENT,
-                      "f: the drawing's own unit is not told, so it cannot be turned into metres");
+                      "f: the drawing's own unit is unknown, so it cannot be turned into metres");
     const char *const strange = IN(99) HEAD LINE(0, 10, 100, 0) TAIL;
     assert_refused_of(sl_map_read_dxf, &options, strange, strlen(strange), SL_BAD_ARGUMENT,
                       "f: the drawing's own unit is unusual, so it cannot be turned into metres");
