@@ -216,9 +216,8 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
         other.key.touched = now.key.touched;
         const bool only_dragged = kept->surface && app->document.live &&
                                   memcmp(&other.key, &now.key, sizeof now.key) == 0;
-        if (only_dragged && mend(app, kept, over, &now.key.frame))
-            memcpy(&kept->key, &now.key, sizeof now.key);
-        else if (!wait && remake(app, kept, over, &now.key.frame))
+        const bool mended = only_dragged && mend(app, kept, over, &now.key.frame);
+        if (mended || (!wait && remake(app, kept, over, &now.key.frame)))
             memcpy(&kept->key, &now.key, sizeof now.key);
     }
     if (kept->surface) blit(app->ui.cairo, kept, frame, app->ui.palette.page, over);

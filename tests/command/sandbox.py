@@ -13,7 +13,7 @@ SANITIZERS = {
     "ASAN_OPTIONS": "exitcode=97",
     "LSAN_OPTIONS": "exitcode=98:print_suppressions=0:suppressions="
                     + str(pathlib.Path(__file__).with_name("leaks.supp")),
-    "TSAN_OPTIONS": "exitcode=96",
+    "TSAN_OPTIONS": "exitcode=96:suppressions=" + str(pathlib.Path(__file__).with_name("races.supp")),
 }
 
 

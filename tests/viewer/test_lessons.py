@@ -238,8 +238,8 @@ def check_first_person(v):
 def check_numbers(v):
     """The layer changes the saved plan, and only where it is switched on."""
     v.script(v.folder, "office.map", SIZE + "save off.svg\nkey 0\nsave on.svg\nkey 0\nsave again.svg\n")
-    # cairo counts its surfaces through.
-    off, on, again = (re.sub(rb"#surface\d+", b"", (v.folder / f"{name}.svg").read_bytes())
+    # cairo counts its surfaces, images and patterns through.
+    off, on, again = (re.sub(rb"\b(surface|image|pattern)\d+", rb"\1", (v.folder / f"{name}.svg").read_bytes())
                       for name in ("off", "on", "again"))
     v.check(off == again and len(on) > len(off) + 5000, "numbers are not drawn into saved plans")
 
