@@ -5,6 +5,7 @@
 #define SL_DIRECTIONS_H
 
 #include "effects/mirrors.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/space.h"
 
@@ -112,7 +113,7 @@ static inline bool sli_unfolded_may_cross(const sl_directed_portal *least,
 static inline bool sli_unfolded_is_clear(const sli_mirror_frame *frame,
                                          const sl_directed_portal *ends, sl_point a, sl_point b,
                                          double size) {
-    const double x = b.x - a.x, y = b.y - a.y, length = hypot(x, y);
+    const double x = b.x - a.x, y = b.y - a.y, length = sli_length(x, y);
     const double slack = 0x1p-46 * frame->depth * (size + fabs(frame->x) + fabs(frame->y));
     return x * (ends->left.y - a.y) - y * (ends->left.x - a.x) > slack * length &&
            x * (ends->right.y - a.y) - y * (ends->right.x - a.x) < -slack * length;

@@ -11,6 +11,7 @@
 #include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/portal_search.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
@@ -129,7 +130,7 @@ static sl_segment shown_segment(const sl_space *space, const sl_sequence *sequen
     const sl_directed_portal *first = &space->directed[sequence->directed[0]];
     const sl_directed_portal *last =
         &space->directed[sequence->directed[sequence->directed_count - 1]];
-    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = sli_length(x, y);
     const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
     return (sl_segment){sli_halfway_into(space, from, crossing_point(first, line), back),
                         sli_halfway_into(space, last->cell, crossing_point(last, line), forward)};

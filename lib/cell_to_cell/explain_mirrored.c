@@ -8,6 +8,7 @@
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/portal_search.h"
 #include "effects/mirrors.h"
+#include "geometry/length.h"
 #include "sightline/explain.h"
 #include "sightline/support.h"
 #include "stab/funnel.h"
@@ -46,7 +47,7 @@ static sl_point between(const sl_directed_portal *directed, double share) {
 static void place_bends(const search *s, const step *last, sl_line line) {
     const sl_space *space = s->search.space;
     const sli_mirror_frame *f = &last->place.frame;
-    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = sli_length(x, y);
     const sl_point back = {-x / length, -y / length};
     // Frames keep lengths: back from one is by its transpose.
     const sl_point on = {(f->xx * x + f->yx * y) / length, (f->xy * x + f->yy * y) / length};

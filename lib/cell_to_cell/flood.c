@@ -8,6 +8,7 @@
 /// and a place on a side of the other. The farthest points are corners of both. Boxes are compared
 /// first. Rounding goes to the safe side.
 #include "cell_to_cell/bounds.h"
+#include "geometry/length.h"
 
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
@@ -284,11 +285,11 @@ static polygon polygon_of(const sl_space *space, uint32_t cell) {
 }
 
 static double distance_to_side(sl_point p, sl_point a, sl_point b) {
-    const double length = hypot(b.x - a.x, b.y - a.y);
+    const double length = sli_length(b.x - a.x, b.y - a.y);
     const double ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
     const double along = ux * (p.x - a.x) + uy * (p.y - a.y);
-    if (along <= 0) return hypot(p.x - a.x, p.y - a.y);
-    if (along >= length) return hypot(p.x - b.x, p.y - b.y);
+    if (along <= 0) return sli_length(p.x - a.x, p.y - a.y);
+    if (along >= length) return sli_length(p.x - b.x, p.y - b.y);
     return fabs(ux * (p.y - a.y) - uy * (p.x - a.x));
 }
 
@@ -306,8 +307,8 @@ static double farthest(const polygon *p, const polygon *q) {
     double most = 0;
     for (uint32_t i = 0; i < p->count; i++)
         for (uint32_t k = 0; k < q->count; k++)
-            most = fmax(
-                most, hypot(p->corners[i].x - q->corners[k].x, p->corners[i].y - q->corners[k].y));
+            most = fmax(most, sli_length(p->corners[i].x - q->corners[k].x,
+                                         p->corners[i].y - q->corners[k].y));
     return most;
 }
 
@@ -316,12 +317,12 @@ static sli_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, doub
     const polygon p = polygon_of(space, a), q = polygon_of(space, b);
     const double width = fmax(p.box.max.x, q.box.max.x) - fmin(p.box.min.x, q.box.min.x);
     const double height = fmax(p.box.max.y, q.box.max.y) - fmin(p.box.min.y, q.box.min.y);
-    const double size = hypot(width, height), error = size * ERROR;
+    const double size = sli_length(width, height), error = size * ERROR;
     if (size + error <= range) return SLI_ALL_WITHIN;
     const double neighbour = range * (1 + RANGE_ERROR) + error;
     const double x = fmax(p.box.min.x, q.box.min.x) - fmin(p.box.max.x, q.box.max.x);
     const double y = fmax(p.box.min.y, q.box.min.y) - fmin(p.box.max.y, q.box.max.y);
-    if (hypot(fmax(x, 0), fmax(y, 0)) > neighbour) return SLI_NONE_WITHIN;
+    if (sli_length(fmax(x, 0), fmax(y, 0)) > neighbour) return SLI_NONE_WITHIN;
     if (farthest(&p, &q) + error <= range) return SLI_ALL_WITHIN;
     return fmin(nearest(&p, &q), nearest(&q, &p)) > neighbour ? SLI_NONE_WITHIN : SLI_SOME_WITHIN;
 }

@@ -6,6 +6,7 @@
 /// glass each line is taken one way only.
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/rows.h"
+#include "geometry/length.h"
 
 #include "effects/effects.h"
 #include "geometry/orient.h"
@@ -122,7 +123,7 @@ static sl_status walk(sl_context *context, const sampling *all, sampler *me, sl_
 /// the range.
 static bool is_in_range(const sampling *all, sl_line line, const stretch *a, const stretch *b) {
     if (!(all->range > 0) || a == b) return true;
-    const double length = hypot(line.b.x - line.a.x, line.b.y - line.a.y);
+    const double length = sli_length(line.b.x - line.a.x, line.b.y - line.a.y);
     const double between = b->back ? a->entered - b->left : b->entered - a->left;
     return between * length * (1 + 0x1p-50) <= all->range;
 }

@@ -7,6 +7,7 @@
 #include "cell_to_cell/sectors.h"
 
 #include "cell_to_cell/methods.h"
+#include "geometry/length.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -64,7 +65,7 @@ static size_t choose(const sl_space *space, uint32_t most, candidate *candidates
     for (uint32_t i = 0; i < space->portal_count; i++) {
         const sl_point a = space->portals[i].left, b = space->portals[i].right;
         candidates[count++] =
-            (candidate){.line = upwards(a, b), .length = hypot(b.x - a.x, b.y - a.y)};
+            (candidate){.line = upwards(a, b), .length = sli_length(b.x - a.x, b.y - a.y)};
     }
     count = join_same(candidates, count);
     if (!most || count <= most / 2) return count;

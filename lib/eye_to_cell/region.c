@@ -24,6 +24,7 @@
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
 #include "eye_to_cell/region_parts.h"
+#include "geometry/length.h"
 #include "sightline/mirrored.h"
 
 #include <math.h>
@@ -210,7 +211,7 @@ static bool is_far(const sl_region *region, const sli_eye_ray *a, const sli_eye_
     const sl_point p = a->offset, d = {b->at.x - a->at.x, b->at.y - a->at.y};
     const double along = -(p.x * d.x + p.y * d.y) / (d.x * d.x + d.y * d.y);
     const double share = along > 0 ? along < 1 ? along : 1 : 0;
-    return hypot(p.x + share * d.x, p.y + share * d.y) > region->range * (1 + 1e-9);
+    return sli_length(p.x + share * d.x, p.y + share * d.y) > region->range * (1 + 1e-9);
 }
 
 static bool same_sign(double a, double b) {

@@ -9,6 +9,7 @@
 ///
 /// All these parts are at least 0, so nothing cancels between them. Integrals over directions (mean
 /// radial, variance, skewness) have closed forms for each edge. Cost: O(edges).
+#include "geometry/length.h"
 #include "sightline/region.h"
 
 #include <math.h>
@@ -73,22 +74,22 @@ static moments moments_of(const sl_region *region, size_t i) {
         m.third = region->range * m.second;
         return m;
     }
-    const double length = hypot(q.x - p.x, q.y - p.y);
+    const double length = sli_length(q.x - p.x, q.y - p.y);
     const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
     const double h = cross(p, along), from = dot(p, along), to = dot(q, along);
     if (!(h > 0)) return (moments){0};
     const double turned = asinh(to / h) - asinh(from / h);
     m.first = h * turned;
     m.second = cross(p, q);
-    m.third = h * (to * hypot(h, to) - from * hypot(h, from) + h * h * turned) / 2;
+    m.third = h * (to * sli_length(h, to) - from * sli_length(h, from) + h * h * turned) / 2;
     return m;
 }
 
 static double distance_to(sl_point p, sl_point q) {
     const sl_point d = {q.x - p.x, q.y - p.y};
     const double square = dot(d, d), share = square > 0 ? -dot(p, d) / square : 0;
-    if (!(share > 0)) return hypot(p.x, p.y);
-    if (!(share < 1)) return hypot(q.x, q.y);
+    if (!(share > 0)) return sli_length(p.x, p.y);
+    if (!(share < 1)) return sli_length(q.x, q.y);
     return fabs(cross(p, d)) / sqrt(square);
 }
 
@@ -114,7 +115,7 @@ static void add_drift(const sl_region *region, sl_region_measures *out) {
     if (!(out->area > 0)) return;
     const sl_point drift = {pull.x / 3 / out->area, pull.y / 3 / out->area};
     const double degrees = atan2(drift.y, drift.x) * (180 / pi);
-    out->drift_magnitude = hypot(drift.x, drift.y);
+    out->drift_magnitude = sli_length(drift.x, drift.y);
     out->drift_angle = degrees < 0 ? fmod(degrees + 360, 360) : degrees;
 }
 
@@ -124,7 +125,7 @@ static void add_radials(const sl_region *region, sl_region_measures *out) {
     for (size_t i = 0; i < region->count; i++) {
         const sl_region_edge *edge = &region->edges[i];
         const sl_point p = region->offsets[i], q = offset_after(region, i);
-        out->max_radial = fmax(out->max_radial, hypot(p.x, p.y));
+        out->max_radial = fmax(out->max_radial, sli_length(p.x, p.y));
         if (edge->kind != SL_EDGE_CONE)
             out->min_radial = fmin(out->min_radial,
                                    edge->kind == SL_EDGE_ARC ? region->range : distance_to(p, q));
@@ -150,7 +151,7 @@ sl_region_measures sl_region_measure(const sl_region *region) {
         const sl_point p = region->offsets[i], q = offset_after(region, i);
         const double length = region->edges[i].kind == SL_EDGE_ARC
                                   ? region->range * angle_of_arc(p, q)
-                                  : hypot(q.x - p.x, q.y - p.y);
+                                  : sli_length(q.x - p.x, q.y - p.y);
         out.perimeter += length;
         if (region->edges[i].kind == SL_EDGE_OCCLUDING) out.occlusivity += length;
     }

@@ -7,6 +7,7 @@
 /// A range cuts the finished polygon by a circle about the eye, edge by edge. An edge on a wall
 /// keeps what is inside the circle, with arcs before and after it; all in doubles.
 #include "eye_to_cell/region_parts.h"
+#include "geometry/length.h"
 
 #include <math.h>
 
@@ -221,7 +222,7 @@ sl_status sli_region_close(sl_context *context, sl_region *region) {
 
 /// The point on the circle in a point's direction, or the point itself where it is inside.
 static sl_point pulled_in(sl_point offset, double range, bool *moved) {
-    const double length = hypot(offset.x, offset.y);
+    const double length = sli_length(offset.x, offset.y);
     *moved = length > range;
     if (!*moved) return offset;
     return (sl_point){offset.x / length * range, offset.y / length * range};
@@ -239,7 +240,7 @@ typedef struct chord {
 } chord;
 
 static chord chord_of(sl_point p, sl_point q, double range) {
-    const double length = hypot(q.x - p.x, q.y - p.y);
+    const double length = sli_length(q.x - p.x, q.y - p.y);
     const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
     const double distance = fabs(cross(p, along)), foot = -(p.x * along.x + p.y * along.y);
     const double half =

@@ -6,6 +6,7 @@
 /// solid and an open square is drawn once and runs as far as it can.
 #include "io/shapes.h"
 
+#include "geometry/length.h"
 #include "io/things.h"
 #include "sightline/support.h"
 
@@ -141,22 +142,24 @@ sl_status sli_pen_line(sli_pen *pen, sl_point to) {
 
 void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit) {
     const sli_affine *affine = &pen->affine;
-    const double scale = fmax(hypot(affine->xx, affine->yx), hypot(affine->xy, affine->yy));
+    const double scale =
+        fmax(sli_length(affine->xx, affine->yx), sli_length(affine->xy, affine->yy));
     sli_keep_finest(&pen->finest, decimal_unit(text, length) * unit * scale);
     pen->sum += sli_digits_of(text, length);
 }
 
 /// How far the map makes a vector at most.
 static double length_in_map(const sli_affine *affine, sl_point vector) {
-    return hypot(affine->xx * vector.x + affine->xy * vector.y,
-                 affine->yx * vector.x + affine->yy * vector.y);
+    return sli_length(affine->xx * vector.x + affine->xy * vector.y,
+                      affine->yx * vector.x + affine->yy * vector.y);
 }
 
 /// A chord over an angle s is r (1 - cos(s / 2)) from its circle. An ellipse is a circle of its
 /// greatest radius pressed together, and so are the distances; the two given radii are no less
 /// than that one when added up as the legs of a right angle.
 static int arc_chords(const sli_pen *pen, sl_point u, sl_point v, double sweep) {
-    const double radius = hypot(length_in_map(&pen->affine, u), length_in_map(&pen->affine, v));
+    const double radius =
+        sli_length(length_in_map(&pen->affine, u), length_in_map(&pen->affine, v));
     double share = pen->tolerance > 0 ? pen->tolerance / radius : 0.005;
     if (!(share < 1)) share = 1;
     const double count = ceil(fabs(sweep) / (2 * acos(1 - share)));

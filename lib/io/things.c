@@ -6,6 +6,7 @@
 /// place goes into the map. What has none is left out, and the notes say so.
 #include "io/things.h"
 
+#include "geometry/length.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -215,7 +216,8 @@ static bool find_walls(sli_things *things, const sl_map *map, const sli_thing *d
 /// A door that no squares tell the place of: between walls that stand at its edges, else as it is
 /// drawn, along its longer side.
 static bool place_in_open(sli_things *things, const sl_map *map, sli_thing *door) {
-    const double along = hypot(door->u.x, door->u.y), across = hypot(door->v.x, door->v.y);
+    const double along = sli_length(door->u.x, door->u.y),
+                 across = sli_length(door->v.x, door->v.y);
     sl_segment by_u, by_v;
     if (door->placed) return true;
     if ((things->grids && !door->inside) || door->solid) return false;

@@ -5,6 +5,7 @@
 /// grid by grid, and shapes are drawn by the pen. Maps of diamonds are read in the plan, where
 /// diamonds are squares (tiled_lattice.c), and projected onto the screen at the end.
 #include "io/tiled.h"
+#include "geometry/length.h"
 #include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
@@ -405,8 +406,8 @@ static sl_status read_head(sli_tiled_reader *reader) {
         const sli_affine up = {.xx = 1, .yy = -1, .y0 = lattice->height};
         reader->things.shown = sli_affine_after(up, to_screen);
         // No vector grows by more than this factor.
-        reader->pen.tolerance /=
-            hypot(hypot(to_screen.xx, to_screen.xy), hypot(to_screen.yx, to_screen.yy));
+        reader->pen.tolerance /= sli_length(sli_length(to_screen.xx, to_screen.xy),
+                                            sli_length(to_screen.yx, to_screen.yy));
     }
     return tiled_check_choice(reader->map, reader->options->layers);
 }

@@ -19,6 +19,7 @@
 /// After step 2 there is at most one level of each height at x, or two that meet there, of which
 /// the second counts. So the set is one bit for each height, with a tree of bits above it to find
 /// the next one. Time O((n + k) log n) for k cuts.
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/planar.h"
@@ -454,7 +455,7 @@ bool sl_map_is_axial(const sl_map *map) {
 // --- the tolerance
 
 static double shorter(double length, sl_segment at, double least) {
-    const double own = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
+    const double own = sli_length(at.b.x - at.a.x, at.b.y - at.a.y);
     return own > least && own < length ? own : length;
 }
 

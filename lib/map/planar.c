@@ -24,6 +24,7 @@
 #include "map/planar.h"
 
 #include "geometry/crossing.h"
+#include "geometry/length.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -155,7 +156,7 @@ static void enter_point(planer *p, uint32_t point) {
 }
 
 static double distance(sl_point a, sl_point b) {
-    return hypot(a.x - b.x, a.y - b.y);
+    return sli_length(a.x - b.x, a.y - b.y);
 }
 
 /// A point within the tolerance, and its distance.
@@ -261,7 +262,7 @@ static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
         return false;
     const double dx = (b.x - a.x) * p->scale, dy = (b.y - a.y) * p->scale;
     const double vx = (v.x - a.x) * p->scale, vy = (v.y - a.y) * p->scale;
-    const double length = hypot(dx, dy);
+    const double length = sli_length(dx, dy);
     const double along = (vx * dx + vy * dy) / length, off = fabs(dx * vy - dy * vx) / length;
     if (off <= reach * p->scale && along > 0 && along < length) return true;
     return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sli_orient(a, b, v) == 0 &&
@@ -677,7 +678,7 @@ static sl_status add_links(writer *w, sli_planar_link link) {
 
 /// The distance of a point from a segment whose ends are in order, rounded up.
 static double distance_to(const sl_segment *s, sl_point v) {
-    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
+    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = sli_length(dx, dy);
     const double vx = v.x - s->a.x, vy = v.y - s->a.y, error = 0x1p-50 * (fabs(vx) + fabs(vy));
     if (sli_same_point(v, s->a) || sli_same_point(v, s->b)) return 0;
     if (length == 0) return distance(v, s->a) + error;

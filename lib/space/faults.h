@@ -3,6 +3,7 @@
 #ifndef SL_SPACE_FAULTS_H
 #define SL_SPACE_FAULTS_H
 
+#include "geometry/length.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
 #include "space/index.h"
@@ -38,7 +39,7 @@ static inline sl_status sli_add_fault(sli_fault_search *search, sl_fault fault) 
 }
 
 static inline double sli_apart(sl_point a, sl_point b) {
-    return hypot(a.x - b.x, a.y - b.y);
+    return sli_length(a.x - b.x, a.y - b.y);
 }
 
 /// All faults; a trial finds gaps and leaks alone, and does not ask what mending would close.

@@ -12,6 +12,7 @@
 /// two and none between them. Overlaps and crossings are those of the map as read, as cleaning
 /// leaves none; but not where the two walls are welded. Time about O(n log n) for walls that are
 /// short against the map.
+#include "geometry/length.h"
 #include "space/faults.h"
 
 #include "geometry/orient.h"
@@ -22,7 +23,7 @@
 
 sl_point sli_nearest_on_wall(const sl_wall *wall, sl_point point) {
     const sl_point along = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
-    const double length = hypot(along.x, along.y);
+    const double length = sli_length(along.x, along.y);
     if (!(length > 0)) return wall->a;
     const sl_point unit = {along.x / length, along.y / length};
     const double at = (point.x - wall->a.x) * unit.x + (point.y - wall->a.y) * unit.y;

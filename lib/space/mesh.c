@@ -20,6 +20,7 @@
 /// portal.
 #include "space/mesh.h"
 
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "space/index.h"
@@ -104,7 +105,7 @@ static sl_status list_candidates(merger *m, candidate **out, size_t *count) {
             sli_half_is_outside(m->t, half + 1))
             continue;
         const sl_point a = start_of(m, half), b = end_of(m, half);
-        list[(*count)++] = (candidate){hypot(b.x - a.x, b.y - a.y), half};
+        list[(*count)++] = (candidate){sli_length(b.x - a.x, b.y - a.y), half};
     }
     if (*count) qsort(list, *count, sizeof *list, compare_candidates);
     *out = list;

@@ -17,6 +17,7 @@
 /// Cutting needs no proof that a polygon is simple. If all triangles of it turn left, by exact
 /// signs, they cover once what its boundary winds around. If some does not, the face stays as it
 /// is. No coordinate is computed.
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"
@@ -251,7 +252,7 @@ static sl_status drop_corner(cutter *c, uint32_t at) {
 }
 
 static double length(sl_point a, sl_point b) {
-    return hypot(b.x - a.x, b.y - a.y);
+    return sli_length(b.x - a.x, b.y - a.y);
 }
 
 /// Flips a portal between two triangles to their other two corners if it is shorter there.
@@ -362,7 +363,8 @@ static sl_status join_round(sl_context *context, joiner *j, bool *any) {
             continue;
         const sl_point a = side_of(j, i)->start, b = end_of(m, i);
         SL_TRY(SL_ARRAY_ROOM(context, &j->candidates, 1));
-        j->candidates.items[j->candidates.count++] = (candidate){hypot(b.x - a.x, b.y - a.y), i};
+        j->candidates.items[j->candidates.count++] =
+            (candidate){sli_length(b.x - a.x, b.y - a.y), i};
     }
     *any = false;
     if (!j->candidates.count) return SL_OK;

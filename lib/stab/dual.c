@@ -4,6 +4,7 @@
 /// a x'. So each end is a half-plane of points (a, b). The sightlines of a sequence are the points
 /// in all half-planes: a convex polygon.
 #include "sightline/dual.h"
+#include "geometry/length.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,17 +42,17 @@ static void choose_frame(const sl_portal_ends *portals, uint32_t count, sl_dual 
             low = (sl_point){fmin(low.x, ends[k].x), fmin(low.y, ends[k].y)};
             high = (sl_point){fmax(high.x, ends[k].x), fmax(high.y, ends[k].y)};
         }
-        const double wx = ends[0].x - ends[1].x, wy = ends[0].y - ends[1].y, w = hypot(wx, wy);
+        const double wx = ends[0].x - ends[1].x, wy = ends[0].y - ends[1].y, w = sli_length(wx, wy);
         const sl_point normal = {wy / w, -wx / w};
         const bool again =
             sum.x * normal.x + sum.y * normal.y > 0.5 || (normal.x == last.x && normal.y == last.y);
         if (!again) sum = (sl_point){sum.x + normal.x, sum.y + normal.y};
         last = normal;
     }
-    const double length = hypot(sum.x, sum.y);
+    const double length = sli_length(sum.x, sum.y);
     dual->along = length > 0 ? (sl_point){sum.x / length, sum.y / length} : (sl_point){1, 0};
     dual->origin = (sl_point){low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
-    dual->scale = hypot(high.x - low.x, high.y - low.y) / 2;
+    dual->scale = sli_length(high.x - low.x, high.y - low.y) / 2;
     if (!(dual->scale > 0)) dual->scale = 1;
 }
 

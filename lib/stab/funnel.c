@@ -19,6 +19,7 @@
 /// corners, and four are tested at once. A list is copied only when it is cut, so that a pop
 /// restores the old one.
 #include "stab/funnel.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
@@ -404,7 +405,7 @@ static sl_line middle_line(const funnel *f, const level *l, bool by_direction) {
     double ux = 0, uy = 0, c = 0;
     for (size_t i = 0; i < l->count; i++) {
         const corner *k = &f->corners.items[l->first + i];
-        const double x = k->leftwards[1], y = -k->leftwards[0], length = hypot(x, y);
+        const double x = k->leftwards[1], y = -k->leftwards[0], length = sli_length(x, y);
         ux += x / length;
         uy += y / length;
         c -= x / length * (k->at[1] - left.y) - y / length * (k->at[0] - left.x);
@@ -412,7 +413,7 @@ static sl_line middle_line(const funnel *f, const level *l, bool by_direction) {
     const sl_point a = crossing_point(f, ux, uy, c, FIRST_LEFT);
     const end_number last = (end_number)f->ends.count - 2;
     if (!by_direction) return (sl_line){a, crossing_point(f, ux, uy, c, last)};
-    const double size = hypot(left.x - right.x, left.y - right.y);
+    const double size = sli_length(left.x - right.x, left.y - right.y);
     return (sl_line){a, {a.x + ux * size, a.y + uy * size}};
 }
 
@@ -497,13 +498,13 @@ typedef struct way {
 } way;
 
 static way way_of(sl_point from, sl_point to) {
-    const double x = to.x - from.x, y = to.y - from.y, length = hypot(x, y);
+    const double x = to.x - from.x, y = to.y - from.y, length = sli_length(x, y);
     return (way){x / length, y / length};
 }
 
 static way between(way a, way b, double share) {
     const double x = a.x + share * (b.x - a.x), y = a.y + share * (b.y - a.y);
-    const double length = hypot(x, y);
+    const double length = sli_length(x, y);
     return (way){x / length, y / length};
 }
 
@@ -560,7 +561,8 @@ static double gap(const sl_portal_ends *a, const sl_portal_ends *b) {
     if (a_high >= b_low && b_high >= a_low) return 0;
     double least = INFINITY;
     for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++) least = fmin(least, hypot(p[i].x - q[k].x, p[i].y - q[k].y));
+        for (int k = 0; k < 2; k++)
+            least = fmin(least, sli_length(p[i].x - q[k].x, p[i].y - q[k].y));
     return least;
 }
 

@@ -5,6 +5,7 @@
 /// convex polygon or a point, with its share of the probability. An object costs
 /// max(a, b * t, c * p) for t walls and a share p of the full circle, as seen from the middle of
 /// the view cell.
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 #include "view_cells/tree.h"
@@ -85,7 +86,7 @@ static bool is_inside(const sl_space *space, sl_point p) {
 /// Adds the points of a piece of a path. *before: how far the last point lies behind.
 static sl_status add_piece(sl_context *context, gathered *g, const sl_space *space, sl_point from,
                            sl_point to, double step, double *before) {
-    const double length = hypot(to.x - from.x, to.y - from.y);
+    const double length = sli_length(to.x - from.x, to.y - from.y);
     double at = step - *before;
     for (uint64_t i = 0; at <= length; at += step, i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
@@ -114,7 +115,7 @@ static double length_of(const sl_map *map) {
     for (size_t i = 0; i < map->path_count; i++)
         for (size_t k = 1; k < map->paths[i].count; k++) {
             const sl_point a = map->paths[i].points[k - 1], b = map->paths[i].points[k];
-            length += hypot(b.x - a.x, b.y - a.y);
+            length += sli_length(b.x - a.x, b.y - a.y);
         }
     return length;
 }

@@ -17,6 +17,7 @@
 ///
 /// Invariant: distances are rounded down, so a state is never kept too long. Cost: O(occluders x
 /// corners) for a node, and a few dozen operations for each frame in which the bound holds.
+#include "geometry/length.h"
 #include "walk/walk_parts.h"
 
 #include <math.h>
@@ -28,25 +29,19 @@
 
 // --- distances
 
-/// A vector's length, to a few roundings.
-static double length_of(double x, double y) {
-    const double square = x * x + y * y;
-    return square > 0x1p-900 && square < 0x1p900 ? sqrt(square) : hypot(x, y);
-}
-
 /// No more than the distance from a point to the line through two others; 0 where rounding leaves
 /// nothing that is sure. The bound on the determinant is that of sli_turn_filter, with room.
 static double clearance(sl_point p, sl_point a, sl_point b) {
     const double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
     const double left = ax * by, right = ay * bx;
     const double area = fabs(left - right) - 8 * 0x1p-53 * (fabs(left) + fabs(right)) - 0x1p-900;
-    const double length = length_of(b.x - a.x, b.y - a.y) * (1 + SLACK);
+    const double length = sli_length(b.x - a.x, b.y - a.y) * (1 + SLACK);
     const double distance = area / length * (1 - SLACK);
     return distance > 0 ? distance : 0; // not NaN, where it overflows
 }
 
 double sli_walk_moved(sl_point from, sl_point to) {
-    return length_of(to.x - from.x, to.y - from.y) * (1 + SLACK) + 0x1p-900;
+    return sli_length(to.x - from.x, to.y - from.y) * (1 + SLACK) + 0x1p-900;
 }
 
 static bool hides_from(const sli_occluder *o, const sli_shape *shape) {
@@ -108,7 +103,7 @@ double sli_walk_hidden_bound(sl_walk *w, const sli_node_view *seen) {
 
 /// No more than the distance between two points.
 static double distance(sl_point p, sl_point q) {
-    return length_of(q.x - p.x, q.y - p.y) * (1 - SLACK);
+    return sli_length(q.x - p.x, q.y - p.y) * (1 - SLACK);
 }
 
 /// Whether q may be ahead of p, in the direction from `back` to `front`. Where rounding decides,

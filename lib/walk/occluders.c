@@ -7,6 +7,7 @@
 ///
 /// Angles are estimates in doubles: they decide only the order. What is hidden is decided exactly,
 /// by the node visibility test. Cost: O(log n) for each node and wall that leaves the heap.
+#include "geometry/length.h"
 #include "walk/walk_parts.h"
 
 #include <math.h>
@@ -34,7 +35,8 @@ static void find_longest(sli_chooser *c) {
     for (uint32_t i = h->node_count; i-- > 0;) {
         for (uint32_t k = h->first_occluder[i]; k < h->first_occluder[i + 1]; k++) {
             const sl_segment *s = &h->occluders[k];
-            const double length = hypot((s->b.x - s->a.x) * c->scale, (s->b.y - s->a.y) * c->scale);
+            const double length =
+                sli_length((s->b.x - s->a.x) * c->scale, (s->b.y - s->a.y) * c->scale);
             c->longest[i] = fmax(c->longest[i], length);
         }
         const int32_t parent = h->nodes[i].parent;

@@ -1,0 +1,23 @@
+/// The length of a vector, the same to the last bit on every machine. The hypot of mathematical
+/// libraries is not: they round differently, some by the processor they find. A difference of one
+/// bit is enough to cut a map another way.
+#ifndef SLI_LENGTH_H
+#define SLI_LENGTH_H
+
+#include <math.h>
+
+/// Off by less than a unit in the last place and a half; coordinates may be as large and as small
+/// as they are allowed to be. Of two vectors of which one is the other mirrored or turned by 90
+/// degrees, both lengths are equal.
+static inline double sli_length(double x, double y) {
+    const double square = x * x + y * y;
+    if (square > 0x1p-900 && square < 0x1p900) return sqrt(square);
+    const double most = fmax(fabs(x), fabs(y));
+    if (!(most > 0)) return most;
+    int exponent;
+    frexp(most, &exponent); // powers of 2 are exact
+    const double u = ldexp(x, -exponent), v = ldexp(y, -exponent);
+    return ldexp(sqrt(u * u + v * v), exponent);
+}
+
+#endif

@@ -1,0 +1,285 @@
+#!/usr/bin/env python3
+"""The same bytes everywhere: builds the core for other machines and compares what it computes.
+
+    python3 tests/everywhere/everywhere.py [TARGET...] [--build DIR] [--install] [--tests NAMES]
+
+For each target it builds the library, the command and `same_bytes`. Every corpus map is baked there,
+and one hash stands for the bytes of the baked file, one for the answers of the runtime header and one
+for the maps that are generated. They must be those of this machine's gcc. The unit tests run where
+Debian has the packages that they need for that machine. Other machines are emulated (qemu-user, Wine).
+
+Without a target all of them are tried. One whose compiler or emulator is missing is skipped, and
+says so; --install asks apt-get for them first (as root). The exit status is 0 when all agree, 77 when
+nothing could be tried, else 1.
+"""
+import argparse
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+LIBRARIES = ["libcmocka-dev", "libgmp-dev", "libjansson-dev", "libpng-dev", "libxml2-dev",
+             "libyaml-dev", "libzstd-dev", "zlib1g-dev"]
+# Unit tests that run for minutes under an emulator, or need other programs of this machine.
+SLOW = "oracle_random|reference|mesh_random|explain_random|import_wad|cases|mend|program|sees"
+
+
+@dataclass
+class Target:
+    """A compiler with its flags, and how its programs run here."""
+    name: str
+    compiler: str
+    flags: str = ""
+    system: str = ""          # CMAKE_SYSTEM_NAME, empty for this machine
+    processor: str = ""
+    emulator: tuple = ()
+    debian: str = ""          # Debian's name of the machine, for the libraries of the unit tests
+    triple: str = ""
+    packages: tuple = ()
+    options: tuple = ()
+
+
+def linux(name, triple, debian="", qemu="", flags=""):
+    qemu = f"qemu-{qemu or name}"
+    return Target(name, f"{triple}-gcc", flags, "Linux", name, (qemu, "-L", f"/usr/{triple}"), debian,
+                  triple, (f"gcc-{triple.replace('_', '-')}", "qemu-user"))
+
+
+TARGETS = [
+    Target("gcc-O0", "gcc", "-O0"),
+    Target("gcc-O1", "gcc", "-O1"),
+    Target("gcc-O3-native", "gcc", "-O3 -march=native"),
+    Target("clang-O0", "clang", "-O0", packages=("clang",)),
+    Target("clang-O3-native", "clang", "-O3 -march=native", packages=("clang",)),
+    Target("i386-sse2", "gcc", "-m32 -msse2 -mfpmath=sse", packages=("gcc-multilib",),
+           options=("-DSIGHTLINE_IO=OFF",)),
+    linux("aarch64", "aarch64-linux-gnu", "arm64"),
+    linux("armhf", "arm-linux-gnueabihf", "armhf", "arm"),
+    linux("riscv64", "riscv64-linux-gnu"),
+    linux("ppc64el", "powerpc64le-linux-gnu", "ppc64el", "ppc64le"),
+    linux("s390x", "s390x-linux-gnu", "s390x"),
+    Target("musl", "musl-gcc", packages=("musl-tools",), options=("-DSIGHTLINE_IO=OFF",)),
+    Target("windows", "x86_64-w64-mingw32-gcc", "", "Windows", "x86_64", ("wine",), "", "",
+           ("gcc-mingw-w64-x86-64", "wine", "wine64")),
+]
+REFERENCE = Target("gcc", "gcc", "-O2")
+
+
+class Failure(Exception):
+    """A step that did not do what it should."""
+
+
+def run(command, log, **more):
+    """Runs a command with its output in a log file; Failure where it ends with another status than 0."""
+    with open(log, "ab") as out:
+        out.write(("$ " + " ".join(map(str, command)) + "\n").encode())
+        out.flush()
+        if subprocess.run(command, stdout=out, stderr=out, stdin=subprocess.DEVNULL, **more).returncode:
+            last = Path(log).read_text(errors="replace").splitlines()[-12:]
+            raise Failure(f"{command[0]} failed; the end of {log}:\n    " + "\n    ".join(last))
+
+
+def missing_tools(target):
+    wanted = [target.compiler, "cmake", "ninja", *target.emulator[:1]]
+    return [tool for tool in wanted if not shutil.which(tool)]
+
+
+def can_compile(target, folder):
+    """Whether the compiler has what a program of its target needs, such as libraries for -m32."""
+    source = folder / "try.c"
+    source.write_text("#include <stdio.h>\nint main(void) { return puts(\"\") < 0; }\n")
+    command = [target.compiler, *target.flags.split(), str(source), "-o", str(folder / "try")]
+    return subprocess.run(command, capture_output=True).returncode == 0
+
+
+# ---- Libraries of another machine, in a folder of their own ----
+
+def fetch_libraries(target, folder):
+    """Unpacks the development packages of a Debian machine below folder/root; None where they are
+    not to be had. Nothing of this machine's own packages changes."""
+    root = folder / "root"
+    if (root / "done").exists():
+        return root
+    lists = Path("/etc/apt/sources.list.d/debian.sources")
+    if not shutil.which("apt-get") or not lists.exists():
+        return None
+    state = folder / "apt"
+    for part in ("lists/partial", "archives/partial", "sources"):
+        (state / part).mkdir(parents=True, exist_ok=True)
+    shutil.copy(lists, state / "sources")
+    options = {"Dir::State::lists": state / "lists", "Dir::State::status": "/dev/null",
+               "Dir::Cache": state, "Dir::Cache::archives": state / "archives",
+               "Dir::Etc::sourceparts": state / "sources", "Dir::Etc::sourcelist": "/dev/null",
+               "APT::Architecture": target.debian, "APT::Architectures": target.debian,
+               "APT::Sandbox::User": "root", "Debug::NoLocking": 1}
+    apt = ["apt-get", "-q", "-y"] + [f"-o{name}={value}" for name, value in options.items()]
+    log = folder / "apt.log"
+    run([*apt, "update"], log)
+    run([*apt, "--no-install-recommends", "--download-only", "install", *LIBRARIES], log)
+    root.mkdir(exist_ok=True)
+    for package in sorted((state / "archives").glob("*.deb")):
+        if not package.name.startswith(("libc6", "libc-dev")):  # the compiler brings its own
+            run(["dpkg", "-x", str(package), str(root)], log)
+    for link in root.rglob("*.so"):  # absolute links would lead to this machine's own files
+        if link.is_symlink() and os.readlink(link).startswith("/"):
+            there = root / os.readlink(link)[1:]
+            link.unlink()
+            link.symlink_to(os.path.relpath(there, link.parent))
+    (root / "done").touch()
+    return root
+
+
+# ---- Building and running ----
+
+def configure(target, folder, root):
+    build = folder / "build"
+    command = ["cmake", "-S", str(SOURCE), "-B", str(build), "-G", "Ninja",
+               f"-DCMAKE_C_COMPILER={target.compiler}", "-DCMAKE_BUILD_TYPE=Release",
+               "-DSIGHTLINE_EVERYWHERE=ON",
+               "-DSIGHTLINE_GLPK=OFF", "-DSIGHTLINE_DRAW=OFF", "-DSIGHTLINE_VIEWER=OFF",
+               "-DSIGHTLINE_INSTALL=OFF", "-DSIGHTLINE_WERROR=ON", *target.options]
+    if "-O" in target.flags:
+        command.append("-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG")
+    if shutil.which("ccache"):
+        command.append("-DCMAKE_C_COMPILER_LAUNCHER=ccache")
+    environment = dict(os.environ)
+    flags = target.flags
+    if target.system:
+        command += [f"-DCMAKE_SYSTEM_NAME={target.system}", f"-DCMAKE_SYSTEM_PROCESSOR={target.processor}",
+                    "-DCMAKE_CROSSCOMPILING_EMULATOR=" + ";".join(target.emulator)]
+        if root:
+            libraries = root / "usr/lib" / target.triple
+            flags += f" -isystem {root}/usr/include/{target.triple}"
+            environment |= {"PKG_CONFIG_LIBDIR": f"{libraries}/pkgconfig:{root}/usr/share/pkgconfig",
+                            "PKG_CONFIG_SYSROOT_DIR": str(root)}
+            command += [f"-DCMAKE_FIND_ROOT_PATH={root}", "-DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER",
+                        "-DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY",
+                        "-DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY",
+                        f"-DCMAKE_LIBRARY_ARCHITECTURE={target.triple}",
+                        f"-DCMAKE_EXE_LINKER_FLAGS=-L{libraries} "
+                        f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.triple}"]
+    if not root:
+        command += ["-DSIGHTLINE_IO=OFF", "-DSIGHTLINE_TESTS=OFF"]
+    run([*command, f"-DCMAKE_C_FLAGS={flags}"], folder / "build.log", env=environment)
+    return build
+
+
+def library_path(target, root):
+    if not root:
+        return {}
+    return {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={root}/usr/lib/{target.triple}:"
+                            f"{root}/lib/{target.triple}"}
+
+
+def hashes(target, build, corpus, root):
+    ending = ".exe" if target.system == "Windows" else ""
+    program = build / "tests" / "everywhere" / f"same_bytes{ending}"
+    environment = dict(os.environ, WINEDEBUG="-all", **library_path(target, root))
+    done = subprocess.run([*target.emulator, str(program), *map(str, corpus)], capture_output=True,
+                          text=True, env=environment)
+    if done.returncode:
+        raise Failure(f"{program} ended with {done.returncode}: {done.stderr[-600:]}")
+    return done.stdout.replace("\r", "")
+
+
+def unit_tests(target, build, folder, root, wanted):
+    """How many unit tests passed, of how many."""
+    command = ["ctest", "--test-dir", str(build), "-R", f"^test_({wanted})" if wanted else "^test_",
+               "-E", SLOW, "--timeout", "900", "-j", str(os.cpu_count())]
+    environment = dict(os.environ, **library_path(target, root))
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    (folder / "tests.log").write_text(done.stdout + done.stderr)
+    summary = [line for line in done.stdout.splitlines() if "tests passed" in line]
+    if not summary:
+        raise Failure(f"no test ran: see {folder / 'tests.log'}")
+    failed, total = int(summary[0].split("passed, ")[1].split()[0]), int(summary[0].split()[-1])
+    return total - failed, total
+
+
+def try_target(target, base, corpus, expected, wanted):
+    """A row of the table: its cells, and whether all is well (None: skipped)."""
+    folder = base / target.name
+    folder.mkdir(parents=True, exist_ok=True)
+    missing = missing_tools(target)
+    if missing or not (target.system or can_compile(target, folder)):
+        what = ", ".join(missing) or f"libraries for {target.flags}"
+        return [target.name, target.compiler, target.flags, "skipped", f"not here: {what}"], None
+    root = fetch_libraries(target, folder) if target.debian else None
+    build = configure(target, folder, root)
+    run(["cmake", "--build", str(build)], folder / "build.log")
+    got = hashes(target, build, corpus, root)
+    different = [line.split()[-1] for line in got.splitlines() if line not in expected.splitlines()]
+    count = len(expected.splitlines())
+    same = f"{count - len(different)} of {count} same" if got.count("\n") == count else "list differs"
+    (folder / "hashes.txt").write_text(got)
+    passed, total = unit_tests(target, build, folder, root, wanted) if root else (0, 0)
+    tests = f"{passed} of {total}" if total else "not built"
+    return [target.name, version(target.compiler), target.flags, tests, same], \
+        got == expected and passed == total
+
+
+def version(compiler):
+    first = subprocess.run([compiler, "--version"], capture_output=True, text=True).stdout.splitlines()
+    number = [word for word in first[0].split() if word[0].isdigit()]
+    return f"{'clang' if 'clang' in first[0] else 'gcc'} {number[0] if number else ''}".strip()
+
+
+def install(targets):
+    packages = sorted({package for target in targets for package in target.packages})
+    subprocess.run(["apt-get", "install", "-q", "-y", "--no-install-recommends", *packages], check=True)
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    names = [target.name for target in TARGETS]
+    parser.add_argument("target", nargs="*", help="of " + ", ".join(names))
+    parser.add_argument("--build", default=str(SOURCE / "build" / "everywhere"), metavar="DIR")
+    parser.add_argument("--install", action="store_true", help="install compilers and emulators")
+    parser.add_argument("--tests", default="", metavar="NAMES", help="unit tests: a regular expression")
+    arguments = parser.parse_args()
+    unknown = [name for name in arguments.target if name not in names]
+    if unknown:
+        parser.error(f"unknown target {unknown[0]}: there are {', '.join(names)}")
+    return arguments
+
+
+def main():
+    arguments = parse()
+    base = Path(arguments.build).resolve()
+    wanted = [t for t in TARGETS if not arguments.target or t.name in arguments.target]
+    if arguments.install:
+        install(wanted)
+    corpus = sorted([*SOURCE.glob("maps/*.map"), *SOURCE.glob("maps/*/*.map"),
+                     *SOURCE.glob("tests/cases/*.map")])
+    (base / REFERENCE.name).mkdir(parents=True, exist_ok=True)
+    build = configure(REFERENCE, base / REFERENCE.name, None)
+    run(["cmake", "--build", str(build)], base / REFERENCE.name / "build.log")
+    expected = hashes(REFERENCE, build, corpus, None)
+    lines = expected.splitlines()
+    print(f"{len(lines)} lines of {len(corpus)} maps by {version('gcc')}; all of it as one hash: "
+          f"{hashlib.sha256(expected.encode()).hexdigest()[:16]}\n", flush=True)
+    print("| target | compiler | flags | unit tests | hashes |\n| --- | --- | --- | --- | --- |", flush=True)
+    results = []
+    for target in wanted:
+        start = time.time()
+        try:
+            row, good = try_target(target, base, corpus, expected, arguments.tests)
+        except Failure as failure:
+            row, good = [target.name, target.compiler, target.flags, "failed", "failed"], False
+            print(failure, file=sys.stderr)
+        results.append(good)
+        print("| " + " | ".join(row) + " |", flush=True)
+        print(f"{target.name}: {time.time() - start:.0f} s", file=sys.stderr, flush=True)
+    if all(good is None for good in results):
+        return 77
+    return 1 if False in results else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
