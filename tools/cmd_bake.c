@@ -10,6 +10,7 @@
 #include "report.h"
 #include "sightline/support.h"
 #include "solvers.h"
+#include "system.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -120,8 +121,8 @@ sl_status bake_report_print_json(sl_context *context, const bake_report *report)
     json_add_count(&fields, "tree_depth", space->tree_depth);
     if (has_sets) add_visibility(&fields, &baked->visibility);
     if (has_sets) mean_pvs_add_json(&fields, &mean);
-    json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
-    json_add_count(&fields, "file_bytes", size_of_file(report->output));
+    json_add_count(&fields, "peak_memory_bytes", system_peak_memory());
+    json_add_count(&fields, "file_bytes", system_file_size(report->output));
     return json_print(context, &fields);
 }
 
@@ -210,8 +211,8 @@ sl_status bake_report_print(sl_context *context, const bake_report *report) {
     pvs_means mean;
     if (has_sets) SL_TRY(mean_pvs_of(context, report->baked, &mean));
     char file[SIZE_TEXT], memory[SIZE_TEXT];
-    size_write(size_of_file(report->output), file);
-    size_write(size_of_peak_memory(), memory);
+    size_write(system_file_size(report->output), file);
+    size_write(system_peak_memory(), memory);
     printf("%s: %s, baked from %s\n", report->output, file, report->input);
     printf("  walls     %" PRIu32, space->wall_count);
     cleaning_print(&report->account.cleaning);

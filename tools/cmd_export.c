@@ -5,10 +5,10 @@
 #include "inputs.h"
 #include "outputs.h"
 #include "sightline/support.h"
+#include "system.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static name_table format_table(const sl_context *context) {
     size_t count;
@@ -95,7 +95,7 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, path, &baked));
     progress_line_clear(&console->line);
-    if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
+    if (strcmp(output, "-") == 0 && system_is_terminal(stdout)) console->line.shows = false;
     sl_status status = check_effects(console->context, &formats[chosen], &baked.map);
     if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);

@@ -5,6 +5,7 @@
 #include "outputs.h"
 #include "sightline/support.h"
 #include "solvers.h"
+#include "system.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -127,7 +128,7 @@ static sl_status merge_and_report(command_console *console, merge_plan *plan) {
     progress_line_clear(&console->line);
     if (status == SL_OK && !console->quiet) {
         char size[SIZE_TEXT];
-        size_write(size_of_file(plan->output), size);
+        size_write(system_file_size(plan->output), size);
         printf("%s: %s, merged from %u shards\n", plan->output, size, part_count(plan));
         printf("  pairs     %" PRIu64 " seen, %s sight, by %s%s%s (%s)\n",
                all.visibility.account.pairs, sight_name(all.visibility.sight), all.method,

@@ -5,6 +5,7 @@
 #include "outputs.h"
 #include "sightline/reject.h"
 #include "sightline/support.h"
+#include "system.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -42,7 +43,7 @@ static void print_report(const reject_plan *plan, const sl_reject_report *report
         hidden += report->maps[i].hidden;
         pairs += pairs_of(report->maps[i].sectors);
     }
-    size_write(size_of_file(plan->output), size);
+    size_write(system_file_size(plan->output), size);
     printf("%s: %s, with a new REJECT for %zu map%s, in %.2f s\n", plan->output, size,
            report->count, report->count == 1 ? "" : "s", seconds);
     for (size_t i = 0; i < report->count; i++) print_map(&report->maps[i]);

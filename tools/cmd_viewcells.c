@@ -9,6 +9,7 @@
 #include "sightline/draw.h"
 #include "sightline/geojson.h"
 #include "sightline/support.h"
+#include "system.h"
 #include "view_run.h"
 
 #include <inttypes.h>
@@ -151,7 +152,7 @@ static sl_status view_report_print_json(sl_context *context, const view_report *
         if (run->exact_cost > 0) json_add_real(&fields, "exact_cost", run->exact_cost);
     }
     add_seconds(&fields, &run->seconds);
-    json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
+    json_add_count(&fields, "peak_memory_bytes", system_peak_memory());
     return json_print(context, &fields);
 }
 

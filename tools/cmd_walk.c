@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /// The results of a walk: how it was made, and its means.
 typedef struct walk_row {
@@ -284,7 +283,7 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
         w->way.count = p->count;
     }
     if (name && !w->way.count) {
-        if (access(name, F_OK) != 0) return fail_path(context, map, name);
+        if (sl_path_look(name) == SL_PATH_NOTHING) return fail_path(context, map, name);
         SL_TRY(way_read(context, name, space, &w->way));
     }
     if (name) {

@@ -2,18 +2,13 @@
 
 #include "built.h"
 #include "sightline/support.h"
+#include "system.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
-#include <time.h>
-#include <unistd.h>
 
 // --- the progress line
 
@@ -47,9 +42,8 @@ static void append_time(char *text, size_t size, double seconds) {
 /// The width of the terminal in characters, at most `most`. A longer text would continue on the
 /// next line, and only that line would be cleared.
 static int room_of_terminal(int most) {
-    struct winsize size;
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return most;
-    return size.ws_col - 1 < most ? size.ws_col - 1 : most;
+    const int width = system_terminal_width();
+    return width > 0 && width - 1 < most ? width - 1 : most;
 }
 
 /// "cell to cell: 120/2000 cells, 6 %, 34/s, 55 s left"; before there is a rate, the time so far.
@@ -113,36 +107,13 @@ static atomic_bool interrupted;
 /// The same for: whether the first signal is only noted, and whether it came.
 static atomic_bool asks_first, asked;
 
-static void set_handler(int number, void (*handler)(int)) {
-    struct sigaction action = {.sa_handler = handler};
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
 /// The first signal makes the running call stop and tidy up; the next one ends the program. Where
 /// the first one is only noted, the second and the third do this.
 static void on_signal(int number) {
     (void)number;
     if (atomic_load(&asks_first) && !atomic_exchange(&asked, true)) return;
     atomic_store(&interrupted, true);
-    set_handler(SIGINT, SIG_DFL);
-    set_handler(SIGTERM, SIG_DFL);
-    set_handler(SIGHUP, SIG_DFL);
-}
-
-/// A signal that is ignored from the start (nohup) stays ignored.
-static void catch_signal(int number) {
-    struct sigaction now;
-    if (sigaction(number, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
-        set_handler(number, on_signal);
-}
-
-/// Where a standard stream is closed, the next file opened would take its number and be written to
-/// as if it were stdout. A descriptor open the wrong way round holds the place and fails instead.
-static void hold_standard_streams(void) {
-    for (int descriptor = 0; descriptor <= 2; descriptor++)
-        if (fcntl(descriptor, F_GETFD) == -1)
-            (void)!open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
+    system_on_interruption(NULL);
 }
 
 void console_ask_first(void) {
@@ -191,17 +162,11 @@ static bool is_cancelled(void *user) {
 }
 
 bool console_open(command_console *console) {
-    hold_standard_streams();
-    // If a reader goes away, or a file grows beyond its limit, writes then fail instead.
-    set_handler(SIGPIPE, SIG_IGN);
-    set_handler(SIGXFSZ, SIG_IGN);
-    catch_signal(SIGINT);
-    catch_signal(SIGTERM);
-    catch_signal(SIGHUP);
+    system_on_interruption(on_signal);
     const char *kind = getenv("TERM");
     *console = (command_console){
         .main_thread = pthread_self(),
-        .line.shows = isatty(STDERR_FILENO) && !(kind && strcmp(kind, "dumb") == 0),
+        .line.shows = system_is_terminal(stderr) && !(kind && strcmp(kind, "dumb") == 0),
     };
     const sl_hooks hooks = {
         .user = console, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
@@ -233,9 +198,7 @@ static bool is_reader_gone(const char *message) {
     const char *reason = strerror(EPIPE);
     const size_t length = strlen(message), tail = strlen(reason);
     if (length > tail && strcmp(message + length - tail, reason) == 0) return true;
-    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
-    return strncmp(message, "standard output:", 16) == 0 && poll(&out, 1, 0) > 0 &&
-           (out.revents & POLLERR);
+    return strncmp(message, "standard output:", 16) == 0 && system_reader_is_gone();
 }
 
 int console_close(command_console *console, sl_status status) {

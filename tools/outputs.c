@@ -3,40 +3,29 @@
 #include "built.h"
 #include "inputs.h"
 #include "sightline/support.h"
+#include "system.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum { ENDINGS_TEXT = 96 };
 
 // --- names
 
-/// What a name stands for; "-" is a standard stream.
-static bool find_file(const char *path, int stream, struct stat *file) {
-    return strcmp(path, "-") == 0 ? fstat(stream, file) == 0 : stat(path, file) == 0;
-}
-
-static bool is_one_file(const struct stat *a, const struct stat *b) {
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && S_ISREG(a->st_mode);
+/// A name as system.h takes it: "-" is a standard stream.
+static const char *named(const char *path) {
+    return strcmp(path, "-") == 0 ? NULL : path;
 }
 
 bool output_is_same(const char *path, const char *other) {
-    struct stat a, b;
-    if (strcmp(path, other) == 0) return true;
-    return find_file(path, STDOUT_FILENO, &a) && find_file(other, STDOUT_FILENO, &b) &&
-           is_one_file(&a, &b);
+    return strcmp(path, other) == 0 || system_is_one_file(named(path), 1, named(other), 1);
 }
 
 sl_status output_check_apart(sl_context *context, const char *input, const char *option,
                              const char *output) {
-    struct stat a, b;
-    const bool same = find_file(input, STDIN_FILENO, &a) && find_file(output, STDOUT_FILENO, &b) &&
-                      is_one_file(&a, &b);
+    const bool same = system_is_one_file(named(input), 0, named(output), 1);
     if (!same || strcmp(output, "-") == 0) return SL_OK; // the shell has opened stdout already
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "%s %s: is the input itself, which would be lost; give another name", option,
@@ -45,14 +34,11 @@ sl_status output_check_apart(sl_context *context, const char *input, const char 
 
 /// Whether a name stands for stdout, a pipe or a device: such names have no ending.
 static bool is_stream(const char *path) {
-    struct stat there;
-    return strcmp(path, "-") == 0 ||
-           (stat(path, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode));
+    return strcmp(path, "-") == 0 || sl_path_look(path) == SL_PATH_STREAM;
 }
 
 bool output_is_plain_file(const char *path) {
-    struct stat there;
-    return strcmp(path, "-") != 0 && stat(path, &there) == 0 && S_ISREG(there.st_mode);
+    return strcmp(path, "-") != 0 && sl_path_look(path) == SL_PATH_FILE;
 }
 
 bool output_has_ending(const char *path, const char *endings) {
@@ -185,16 +171,17 @@ static sl_status fail_write(sl_context *context, const char *path) {
 
 /// Checks that nothing else has the names of the folder and its files.
 static sl_status look(sl_context *context, output_folder *folder) {
-    struct stat there;
-    folder->exists = stat(folder->path, &there) == 0;
+    const sl_path_kind there = sl_path_look(folder->path);
+    folder->exists = there != SL_PATH_NOTHING;
     if (!folder->exists) return SL_OK;
-    if (!S_ISDIR(there.st_mode))
+    if (there != SL_PATH_FOLDER)
         return sl_fail(context, SL_BAD_ARGUMENT, "%s: is no folder", folder->path);
     for (size_t i = 0; folder->names[i]; i++) {
         char *file = join(context, folder->path, folder->names[i]);
         if (!file) return SL_NO_MEMORY;
         sl_status status = SL_OK;
-        if (stat(file, &there) == 0 && !S_ISREG(there.st_mode))
+        const sl_path_kind kind = sl_path_look(file);
+        if (kind != SL_PATH_NOTHING && kind != SL_PATH_FILE)
             status = sl_fail(context, SL_BAD_ARGUMENT, "%s: is in the way, and no file", file);
         sl_free(context, file);
         SL_TRY(status);
@@ -209,15 +196,9 @@ static sl_status make_temporary(sl_context *context, output_folder *folder) {
     folder->temporary = sl_alloc(context, length);
     if (!folder->temporary) return SL_NO_MEMORY;
     snprintf(folder->temporary, length, "%s%s.XXXXXX", folder->path, folder->exists ? "/" : "");
-    if (!mkdtemp(folder->temporary)) {
-        folder->temporary[0] = '\0';
-        return fail_write(context, folder->path);
-    }
-    // mkdtemp makes folders private. Give this one the usual permissions.
-    const mode_t mask = umask(0);
-    umask(mask);
-    (void)!chmod(folder->temporary, 0777 & ~mask);
-    return SL_OK;
+    if (system_make_folder(folder->temporary)) return SL_OK;
+    folder->temporary[0] = '\0';
+    return fail_write(context, folder->path);
 }
 
 sl_status folder_open(sl_context *context, const char *path, const char *const *names,
@@ -247,16 +228,12 @@ static sl_status copy_file(sl_context *context, const char *from, const char *to
 
 static sl_status move_file(sl_context *context, const output_folder *folder, const char *name) {
     char *from = join(context, folder->temporary, name), *to = join(context, folder->path, name);
-    struct stat older;
     sl_status status = from && to ? SL_OK : SL_NO_MEMORY;
-    const bool exists = status == SL_OK && lstat(to, &older) == 0;
-    if (exists && S_ISLNK(older.st_mode)) {
+    if (status == SL_OK && system_is_link(to)) {
         status = copy_file(context, from, to);
-        unlink(from);
-    } else if (status == SL_OK) {
-        if (exists) (void)!chmod(from, older.st_mode & 0777);
-        if (rename(from, to) != 0) status = fail_write(context, to);
-    }
+        system_remove_file(from);
+    } else if (status == SL_OK && !system_move(from, to))
+        status = fail_write(context, to);
     sl_free(context, from);
     sl_free(context, to);
     return status;
@@ -264,19 +241,19 @@ static sl_status move_file(sl_context *context, const output_folder *folder, con
 
 static void remove_file(sl_context *context, const output_folder *folder, const char *name) {
     char *path = join(context, folder->temporary, name);
-    if (path) unlink(path);
+    if (path) system_remove_file(path);
     sl_free(context, path);
 }
 
 sl_status folder_close(sl_context *context, output_folder *folder, sl_status status) {
     const bool made = folder->temporary && folder->temporary[0];
-    if (status == SL_OK && !folder->exists && rename(folder->temporary, folder->path) != 0)
+    if (status == SL_OK && !folder->exists && !system_move(folder->temporary, folder->path))
         status = fail_write(context, folder->path);
     for (size_t i = 0; folder->exists && folder->names[i] && status == SL_OK; i++)
         status = move_file(context, folder, folder->names[i]);
     if (made && (status != SL_OK || folder->exists)) {
         for (size_t i = 0; folder->names[i]; i++) remove_file(context, folder, folder->names[i]);
-        rmdir(folder->temporary);
+        system_remove_folder(folder->temporary);
     }
     sl_free(context, folder->path);
     sl_free(context, folder->temporary);
@@ -296,19 +273,4 @@ void size_write(uint64_t bytes, char text[SIZE_TEXT]) {
     unsigned unit = 0;
     for (; size >= 1000 && unit < 3; unit++) size /= 1024;
     snprintf(text, SIZE_TEXT, "%.*f %s", size < 100 ? 1 : 0, size, units[unit]);
-}
-
-uint64_t size_of_file(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
-}
-
-uint64_t size_of_peak_memory(void) {
-    struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-#ifdef __APPLE__
-    return (uint64_t)usage.ru_maxrss;
-#else
-    return (uint64_t)usage.ru_maxrss * 1024; // Linux and the BSDs count KiB
-#endif
 }

@@ -78,10 +78,4 @@ enum { SIZE_TEXT = 32 };
 /// "812 bytes", "3.4 MiB"
 void size_write(uint64_t bytes, char text[SIZE_TEXT]);
 
-/// The size of a file; 0 where it is unknown.
-uint64_t size_of_file(const char *path);
-
-/// The most memory that this process has had; 0 where it is unknown.
-uint64_t size_of_peak_memory(void);
-
 #endif

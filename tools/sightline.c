@@ -5,6 +5,7 @@
 #include "help.h"
 #include "names.h"
 #include "sightline/support.h"
+#include "system.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -131,6 +132,7 @@ static sl_status run_in_crew(command_console *console, int argc, char **argv) {
 
 int main(int argc, char **argv) {
     command_console console;
+    system_begin(&argc, &argv);
     crew_begin(&argc, &argv);
     if (!console_open(&console)) return 1;
     const sl_status status = run_in_crew(&console, argc, argv);

@@ -1,5 +1,6 @@
 #include "bake/slv.h"
 #include "base/base.h"
+#include "base/file_system.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 
@@ -74,11 +75,12 @@ static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size
     others.wall_count = others.cell_count = 0;
     others.snap = 0;
     others.comment_count = 0;
-    FILE *stream = open_memstream(&p->map_text, size);
-    if (!stream) return sl_fail_memory(context);
-    const sl_status status = sli_map_print_text(context, &others, stream);
-    const bool failed = ferror(stream) != 0;
-    if (fclose(stream) != 0 || failed) return sl_fail_memory(context);
+    sli_memory_stream memory;
+    if (!sli_memory_open(&memory)) return sl_fail_memory(context);
+    const sl_status status = sli_map_print_text(context, &others, memory.stream);
+    if (!sli_memory_close(&memory)) return sl_fail_memory(context);
+    p->map_text = memory.text;
+    *size = memory.size;
     return status;
 }
 

@@ -5,7 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
 static void *resize(const sl_hooks *hooks, void *block, size_t bytes) {
     if (hooks->resize) return hooks->resize(hooks->user, block, bytes);
@@ -131,8 +137,13 @@ void sl_free(sl_context *context, void *block) {
 }
 
 uint64_t sl_machine_memory(void) {
+#ifdef _WIN32
+    MEMORYSTATUSEX memory = {.dwLength = sizeof memory};
+    return GlobalMemoryStatusEx(&memory) ? memory.ullTotalPhys : UINT64_MAX;
+#else
     const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
     return pages > 0 && bytes > 0 ? (uint64_t)pages * (uint64_t)bytes : UINT64_MAX;
+#endif
 }
 
 char *sl_copy_text(sl_context *context, const char *text, size_t length) {

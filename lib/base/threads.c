@@ -8,7 +8,13 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
+
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
 typedef struct crew {
     const sl_work *work;
@@ -28,8 +34,8 @@ typedef struct worker {
     bool reports;
 } worker;
 
-/// Tells threads that wait of what has changed.
-static void tell(crew *c) {
+/// Wakes threads that wait for a change.
+static void wake(crew *c) {
     if (!c->work->after) return;
     pthread_mutex_lock(&c->lock);
     pthread_cond_broadcast(&c->moved);
@@ -60,7 +66,7 @@ static sl_status run_units(worker *w, void *state) {
         if (!is_ready(c, unit)) break;
         SL_TRY(c->work->unit(&w->context, c->work->job, state, unit));
         const size_t done = atomic_fetch_add(&c->done, 1) + 1;
-        tell(c);
+        wake(c);
         if (w->reports) sl_report(&w->context, c->work->stage, c->work->units, done, c->count);
     }
     return SL_OK;
@@ -76,7 +82,7 @@ static void run_worker(worker *w) {
     }
     if (w->status == SL_OK) return;
     atomic_store(&w->crew->failed, true);
-    tell(w->crew);
+    wake(w->crew);
 }
 
 static void *run_thread(void *argument) {
@@ -125,6 +131,10 @@ sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, un
 }
 
 unsigned sl_core_count(void) {
+#ifdef _WIN32
+    const DWORD cores = GetActiveProcessorCount(ALL_PROCESSOR_GROUPS);
+#else
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+#endif
     return cores < 1 ? 1 : cores > 1024 ? 1024 : (unsigned)cores;
 }

@@ -11,6 +11,10 @@ set(CMAKE_C_EXTENSIONS OFF)
 
 add_library(sightline_flags INTERFACE)
 target_compile_definitions(sightline_flags INTERFACE _XOPEN_SOURCE=700)
+if(MINGW) # its printf as C has it, and nothing to install beside a program
+  target_compile_definitions(sightline_flags INTERFACE __USE_MINGW_ANSI_STDIO=1)
+  target_link_options(sightline_flags INTERFACE -static)
+endif()
 target_compile_options(sightline_flags INTERFACE
   # Contracting a multiply and an add changes the signs that exact predicates compute.
   -ffp-contract=off

@@ -3,11 +3,11 @@
 #include "sightline/import.h"
 
 #include "base/base.h"
+#include "base/file_system.h"
 #include "map/scan.h"
 
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 sl_import_options sl_import_options_default(void) {
     return (sl_import_options){.has_slice = false};
@@ -330,9 +330,7 @@ static sl_status fail_several(sl_context *context, const char *option, const cha
 
 /// Whether a name stands for stdout, a pipe or a device, which have no ending.
 static bool is_stream(const char *path) {
-    struct stat there;
-    return strcmp(path, "-") == 0 ||
-           (stat(path, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode));
+    return strcmp(path, "-") == 0 || sl_path_look(path) == SL_PATH_STREAM;
 }
 
 sl_status sl_map_format_to_write(sl_context *context, const char *option, const char *path,
@@ -355,8 +353,8 @@ sl_status sl_map_format_to_write(sl_context *context, const char *option, const 
 }
 
 /// Says of `count` things what becomes of them: "3 mirrors are written as walls".
-static void tell(sl_context *context, const char *path, const sl_map_format *format, size_t count,
-                 const char *one, const char *many, const char *how) {
+static void note_left_out(sl_context *context, const char *path, const sl_map_format *format,
+                          size_t count, const char *one, const char *many, const char *how) {
     if (count)
         sl_note(context, "%s: %s has no place for %s: %zu %s %s %s", path, format->what, many,
                 count, count == 1 ? one : many, count == 1 ? "is" : "are", how);
@@ -389,8 +387,8 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
     };
     for (size_t i = 0; i < sizeof things / sizeof *things; i++)
         if (!(format->keeps & things[i].keeps))
-            tell(context, path, format, things[i].count, things[i].one, things[i].many,
-                 things[i].how);
+            note_left_out(context, path, format, things[i].count, things[i].one, things[i].many,
+                          things[i].how);
     if (!(format->keeps & SL_KEEPS_SOLID) && count_solid(map))
         sl_note(context, "%s: %s has no place for solid ground: its outlines are written as walls",
                 path, format->what);

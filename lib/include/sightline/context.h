@@ -16,6 +16,15 @@
 #define SL_API
 #endif
 
+/// Lets compilers check the arguments of a function against its format.
+#if defined(__MINGW32__)
+#define SL_PRINTF(text, first) __attribute__((format(gnu_printf, text, first)))
+#elif defined(__GNUC__)
+#define SL_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define SL_PRINTF(text, first)
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -218,11 +218,7 @@ SL_API const char *sl_map_label(const sl_map *map, uint32_t line);
 /// Fails, and says which line of the map is at fault: "FILE:12: layer WALLS, handle 1F: what is
 /// wrong", or "FILE: linedef 117: what is wrong".
 SL_API sl_status sl_map_fail(sl_context *context, const sl_map *map, sl_status status,
-                             uint32_t line, const char *format, ...)
-#if defined(__GNUC__)
-    __attribute__((format(printf, 5, 6)))
-#endif
-    ;
+                             uint32_t line, const char *format, ...) SL_PRINTF(5, 6);
 
 /// Finite, and 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
 SL_API bool sl_coordinate_usable(double value);

@@ -13,14 +13,6 @@
 extern "C" {
 #endif
 
-#if defined(__GNUC__)
-/// Lets compilers check the arguments of a function against its format.
-#define SL_PRINTF(text, first) __attribute__((format(printf, text, first)))
-#else
-/// Lets compilers check the arguments of a function against its format.
-#define SL_PRINTF(text, first)
-#endif
-
 /// Returns early with the status of a call that failed.
 #define SL_TRY(call)                                                                               \
     do {                                                                                           \
@@ -187,6 +179,17 @@ typedef struct sl_bytes {
 /// the system's reason on failure, SL_BAD_INPUT where it is too large: of more
 /// bytes than a quarter of the machine's memory or, of a pipe or a device, than 1 GiB.
 SL_API sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out);
+
+/// What is at a path.
+typedef enum sl_path_kind {
+    SL_PATH_NOTHING, ///< or what cannot be asked; errno says why
+    SL_PATH_FILE,
+    SL_PATH_FOLDER,
+    SL_PATH_STREAM ///< a device or a pipe
+} sl_path_kind;
+
+/// What a path, or the link there, leads to.
+SL_API sl_path_kind sl_path_look(const char *path);
 
 /// A file in the making: written beside its target, and put in its place by sl_output_close.
 typedef struct sl_output {
