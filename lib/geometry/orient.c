@@ -19,10 +19,8 @@
 #include <stdint.h>
 #include <string.h>
 
-__extension__ typedef unsigned __int128 wide;
-
 typedef struct product {
-    wide magnitude;
+    sli_wide magnitude;
     int exponent;
     bool negative;
 } product;
@@ -39,7 +37,8 @@ static uint64_t integer_part(double value, int *exponent) {
 
 static product multiply(double a, double b, bool negative) {
     int exponent_a, exponent_b;
-    const wide magnitude = (wide)integer_part(a, &exponent_a) * integer_part(b, &exponent_b);
+    const sli_wide magnitude =
+        sli_wide_product(integer_part(a, &exponent_a), integer_part(b, &exponent_b));
     return (product){.magnitude = magnitude,
                      .exponent = exponent_a + exponent_b,
                      .negative = negative != (signbit(a) != signbit(b))};
@@ -51,22 +50,22 @@ enum { LIMBS = (2148 + 1942 + 106 + 8) / 64 + 2 };
 
 /// Adds a product, shifted to start at bit `shift`, to a number in two's complement.
 static void add(uint64_t *limbs, int count, const product *p, int shift) {
-    const wide low = p->magnitude << (shift % 64);
-    const uint64_t top = shift % 64 ? (uint64_t)(p->magnitude >> (128 - shift % 64)) : 0;
-    const uint64_t parts[3] = {(uint64_t)low, (uint64_t)(low >> 64), top};
-    unsigned carry = p->negative;
+    const sli_wide low = sli_wide_shifted(p->magnitude, shift % 64);
+    const uint64_t top = shift % 64 ? p->magnitude.high >> (64 - shift % 64) : 0;
+    const uint64_t parts[3] = {low.low, low.high, top};
+    uint64_t carry = p->negative;
     for (int i = shift / 64, part = 0; i < count; i++, part++) {
         const uint64_t value = part < 3 ? parts[part] : 0;
-        const wide sum = (wide)limbs[i] + (p->negative ? ~value : value) + carry;
-        limbs[i] = (uint64_t)sum;
-        carry = (unsigned)(sum >> 64);
+        const uint64_t sum = limbs[i] + (p->negative ? ~value : value), all = sum + carry;
+        carry = (sum < limbs[i]) + (all < sum);
+        limbs[i] = all;
     }
 }
 
 static int sign_of_sum(const product *products, int product_count) {
     int lowest = 4096, highest = -4096;
     for (int i = 0; i < product_count; i++) {
-        if (!products[i].magnitude) continue;
+        if (sli_wide_is_0(products[i].magnitude)) continue;
         if (products[i].exponent < lowest) lowest = products[i].exponent;
         if (products[i].exponent > highest) highest = products[i].exponent;
     }
@@ -74,7 +73,8 @@ static int sign_of_sum(const product *products, int product_count) {
     uint64_t limbs[LIMBS] = {0};
     const int count = (highest - lowest + 106 + 8) / 64 + 1;
     for (int i = 0; i < product_count; i++)
-        if (products[i].magnitude) add(limbs, count, &products[i], products[i].exponent - lowest);
+        if (!sli_wide_is_0(products[i].magnitude))
+            add(limbs, count, &products[i], products[i].exponent - lowest);
     if (limbs[count - 1] >> 63) return -1;
     for (int i = 0; i < count; i++)
         if (limbs[i]) return 1;
@@ -95,21 +95,20 @@ static bool subtract(double a, double b, double *difference) {
 
 /// Compares two products of two doubles: -1, 0, 1. False where a factor has no full mantissa.
 static bool compare_products(const product *p, const product *q, int *order) {
-    const wide full = (wide)1 << 104; // of two mantissas of 53 bits
-    if (!p->magnitude || !q->magnitude || p->negative != q->negative) {
-        const int sign_p = !p->magnitude ? 0 : p->negative ? -1 : 1;
-        const int sign_q = !q->magnitude ? 0 : q->negative ? -1 : 1;
+    const uint64_t full = UINT64_C(1) << 40; // of two mantissas of 53 bits: 2^104
+    const bool none_p = sli_wide_is_0(p->magnitude), none_q = sli_wide_is_0(q->magnitude);
+    if (none_p || none_q || p->negative != q->negative) {
+        const int sign_p = none_p ? 0 : p->negative ? -1 : 1;
+        const int sign_q = none_q ? 0 : q->negative ? -1 : 1;
         *order = (sign_p > sign_q) - (sign_p < sign_q);
         return true;
     }
-    if (p->magnitude < full || q->magnitude < full) return false;
+    if (p->magnitude.high < full || q->magnitude.high < full) return false;
     int shift = p->exponent - q->exponent;
     int larger = shift > 2 ? 1 : shift < -2 ? -1 : 0;
-    if (!larger) {
-        const wide of_p = p->magnitude << (shift > 0 ? shift : 0);
-        const wide of_q = q->magnitude << (shift < 0 ? -shift : 0);
-        larger = (of_p > of_q) - (of_p < of_q);
-    }
+    if (!larger)
+        larger = sli_wide_compare(sli_wide_shifted(p->magnitude, shift > 0 ? shift : 0),
+                                  sli_wide_shifted(q->magnitude, shift < 0 ? -shift : 0));
     *order = p->negative ? -larger : larger;
     return true;
 }

@@ -3,11 +3,17 @@
 #ifndef SL_ORIENT_H
 #define SL_ORIENT_H
 
+#include "geometry/wide.h"
 #include "sightline/geometry.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+#if FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
+#error "with more bits than doubles have no sign is exact: compile by -msse2 -mfpmath=sse"
+#endif
 
 static inline bool sli_same_point(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
@@ -82,10 +88,8 @@ int sli_orient_fine(const sli_fine *a, const sli_fine *b, const sli_fine *c);
 /// The sign of a x b, exact. `scale` is a power of two; the coordinates of both vectors, times
 /// `scale`, must be whole numbers below 2^62.
 static inline int sli_turn_grid(sl_point a, sl_point b, double scale) {
-    __extension__ typedef __int128 wide;
-    const wide left = (wide)(int64_t)(a.x * scale) * (int64_t)(b.y * scale);
-    const wide right = (wide)(int64_t)(a.y * scale) * (int64_t)(b.x * scale);
-    return (left > right) - (left < right);
+    return sli_compare_products((int64_t)(a.x * scale), (int64_t)(b.y * scale),
+                                (int64_t)(a.y * scale), (int64_t)(b.x * scale));
 }
 
 /// As sli_turn, by exact arithmetic only.

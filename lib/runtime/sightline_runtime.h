@@ -329,7 +329,12 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
 #if defined(SIGHTLINE_RUNTIME_IMPLEMENTATION) && !defined(SIGHTLINE_RUNTIME_IMPLEMENTED)
 #define SIGHTLINE_RUNTIME_IMPLEMENTED
 
+#include <float.h>
 #include <string.h>
+
+#if FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
+#error "with more bits than doubles have no sign is exact: compile by -msse2 -mfpmath=sse"
+#endif
 
 #ifdef __cplusplus
 extern "C" {
