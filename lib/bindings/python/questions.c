@@ -30,7 +30,7 @@ static const column region_columns[] = {
     REGION(radial_skewness),
 };
 enum { REGION_COLUMNS = sizeof region_columns / sizeof *region_columns };
-/// Beside those of the region: corners, mirrored_area, mirror_parts.
+/// Beside those of the region: corners, mirrored_area, parts.
 enum { ISOVIST_COLUMNS = REGION_COLUMNS + 3 };
 
 #define VGA(name)                                                                                  \
@@ -95,7 +95,7 @@ size_t slp_names(const void *handle, const char *list, char *text, size_t room) 
             n = put_name(text, room, n, region_columns[i].name);
         n = put_name(text, room, n, "corners");
         n = put_name(text, room, n, "mirrored_area");
-        n = put_name(text, room, n, "mirror_parts");
+        n = put_name(text, room, n, "parts");
     } else if (strcmp(list, "vga") == 0) {
         for (size_t i = 0; i < VGA_COLUMNS; i++) n = put_name(text, room, n, vga_columns[i].name);
     }
@@ -118,6 +118,7 @@ typedef struct asking {
     bool mirrored, keep;
     uint8_t *bytes;
     double *measures;
+    const sl_space *space; ///< that regions name the walls of
 } asking;
 
 /// What a thread has: a query, and memory for what it finds.
@@ -251,6 +252,29 @@ int slp_level_look(slp_level *level, const double *eyes, size_t count, double he
 
 // --- visible regions
 
+/// The space as queries see it: walls in place of shut doors and of dark sides of glass, numbered
+/// as theirs are. `own` is what the caller has to destroy.
+static sl_status find_space(slp_level *level, sl_space *own, const sl_space **out) {
+    sl_context *context = level->base.context;
+    const sl_map *map = &level->baked.map;
+    const sl_filtered_space shut = {.shut = level->shut};
+    const sl_filtered_space dark = {.one_way = true, .dark_walls = true};
+    *own = (sl_space){0};
+    *out = &level->baked.space;
+    if (map->door_count) {
+        SL_TRY(sl_filtered_space_make(context, *out, &shut, NULL, own));
+        *out = own;
+    }
+    if (!map->oneway_count) return SL_OK;
+    sl_space with_glass;
+    const sl_status status = sl_filtered_space_make(context, *out, &dark, NULL, &with_glass);
+    sl_space_destroy(context, own);
+    if (status != SL_OK) return status;
+    *own = with_glass;
+    *out = own;
+    return SL_OK;
+}
+
 static sl_status keep_polygon(sl_context *context, slp_polygons *out, const sl_region *region,
                               uint32_t depth, double tolerance) {
     const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
@@ -273,8 +297,7 @@ static sl_status ask_region(sl_context *context, const asking *a, sl_query *quer
     const sl_region_measures measures = sl_region_measure(&region->direct);
     double *row = a->measures + i * ISOVIST_COLUMNS;
     for (size_t k = 0; k < REGION_COLUMNS; k++) row[k] = value_at(&measures, &region_columns[k]);
-    row[REGION_COLUMNS] =
-        (double)sl_region_corners(&region->direct, &a->level->baked.space, NULL, 0);
+    row[REGION_COLUMNS] = (double)sl_region_corners(&region->direct, a->space, NULL, 0);
     row[REGION_COLUMNS + 1] = region->part_count ? sl_mirrored_area(region) : 0;
     row[REGION_COLUMNS + 2] = (double)region->part_count;
     if (!a->keep) return SL_OK;
@@ -302,7 +325,11 @@ int slp_level_isovists(slp_level *level, const double *eyes, size_t count, const
         if (!level->polygons) return SL_NO_MEMORY;
         level->eye_count = count;
     }
-    return ask_all(&a, threads);
+    sl_space own;
+    SL_TRY(find_space(level, &own, &a.space));
+    const sl_status status = ask_all(&a, threads);
+    sl_space_destroy(level->base.context, &own);
+    return status;
 }
 
 size_t slp_level_polygons(const slp_level *level, int64_t *eyes, int64_t *depths, int64_t *counts) {
@@ -426,16 +453,14 @@ static sl_status fill_and_measure(slp_level *level, const sl_space *space, const
 int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, size_t seed_count,
                   const double *from, size_t from_count) {
     sl_context *context = level->base.context;
-    const sl_filtered_space filtered = {.shut = level->shut};
-    sl_space space = {0};
+    sl_space own;
+    const sl_space *space;
     slp_level_forget(level);
     SL_TRY(sl_effects_check(context, &level->baked.map, "vga", SL_EFFECT_RANGE | SL_EFFECT_DOOR));
-    if (level->baked.map.door_count)
-        SL_TRY(sl_filtered_space_make(context, &level->baked.space, &filtered, NULL, &space));
+    SL_TRY(find_space(level, &own, &space));
     const sl_status status =
-        fill_and_measure(level, level->baked.map.door_count ? &space : &level->baked.space, given,
-                         seeds, seed_count, from, from_count);
-    sl_space_destroy(context, &space);
+        fill_and_measure(level, space, given, seeds, seed_count, from, from_count);
+    sl_space_destroy(context, &own);
     return status;
 }
 

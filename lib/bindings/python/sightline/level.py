@@ -449,14 +449,14 @@ class Level(Handle):
         DataFrame
             x, y, area, perimeter, compactness, occlusivity, drift_magnitude, drift_angle,
             min_radial, max_radial, mean_radial, radial_variance, radial_skewness, corners; and
-            mirrored_area and mirror_parts where the map has mirrors.
+            mirrored_area and parts where the map has mirrors.
         """
         eyes = as_points(points, "points").reshape(-1, 2)
         measures, found = self._isovists(eyes, heading, fov, threads, polygons, tolerance)
         names = self._names("isovist")
         columns: dict[str, NDArray[Any]] = {"x": eyes[:, 0].copy(), "y": eyes[:, 1].copy()}
         for i, name in enumerate(names):
-            if not name.startswith("mirror") or len(self.mirrors):
+            if name not in ("mirrored_area", "parts") or len(self.mirrors):
                 columns[name] = measures[:, i].copy()
         shapes = [shape for _, depth, shape in found if depth == 0] if polygons else None
         return tables.frame(columns, shapes, "polygon", self.crs, arrays)

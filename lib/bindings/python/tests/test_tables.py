@@ -2,6 +2,7 @@
 import doctest
 import importlib
 import os
+import re
 import sys
 import unittest
 import unittest.mock
@@ -165,8 +166,10 @@ def load_tests(loader, tests, pattern):
     except unittest.SkipTest:
         return tests
     readme = support.ROOT / "lib/bindings/python/README.md"
-    tests.addTests(doctest.DocFileSuite(str(readme), module_relative=False,
-                                        setUp=lambda test: os.chdir(support.ROOT)))
+    blocks = re.findall(r"^```python\n(.*?)^```", readme.read_text(encoding="utf-8"),
+                        re.MULTILINE | re.DOTALL)
+    examples = doctest.DocTestParser().get_doctest("\n".join(blocks), {}, "README", str(readme), 0)
+    tests.addTest(doctest.DocTestCase(examples, setUp=lambda test: os.chdir(support.ROOT)))
     return tests
 
 
