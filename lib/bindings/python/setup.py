@@ -7,6 +7,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
@@ -31,17 +32,19 @@ def version():
                     for part in ("MAJOR", "MINOR", "PATCH"))
 
 
+def build_library(folder):
+    subprocess.run(["cmake", "-S", str(ROOT), "-B", folder, *OPTIONS], check=True)
+    subprocess.run(["cmake", "--build", folder, "--target", "sightline_python_library",
+                    "--parallel", str(os.cpu_count() or 1)], check=True)
+    return pathlib.Path(folder, "lib/bindings/python/sightline", NAME)
+
+
 class BuildWithLibrary(build_py):
     def run(self):
         super().run()
-        library = os.environ.get("SIGHTLINE_PYTHON_LIBRARY")
-        if not library:
-            build = pathlib.Path(self.get_finalized_command("build").build_temp).resolve()
-            subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), *OPTIONS], check=True)
-            subprocess.run(["cmake", "--build", str(build), "--target", "sightline_python_library",
-                            "--parallel", str(os.cpu_count() or 1)], check=True)
-            library = build / "lib/bindings/python/sightline" / NAME
-        shutil.copy(library, pathlib.Path(self.build_lib, "sightline", NAME))
+        target = pathlib.Path(self.build_lib, "sightline", NAME)
+        with tempfile.TemporaryDirectory() as scratch:
+            shutil.copy(os.environ.get("SIGHTLINE_PYTHON_LIBRARY") or build_library(scratch), target)
 
 
 class WithLibrary(Distribution):
