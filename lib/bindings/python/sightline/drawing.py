@@ -1,6 +1,8 @@
 """Plans and levels as pictures: by matplotlib, and as SVG for notebooks."""
 from __future__ import annotations
 
+import base64
+import html as escaping
 from typing import Any
 
 import numpy as np
@@ -148,3 +150,10 @@ def svg(handle: Any) -> str:
         parts.append(f'<circle cx="{a:.2f}" cy="{b:.2f}" r="3" fill="{_COLOURS["start"]}"/>')
     parts.append("</svg>")
     return "".join(parts)
+
+
+def html(handle: Any) -> str:
+    """The same as an image: nbconvert drops what is inside of an SVG element."""
+    coded = base64.b64encode(svg(handle).encode("utf-8")).decode("ascii")
+    return (f'<img alt="{escaping.escape(repr(handle))}" '
+            f'src="data:image/svg+xml;base64,{coded}">')

@@ -600,6 +600,9 @@ class Level(Handle):
     def _repr_svg_(self) -> str:
         return drawing.svg(self)
 
+    def _repr_html_(self) -> str:
+        return drawing.html(self)
+
     def __repr__(self) -> str:
         if self.closed:
             return "<Level: closed>"

@@ -409,6 +409,9 @@ class Plan(Handle):
     def _repr_svg_(self) -> str:
         return drawing.svg(self)
 
+    def _repr_html_(self) -> str:
+        return drawing.html(self)
+
     def __repr__(self) -> str:
         if self.closed:
             return "<Plan: closed>"

@@ -143,6 +143,8 @@ class Pictures(unittest.TestCase):
         for handle in (plan, plan.bake()):
             root = xml.etree.ElementTree.fromstring(handle._repr_svg_())
             self.assertTrue(root.tag.endswith("svg") and len(root))
+            image = xml.etree.ElementTree.fromstring(handle._repr_html_().replace(">", "/>"))
+            self.assertIn(repr(handle), image.get("alt"))
 
     def test_plots(self):
         matplotlib = need("matplotlib")
