@@ -30,8 +30,7 @@ __all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Doors", "Explanati
 
 
 def _names(what: str) -> list[str]:
-    with Plan() as plan:
-        return plan._names(what)
+    return Plan()._names(what)
 
 
 def formats() -> list[str]:

@@ -131,6 +131,7 @@ class Level(Handle):
     """
 
     _is_level = 1
+    _mirror_depth = 1
 
     def __init__(self, pointer: Optional[int] = None) -> None:
         super().__init__(call.level_new() if pointer is None else pointer, call.level_free)
@@ -182,8 +183,6 @@ class Level(Handle):
         """How often mirrors reflect a sightline at most: 0 to 16, at first 1. It can be set."""
         return self._mirror_depth
 
-    _mirror_depth = 1
-
     @mirror_depth.setter
     def mirror_depth(self, value: int) -> None:
         depth = as_count(value, "mirror_depth", 16)
@@ -233,9 +232,10 @@ class Level(Handle):
         """
         with self._lock:
             cells, corners = self._counts()[:2]
-            found = {"corners": np.empty((corners, 2)), "offsets": np.empty(cells + 1, np.int64),
-                     "inside": np.empty(cells, np.uint8), "solid": np.empty(cells, np.uint8),
-                     "area": np.empty(cells)}
+            found: dict[str, NDArray[Any]] = {
+                "corners": np.empty((corners, 2)), "offsets": np.empty(cells + 1, np.int64),
+                "inside": np.empty(cells, np.uint8), "solid": np.empty(cells, np.uint8),
+                "area": np.empty(cells)}
             call.level_cells(self._open_pointer(), *found.values())
         found["inside"] = found["inside"].view(bool)
         found["solid"] = found["solid"].view(bool)

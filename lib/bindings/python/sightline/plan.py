@@ -352,7 +352,9 @@ class Plan(Handle):
             if effect not in EFFECTS:
                 raise ValueError(f"there is no effect {effect!r}; effects: {', '.join(EFFECTS)}")
             bits |= 1 << EFFECTS.index(effect)
-        x, y = (math.nan, math.nan) if start is None else as_points(start, "start").reshape(2)
+        x, y = math.nan, math.nan
+        if start is not None:
+            x, y = as_points(start, "start").reshape(2).tolist()
         if weld is not None and not math.isfinite(weld):
             raise ValueError("weld must be finite")
         options = Bake(text(method, "method"), text(subdivision, "subdivision"),
