@@ -205,6 +205,31 @@ class Lives(unittest.TestCase):
         gc.collect()
         self.assertTrue((found["corners"] == before).all() and len(walls))
 
+    @unittest.skipUnless(os.path.exists("/proc/self/statm") and "LD_PRELOAD" not in os.environ,
+                         "the memory in use is not known here")
+    def test_memory_is_given_back(self):
+        plan = sightline.Plan.from_file(support.MAPS / "effects/doors.map")
+        eyes = support.random_points(plan, 40, 11)
+
+        def use():
+            for _ in range(30):
+                with plan.bake() as at:
+                    at.isovists(eyes, polygons=True, arrays=True)
+                    at.vga(2, measures=("visual", "metric"), arrays=True)
+                    at.explain(0, len(at) - 1)
+                    at.doors["west"] = not at.doors["west"]
+                    at.look(eyes), at.sets(), at.cell_arrays(), at.region(eyes[0])
+                    with self.assertRaises(ValueError):
+                        at.doors["nowhere"] = True
+                with self.assertRaises(ValueError):
+                    sightline.Plan.from_text("nonsense")
+            gc.collect()
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+        use()
+        before = use()
+        self.assertLess(use() - before, 1 << 20)
+
     def test_threads_share_one_level(self):
         plan = sightline.Plan.from_file(support.MAPS / "office.map")
         at = plan.bake()
