@@ -330,7 +330,10 @@ class Level(Handle):
         return bool(sees) if sees.ndim == 0 else sees.view(bool)
 
     def cell_sees(self, a: ArrayLike, b: ArrayLike) -> Any:
-        """Whether cells see each other directly, doors as they are. Arrays broadcast."""
+        """Whether cells see each other directly, doors as they are. Arrays broadcast.
+
+        The range is that of the bake: a smaller one that is set later counts for eyes only.
+        """
         first, second = np.broadcast_arrays(a, b)
         if first.size and (first.dtype.kind not in "iu" or second.dtype.kind not in "iu"):
             raise TypeError("cells are whole numbers")
@@ -548,6 +551,8 @@ class Level(Handle):
     def explain(self, a: Union[int, ArrayLike], b: Union[int, ArrayLike], *,
                 misses: int = 3) -> Explanation:
         """Explain why cell `a` does or does not see cell `b`. Points stand for their cells.
+
+        Doors count as they are, and the range is that of the map.
 
         Examples
         --------
