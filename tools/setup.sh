@@ -3,7 +3,7 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
-# groff, and the Python package jsonschema.
+# groff, the Python package jsonschema, and what the tests of our own Python package use.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -54,6 +54,13 @@ font() {
     return 1
 }
 
+# The system's Python, which has the system's packages.
+python_has() {
+    python=/usr/bin/python3
+    [ -x $python ] || python=python3
+    $python -c "import $1" 2>/dev/null
+}
+
 clang_sanitizes() {
     has clang || return 1
     echo 'int main(void) { return 0; }' >"$scratch/try.c"
@@ -87,6 +94,8 @@ is_there() {
     font) font ;;
     clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
+    numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | wheel) python_has "$1" ;;
+    pip) python_has pip ;;
     jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
 }
@@ -114,6 +123,8 @@ package() { # system thing
     apt:clang-sanitizers) echo libclang-rt-dev ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
+    apt:numpy | apt:scipy | apt:pandas | apt:geopandas | apt:matplotlib) echo "python3-$2" ;;
+    apt:nbconvert | apt:ipykernel | apt:wheel | apt:pip) echo "python3-$2" ;;
     apt:node | dnf:node | pacman:node) echo nodejs ;;
     *:llvm-symbolizer) echo llvm ;;
 
@@ -133,6 +144,11 @@ package() { # system thing
     dnf:libpng | dnf:libxml2 | dnf:libyaml) echo "$2-devel" ;;
     dnf:cmocka) echo libcmocka-devel ;;
 
+    dnf:numpy | dnf:scipy | dnf:pandas | dnf:geopandas | dnf:matplotlib) echo "python3-$2" ;;
+    dnf:nbconvert | dnf:ipykernel | dnf:wheel | dnf:pip) echo "python3-$2" ;;
+
+    pacman:numpy | pacman:scipy | pacman:pandas | pacman:matplotlib) echo "python-$2" ;;
+    pacman:geopandas | pacman:nbconvert | pacman:ipykernel | pacman:wheel | pacman:pip) echo "python-$2" ;;
     pacman:c | pacman:c++) echo gcc ;;
     pacman:pkg-config) echo pkgconf ;;
     pacman:python3) echo python ;;
@@ -194,7 +210,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

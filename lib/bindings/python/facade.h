@@ -1,0 +1,193 @@
+/// What the Python package calls: plain functions on two kinds of handles, a plan and a level.
+///
+/// Arguments are numbers, texts and arrays that the caller owns, so that Python needs to know the
+/// layout of no struct. Calls that may give arrays of any length first find the result and keep it
+/// in the handle; a second call copies it. A handle serves one thread at a time: Python holds a
+/// lock for each. Only slp_cancel may be called beside it.
+#ifndef SLP_FACADE_H
+#define SLP_FACADE_H
+
+#include "sightline/explain.h"
+#include "sightline/query.h"
+#include "sightline/support.h"
+#include "sightline/vga.h"
+
+#include <stdatomic.h>
+
+#define SLP_API __attribute__((visibility("default")))
+
+/// What both handles begin with.
+typedef struct slp_base {
+    sl_context *context;
+    atomic_bool cancelled;
+    SL_ARRAY(char) notes; ///< lines, a 0 behind them
+} slp_base;
+
+typedef struct slp_plan {
+    slp_base base;
+    sl_map map;
+} slp_plan;
+
+/// A visible region as a polygon: of an eye, or of what it sees in a mirror.
+typedef struct slp_polygon {
+    uint32_t depth; ///< reflections
+    size_t count;
+    sl_point *points;
+} slp_polygon;
+
+/// The polygons of one eye, the direct one first.
+typedef struct slp_polygons {
+    SL_ARRAY(slp_polygon) list;
+} slp_polygons;
+
+typedef struct slp_level {
+    slp_base base;
+    sl_baked baked; ///< without visible sets where only the space was made
+    bool has_sets;
+    bool *shut; ///< by door of the map
+    double range;
+    uint32_t mirror_depth;
+    /// One query a thread, as a query serves one at a time. The first is always there.
+    SL_ARRAY(sl_query *) queries;
+    // Results that wait to be copied.
+    slp_polygons *polygons; ///< by eye
+    size_t eye_count;
+    sl_vga_grid grid;
+    sl_vga_measures *measures;
+    uint32_t *depths;
+    sl_effect_explanation explanation;
+} slp_level;
+
+/// Makes the context of a new handle; false without memory. slp_base_end undoes it.
+bool slp_base_begin(slp_base *base);
+void slp_base_end(slp_base *base);
+
+/// Makes the queries that this number of threads needs.
+sl_status slp_level_queries(slp_level *level, unsigned threads);
+/// Frees the polygons, the measures of a grid and the explanation that wait.
+void slp_level_forget(slp_level *level);
+
+// --- for both handles; `handle` is a plan or a level
+
+SLP_API const char *slp_version(void);
+SLP_API const char *slp_message(const void *handle);
+SLP_API const char *slp_notes(const void *handle);
+SLP_API void slp_cancel(void *handle, int cancelled);
+/// Lists of names, one a line: "map_formats", "methods", "eye_methods", "subdivisions", "exports",
+/// "isovist", "vga". Returns the length; writes up to `room` bytes, the 0 included.
+SLP_API size_t slp_names(const void *handle, const char *list, char *text, size_t room);
+
+// --- plans
+
+SLP_API slp_plan *slp_plan_new(void);
+SLP_API void slp_plan_free(slp_plan *plan);
+
+/// As sl_import_options; NAN for no slice, NULL for what is not given.
+typedef struct slp_import {
+    const char *map, *layers, *start_names, *unit;
+    double slice, tolerance, threshold;
+    int doors, sectors, cells;
+} slp_import;
+SLP_API int slp_plan_read(slp_plan *plan, const char *path, const slp_import *options);
+SLP_API int slp_plan_parse(slp_plan *plan, const char *name, const char *text, size_t size,
+                           const slp_import *options);
+SLP_API int slp_plan_write(slp_plan *plan, const char *path, const char *format);
+/// Adds `count` segments of one kind: "wall", "door", "mirror", "oneway", "seam". Rows of 4
+/// doubles.
+SLP_API int slp_plan_add(slp_plan *plan, const char *kind, const char *name, int open,
+                         const double *segments, size_t count);
+/// Adds a polygon of solid ground, or of open ground in it.
+SLP_API int slp_plan_add_ground(slp_plan *plan, int solid, const double *corners, size_t count);
+SLP_API int slp_plan_add_start(slp_plan *plan, double x, double y, double heading);
+SLP_API int slp_plan_set_range(slp_plan *plan, double range);
+
+// --- what the map of a handle holds
+
+/// The number of things of a kind, also "start", "object" and "path". Rows of 4 doubles (a start:
+/// x, y, heading, 0) are written where `rows` is not NULL.
+SLP_API size_t slp_segments(const void *handle, int is_level, const char *kind, double *rows);
+/// The name of a door or object, NULL for others.
+SLP_API const char *slp_name(const void *handle, int is_level, const char *kind, size_t number);
+SLP_API int slp_door_open(const void *handle, int is_level, size_t number);
+SLP_API double slp_range(const void *handle, int is_level);
+SLP_API const char *slp_unit(const void *handle, int is_level);
+SLP_API void slp_bounds(const void *handle, int is_level, double box[4]);
+
+// --- levels
+
+/// As sl_bake_options; NULL for what is not given, a weld of NAN for the default.
+typedef struct slp_bake {
+    const char *method, *subdivision;
+    double weld, start_x, start_y; ///< a start is added where start_x is not NAN
+    int open_sight, inside_only, sets;
+    uint32_t threads, mirror_depth, door_limit, without;
+} slp_bake;
+
+SLP_API slp_level *slp_level_new(void);
+SLP_API void slp_level_free(slp_level *level);
+SLP_API int slp_level_bake(slp_level *level, const slp_plan *plan, const slp_bake *options);
+SLP_API int slp_level_open(slp_level *level, const char *path);
+SLP_API int slp_level_write(slp_level *level, const char *path);
+SLP_API int slp_level_export(slp_level *level, const char *path, const char *format);
+/// "sure", "leaks", "small", "few" or "none": sl_inside in words.
+SLP_API const char *slp_level_inside(slp_level *level);
+SLP_API const char *slp_level_word(const slp_level *level, const char *what);
+/// cells, vertices, portals, walls, seams, inside cells, loose, has sets.
+SLP_API void slp_level_counts(const slp_level *level, uint64_t counts[8]);
+SLP_API void slp_level_cells(const slp_level *level, double *vertices, int64_t *offsets,
+                             uint8_t *inside, uint8_t *solid, double *areas);
+SLP_API void slp_level_portals(const slp_level *level, int64_t *cells, double *ends,
+                               int64_t *doors);
+/// The visible sets with the doors as they stand, as rows of a sparse matrix. `columns` may be
+/// NULL.
+SLP_API int slp_level_sets(slp_level *level, int mirrored, int64_t *offsets, int64_t *columns);
+SLP_API int slp_level_set_door(slp_level *level, const char *name, int open);
+SLP_API int slp_level_is_open(const slp_level *level, size_t door);
+SLP_API int slp_level_set_range(slp_level *level, double range);
+SLP_API int slp_level_set_mirror_depth(slp_level *level, uint32_t depth);
+
+// --- questions; points are rows of 2 doubles
+
+SLP_API int slp_level_locate(slp_level *level, const double *points, size_t count, int64_t *cells);
+SLP_API int slp_level_can_see(slp_level *level, const double *eyes, const double *points,
+                              size_t count, unsigned threads, uint8_t *sees);
+SLP_API int slp_level_cell_sees(slp_level *level, const int64_t *from, const int64_t *to,
+                                size_t count, uint8_t *sees);
+/// A byte for each cell and eye.
+SLP_API int slp_level_look(slp_level *level, const double *eyes, size_t count, double heading,
+                           double fov, const char *method, int mirrored, unsigned threads,
+                           uint8_t *cells);
+/// Rows of measures in the order of slp_names "isovist". Polygons are kept where asked for; arcs
+/// become chords within `tolerance`.
+SLP_API int slp_level_isovists(slp_level *level, const double *eyes, size_t count,
+                               const double *headings, const double *fovs, unsigned threads,
+                               int keep, double tolerance, double *measures);
+/// The number of polygons kept. Where `eyes` is not NULL: of each its eye, reflections, points.
+SLP_API size_t slp_level_polygons(const slp_level *level, int64_t *eyes, int64_t *depths,
+                                  int64_t *counts);
+SLP_API void slp_level_polygon_points(const slp_level *level, double *points);
+
+/// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
+typedef struct slp_vga {
+    double step, range, metric_radius, angular_radius;
+    uint32_t parts, radius, threads;
+} slp_vga;
+/// Measures a grid and keeps the result. `from`: points from which steps are counted, if any.
+SLP_API int slp_level_vga(slp_level *level, const slp_vga *options, const double *seeds,
+                          size_t seed_count, const double *from, size_t from_count);
+/// The number of points kept. `measures`: rows in the order of slp_names "vga"; `depths`: -1 for
+/// none. Each may be NULL.
+SLP_API size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
+                                  int64_t *depths);
+
+/// Explains a pair of cells and keeps the answer. Numbers: seen, verdict, distance, complete,
+/// effects that decide, misses, seen by mirror, reflections.
+SLP_API int slp_level_explain(slp_level *level, int64_t from, int64_t to, uint32_t misses,
+                              int64_t numbers[8], double lines[8]);
+/// A sequence of the answer, -1 for the one that is seen, or a miss: its portals and the cells
+/// behind them, and the ends that decide as rows of x, y. The return is the number of portals.
+SLP_API size_t slp_level_sequence(const slp_level *level, int which, int64_t *portals,
+                                  int64_t *cells, double *ends, size_t *end_count);
+SLP_API const char *slp_level_reason(const slp_level *level, int which);
+
+#endif

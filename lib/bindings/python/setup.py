@@ -1,0 +1,63 @@
+"""Builds the library of the package with CMake, in the project that this folder is a part of.
+
+SIGHTLINE_PYTHON_LIBRARY names a library that is built already, to be taken as it is.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+
+from setuptools import Distribution, setup
+from setuptools.command.build_py import build_py
+
+try:
+    from wheel.bdist_wheel import bdist_wheel
+except ImportError:
+    from setuptools.command.bdist_wheel import bdist_wheel
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+NAME = "libsightline_python.so"
+# One library with all that it needs of the project; nothing else is built.
+OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF", "-DSIGHTLINE_PYTHON=ON",
+           "-DSIGHTLINE_IO=ON", *(f"-DSIGHTLINE_{part}=OFF" for part in
+                                  ("STUDY", "GLPK", "DRAW", "TOOLS", "VIEWER", "TESTS", "INSTALL"))]
+
+
+def version():
+    text = (ROOT / "lib/include/sightline/version.h").read_text(encoding="utf-8")
+    return ".".join(re.search(rf"^#define SL_VERSION_{part} +(\d+)", text, re.MULTILINE)[1]
+                    for part in ("MAJOR", "MINOR", "PATCH"))
+
+
+def build_library(folder):
+    subprocess.run(["cmake", "-S", str(ROOT), "-B", folder, *OPTIONS], check=True)
+    subprocess.run(["cmake", "--build", folder, "--target", "sightline_python_library",
+                    "--parallel", str(os.cpu_count() or 1)], check=True)
+    return pathlib.Path(folder, "lib/bindings/python/sightline", NAME)
+
+
+class BuildWithLibrary(build_py):
+    def run(self):
+        super().run()
+        target = pathlib.Path(self.build_lib, "sightline", NAME)
+        with tempfile.TemporaryDirectory() as scratch:
+            shutil.copy(os.environ.get("SIGHTLINE_PYTHON_LIBRARY") or build_library(scratch), target)
+
+
+class WithLibrary(Distribution):
+    def has_ext_modules(self):
+        return True
+
+
+class WheelForThisMachine(bdist_wheel):
+    """The library is of this machine, and of no version of Python."""
+
+    def get_tag(self):
+        return "py3", "none", super().get_tag()[2]
+
+
+setup(version=version(), distclass=WithLibrary,
+      cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelForThisMachine})

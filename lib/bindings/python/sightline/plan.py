@@ -1,0 +1,425 @@
+"""Plans: walls and what else a map holds, before cells are made of them."""
+from __future__ import annotations
+
+import ctypes
+import math
+import os
+import warnings
+from typing import Any, Iterable, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import drawing
+from ._library import (Bake, Floats, Handle, Import, as_count, as_points, as_segments, call,
+                       existing, path_text, said, text)
+from .errors import SightlineWarning
+from .level import Level
+
+EFFECTS = ("door", "mirror", "oneway", "range")
+
+_DOUBTS = {
+    "leaks": "a start leads out of the map, so the outside counts as inside, too",
+    "small": "the map has no start, and walls enclose less than half of it: add one with start=",
+    "few": "rooms that no start reaches have more area than those that one reaches; they count as "
+           "outside",
+    "none": "all of the map is solid ground, so nothing is inside",
+}
+
+
+class Plan(Handle):
+    """A plan: walls, solid ground, doors, mirrors, one-way glass, starts and a view range.
+
+    Lengths are in any unit, and y grows upwards.
+
+    Examples
+    --------
+    >>> import sightline
+    >>> room = [(0, 0, 8, 0), (8, 0, 8, 4), (8, 4, 0, 4), (0, 4, 0, 0), (4, 0, 4, 3)]
+    >>> plan = sightline.Plan.from_segments(room)
+    >>> plan
+    <Plan: 5 walls>
+    >>> plan.bake().can_see((1, 1), (7, 1))
+    False
+    """
+
+    def __init__(self) -> None:
+        super().__init__(call.plan_new(), call.plan_free)
+        self.crs: Any = None
+        self._space: Optional[Level] = None
+
+    # --- making
+
+    @classmethod
+    def from_file(cls, path: Union[str, "os.PathLike[str]"], *, map: Optional[str] = None,
+                  layers: Optional[str] = None, start_names: Optional[str] = None,
+                  unit: Optional[str] = None, slice: Optional[float] = None,
+                  tolerance: float = 0, threshold: float = 0, doors: bool = False,
+                  sectors: bool = False, cells: bool = False) -> "Plan":
+        """Read a map: map text, Tiled, LDtk, Universal VTT, Foundry, Doom, DXF, SVG, images, ROS.
+
+        Parameters
+        ----------
+        path
+            The file. Its ending and its first bytes say which format it has.
+        map
+            Which map of a file that holds several.
+        layers
+            The layers to take, with commas between.
+        start_names
+            Names of objects that are starts, with commas between; "none" for no starts.
+        unit
+            The unit that coordinates are to have: mm, cm, m, km, in, ft or yd.
+        slice
+            Height of the cut through a 3D model.
+        tolerance
+            How far a curve may be from its walls; 0 for the usual.
+        threshold
+            Darkness from which a pixel of an image is solid, 0 to 1; 0 for the usual.
+        doors, sectors, cells
+            Take doors as doors (Doom), make seams between sectors (Doom), take the file's cells.
+
+        Raises
+        ------
+        BadInput
+            The file is broken; the text names the line.
+        OSError
+            The file cannot be read.
+        """
+        plan = cls()
+        options = Import(text(map, "map"), text(layers, "layers"),
+                         text(start_names, "start_names"), text(unit, "unit"),
+                         math.nan if slice is None else slice, tolerance, threshold, doors, sectors,
+                         cells)
+        plan._ask(call.plan_read, existing(path), ctypes.byref(options))
+        return plan
+
+    @classmethod
+    def from_text(cls, map_text: str, name: str = "text.map") -> "Plan":
+        """Read a map from a text, by default a map text; `name` is for its ending and messages.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> sightline.Plan.from_text("sightline 1\\nwalls 0 0 9 0 9 9 0 9 0 0\\n")
+        <Plan: 4 walls>
+        """
+        plan = cls()
+        coded = map_text.encode("utf-8")
+        plan._ask(call.plan_parse, text(name, "name"), coded, len(coded),
+                  ctypes.byref(Import(slice=math.nan)))
+        return plan
+
+    @classmethod
+    def from_segments(cls, segments: ArrayLike, *, starts: Optional[ArrayLike] = None) -> "Plan":
+        """Make a plan of walls.
+
+        Parameters
+        ----------
+        segments
+            Rows x0, y0, x1, y1; shape (n, 4) or (n, 2, 2).
+        starts
+            Points from which inside is reached; shape (n, 2).
+        """
+        plan = cls()
+        plan.add_walls(segments)
+        if starts is not None:
+            for x, y in as_points(starts, "starts").reshape(-1, 2):
+                plan.add_start((x, y))
+        return plan
+
+    @classmethod
+    def from_polygons(cls, polygons: Iterable[Any], *, solid: bool = True,
+                      boundary: Optional[ArrayLike] = None) -> "Plan":
+        """Make a plan of polygons: buildings or pillars, or the outlines of rooms.
+
+        Parameters
+        ----------
+        polygons
+            Shapely polygons, multipolygons, or arrays of corners of shape (n, 2).
+        solid
+            Whether they are solid ground. If not, their outlines are walls.
+        boundary
+            A box x0, y0, x1, y1 of walls around all, so that sight ends there.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> pillar = [(4, 4), (5, 4), (5, 5), (4, 5)]
+        >>> sightline.Plan.from_polygons([pillar], boundary=(0, 0, 9, 9)).can_see((1, 4.5), (8, 4.5))
+        False
+        """
+        plan = cls()
+        for polygon in polygons:
+            plan.add_polygon(polygon, solid=solid)
+        if boundary is not None:
+            plan.add_box(boundary)
+        return plan
+
+    @classmethod
+    def from_geodataframe(cls, frame: Any, *, kind: str = "kind", solid: bool = True,
+                          boundary: Optional[ArrayLike] = None) -> "Plan":
+        """Make a plan of a GeoDataFrame, by its geometry and, where there is one, a column of kinds.
+
+        Parameters
+        ----------
+        frame
+            A GeoDataFrame or GeoSeries. Lines are walls, polygons solid ground, points starts.
+        kind
+            The column that says otherwise: wall, solid, open, door, mirror, oneway, seam or start.
+            Rows of other kinds are refused. Doors take the columns `name` and `open`.
+        solid, boundary
+            As for `from_polygons`.
+        """
+        plan = cls()
+        plan.crs = getattr(frame, "crs", None)
+        shapes = list(getattr(frame, "geometry", frame))
+        columns = getattr(frame, "columns", ())
+
+        def column(name: str) -> Sequence[Any]:
+            return list(frame[name]) if name in columns else [None] * len(shapes)
+
+        opened = [True if value is None else value for value in column("open")]
+        for shape, what, name, is_open in zip(shapes, column(kind), column("name"), opened):
+            if shape is None or shape.is_empty:
+                continue
+            plan._add_shape(shape, _is_text(what), _is_text(name) or "door", bool(is_open), solid)
+        if boundary is not None:
+            plan.add_box(boundary)
+        return plan
+
+    def _add_shape(self, shape: Any, what: Optional[str], name: str, is_open: bool,
+                   solid: bool) -> None:
+        if hasattr(shape, "geoms"):
+            for part in shape.geoms:
+                self._add_shape(part, what, name, is_open, solid)
+        elif shape.geom_type == "Polygon":
+            if what not in (None, "wall", "solid", "open"):
+                raise ValueError(f"a polygon cannot be of the kind {what!r}")
+            self.add_polygon(shape, solid=solid if what is None else what == "solid",
+                             is_open=what == "open")
+        elif shape.geom_type == "Point":
+            if what not in (None, "start"):
+                raise ValueError(f"a point cannot be of the kind {what!r}")
+            self.add_start((shape.x, shape.y))
+        else:
+            points = np.asarray(shape.coords)[:, :2]
+            self._add(what or "wall", np.hstack([points[:-1], points[1:]]), name, is_open)
+
+    # --- adding
+
+    def _add(self, kind: str, segments: ArrayLike, name: str = "", is_open: bool = True) -> None:
+        rows = as_segments(segments, kind + "s")
+        self._changed()
+        self._ask(call.plan_add, text(kind, "kind"), text(name, "name"), is_open, rows, len(rows))
+
+    def _changed(self) -> None:
+        self._space = None
+
+    def add_walls(self, segments: ArrayLike) -> None:
+        """Add walls, rows x0, y0, x1, y1."""
+        self._add("wall", segments)
+
+    def add_box(self, box: ArrayLike) -> None:
+        """Add the four sides of a box x0, y0, x1, y1 as walls."""
+        x0, y0, x1, y1 = as_segments(box, "box")[0].tolist()
+        self.add_walls([(x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0)])
+
+    def add_polygon(self, polygon: Any, *, solid: bool = True, is_open: bool = False) -> None:
+        """Add solid ground, or outlines as walls (`solid=False`), or open ground within solid."""
+        if hasattr(polygon, "geoms"):
+            for part in polygon.geoms:
+                self.add_polygon(part, solid=solid, is_open=is_open)
+            return
+        if hasattr(polygon, "exterior"):
+            rings = [(polygon.exterior.coords, True)]
+            rings += [(ring.coords, False) for ring in polygon.interiors]
+        else:
+            rings = [(polygon, True)]
+        for ring, outer in rings:
+            corners = as_points(np.asarray(ring)[..., :2], "a polygon")
+            if corners.ndim == 2 and len(corners) > 1 and (corners[0] == corners[-1]).all():
+                corners = np.ascontiguousarray(corners[:-1])
+            if corners.ndim != 2 or len(corners) < 3:
+                raise ValueError("a polygon needs three corners or more")
+            self._changed()
+            if solid or is_open:
+                self._ask(call.plan_add_ground, outer != is_open, corners, len(corners))
+            else:
+                self.add_walls(np.hstack([corners, np.roll(corners, -1, axis=0)]))
+
+    def add_door(self, name: str, segment: ArrayLike, *, is_open: bool = True) -> None:
+        """Add a door: a segment that hides what is behind it while it is shut."""
+        self._add("door", segment, name, is_open)
+
+    def add_mirrors(self, segments: ArrayLike) -> None:
+        """Add mirrors, which reflect on both sides."""
+        self._add("mirror", segments)
+
+    def add_oneways(self, segments: ArrayLike) -> None:
+        """Add one-way glass, seen through from its right to its left, from first to second end."""
+        self._add("oneway", segments)
+
+    def add_seams(self, segments: ArrayLike) -> None:
+        """Add seams: cells end at them, and sight does not."""
+        self._add("seam", segments)
+
+    def add_start(self, point: ArrayLike, heading: float = 0) -> None:
+        """Add a viewpoint; the heading is in degrees, counter-clockwise from +x."""
+        x, y = as_points(point, "a start").reshape(2)
+        self._changed()
+        self._ask(call.plan_add_start, x, y, heading)
+
+    @property
+    def range(self) -> float:
+        """How far is seen; 0 for no limit. It can be set."""
+        with self._lock:
+            return float(call.range(self._open_pointer(), 0))
+
+    @range.setter
+    def range(self, value: float) -> None:
+        self._changed()
+        self._ask(call.plan_set_range, value)
+
+    @property
+    def doors(self) -> dict[str, bool]:
+        """Whether each door is open as the map begins."""
+        with self._lock:
+            pointer = self._open_pointer()
+            count = call.segments(pointer, 0, b"door", None)
+            return {self._name("door", i): bool(call.door_open(pointer, 0, i))
+                    for i in range(count)}
+
+    # --- what is made of it
+
+    def save(self, path: Union[str, "os.PathLike[str]"], format: Optional[str] = None) -> None:
+        """Write the plan, in the format that the ending names: .map, .dxf, .svg, .tmx ..."""
+        self._ask(call.plan_write, path_text(path), text(format, "format"))
+
+    def bake(self, *, method: Optional[str] = None, sight: str = "closed",
+             subdivision: Optional[str] = None, start: Optional[ArrayLike] = None,
+             weld: Optional[float] = None, without: Sequence[str] = (), inside_only: bool = False,
+             mirror_depth: int = 1, door_limit: int = 16, threads: int = 0) -> Level:
+        """Cut the plan into cells, and find which cells see each other.
+
+        Parameters
+        ----------
+        method
+            How (`sightline.methods()`); by default the fastest exact one.
+        sight
+            "closed": lines that only touch walls count; "open": they do not.
+        subdivision
+            "kd", "mesh" or "given"; by default what the walls call for.
+        start
+            A point to add as a start: inside is what starts reach.
+        weld
+            Ends of walls up to this far apart become one; by default what rounding calls for.
+        without
+            Effects to leave out: "door", "mirror", "oneway", "range".
+        inside_only
+            Look from and at inside cells only.
+        mirror_depth
+            How often mirrors reflect a sightline at most, 0 to 16.
+        door_limit
+            Sets of doors kept of a pair of cells at most.
+        threads
+            0 for one per core. The result is the same for any number.
+
+        Warns
+        -----
+        SightlineWarning
+            It is doubtful what is inside.
+        """
+        return self._bake(method, sight, subdivision, start, weld, without, inside_only,
+                          mirror_depth, door_limit, threads, True)
+
+    def space(self, *, subdivision: Optional[str] = None, start: Optional[ArrayLike] = None,
+              weld: Optional[float] = None, without: Sequence[str] = ()) -> Level:
+        """The cells and portals alone, without visible sets: faster, and enough for regions.
+
+        The parameters are those of `bake`.
+        """
+        return self._bake(None, "closed", subdivision, start, weld, without, False, 1, 16, 0, False)
+
+    def _bake(self, method: Optional[str], sight: str, subdivision: Optional[str],
+              start: Optional[ArrayLike], weld: Optional[float], without: Sequence[str],
+              inside_only: bool, mirror_depth: int, door_limit: int, threads: int,
+              sets: bool) -> Level:
+        if sight not in ("closed", "open"):
+            raise ValueError(f"sight must be 'closed' or 'open', not {sight!r}")
+        bits = 0
+        for effect in (without,) if isinstance(without, str) else without:
+            if effect not in EFFECTS:
+                raise ValueError(f"there is no effect {effect!r}; effects: {', '.join(EFFECTS)}")
+            bits |= 1 << EFFECTS.index(effect)
+        x, y = math.nan, math.nan
+        if start is not None:
+            x, y = as_points(start, "start").reshape(2).tolist()
+        if weld is not None and not math.isfinite(weld):
+            raise ValueError("weld must be finite")
+        options = Bake(text(method, "method"), text(subdivision, "subdivision"),
+                       math.nan if weld is None else weld, x, y, sight == "open", inside_only, sets,
+                       as_count(threads, "threads", 1024), as_count(mirror_depth, "mirror_depth", 16),
+                       as_count(door_limit, "door_limit", 2**32 - 1), bits)
+        level = Level(call.level_new())
+        level.crs = self.crs
+        with self._lock:
+            level._ask_long(call.level_bake, self._open_pointer(), ctypes.byref(options))
+        doubt = said(call.level_inside(level._open_pointer()))
+        if doubt in _DOUBTS:
+            warnings.warn(_DOUBTS[doubt], SightlineWarning, stacklevel=3)
+        return level
+
+    def _own_space(self) -> Level:
+        with self._lock:
+            self._open_pointer()
+            if self._space is None:
+                self._space = self._bake(None, "closed", None, None, None, (), False, 1, 16, 0,
+                                         False)
+            return self._space
+
+    # --- questions that need no visible sets
+
+    def locate(self, points: ArrayLike) -> Any:
+        """As `Level.locate`."""
+        return self._own_space().locate(points)
+
+    def can_see(self, a: ArrayLike, b: ArrayLike, *, threads: int = 0) -> Any:
+        """As `Level.can_see`, for points."""
+        return self._own_space().can_see(a, b, threads=threads)
+
+    def region(self, eye: ArrayLike, **options: Any) -> Any:
+        """As `Level.region`."""
+        return self._own_space().region(eye, **options)
+
+    def isovists(self, points: ArrayLike, **options: Any) -> Any:
+        """As `Level.isovists`."""
+        return self._own_space().isovists(points, **options)
+
+    def vga(self, grid: float, **options: Any) -> Any:
+        """As `Level.vga`."""
+        return self._own_space().vga(grid, **options)
+
+    def grid(self, step: float, **options: Any) -> Floats:
+        """As `Level.grid`."""
+        return self._own_space().grid(step, **options)
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draw walls, doors, mirrors, glass and starts with matplotlib; returns the axes."""
+        return drawing.plot(self, ax, **style)
+
+    def _repr_svg_(self) -> str:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        return drawing.html(self)
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<Plan: closed>"
+        return f"<Plan: {drawing.describe(self)}>"
+
+
+def _is_text(value: Any) -> Optional[str]:
+    """A text of a table; None for the marks that tables have for no value."""
+    return value if isinstance(value, str) and value else None

@@ -1,0 +1,55 @@
+"""Results as tables and shapes of other packages, where these are installed."""
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def _module(name: str) -> Any:
+    """A module; None where it is not installed."""
+    import importlib
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        return None
+
+
+def polygon(points: NDArray[np.float64]) -> Any:
+    """A shapely polygon; without shapely the array itself."""
+    shapely = _module("shapely.geometry")
+    if shapely is None:
+        return points
+    return shapely.Polygon(points) if len(points) > 2 else shapely.Polygon()
+
+
+def frame(columns: dict[str, NDArray[Any]], shapes: Optional[list[NDArray[np.float64]]] = None,
+          kind: str = "polygon", crs: Any = None, arrays: bool = False,
+          attributes: Optional[dict[str, Any]] = None) -> Any:
+    """A GeoDataFrame, else a DataFrame, else the dict; shapes become geometry or a column."""
+    pandas = None if arrays else _module("pandas")
+    geopandas = None if arrays or shapes is None else _module("geopandas")
+    if shapes is not None and geopandas is None:
+        column = np.empty(len(shapes), object)
+        column[:] = shapes
+        columns = {**columns, kind: column}
+    if pandas is None:
+        return columns
+    if geopandas is not None and shapes is not None:
+        line_string = _module("shapely.geometry").LineString
+        geometry = [polygon(each) if kind == "polygon" else line_string(each) for each in shapes]
+        table = geopandas.GeoDataFrame(columns, geometry=geometry, crs=crs)
+    else:
+        table = pandas.DataFrame(columns)
+    table.attrs.update(attributes or {})
+    return table
+
+
+def sparse(offsets: NDArray[np.int64], cells: NDArray[np.int64]) -> Any:
+    """A scipy matrix of bool; without scipy the two arrays."""
+    scipy = _module("scipy.sparse")
+    if scipy is None:
+        return offsets, cells
+    size = len(offsets) - 1
+    return scipy.csr_matrix((np.ones(len(cells), bool), cells, offsets), shape=(size, size))

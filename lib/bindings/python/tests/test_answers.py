@@ -1,0 +1,226 @@
+"""Answers of the package against exact arithmetic in Python and against the command line."""
+import pathlib
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+import sightline
+import support
+
+warnings.simplefilter("ignore", sightline.SightlineWarning)
+
+
+def office():
+    return sightline.Plan.from_file(support.MAPS / "office.map")
+
+
+class Points(unittest.TestCase):
+    def test_points_see_as_exact_segments_say(self):
+        for name in ("office.map", "gallery.map", "oblique/rotunda.map"):
+            with self.subTest(name):
+                plan = sightline.Plan.from_file(support.MAPS / name)
+                level = plan.space(without=("door", "mirror", "oneway", "range"))
+                eyes = support.inside_points(level, 150, 1)
+                places = np.roll(eyes, 1, axis=0)
+                walls = level.walls
+                wanted = [support.plainly_sees(walls, p, q) for p, q in zip(eyes, places)]
+                self.assertEqual(level.can_see(eyes, places).tolist(), wanted)
+                self.assertTrue(any(wanted) and not all(wanted))
+
+    def test_points_broadcast_to_a_matrix(self):
+        level = sightline.Plan.from_segments(support.TWO_ROOMS).bake()
+        points = support.random_points(level, 9, 2)
+        matrix = level.can_see(points[:, None, :], points)
+        self.assertEqual(matrix.shape, (9, 9))
+        self.assertTrue((matrix == matrix.T).all() and matrix.diagonal().all())
+        self.assertEqual(bool(matrix[2, 5]), level.can_see(points[2], points[5]))
+
+    def test_located_cells_hold_their_points(self):
+        level = office().space()
+        points = support.random_points(level, 200, 3)
+        found = level.cell_arrays()
+        for point, cell in zip(points, level.locate(points)):
+            corners = found["corners"][found["offsets"][cell]:found["offsets"][cell + 1]]
+            for a, b in zip(corners, np.roll(corners, -1, axis=0)):
+                self.assertGreaterEqual(support.turn(a, b, point), 0)
+        self.assertEqual(level.locate((-5, -5)), -1)
+        self.assertEqual(level.locate((np.nan, 1)), -1)
+
+    def test_any_number_of_threads_gives_the_same(self):
+        level = office().bake()
+        eyes = support.inside_points(level, 600, 4)
+        one = level.isovists(eyes, arrays=True, threads=1)
+        two = level.isovists(eyes, arrays=True, threads=5)
+        for name in one:
+            np.testing.assert_array_equal(one[name], two[name])
+        self.assertTrue((level.look(eyes, threads=1) == level.look(eyes, threads=3)).all())
+
+
+class Regions(unittest.TestCase):
+    def test_regions_hold_what_is_seen(self):
+        shapely = self.need("shapely.geometry")
+        level = office().space()
+        eyes = support.inside_points(level, 5, 5)
+        places = support.inside_points(level, 200, 6)
+        for eye in eyes:
+            region = level.region(eye)
+            sees = level.can_see(eye, places)
+            holds = [region.contains(shapely.Point(*place)) for place in places]
+            self.assertEqual(sees.tolist(), holds)
+            area = level.isovists([eye], arrays=True)["area"][0]
+            self.assertAlmostEqual(region.area, area, delta=1e-9 * area)
+
+    def need(self, name):
+        try:
+            import importlib
+            return importlib.import_module(name)
+        except ImportError:
+            self.skipTest(f"{name} is not installed")
+
+    def test_a_range_ends_regions_in_arcs(self):
+        level = sightline.Plan.from_segments(support.TWO_ROOMS).space()
+        level.range = 0.5
+        self.assertEqual(level.range, 0.5)
+        area = level.isovists([(1, 2)], arrays=True)["area"][0]
+        self.assertAlmostEqual(area, np.pi / 4)
+        corners = level.region((1, 2), tolerance=1e-3, as_array=True)
+        self.assertLess(np.abs(np.hypot(*(corners - (1, 2)).T) - 0.5).max(), 1e-9)
+        self.assertFalse(level.can_see((1, 2), (2, 2)))
+
+    def test_mirrors_show_more(self):
+        plan = sightline.Plan.from_segments(support.TWO_ROOMS)
+        plan.add_mirrors([(1, 4, 3.9, 4)])
+        level = plan.bake()
+        regions = level.region((2, 1), mirrors=True, as_array=True)
+        self.assertGreater(len(regions), 1)
+        self.assertGreater(level.isovists([(2, 1)], arrays=True)["mirrored_area"][0], 0)
+        level.mirror_depth = 0
+        self.assertEqual(level.mirror_depth, 0)
+        self.assertEqual(len(level.look((2, 1), mirrored=True)), 0)
+
+    def test_an_eye_outside_sees_nothing(self):
+        level = sightline.Plan.from_segments(support.TWO_ROOMS).bake()
+        self.assertEqual(len(level.region((99, 99), as_array=True)), 0)
+        self.assertEqual(len(level.look((99, 99))), 0)
+        self.assertFalse(level.can_see((99, 99), (1, 1)))
+
+
+class Sets(unittest.TestCase):
+    def test_eyes_see_what_their_cells_see(self):
+        level = office().bake()
+        offsets, cells = level.sets()
+        eyes = support.inside_points(level, 60, 7)
+        for eye, cell in zip(eyes, level.locate(eyes)):
+            row = cells[offsets[cell]:offsets[cell + 1]]
+            self.assertLessEqual(set(level.look(eye)), set(row))
+        self.assertTrue(level.cell_sees(np.arange(len(level)), np.arange(len(level))).all())
+        counts = np.diff(offsets)
+        self.assertTrue(counts.min() < counts.max())
+
+    def test_shut_doors_hide(self):
+        plan = sightline.Plan.from_segments(support.TWO_ROOMS)
+        plan.add_door("gap", (4, 3, 4, 4))
+        level = plan.bake()
+        a, b = level.locate((1, 1)), level.locate((7, 1))
+        self.assertTrue(level.can_see((1, 3.5), (7, 3.5)) and level.can_see(a, b))
+        before = level.sets()[0][-1]
+        region = level.isovists([(1, 3.5)], arrays=True)["area"][0]
+        level.doors["gap"] = False
+        self.assertEqual(dict(level.doors), {"gap": False})
+        self.assertFalse(level.can_see((1, 3.5), (7, 3.5)) or level.can_see(a, b))
+        self.assertLess(level.sets()[0][-1], before)
+        self.assertLess(level.isovists([(1, 3.5)], arrays=True)["area"][0], region)
+        self.assertEqual(level.explain(a, b).decides, ("door",))
+        level.doors["gap"] = True
+        self.assertTrue(level.can_see((1, 3.5), (7, 3.5)))
+
+    def test_a_shut_door_hides_in_a_plan_without_sets(self):
+        plan = sightline.Plan.from_segments(support.TWO_ROOMS)
+        plan.add_door("gap", (4, 3, 4, 4), is_open=False)
+        self.assertFalse(plan.can_see((1, 3.5), (7, 3.5)))
+        self.assertEqual(plan.doors, {"gap": False})
+        self.assertLess(plan.vga(0.5, seeds=[(1, 1)], arrays=True)["x"].max(), 4)
+
+    def test_explanations_name_portals(self):
+        level = sightline.Plan.from_segments(support.TWO_ROOMS).bake()
+        near = level.explain((1, 1), (7, 3.5))
+        self.assertTrue(near.seen and near.sequence.portals and near.line is not None)
+        level = office().bake()
+        offsets, cells = level.sets()
+        hidden = np.setdiff1d(np.arange(len(level)), cells[offsets[0]:offsets[1]])[0]
+        far = level.explain(0, int(hidden))
+        self.assertFalse(far.seen)
+        self.assertEqual(far.verdict, "hidden")
+        self.assertTrue(far.misses and far.misses[0].reason and len(far.misses[0].ends))
+        self.assertIn("does not see", str(far))
+
+
+@unittest.skipUnless(support.COMMAND, "SIGHTLINE_COMMAND names no program")
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.scratch = pathlib.Path(scratch.name)
+
+    def test_baked_files_are_those_of_the_command(self):
+        ours, theirs = self.scratch / "a.slv", self.scratch / "b.slv"
+        paths = sorted([*support.MAPS.glob("*.map"), *support.MAPS.glob("*/*.map"),
+                        *support.MAPS.glob("*.txt"), *support.MAPS.glob("*.tmx")])
+        self.assertGreater(len(paths), 10)
+        for path in paths:
+            with self.subTest(path.name):
+                support.command("bake", path, "-o", theirs, "--quiet")
+                sightline.Plan.from_file(path).bake().save(ours)
+                self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+                with sightline.Level.open(theirs) as level:
+                    self.assertGreater(len(level), 0)
+
+    def test_isovists_are_those_of_the_command(self):
+        paths = [support.MAPS / "office.map", *sorted((support.MAPS / "effects").glob("*.map")),
+                 *sorted((support.MAPS / "oblique").glob("*.map"))]
+        for path in paths:
+            with self.subTest(path.name):
+                theirs = support.table(support.command("isovist", path, "--grid", "3"))
+                eyes = np.column_stack([theirs["x"], theirs["y"]])
+                ours = sightline.Plan.from_file(path).isovists(eyes, arrays=True)
+                self.assertGreater(len(eyes), 10)
+                for name in set(theirs) & set(ours):
+                    np.testing.assert_array_equal(ours[name], theirs[name], name)
+                self.assertLessEqual({"area", "corners", "drift_angle"}, set(theirs) & set(ours))
+
+    def test_isovists_behind_shut_doors_are_those_of_the_command(self):
+        path = support.MAPS / "effects/doors.map"
+        level = sightline.Plan.from_file(path).bake()
+        names = list(level.doors)
+        self.assertEqual([level.doors[name] for name in names].count(False), 1)
+        for shut in (names[0], "none", ",".join(names)):
+            theirs = support.table(support.command("isovist", path, "--grid", "1", "--shut", shut))
+            for name in names:
+                level.doors[name] = name not in shut.split(",")
+            ours = level.isovists(np.column_stack([theirs["x"], theirs["y"]]), arrays=True)
+            for column in ("area", "corners", "perimeter"):
+                np.testing.assert_array_equal(ours[column], theirs[column], column)
+
+    def test_vga_is_that_of_the_command(self):
+        path = support.MAPS / "office.map"
+        theirs = support.table(support.command("vga", path, "--grid", "2", "--measures", "all"))
+        ours = sightline.Plan.from_file(path).vga(
+            2, measures=("visual", "through", "metric", "angular", "isovist"), arrays=True)
+        for name in theirs:
+            np.testing.assert_array_equal(ours[name], theirs[name], name)
+
+    def test_exports_are_those_of_the_command(self):
+        baked = self.scratch / "a.slv"
+        level = office().bake()
+        level.save(baked)
+        for ending in ("json", "geojson", "csv"):
+            support.command("export", baked, "--format", ending, "-o", self.scratch / "theirs")
+            level.export(self.scratch / f"ours.{ending}")
+            self.assertEqual((self.scratch / f"ours.{ending}").read_bytes(),
+                             (self.scratch / "theirs").read_bytes())
+
+
+if __name__ == "__main__":
+    unittest.main()
