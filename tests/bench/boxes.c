@@ -107,7 +107,8 @@ static frame *choose(const sl_space *space, bool blocks) {
         const sl_point at = place(space, &random);
         const double turn = 6.2831853 * sl_random_unit(&random);
         for (int f = 0; f < FRAMES; f++) {
-            const sl_point p = {at.x + 0.2 * half * f * cos(turn), at.y + 0.2 * half * f * sin(turn)};
+            const sl_point p = {at.x + 0.2 * half * f * cos(turn),
+                                at.y + 0.2 * half * f * sin(turn)};
             frames[f].boxes[i] = (sl_moving_box){
                 .box = {{p.x - half, p.y - half}, {p.x + half, p.y + half}}, .blocks = blocks};
         }

@@ -1,0 +1,286 @@
+/// Many boxes in the runtime against the library's query, which cuts the space along the boxes and
+/// makes walls of those that block. Boxes touch walls, doors, corners, the eye and each other.
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "sightline/query.h"
+#include "sightline/support.h"
+
+#include <math.h>
+
+enum { SIZE = 12, MAPS = 80, DOORS = 4, BOXES = 24, EYES = 8, CELLS_MOST = 1024, ROOM = 4096 };
+
+typedef struct trial {
+    sl_context *context;
+    sl_random random;
+    baked_file file;
+    sl_query *query;
+    unsigned char shut[DOORS];
+    sl_moving_box boxes[BOXES];
+    sl_runtime_box list[BOXES];
+    sl_runtime_boxes placed;
+    uint32_t memory[CELLS_MOST + BOXES + 4 * ROOM + 1], scratch[7 * CELLS_MOST + BOXES];
+    bool block, on_grid, apart; ///< boxes and eyes on a grid; no two boxes overlap
+    size_t seen, touched, hidden, asked, cells, more_cells;
+} trial;
+
+static double below(trial *t, uint64_t bound) {
+    return (double)sl_random_below(&t->random, bound);
+}
+
+static sl_segment random_segment(trial *t) {
+    const bool upright = sl_random_below(&t->random, 2);
+    const double at = below(t, SIZE + 1), from = below(t, SIZE);
+    const double to = from + 1 + below(t, 4);
+    return upright ? (sl_segment){{at, from}, {at, fmin(to, SIZE)}}
+                   : (sl_segment){{from, at}, {fmin(to, SIZE), at}};
+}
+
+static void random_map(trial *t, sl_map *map) {
+    const sl_point c[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(t->context, sl_map_add_wall(t->context, map, c[i], c[i + 1], 0));
+    for (int i = 0; i < 8; i++) {
+        const sl_segment at = random_segment(t);
+        assert_ok(t->context, sl_map_add_wall(t->context, map, at.a, at.b, 0));
+    }
+    for (int i = 0; i < DOORS; i++) {
+        const char name[2] = {(char)('a' + i), 0};
+        assert_ok(t->context, sl_map_add_door(t->context, map, name, random_segment(t), true, 0));
+    }
+    assert_ok(t->context, sl_map_clean(t->context, map, NULL, NULL));
+}
+
+// --- boxes
+
+static double coordinate(trial *t, double low, double high) {
+    if (t->on_grid) return floor(low) + floor(below(t, (uint64_t)(4 * (high - low)) + 1)) / 4;
+    return low + sl_random_unit(&t->random) * (high - low);
+}
+
+static bool overlap(const sl_box *a, const sl_box *b) {
+    return a->min.x < b->max.x && b->min.x < a->max.x && a->min.y < b->max.y && b->min.y < a->max.y;
+}
+
+static sl_box random_box(trial *t) {
+    const sl_runtime *r = &t->file.runtime;
+    const double x = coordinate(t, r->min_x - 1, r->max_x),
+                 y = coordinate(t, r->min_y - 1, r->max_y);
+    const double width = coordinate(t, 0, 3), height = coordinate(t, 0, 3);
+    return (sl_box){{x, y}, {x + width, y + height}};
+}
+
+static bool is_free(const trial *t, size_t i) {
+    for (size_t k = 0; k < i; k++)
+        if (overlap(&t->boxes[i].box, &t->boxes[k].box)) return false;
+    return true;
+}
+
+static void move_boxes(trial *t, bool block) {
+    for (uint32_t i = 0; i < BOXES; i++) {
+        int tries = 0;
+        do t->boxes[i].box = random_box(t);
+        while (t->apart && !is_free(t, i) && tries++ < 100);
+        if (tries > 100) t->boxes[i].box = (sl_box){{-99 - i, -99}, {-99 - i, -99}};
+        t->boxes[i].blocks = block && sl_random_below(&t->random, 2);
+        const sl_box *b = &t->boxes[i].box;
+        const sl_runtime_box to = {b->min.x, b->min.y, b->max.x, b->max.y, t->boxes[i].blocks};
+        assert_true(sl_runtime_boxes_move(&t->placed, i, &to));
+    }
+    assert_ok(t->context, sl_query_set_boxes(t->context, t->query, t->boxes, BOXES));
+}
+
+// --- one eye
+
+static sl_runtime_view runtime_view(const sl_view *view) {
+    return (sl_runtime_view){view->eye.x,
+                             view->eye.y,
+                             view->full,
+                             {view->right.x - view->eye.x, view->right.y - view->eye.y},
+                             {view->left.x - view->eye.x, view->left.y - view->eye.y}};
+}
+
+static void print_trial(const trial *t) {
+    for (int i = 0; i < BOXES; i++) {
+        const sl_box b = t->boxes[i].box;
+        print_message("box %d: %.17g,%.17g %.17g,%.17g%s\n", i, b.min.x, b.min.y, b.max.x, b.max.y,
+                      t->boxes[i].blocks ? " blocks" : "");
+    }
+    for (size_t i = 0; i < t->file.baked.map.door_count; i++) {
+        const sl_door *d = &t->file.baked.map.doors[i];
+        print_message("door %g,%g %g,%g%s\n", d->segment.a.x, d->segment.a.y, d->segment.b.x,
+                      d->segment.b.y, t->shut[d->name[0] - 'a'] ? " shut" : "");
+    }
+    for (size_t i = 0; i < t->file.baked.space.wall_count; i++) {
+        const sl_wall *w = &t->file.baked.space.walls[i];
+        print_message("wall %g,%g %g,%g\n", w->a.x, w->a.y, w->b.x, w->b.y);
+    }
+}
+
+/// Whether a line of sight touches a box in a corner of it, or in a wall's end. The library does
+/// not count a box that is only touched in a point.
+static bool is_touched(trial *t, sl_point eye, const sl_box *b) {
+    const sl_space *s = &t->file.baked.space;
+    for (uint32_t i = 0; i < 4 + 2 * s->wall_count; i++) {
+        const sl_wall *w = i < 4 ? NULL : &s->walls[(i - 4) / 2];
+        const sl_point p = w ? i % 2 ? w->a : w->b
+                             : (sl_point){i & 1 ? b->max.x : b->min.x, i & 2 ? b->max.y : b->min.y};
+        bool sees = false;
+        if (p.x < b->min.x || p.x > b->max.x || p.y < b->min.y || p.y > b->max.y) continue;
+        if (sl_query_locate(t->query, p) == SL_NO_CELL) continue;
+        assert_ok(t->context, sl_query_can_see(t->context, t->query, eye, p, &sees));
+        if (sees) return true;
+    }
+    return false;
+}
+
+/// Whether a flat box lies in a shut door: to the runtime it is seen from both sides, to the
+/// library it is covered.
+static bool is_in_door(const trial *t, const sl_box *b) {
+    const sl_map *map = &t->file.baked.map;
+    for (size_t i = 0; i < map->door_count; i++) {
+        const sl_point p = map->doors[i].segment.a, q = map->doors[i].segment.b;
+        if (!t->shut[map->doors[i].name[0] - 'a']) continue;
+        if (b->min.x == b->max.x && p.x == q.x && p.x == b->min.x) return true;
+        if (b->min.y == b->max.y && p.y == q.y && p.y == b->min.y) return true;
+    }
+    return false;
+}
+
+static void compare_boxes(trial *t, const sl_view *view, const unsigned char *said) {
+    bool seen[BOXES];
+    assert_ok(t->context, sl_query_boxes_seen(t->context, t->query, view, seen, NULL));
+    for (uint32_t i = 0; i < BOXES; i++) {
+        t->asked++;
+        t->seen += seen[i];
+        if (seen[i] == said[i] || (said[i] && !t->apart)) continue;
+        // Or a single line passes between boxes and walls that touch.
+        if (said[i] && t->on_grid &&
+            (t->block || is_in_door(t, &t->boxes[i].box) ||
+             is_touched(t, view->eye, &t->boxes[i].box))) {
+            t->touched++;
+            continue;
+        }
+        print_trial(t);
+        fail_msg("%s: eye %.17g,%.17g%s: box %u is %s", t->file.name, view->eye.x, view->eye.y,
+                 view->full ? "" : " with a cone", i, seen[i] ? "missed" : "added");
+    }
+}
+
+static void compare_cells(trial *t, const sl_view *view, const uint32_t *cells, uint32_t count) {
+    uint32_t bare[CELLS_MOST];
+    uint64_t seen[CELLS_MOST / 64];
+    bool said[CELLS_MOST] = {false}, sees[CELLS_MOST] = {false};
+    const sl_runtime_view v = runtime_view(view);
+    const sl_runtime *r = &t->file.runtime;
+    const uint32_t bare_count =
+        sl_runtime_look_past(r, &v, t->shut, 0, t->scratch, bare, CELLS_MOST);
+    assert_ok(t->context, sl_query_look(t->context, t->query, view, NULL, seen, NULL));
+    for (uint32_t i = 0; i < bare_count; i++) sees[bare[i]] = true;
+    for (uint32_t i = 0; i < count; i++) said[cells[i]] = true;
+    for (uint32_t c = 0; c < r->cell_count; c++) {
+        assert_true(sees[c] || !said[c]);
+        if (sl_eye_sees(seen, c) && !said[c]) {
+            print_trial(t);
+            fail_msg("eye %.17g,%.17g: cell %u is missed", view->eye.x, view->eye.y, c);
+        }
+        t->cells += sl_eye_sees(seen, c);
+        t->more_cells += said[c] && !sl_eye_sees(seen, c);
+        t->hidden += sees[c] && !said[c];
+    }
+}
+
+static bool is_beside_boxes(const trial *t, sl_point eye) {
+    for (int i = 0; i < BOXES; i++) {
+        const sl_box b = t->boxes[i].box;
+        if (t->boxes[i].blocks && b.min.x <= eye.x && eye.x <= b.max.x && b.min.y <= eye.y &&
+            eye.y <= b.max.y &&
+            !(b.min.x < eye.x && eye.x < b.max.x && b.min.y < eye.y && eye.y < b.max.y))
+            return true;
+    }
+    return false;
+}
+
+static void try_eye(trial *t) {
+    const sl_runtime *r = &t->file.runtime;
+    const sl_point eye = {coordinate(t, r->min_x, r->max_x), coordinate(t, r->min_y, r->max_y)};
+    sl_view view = sl_view_all_round(eye);
+    if (sl_random_below(&t->random, 2))
+        view = (sl_view){eye, false, {eye.x + 3, eye.y + 1}, {eye.x + 1, eye.y - 2}};
+    if (!view.full && (view.left.x - eye.x != 3 || view.left.y - eye.y != 1 ||
+                       view.right.x - eye.x != 1 || view.right.y - eye.y != -2))
+        view = sl_view_all_round(eye);
+    unsigned char said[BOXES], again[BOXES];
+    uint32_t cells[CELLS_MOST];
+    const sl_runtime_view v = runtime_view(&view);
+    if (is_beside_boxes(t, eye)) return; // the library's eye is then within the box
+    sl_runtime_boxes_seen(&t->placed, &v, t->shut, 0, t->scratch, said);
+    const uint32_t count = sl_runtime_look_past_boxes(&t->placed, &v, t->shut, 0, t->scratch, again,
+                                                      cells, CELLS_MOST);
+    assert_memory_equal(said, again, sizeof said);
+    compare_boxes(t, &view, said);
+    compare_cells(t, &view, cells, count);
+}
+
+static void start(trial *t) {
+    const sl_runtime *r = &t->file.runtime;
+    assert_true(r->cell_count <= CELLS_MOST);
+    assert_true(sl_runtime_boxes_count(r, BOXES, ROOM) <= sizeof t->memory / sizeof *t->memory);
+    assert_ok(t->context, sl_query_create(t->context, &t->file.baked, &t->query));
+    sl_runtime_boxes_start(&t->placed, r, t->list, BOXES, ROOM, t->memory);
+    assert_true(sl_runtime_boxes_scratch_count(&t->placed) <=
+                sizeof t->scratch / sizeof *t->scratch);
+}
+
+static void stop(trial *t) {
+    sl_query_destroy(t->context, t->query);
+    baked_file_destroy(t->context, &t->file);
+}
+
+static void ask_all(trial *t) {
+    for (int block = 0; block < 2; block++)
+        for (int i = 0; i < 4; i++) {
+            t->block = block;
+            t->on_grid = i % 2;
+            t->apart = !block || i < 2;
+            move_boxes(t, block);
+            for (int k = 0; k < EYES; k++) try_eye(t);
+        }
+}
+
+static void print_counts(const trial *t) {
+    print_message(
+        "%zu of %zu boxes seen, %zu more touched; %zu cells seen, %zu more said, %zu hidden\n",
+        t->seen, t->asked, t->touched, t->cells, t->more_cells, t->hidden);
+    assert_true(t->seen > 0 && t->seen < t->asked && t->hidden > 0);
+    assert_true(t->touched < t->seen / 20 && t->more_cells < t->cells / 4);
+}
+
+static void as_the_query_says(void **state) {
+    (void)state;
+    static trial t;
+    t = (trial){.context = testing_context(NULL)};
+    for (uint64_t seed = 1; seed <= testing_seeds(MAPS); seed++) {
+        t.random = (sl_random){seed};
+        t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
+        random_map(&t, &t.file.baked.map);
+        baked_file_make(t.context, &t.file, false);
+        start(&t);
+        for (int k = 0; k < DOORS; k++) {
+            const char name[2] = {(char)('a' + k), 0};
+            t.shut[k] = (unsigned char)sl_random_below(&t.random, 2);
+            assert_ok(t.context, sl_query_set_door(t.context, t.query, name, !t.shut[k]));
+        }
+        ask_all(&t);
+        stop(&t);
+    }
+    print_counts(&t);
+    sl_context_destroy(t.context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_the_query_says),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
