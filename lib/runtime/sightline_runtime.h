@@ -357,8 +357,8 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
 /// range, a seen box counts if any of its points is within range.
 ///
 /// Boxes that block hide each other, as a line may touch a box but not pass its inside. That is
-/// exact too, between boxes that do not overlap: no box hides another one that it overlaps, which
-/// may then count as seen though it is hidden. So a box is never missed. The box that holds the eye
+/// exact too if no two boxes overlap. No box hides another one that it overlaps, which may then
+/// count as seen though it is hidden. A box is never missed. The box that holds the eye
 /// is seen. If that one blocks, the eye in it sees no box outside of it.
 ///
 /// Time: that of one sl_runtime_look_past and the boxes in the cells seen; if boxes block, two of
@@ -1938,11 +1938,11 @@ typedef struct slrt_search {
     bool has_row;
     uint32_t *cells, room, count;
     uint64_t patience;
-    const sl_runtime_boxes *boxes; ///< NULL for none; the rest is about them
-    unsigned char *box_marks;      ///< by box, of SLRT_BOX_*
-    uint32_t *blockers, blocker_count;
-    bool hiding;  ///< the second search: boxes hide
-    bool gave_up; ///< the search took too long
+    const sl_runtime_boxes *boxes;     ///< NULL for none; the rest is about them
+    unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
+    uint32_t *blockers, blocker_count; ///< with room for as many behind them
+    bool hiding;                       ///< the second search: boxes hide
+    bool gave_up;                      ///< the search took too long
 } slrt_search;
 
 static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
@@ -2175,7 +2175,7 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
 // pass its inside. What of a sector is left is tested as above. Cost: for each visit of a cell, the
 // cell's boxes, times the blocking boxes that are seen past walls.
 
-enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2 };
+enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2, SLRT_BOX_HIDDEN = 4 };
 
 static bool slrt_box_holds(const sl_runtime_box *box, double x, double y) {
     return box->min_x <= x && x <= box->max_x && box->min_y <= y && y <= box->max_y;
@@ -2387,24 +2387,39 @@ static bool slrt_is_before_portal(const slrt_search *s, const sl_runtime_box *bo
 typedef struct slrt_target {
     uint32_t box; ///< SLRT_NO_ENTRY for none
     uint32_t directed;
+    const uint32_t *blockers; ///< the boxes that may hide it
+    uint32_t blocker_count;
 } slrt_target;
 
-/// The arc that a blocking box takes from what is seen of a target.
+/// The arc that a blocking box may take from what is seen of a target. (Of a portal that is so only
+/// if slrt_is_before_portal; that takes longer to find out than whether the arc counts.)
 static slrt_shadow slrt_shadow_on(const slrt_search *s, const slrt_target *target, uint32_t blocker,
                                   slrt_arm *right, slrt_arm *left) {
     const sl_runtime_box *box = &s->boxes->boxes[blocker];
-    const slrt_shadow shadow = slrt_shadow_of(s, box, right, left);
-    const bool within = shadow == SLRT_ALL_ROUND_IT;
-    if (blocker == target->box) return SLRT_NOWHERE;
-    if (target->box == SLRT_NO_ENTRY
-            ? !slrt_is_before_portal(s, box, target->directed, within)
-            : !slrt_is_before(s, box, &s->boxes->boxes[target->box], within))
+    const bool within =
+        box->min_x < s->x && s->x < box->max_x && box->min_y < s->y && s->y < box->max_y;
+    if (target->box != SLRT_NO_ENTRY &&
+        (blocker == target->box || !slrt_is_before(s, box, &s->boxes->boxes[target->box], within)))
         return SLRT_NOWHERE;
-    return shadow;
+    return slrt_shadow_of(s, box, right, left);
 }
 
 static bool slrt_is_inside(const slrt_arm *v, const slrt_arm *right, const slrt_arm *left) {
     return slrt_side(right, v) > 0 && slrt_side(v, left) > 0;
+}
+
+/// Whether a box hides a direction of a target.
+static slrt_shadow slrt_hides(const slrt_search *s, const slrt_target *target, uint32_t blocker,
+                              const slrt_arm *direction, slrt_arm *right, slrt_arm *left) {
+    const slrt_shadow shadow = slrt_shadow_on(s, target, blocker, right, left);
+    if (shadow == SLRT_NOWHERE ||
+        (shadow == SLRT_IN_ARC && !slrt_is_inside(direction, right, left)))
+        return SLRT_NOWHERE;
+    if (target->box == SLRT_NO_ENTRY &&
+        !slrt_is_before_portal(s, &s->boxes->boxes[blocker], target->directed,
+                               shadow == SLRT_ALL_ROUND_IT))
+        return SLRT_NOWHERE;
+    return shadow;
 }
 
 /// Turns `from` to the left until no box hides that direction; false if all up to `to` is hidden.
@@ -2414,12 +2429,12 @@ static bool slrt_skip_hidden(const slrt_search *s, const slrt_target *target, sl
     while (moved) {
         uint32_t i;
         moved = false;
-        for (i = 0; i < s->blocker_count; i++) {
+        for (i = 0; i < target->blocker_count; i++) {
             slrt_arm right, left;
-            const slrt_shadow shadow = slrt_shadow_on(s, target, s->blockers[i], &right, &left);
-            if (shadow == SLRT_ALL_ROUND_IT) return false;
-            if (shadow == SLRT_NOWHERE || !slrt_is_inside(from, &right, &left)) continue;
-            if (slrt_is_inside(to, &right, &left)) return false;
+            const slrt_shadow shadow =
+                slrt_hides(s, target, target->blockers[i], from, &right, &left);
+            if (shadow == SLRT_NOWHERE) continue;
+            if (shadow == SLRT_ALL_ROUND_IT || slrt_is_inside(to, &right, &left)) return false;
             *from = left;
             moved = true;
         }
@@ -2433,9 +2448,9 @@ static bool slrt_find_shadow(const slrt_search *s, const slrt_target *target, co
                              slrt_arm *to, slrt_arm *next) {
     bool found = false;
     uint32_t i;
-    for (i = 0; i < s->blocker_count; i++) {
+    for (i = 0; i < target->blocker_count; i++) {
         slrt_arm right, left;
-        if (slrt_shadow_on(s, target, s->blockers[i], &right, &left) != SLRT_IN_ARC ||
+        if (slrt_shadow_on(s, target, target->blockers[i], &right, &left) != SLRT_IN_ARC ||
             slrt_same_ray(&right, &left) ||
             !slrt_within(&right, from, to, slrt_side(from, &right), slrt_side(&right, to)))
             continue;
@@ -2446,12 +2461,35 @@ static bool slrt_find_shadow(const slrt_search *s, const slrt_target *target, co
     return found;
 }
 
+/// Leaves out blockers that hide nothing between two directions.
+static void slrt_choose_blockers(const slrt_search *s, slrt_target *target, const slrt_arm *from,
+                                 const slrt_arm *to) {
+    uint32_t *chosen = s->blockers + s->blocker_count;
+    uint32_t i, count = 0;
+    for (i = 0; i < target->blocker_count; i++) {
+        slrt_arm right, left;
+        const uint32_t blocker = target->blockers[i];
+        const slrt_shadow shadow = slrt_shadow_on(s, target, blocker, &right, &left);
+        if (shadow == SLRT_NOWHERE) continue;
+        if (shadow == SLRT_IN_ARC && !slrt_is_inside(from, &right, &left) &&
+            !slrt_within(&right, from, to, slrt_side(from, &right), slrt_side(&right, to)))
+            continue;
+        chosen[count++] = blocker;
+    }
+    target->blockers = chosen;
+    target->blocker_count = count;
+}
+
 /// Whether the eye sees a box in a cell past the boxes that block, within the sector from u to v.
 static bool slrt_sees_box_past(const slrt_search *s, uint32_t box, uint32_t cell, slrt_arm u,
                                const slrt_arm *v) {
     slrt_target target;
     target.box = box;
     target.directed = 0;
+    target.blockers = s->blockers;
+    target.blocker_count = s->blocker_count;
+    if (!slrt_sees_box_in(s, &s->boxes->boxes[box], cell, &u, v)) return false;
+    slrt_choose_blockers(s, &target, &u, v);
     while (slrt_skip_hidden(s, &target, &u, v)) {
         slrt_arm to = *v, next;
         const bool more = slrt_find_shadow(s, &target, &u, &to, &next);
@@ -2462,6 +2500,19 @@ static bool slrt_sees_box_past(const slrt_search *s, uint32_t box, uint32_t cell
     return false;
 }
 
+/// Whether others hide all of a box, walls aside.
+static bool slrt_is_hidden_box(const slrt_search *s, uint32_t box) {
+    slrt_arm from, to;
+    slrt_target target;
+    target.box = box;
+    target.directed = 0;
+    target.blockers = s->blockers;
+    target.blocker_count = s->blocker_count;
+    if (slrt_shadow_of(s, &s->boxes->boxes[box], &from, &to) != SLRT_IN_ARC) return false;
+    slrt_choose_blockers(s, &target, &from, &to);
+    return !slrt_skip_hidden(s, &target, &from, &to);
+}
+
 /// Whether boxes hide all that a sector shows behind a directed portal.
 static bool slrt_is_hidden_portal(const slrt_search *s, uint32_t directed,
                                   const slrt_sector *sector) {
@@ -2470,6 +2521,8 @@ static bool slrt_is_hidden_portal(const slrt_search *s, uint32_t directed,
     slrt_target target;
     target.box = SLRT_NO_ENTRY;
     target.directed = directed;
+    target.blockers = s->blockers;
+    target.blocker_count = s->blocker_count;
     return !slrt_skip_hidden(s, &target, &from, &to);
 }
 
@@ -2710,23 +2763,31 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 // --- boxes: what is asked
 
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
-    return sl_runtime_scratch_count(boxes->runtime) + boxes->count;
+    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
 }
 
 /// The first search finds the boxes that are seen past walls. If some of them block, a second one
 /// asks which of these are seen past the others, and leaves out cells that are hidden.
 static void slrt_look_at_boxes(slrt_search *s) {
     const sl_runtime_boxes *boxes = s->boxes;
-    uint32_t i;
+    uint32_t i, count;
     for (i = 0; i < boxes->count; i++)
         if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
     slrt_run_search(s);
     for (i = 0; i < boxes->count && !s->gave_up; i++)
         if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
-    if (s->blocker_count) {
-        s->hiding = true;
-        slrt_run_search(s);
-    }
+    if (!s->blocker_count) return;
+    s->hiding = true;
+    for (i = 0; i < boxes->count; i++)
+        if (s->box_marks[i] == SLRT_BOX_PAST_WALLS && slrt_is_hidden_box(s, i))
+            s->box_marks[i] = SLRT_BOX_HIDDEN;
+    // What hides a box wholly also hides what is behind that box.
+    count = s->blocker_count;
+    s->blocker_count = 0;
+    for (i = 0; i < count; i++)
+        if (s->box_marks[s->blockers[i]] != SLRT_BOX_HIDDEN)
+            s->blockers[s->blocker_count++] = s->blockers[i];
+    slrt_run_search(s);
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,

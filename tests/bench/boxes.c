@@ -126,7 +126,15 @@ typedef struct bench {
     sl_baked baked;
     sl_query *query;
     bool seen[BOXES];
+    char *bytes;
+    sl_runtime runtime;
+    sl_runtime_boxes placed;
+    sl_runtime_box list[BOXES];
+    uint32_t *memory, *scratch;
+    unsigned char said[BOXES];
 } bench;
+
+enum { ROOM = 64 * BOXES };
 
 /// The times of one frame, and how many boxes the eyes saw.
 typedef struct cost {
@@ -158,6 +166,37 @@ static cost ask_query(bench *b, const frame *f, size_t boxes, size_t eyes) {
     return c;
 }
 
+static cost ask_runtime(bench *b, const frame *f, size_t boxes, size_t eyes) {
+    cost c = {0};
+    sl_runtime_boxes *placed = &b->placed;
+    if (placed->count != boxes)
+        sl_runtime_boxes_start(placed, &b->runtime, b->list, (uint32_t)boxes, ROOM, b->memory);
+    const double start = now();
+    for (uint32_t i = 0; i < boxes; i++) {
+        const sl_box at = f->boxes[i].box;
+        const sl_runtime_box to = {at.min.x, at.min.y, at.max.x, at.max.y, f->boxes[i].blocks};
+        if (!sl_runtime_boxes_move(placed, i, &to)) fail("there is no room for the boxes");
+    }
+    const double moved = now();
+    for (size_t i = 0; i < eyes; i++) {
+        const sl_runtime_view view = sl_runtime_view_all_round(f->eyes[i].x, f->eyes[i].y);
+        c.seen += sl_runtime_boxes_seen(placed, &view, NULL, 0, b->scratch, b->said);
+    }
+    c.place = moved - start;
+    c.look = now() - moved;
+    return c;
+}
+
+static void open_runtime(bench *b) {
+    size_t size;
+    FILE *stream = open_memstream(&b->bytes, &size);
+    if (!stream || sli_slv_print(b->context, &b->baked, stream) != SL_OK || fclose(stream) != 0)
+        fail("out of memory");
+    if (sl_runtime_open(b->bytes, size, &b->runtime) != SL_RUNTIME_OK) fail("the bake is damaged");
+    b->memory = room(sl_runtime_boxes_count(&b->runtime, BOXES, ROOM), sizeof *b->memory);
+    b->scratch = room(sl_runtime_scratch_count(&b->runtime) + 2 * BOXES, sizeof *b->scratch);
+}
+
 static void print_row(bench *b, const char *what, question *ask, bool blocks, size_t boxes,
                       size_t eyes) {
     frame *frames = choose(&b->baked.space, blocks);
@@ -181,21 +220,30 @@ int main(int argc, char **argv) {
     } table[] = {
         {"query: which are seen", ask_query, false},
         {"query: which are seen past each other", ask_query, true},
+        {"runtime: which are seen", ask_runtime, false},
+        {"runtime: which are seen past each other", ask_runtime, true},
     };
+    const char *only = getenv("ONLY");
     if (argc < 2) fail("usage: bench_boxes KIND:N[:DEGREES] | MAP [LEVEL]");
     bench *b = room(1, sizeof *b);
     b->context = sl_context_create(NULL);
+    b->baked = (sl_baked){.method = "dfs", .solver = "funnel"};
     b->name = argv[argc > 2 ? 2 : 1];
     if (!b->context || sl_io_use(b->context) != SL_OK) fail("out of memory");
     bake(b->context, argv[1], argc > 2 ? argv[2] : NULL, &b->baked);
     if (sl_query_create(b->context, &b->baked, &b->query) != SL_OK)
         fail(sl_context_message(b->context));
+    open_runtime(b);
     puts("map,cells,boxes,eyes,asked,place_ms,look_ms,share_seen");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (!only || strstr(table[i].what, only))
         for (size_t boxes = 10; boxes <= BOXES; boxes *= 10)
             for (size_t eyes = 1; eyes <= EYES; eyes *= 10)
                 print_row(b, table[i].what, table[i].ask, table[i].blocks, boxes, eyes);
     sl_query_destroy(b->context, b->query);
+    free(b->memory);
+    free(b->scratch);
+    free(b->bytes);
     sl_baked_destroy(b->context, &b->baked);
     sl_context_destroy(b->context);
     free(b);

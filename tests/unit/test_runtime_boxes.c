@@ -19,7 +19,7 @@ typedef struct trial {
     sl_moving_box boxes[BOXES];
     sl_runtime_box list[BOXES];
     sl_runtime_boxes placed;
-    uint32_t memory[CELLS_MOST + BOXES + 4 * ROOM + 1], scratch[7 * CELLS_MOST + BOXES];
+    uint32_t memory[CELLS_MOST + BOXES + 4 * ROOM + 1], scratch[7 * CELLS_MOST + 2 * BOXES];
     bool block, on_grid, apart; ///< boxes and eyes on a grid; no two boxes overlap
     size_t seen, touched, hidden, asked, cells, more_cells;
 } trial;
