@@ -352,9 +352,10 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
 ///
 /// If no box blocks, this is exact, with closed sight: a box is seen if a line from the eye, within
 /// the cone, comes to one of its points in a cell that sl_runtime_look_past sees by that line. A
-/// box that only touches a wall from behind is not seen through it. (The signs are of the third
-/// degree. They are exact if no coordinate but 0 is 1e70 times smaller than another one.) With a
-/// range, a seen box counts if any of its points is within range.
+/// box that only touches a wall from behind is not seen through it. A flat box that lies along a
+/// wall or a shut door in part counts as if it stood before it. (The signs are of the third degree.
+/// They are exact if no coordinate but 0 is 1e70 times smaller than another one.) With a range, a
+/// seen box counts if any of its points is within range.
 ///
 /// Boxes that block hide each other, as a line may touch a box but not pass its inside. That is
 /// exact too if no two boxes overlap. No box hides another one that it overlaps, which may then

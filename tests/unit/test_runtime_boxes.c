@@ -20,7 +20,7 @@ typedef struct trial {
     sl_runtime_box list[BOXES];
     sl_runtime_boxes placed;
     uint32_t memory[CELLS_MOST + BOXES + 4 * ROOM + 1], scratch[7 * CELLS_MOST + 2 * BOXES];
-    bool block, on_grid, apart; ///< boxes and eyes on a grid; no two boxes overlap
+    bool on_grid, apart; ///< boxes and eyes on a grid; no two boxes overlap
     size_t seen, touched, hidden, asked, cells, more_cells;
 } trial;
 
@@ -48,6 +48,8 @@ static void random_map(trial *t, sl_map *map) {
         const char name[2] = {(char)('a' + i), 0};
         assert_ok(t->context, sl_map_add_door(t->context, map, name, random_segment(t), true, 0));
     }
+    if (sl_random_below(&t->random, 2))
+        assert_ok(t->context, sl_map_add_oneway(t->context, map, random_segment(t), 0));
     assert_ok(t->context, sl_map_clean(t->context, map, NULL, NULL));
 }
 
@@ -64,9 +66,10 @@ static bool overlap(const sl_box *a, const sl_box *b) {
 
 static sl_box random_box(trial *t) {
     const sl_runtime *r = &t->file.runtime;
+    const double most = t->on_grid ? 3 : (r->max_x - r->min_x) / 5;
     const double x = coordinate(t, r->min_x - 1, r->max_x),
                  y = coordinate(t, r->min_y - 1, r->max_y);
-    const double width = coordinate(t, 0, 3), height = coordinate(t, 0, 3);
+    const double width = coordinate(t, 0, most), height = coordinate(t, 0, most);
     return (sl_box){{x, y}, {x + width, y + height}};
 }
 
@@ -111,38 +114,25 @@ static void print_trial(const trial *t) {
         print_message("door %g,%g %g,%g%s\n", d->segment.a.x, d->segment.a.y, d->segment.b.x,
                       d->segment.b.y, t->shut[d->name[0] - 'a'] ? " shut" : "");
     }
+    for (size_t i = 0; i < t->file.baked.map.oneway_count; i++) {
+        const sl_segment s = t->file.baked.map.oneways[i].segment;
+        print_message("glass %g,%g %g,%g\n", s.a.x, s.a.y, s.b.x, s.b.y);
+    }
     for (size_t i = 0; i < t->file.baked.space.wall_count; i++) {
         const sl_wall *w = &t->file.baked.space.walls[i];
         print_message("wall %g,%g %g,%g\n", w->a.x, w->a.y, w->b.x, w->b.y);
     }
 }
 
-/// Whether a line of sight touches a box in a corner of it, or in a wall's end. The library does
-/// not count a box that is only touched in a point.
-static bool is_touched(trial *t, sl_point eye, const sl_box *b) {
-    const sl_space *s = &t->file.baked.space;
-    for (uint32_t i = 0; i < 4 + 2 * s->wall_count; i++) {
-        const sl_wall *w = i < 4 ? NULL : &s->walls[(i - 4) / 2];
-        const sl_point p = w ? i % 2 ? w->a : w->b
-                             : (sl_point){i & 1 ? b->max.x : b->min.x, i & 2 ? b->max.y : b->min.y};
-        bool sees = false;
-        if (p.x < b->min.x || p.x > b->max.x || p.y < b->min.y || p.y > b->max.y) continue;
-        if (sl_query_locate(t->query, p) == SL_NO_CELL) continue;
-        assert_ok(t->context, sl_query_can_see(t->context, t->query, eye, p, &sees));
-        if (sees) return true;
-    }
-    return false;
-}
-
-/// Whether a flat box lies in a shut door: to the runtime it is seen from both sides, to the
-/// library it is covered.
-static bool is_in_door(const trial *t, const sl_box *b) {
-    const sl_map *map = &t->file.baked.map;
-    for (size_t i = 0; i < map->door_count; i++) {
-        const sl_point p = map->doors[i].segment.a, q = map->doors[i].segment.b;
-        if (!t->shut[map->doors[i].name[0] - 'a']) continue;
-        if (b->min.x == b->max.x && p.x == q.x && p.x == b->min.x) return true;
-        if (b->min.y == b->max.y && p.y == q.y && p.y == b->min.y) return true;
+/// Whether a flat box that blocks touches another one, which to the library is then seen through
+/// it.
+static bool touches_flat(const trial *t, const sl_box *b) {
+    for (int i = 0; i < BOXES; i++) {
+        const sl_box *a = &t->boxes[i].box;
+        if (t->boxes[i].blocks && (a->min.x == a->max.x || a->min.y == a->max.y) &&
+            a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
+            b->min.y <= a->max.y)
+            return true;
     }
     return false;
 }
@@ -154,10 +144,10 @@ static void compare_boxes(trial *t, const sl_view *view, const unsigned char *sa
         t->asked++;
         t->seen += seen[i];
         if (seen[i] == said[i] || (said[i] && !t->apart)) continue;
-        // Or a single line passes between boxes and walls that touch.
-        if (said[i] && t->on_grid &&
-            (t->block || is_in_door(t, &t->boxes[i].box) ||
-             is_touched(t, view->eye, &t->boxes[i].box))) {
+        if (!said[i] && t->on_grid && touches_flat(t, &t->boxes[i].box)) continue;
+        // On the grid single lines pass between corners, and end at boxes that they only touch. The
+        // library, which cuts cells along boxes, does not count all of these.
+        if (said[i] && t->on_grid) {
             t->touched++;
             continue;
         }
@@ -237,11 +227,10 @@ static void stop(trial *t) {
     baked_file_destroy(t->context, &t->file);
 }
 
-static void ask_all(trial *t) {
+static void ask_all(trial *t, bool with_grid) {
     for (int block = 0; block < 2; block++)
         for (int i = 0; i < 4; i++) {
-            t->block = block;
-            t->on_grid = i % 2;
+            t->on_grid = with_grid && i % 2;
             t->apart = !block || i < 2;
             move_boxes(t, block);
             for (int k = 0; k < EYES; k++) try_eye(t);
@@ -253,7 +242,7 @@ static void print_counts(const trial *t) {
         "%zu of %zu boxes seen, %zu more touched; %zu cells seen, %zu more said, %zu hidden\n",
         t->seen, t->asked, t->touched, t->cells, t->more_cells, t->hidden);
     assert_true(t->seen > 0 && t->seen < t->asked && t->hidden > 0);
-    assert_true(t->touched < t->seen / 20 && t->more_cells < t->cells / 4);
+    assert_true(t->touched < t->asked / 1000 && t->more_cells < t->cells / 4);
 }
 
 static void as_the_query_says(void **state) {
@@ -271,16 +260,137 @@ static void as_the_query_says(void **state) {
             t.shut[k] = (unsigned char)sl_random_below(&t.random, 2);
             assert_ok(t.context, sl_query_set_door(t.context, t.query, name, !t.shut[k]));
         }
-        ask_all(&t);
+        ask_all(&t, true);
         stop(&t);
     }
     print_counts(&t);
     sl_context_destroy(t.context);
 }
 
+static void in_turned_maps(void **state) {
+    (void)state;
+    static const char *const names[] = {"oblique/chapel", "oblique/star", "pillars", "grazing"};
+    static trial t;
+    t = (trial){.context = testing_context(NULL)};
+    for (size_t i = 0; i < 4 * testing_seeds(5); i++) {
+        t.random = (sl_random){i + 1};
+        t.file = baked_file_turned(t.context, names[i % 4], 11 * (double)(i / 4), 100);
+        start(&t);
+        ask_all(&t, false);
+        stop(&t);
+    }
+    print_counts(&t);
+    sl_context_destroy(t.context);
+}
+
+// --- by hand
+
+typedef struct scene {
+    sl_context *context;
+    baked_file file;
+    sl_runtime_boxes boxes;
+    sl_runtime_box list[3];
+    uint32_t memory[256], scratch[256];
+} scene;
+
+/// Two rooms, and a doorway between them from (10, 4) to (10, 6).
+static void set_up(scene *s, uint32_t room) {
+    *s = (scene){.context = testing_context(NULL)};
+    s->file = baked_file_of_text(s->context, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\n"
+                                             "wall 10 6 10 10\n");
+    sl_runtime_boxes_start(&s->boxes, &s->file.runtime, s->list, 3, room, s->memory);
+}
+
+static void take_down(scene *s) {
+    baked_file_destroy(s->context, &s->file);
+    sl_context_destroy(s->context);
+}
+
+static bool move(scene *s, uint32_t box, double x0, double y0, double x1, double y1, bool blocks) {
+    const sl_runtime_box to = {x0, y0, x1, y1, blocks};
+    return sl_runtime_boxes_move(&s->boxes, box, &to);
+}
+
+/// Which of the boxes an eye sees, as a word of s and dots.
+static const char *seen(scene *s, double x, double y, double range) {
+    static char word[4];
+    unsigned char said[3];
+    const sl_runtime_view view = sl_runtime_view_all_round(x, y);
+    const uint32_t count = sl_runtime_boxes_seen(&s->boxes, &view, NULL, range, s->scratch, said);
+    assert_int_equal(count, said[0] + said[1] + said[2]);
+    for (int i = 0; i < 3; i++) word[i] = said[i] ? 's' : '.';
+    return word;
+}
+
+static void one_hides_another(void **state) {
+    (void)state;
+    scene s;
+    set_up(&s, 20);
+    assert_string_equal(seen(&s, 2, 5, 0), "..."); // nowhere yet
+    assert_true(move(&s, 0, 15, 4, 16, 6, false));
+    assert_true(move(&s, 1, 15, 0, 16, 1, false));
+    assert_string_equal(seen(&s, 2, 5, 0), "s.."); // the other one is behind the wall
+    assert_string_equal(seen(&s, 2, 5, 13), "s..");
+    assert_string_equal(seen(&s, 2, 5, 12.9), "...");
+    // In the doorway: hides it, but for a gap, and hides it with its whole width.
+    assert_true(move(&s, 2, 9, 4.5, 11, 5.5, true));
+    assert_string_equal(seen(&s, 2, 5, 0), "s.s");
+    assert_true(move(&s, 2, 9, 4, 11, 6, true));
+    assert_string_equal(seen(&s, 2, 5, 0), "..s");
+    assert_true(move(&s, 2, 10, 4, 10, 6, true)); // a door that slid shut
+    assert_string_equal(seen(&s, 2, 5, 0), "..s");
+    assert_true(move(&s, 2, 9, 4, 11, 6, false));
+    assert_string_equal(seen(&s, 2, 5, 0), "s.s");
+    // The eye in it sees it alone; beside it, what is on its own side.
+    assert_true(move(&s, 2, 1, 4, 3, 6, true));
+    assert_string_equal(seen(&s, 2, 5, 0), "..s");
+    assert_string_equal(seen(&s, 3, 5, 0), "s.s");
+    assert_string_equal(seen(&s, 1, 5, 0), "..s");
+    take_down(&s);
+}
+
+static void nowhere_and_everywhere(void **state) {
+    (void)state;
+    scene s;
+    set_up(&s, 2);
+    assert_true(move(&s, 0, NAN, 1, 2, 2, true));
+    assert_true(move(&s, 1, 3, 1, 2, 2, true));
+    assert_true(move(&s, 2, -9, -9, -8, -8, true));
+    assert_string_equal(seen(&s, 5, 5, 0), "...");
+    assert_true(move(&s, 0, 9, 4, 11, 6, true)); // in both rooms
+    assert_string_equal(seen(&s, 5, 5, 0), "s..");
+    assert_false(move(&s, 1, 15, 4, 16, 6, true)); // no room: seen always, and hides nothing
+    assert_false(move(&s, 2, 15, 7, 16, 8, true));
+    assert_string_equal(seen(&s, 1, 1, 0), "sss");
+    assert_true(move(&s, 0, 99, 99, 99, 99, true)); // and there is room again
+    assert_true(move(&s, 1, 15, 1, 16, 2, true));
+    assert_true(move(&s, 2, 15, 1, 16, 2, true));
+    assert_string_equal(seen(&s, 1, 1, 0), "...");
+    take_down(&s);
+}
+
+/// Against a wall from behind, on a portal, in a corner, at the border.
+static void touching(void **state) {
+    (void)state;
+    scene s;
+    set_up(&s, 20);
+    assert_true(move(&s, 0, 10, 1, 11, 2, false)); // behind the wall, touching it
+    assert_true(move(&s, 1, 10, 5, 10, 5, false)); // a point on the portal
+    assert_true(move(&s, 2, 9, 0, 10, 1, false));  // in the corner before the wall
+    assert_string_equal(seen(&s, 2, 2, 0), ".ss");
+    assert_true(move(&s, 0, 10, 4, 10, 5, false)); // flat, on the portal
+    assert_true(move(&s, 1, 10, 2, 10, 3, false)); // flat, in the wall
+    assert_true(move(&s, 2, 20, 1, 21, 2, false)); // outside, touching the border
+    assert_string_equal(seen(&s, 2, 2, 0), "s..");
+    assert_string_equal(seen(&s, 18, 2, 0), "s..");
+    take_down(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_query_says),
+        cmocka_unit_test(as_the_query_says), cmocka_unit_test(in_turned_maps),
+        cmocka_unit_test(one_hides_another), cmocka_unit_test(nowhere_and_everywhere),
+        cmocka_unit_test(touching),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
