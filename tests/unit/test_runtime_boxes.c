@@ -124,9 +124,15 @@ static void print_trial(const trial *t) {
     }
 }
 
-/// Whether a flat box that blocks touches another one, which to the library is then seen through
-/// it.
+/// Whether a box touches a flat one that blocks, or glass. To the library it is then seen through
+/// these, as it has a side in the same place.
 static bool touches_flat(const trial *t, const sl_box *b) {
+    for (size_t i = 0; i < t->file.baked.map.oneway_count; i++) {
+        const sl_segment s = t->file.baked.map.oneways[i].segment;
+        if (fmin(s.a.x, s.b.x) <= b->max.x && b->min.x <= fmax(s.a.x, s.b.x) &&
+            fmin(s.a.y, s.b.y) <= b->max.y && b->min.y <= fmax(s.a.y, s.b.y))
+            return true;
+    }
     for (int i = 0; i < BOXES; i++) {
         const sl_box *a = &t->boxes[i].box;
         if (t->boxes[i].blocks && (a->min.x == a->max.x || a->min.y == a->max.y) &&
