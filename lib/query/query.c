@@ -10,6 +10,7 @@
 /// A layer that changes nothing is the one below it.
 #include "sightline/query.h"
 
+#include "eye_to_cell/eye_search.h"
 #include "geometry/crossing.h"
 #include "sightline/moving.h"
 #include "sightline/sees.h"
@@ -36,6 +37,7 @@ struct sl_query {
     uint32_t mirror_depth;
     sl_moving_box *boxes;
     size_t box_count;
+    bool any_blocks;   ///< some box hides what is behind it
     bool boxes_placed; ///< in `moving`
 
     layer doors, glass;
@@ -44,6 +46,7 @@ struct sl_query {
     // What answers, of the upper layer; NULL where it is not made.
     sl_eye_search *search;
     sl_outline *outline;
+    sli_box_lists lists; ///< of the boxes; `first` NULL if not made
     sl_moving *moving;
     sl_room_mirrors *mirrors; ///< of the outline that is looked at
 };
@@ -61,6 +64,7 @@ static void drop_boxes(sl_context *context, sl_query *q) {
     if (q->moving) sl_moving_destroy(context, q->moving);
     q->moving = NULL;
     q->boxes_placed = false;
+    sli_box_lists_destroy(context, &q->lists);
 }
 
 static void drop_answers(sl_context *context, sl_query *q) {
@@ -170,9 +174,12 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
     }
     drop_mirrors(context, query);
     query->boxes_placed = false;
+    sli_box_lists_destroy(context, &query->lists);
     sl_free(context, query->boxes);
     query->boxes = copy;
     query->box_count = count;
+    query->any_blocks = false;
+    for (size_t i = 0; i < count; i++) query->any_blocks |= copy[i].blocks;
     return SL_OK;
 }
 
@@ -282,6 +289,33 @@ static sl_status make_moving(sl_context *context, sl_query *q) {
     return SL_OK;
 }
 
+/// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
+/// cell is on, which directed portals do not know.
+static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
+    const sl_map *map = &q->baked->map;
+    for (size_t i = 0; i < map->oneway_count; i++)
+        if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
+    return false;
+}
+
+/// Boxes that hide nothing need no cut cells. Lists of boxes do not know mirrors, ranges and open
+/// sight, nor an eye in line with glass.
+static bool lists_will_do(const sl_query *q, sl_point eye) {
+    return !q->any_blocks && !has_mirrors(q) && !(q->range > 0) && !q->baked->space.loose &&
+           q->baked->visibility.sight == SL_CLOSED && !is_in_line_with_glass(q, eye);
+}
+
+static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *view, bool *seen) {
+    SL_TRY(make_search(context, q));
+    if (!q->lists.first)
+        SL_TRY(sli_box_lists_make(context, q->glass.space, q->boxes, q->box_count, &q->lists));
+    uint64_t *cells = sl_alloc_array(context, sl_eye_words(q->glass.space), sizeof *cells);
+    if (!cells) return SL_NO_MEMORY;
+    const sl_status status = sli_eye_boxes_seen(context, q->search, &q->lists, view, cells, seen);
+    sl_free(context, cells);
+    return status;
+}
+
 /// The outline that sight goes by: with the boxes, where there are any.
 static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
     if (q->box_count) {
@@ -373,16 +407,7 @@ static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view
     return status;
 }
 
-/// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
-/// cell is on, which directed portals do not know.
-static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
-    const sl_map *map = &q->baked->map;
-    for (size_t i = 0; i < map->oneway_count; i++)
-        if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
-    return false;
-}
-
-/// Looks from such an eye: glass that is dark for it is a wall, all other is open.
+/// Looks from an eye in line with glass: glass that is dark for it is a wall, all other is open.
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
@@ -441,6 +466,7 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
     SL_TRY(make_layers(context, query));
     if (!query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
+    if (lists_will_do(query, view->eye)) return look_by_lists(context, query, view, seen);
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
     sl_status status = look_past(context, query, view, false, cells, seen, &account);
