@@ -2550,7 +2550,7 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         const slrt_arm along = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
         const bool p_is_near = slrt_same_way(&along, ray);
-        if (slrt_side(&p, &q)) continue;
+        if (slrt_side(&p, &q) || slrt_is_blocked(s, i)) continue;
         if (!slrt_same_way(&p, &q)) return true; // the eye is on the portal
         if (!slrt_same_ray(&p, ray)) continue;
         from.x = p_is_near ? p.to_x : q.to_x;
