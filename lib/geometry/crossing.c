@@ -243,7 +243,7 @@ int sli_axial_meet_side(sl_point eye, sl_point point, sl_point a, sl_point b, in
     const double sum = part * (one - two) - (three - four) * away;
     const double size =
         fabs(part) * (fabs(one) + fabs(two)) + fabs(away) * (fabs(three) + fabs(four));
-    // Nine roundings at most in each term; the last summand is more than an underflow loses.
+    // Nine roundings at most in each term; what is added last is more than an underflow loses.
     const double bound = 32 * 0x1p-53 * size + 0x1p-500;
     if (sum > bound) return 1;
     if (-sum > bound) return -1;

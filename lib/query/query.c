@@ -240,6 +240,7 @@ static sl_status make_glass(sl_context *context, sl_query *q) {
 }
 
 static sl_status make_layers(sl_context *context, sl_query *q) {
+    SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
     SL_TRY(make_doors(context, q));
     return make_glass(context, q);
 }
@@ -316,9 +317,9 @@ static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *
     return status;
 }
 
-/// The outline that sight goes by: with the boxes, where there are any.
+/// The outline that sight goes by: with the boxes, if some of them block.
 static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
-    if (q->box_count) {
+    if (q->any_blocks) {
         SL_TRY(make_moving(context, q));
         return sl_moving_outline(context, q->moving, out);
     }
@@ -431,7 +432,7 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
     if (!method) method = exact_method();
     if (!account) account = &own;
     SL_TRY(make_layers(context, query));
-    if (query->box_count && method == exact_method())
+    if (query->any_blocks && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
     if (!has_mirrors(query) && is_in_line_with_glass(query, view->eye))
         return look_in_line(context, query, view, method, cells, account);
@@ -454,7 +455,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
         return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
                        method->name);
     SL_TRY(make_layers(context, query));
-    if (query->box_count && method == exact_method())
+    if (query->any_blocks && method == exact_method())
         return look_past(context, query, view, true, cells, NULL, account);
     SL_TRY(make_search(context, query));
     return method->mirrored(context, query->search, view, cells, account);

@@ -223,7 +223,6 @@ int main(int argc, char **argv) {
         {"runtime: which are seen", ask_runtime, false},
         {"runtime: which are seen past each other", ask_runtime, true},
     };
-    const char *only = getenv("ONLY");
     if (argc < 2) fail("usage: bench_boxes KIND:N[:DEGREES] | MAP [LEVEL]");
     bench *b = room(1, sizeof *b);
     b->context = sl_context_create(NULL);
@@ -236,7 +235,6 @@ int main(int argc, char **argv) {
     open_runtime(b);
     puts("map,cells,boxes,eyes,asked,place_ms,look_ms,share_seen");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        if (!only || strstr(table[i].what, only))
         for (size_t boxes = 10; boxes <= BOXES; boxes *= 10)
             for (size_t eyes = 1; eyes <= EYES; eyes *= 10)
                 print_row(b, table[i].what, table[i].ask, table[i].blocks, boxes, eyes);
