@@ -99,7 +99,7 @@ SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, co
 
 /// By box, whether it is seen directly, and (`mirrored`, which may be NULL) by mirror, as
 /// sl_moving_look says. If no box blocks, sight is closed, and there is no mirror or range, cells
-/// are not cut: 1,000 boxes then cost a millisecond when they move. A box then also counts if a
+/// are not cut. Then 1,000 boxes that move cost a millisecond. A box then also counts if a
 /// sightline ends at a single point of it.
 SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
                                      bool *seen, bool *mirrored);
