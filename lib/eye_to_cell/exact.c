@@ -56,6 +56,7 @@ static sl_status enter(sl_context *context, exact_job *job, const sli_eye_step *
     sli_eye_query *query = job->query;
     const size_t depth = ++job->way.count;
     if (query->search->targets.first) sli_eye_meet_targets(query, to, depth == 1);
+    if (query->search->boxes) sli_eye_meet_boxes(query, to, depth == 1);
     // No cell comes twice on the way; a first directed portal may have given two steps.
     if (depth > (size_t)query->space->cell_count + 1)
         return sl_fail(context, SL_BAD_INPUT,
@@ -107,7 +108,8 @@ sl_status sli_eye_exact(sl_context *context, sl_eye_search *search, const sl_vie
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, false, cells, &query));
     bool done = query.cell == SL_NO_CELL;
-    if (!done && !search->boxed) SL_TRY(sli_eye_exact_tree(context, &query, &done));
+    if (!done && !search->boxed && !search->boxes)
+        SL_TRY(sli_eye_exact_tree(context, &query, &done));
     if (!done) SL_TRY(search_portals(context, &query));
     sli_eye_end(&query, account);
     return SL_OK;

@@ -26,6 +26,14 @@ typedef struct sli_eye_targets {
     bool *met;
 } sli_eye_targets;
 
+/// The boxes that reach into each cell of a space.
+typedef struct sli_box_lists {
+    const sl_moving_box *boxes; ///< the caller's
+    size_t count;
+    uint32_t *first; ///< by cell: its boxes are items[first[cell] .. first[cell + 1])
+    uint32_t *items;
+} sli_box_lists;
+
 struct sl_eye_search {
     double range; ///< of the exact method; 0 for no limit
     const sl_space *space;
@@ -33,6 +41,8 @@ struct sl_eye_search {
     const sli_boxed_space *boxed; ///< of which `space` is: maps its cells to those of the ground,
                                   ///< which rows and bits are of; NULL for a space without boxes
     sli_eye_targets targets;      ///< for the exact method, also by mirror; `first` NULL: none
+    const sli_box_lists *boxes;   ///< likewise, with closed sight and without mirrors; NULL: none
+    bool *boxes_seen;             ///< by box: whether the search has met it
     bool has_pvs;
     sl_bits *row;        ///< the visible set of the eye's cell
     uint32_t *queue;     ///< cells to spread from
@@ -102,6 +112,22 @@ bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_ste
 
 /// Marks the targets that are met in a cell just entered; `first` for the eye's own cell.
 void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool first);
+
+/// Checks boxes as sl_moving_place does.
+sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count);
+
+/// Finds the cells of boxes, which must outlive the lists.
+sl_status sli_box_lists_make(sl_context *context, const sl_space *space, const sl_moving_box *boxes,
+                             size_t count, sli_box_lists *out);
+void sli_box_lists_destroy(sl_context *context, sli_box_lists *lists); ///< and zeroes it
+
+/// Finds which boxes an eye sees, if none of them blocks sight: with closed sight, no mirrors and
+/// no range.
+sl_status sli_eye_boxes_seen(sl_context *context, sl_eye_search *search, const sli_box_lists *lists,
+                             const sl_view *view, uint64_t *cells, bool *seen);
+
+/// Marks the boxes that are seen in a cell just entered; `first` for the eye's own cell.
+void sli_eye_meet_boxes(sli_eye_query *query, const sli_eye_step *at, bool first);
 
 void sli_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 

@@ -259,7 +259,7 @@ static sl_status darken(sl_context *context, sl_space *space) {
     return SL_OK;
 }
 
-static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, size_t count) {
+sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count) {
     if (count >= UINT32_MAX) return sl_fail_memory(context);
     for (size_t i = 0; i < count; i++) {
         const sl_box b = boxes[i].box;
@@ -294,7 +294,7 @@ static sl_status place(sl_context *context, sl_moving *m) {
 
 sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
                           size_t count) {
-    SL_TRY(check_boxes(context, boxes, count));
+    SL_TRY(sli_moving_boxes_check(context, boxes, count));
     sl_moving made = {.ground = moving->ground,
                       .visibility = moving->visibility,
                       .range = moving->range,

@@ -216,6 +216,40 @@ int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t) {
     return a * compare_shares(from, to, &s, &t);
 }
 
+static int axial_meet_side_exact(sl_point eye, sl_point point, sl_point a, sl_point b, int axis,
+                                 double value) {
+    const sl_segment s = {eye, point}, t = {a, b};
+    int exponent = lowest_exponent(&s, &t);
+    vector side, ray, to_a;
+    sli_whole turn, cross, away, left, right;
+    lower(&exponent, value);
+    set_way(a, b, exponent, &side);
+    set_way(eye, point, exponent, &ray);
+    set_way(eye, a, exponent, &to_a);
+    subtract(value, axis ? eye.y : eye.x, exponent, &away);
+    whole_cross(&side, &to_a, &turn);
+    whole_cross(&side, &ray, &cross);
+    sli_whole_multiply(axis ? &ray.y : &ray.x, &turn, &left);
+    sli_whole_multiply(&cross, &away, &right);
+    return sli_whole_compare(&left, &right);
+}
+
+int sli_axial_meet_side(sl_point eye, sl_point point, sl_point a, sl_point b, int axis,
+                        double value) {
+    const double s_x = b.x - a.x, s_y = b.y - a.y, u_x = point.x - eye.x, u_y = point.y - eye.y;
+    const double one = s_x * (a.y - eye.y), two = s_y * (a.x - eye.x);
+    const double three = s_x * u_y, four = s_y * u_x;
+    const double part = axis ? u_y : u_x, away = value - (axis ? eye.y : eye.x);
+    const double sum = part * (one - two) - (three - four) * away;
+    const double size =
+        fabs(part) * (fabs(one) + fabs(two)) + fabs(away) * (fabs(three) + fabs(four));
+    // Nine roundings at most in each term; what is added last is more than an underflow loses.
+    const double bound = 32 * 0x1p-53 * size + 0x1p-500;
+    if (sum > bound) return 1;
+    if (-sum > bound) return -1;
+    return axial_meet_side_exact(eye, point, a, b, axis, value);
+}
+
 // --- distances: in doubles
 
 /// A vector, and a bound of the error of its coordinates.

@@ -16,6 +16,12 @@ sl_point sli_crossing(sl_segment s, sl_segment t);
 /// The ends of s must lie strictly on different sides of t's line. Exact for all finite doubles.
 int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t);
 
+/// The sign of u_m (s x (a - eye)) - (s x u)(value - eye_m), for u = point - eye, s = b - a and the
+/// coordinate m of the axis. Of three lines (through eye and point, through a and b, and the axial
+/// one at the value) it says on which side of the third one the other two meet. Exact.
+int sli_axial_meet_side(sl_point eye, sl_point point, sl_point a, sl_point b, int axis,
+                        double value);
+
 /// A segment, and the directions in which an eye looks at it. `right` and `left` are the ends of
 /// the segment as the eye sees them. The directions go counter-clockwise from `from` to `to`, by
 /// less than half a turn. Each points to its point, or straight away from it (`away`). They meet

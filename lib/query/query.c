@@ -10,6 +10,7 @@
 /// A layer that changes nothing is the one below it.
 #include "sightline/query.h"
 
+#include "eye_to_cell/eye_search.h"
 #include "geometry/crossing.h"
 #include "sightline/moving.h"
 #include "sightline/sees.h"
@@ -36,6 +37,7 @@ struct sl_query {
     uint32_t mirror_depth;
     sl_moving_box *boxes;
     size_t box_count;
+    bool any_blocks;   ///< some box hides what is behind it
     bool boxes_placed; ///< in `moving`
 
     layer doors, glass;
@@ -44,6 +46,7 @@ struct sl_query {
     // What answers, of the upper layer; NULL where it is not made.
     sl_eye_search *search;
     sl_outline *outline;
+    sli_box_lists lists; ///< of the boxes; `first` NULL if not made
     sl_moving *moving;
     sl_room_mirrors *mirrors; ///< of the outline that is looked at
 };
@@ -61,6 +64,7 @@ static void drop_boxes(sl_context *context, sl_query *q) {
     if (q->moving) sl_moving_destroy(context, q->moving);
     q->moving = NULL;
     q->boxes_placed = false;
+    sli_box_lists_destroy(context, &q->lists);
 }
 
 static void drop_answers(sl_context *context, sl_query *q) {
@@ -170,9 +174,12 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
     }
     drop_mirrors(context, query);
     query->boxes_placed = false;
+    sli_box_lists_destroy(context, &query->lists);
     sl_free(context, query->boxes);
     query->boxes = copy;
     query->box_count = count;
+    query->any_blocks = false;
+    for (size_t i = 0; i < count; i++) query->any_blocks |= copy[i].blocks;
     return SL_OK;
 }
 
@@ -233,6 +240,7 @@ static sl_status make_glass(sl_context *context, sl_query *q) {
 }
 
 static sl_status make_layers(sl_context *context, sl_query *q) {
+    SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
     SL_TRY(make_doors(context, q));
     return make_glass(context, q);
 }
@@ -282,9 +290,36 @@ static sl_status make_moving(sl_context *context, sl_query *q) {
     return SL_OK;
 }
 
-/// The outline that sight goes by: with the boxes, where there are any.
+/// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
+/// cell is on, which directed portals do not know.
+static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
+    const sl_map *map = &q->baked->map;
+    for (size_t i = 0; i < map->oneway_count; i++)
+        if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
+    return false;
+}
+
+/// Boxes that hide nothing need no cut cells. Lists of boxes do not know mirrors, ranges and open
+/// sight, nor an eye in line with glass.
+static bool lists_will_do(const sl_query *q, sl_point eye) {
+    return !q->any_blocks && !has_mirrors(q) && !(q->range > 0) && !q->baked->space.loose &&
+           q->baked->visibility.sight == SL_CLOSED && !is_in_line_with_glass(q, eye);
+}
+
+static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *view, bool *seen) {
+    SL_TRY(make_search(context, q));
+    if (!q->lists.first)
+        SL_TRY(sli_box_lists_make(context, q->glass.space, q->boxes, q->box_count, &q->lists));
+    uint64_t *cells = sl_alloc_array(context, sl_eye_words(q->glass.space), sizeof *cells);
+    if (!cells) return SL_NO_MEMORY;
+    const sl_status status = sli_eye_boxes_seen(context, q->search, &q->lists, view, cells, seen);
+    sl_free(context, cells);
+    return status;
+}
+
+/// The outline that sight goes by: with the boxes, if some of them block.
 static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
-    if (q->box_count) {
+    if (q->any_blocks) {
         SL_TRY(make_moving(context, q));
         return sl_moving_outline(context, q->moving, out);
     }
@@ -373,16 +408,7 @@ static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view
     return status;
 }
 
-/// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
-/// cell is on, which directed portals do not know.
-static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
-    const sl_map *map = &q->baked->map;
-    for (size_t i = 0; i < map->oneway_count; i++)
-        if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
-    return false;
-}
-
-/// Looks from such an eye: glass that is dark for it is a wall, all other is open.
+/// Looks from an eye in line with glass: glass that is dark for it is a wall, all other is open.
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
@@ -406,7 +432,7 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
     if (!method) method = exact_method();
     if (!account) account = &own;
     SL_TRY(make_layers(context, query));
-    if (query->box_count && method == exact_method())
+    if (query->any_blocks && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
     if (!has_mirrors(query) && is_in_line_with_glass(query, view->eye))
         return look_in_line(context, query, view, method, cells, account);
@@ -429,7 +455,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
         return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
                        method->name);
     SL_TRY(make_layers(context, query));
-    if (query->box_count && method == exact_method())
+    if (query->any_blocks && method == exact_method())
         return look_past(context, query, view, true, cells, NULL, account);
     SL_TRY(make_search(context, query));
     return method->mirrored(context, query->search, view, cells, account);
@@ -441,6 +467,7 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
     SL_TRY(make_layers(context, query));
     if (!query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
+    if (lists_will_do(query, view->eye)) return look_by_lists(context, query, view, seen);
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
     sl_status status = look_past(context, query, view, false, cells, seen, &account);

@@ -299,6 +299,85 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
 
+// Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
+// without them, and no bake is made when they move. The header keeps, for each cell, a list of the
+// boxes in it. So a box that moves changes the lists of its own cells alone, and an eye asks only
+// the boxes in the cells that it sees.
+//
+//     sl_runtime_box list[1000];
+//     size_t size = sl_runtime_boxes_count(&runtime, 1000, 8000);
+//     uint32_t *memory = malloc(size * sizeof *memory);
+//     sl_runtime_boxes_start(&boxes, &runtime, list, 1000, 8000, memory);
+//     each frame, for each box that moved: sl_runtime_boxes_move(&boxes, i, &box);
+//     for each eye: sl_runtime_boxes_seen(&boxes, &view, shut, 0, scratch, seen);
+
+/// A box. It may have no width or height, and lie anywhere.
+typedef struct sl_runtime_box {
+    double min_x, min_y, max_x, max_y;
+    bool blocks; ///< it hides what is behind it
+} sl_runtime_box;
+
+/// Many boxes in a level. One thread may move them while no other asks; any number of threads may
+/// ask at a time.
+typedef struct sl_runtime_boxes {
+    const sl_runtime *runtime;
+    uint32_t count, room;
+    sl_runtime_box *boxes; ///< for reading; sl_runtime_boxes_move writes
+    uint32_t *memory;      ///< for the functions only
+} sl_runtime_boxes;
+
+/// The size of the memory for boxes, in uint32_t. `room`: how many pairs of a box and a cell that
+/// it lies in the memory is to hold. Four for each box do if boxes are smaller than rooms.
+SL_RUNTIME_API size_t sl_runtime_boxes_count(const sl_runtime *runtime, uint32_t count,
+                                             uint32_t room);
+
+/// Starts with `count` boxes that are nowhere yet. `list`, of `count` boxes, and `memory` may hold
+/// anything, and are used as long as `out` is.
+SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runtime *runtime,
+                                           sl_runtime_box *list, uint32_t count, uint32_t room,
+                                           uint32_t *memory);
+
+/// Puts a box at its place, or at a new one. A box outside the bounds, one whose minimum is above
+/// its maximum and one with coordinates above 2e150 are in no cell, and never seen. Returns false
+/// if there is no room for its cells. The box then counts as seen by every eye and hides nothing,
+/// until it is moved again. Time: the cells near the box.
+SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
+                                          const sl_runtime_box *to);
+
+/// The size of the scratch memory for the calls below, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
+
+/// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
+/// `shut` and `range` are as for sl_runtime_look_past.
+///
+/// If no box blocks, this is exact, with closed sight: a box is seen if a line from the eye, within
+/// the cone, comes to one of its points in a cell that sl_runtime_look_past sees by that line. A
+/// box that only touches a wall from behind is not seen through it. A flat box that lies along a
+/// wall or a shut door in part counts as if it stood before it. (The signs are of the third degree.
+/// They are exact if no coordinate but 0 is 1e70 times smaller than another one.) With a range, a
+/// seen box counts if any of its points is within range.
+///
+/// Boxes that block hide each other, as a line may touch a box but not pass its inside. That is
+/// exact too if no two boxes overlap. No box hides another one that it overlaps, which may then
+/// count as seen though it is hidden. A box is never missed. The box that holds the eye
+/// is seen. If that one blocks, the eye in it sees no box outside of it.
+///
+/// Time: that of one sl_runtime_look_past and the boxes in the cells seen; if boxes block, two of
+/// them, and for each pair of boxes that are seen past walls.
+SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
+                                              const sl_runtime_view *view,
+                                              const unsigned char *shut, double range,
+                                              uint32_t *scratch, unsigned char *seen);
+
+/// As sl_runtime_look_past, past boxes that block: it leaves out cells that are hidden. No cell in
+/// sight is missed. A hidden cell may be left in if a box lies across the line of a portal. `seen`,
+/// with a byte for each box, is set as by sl_runtime_boxes_seen.
+SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, unsigned char *seen,
+                                                   uint32_t *cells, uint32_t room);
+
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
@@ -1605,6 +1684,202 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
     return count;
 }
 
+// --- boxes: the cells that they lie in
+//
+// Memory: the first free entry, the first entry of each cell, the first entry of each box, and the
+// entries. An entry is four numbers: a cell, a box in it, the cell's next entry, the box's next.
+
+#define SLRT_NO_ENTRY   UINT32_MAX
+#define SLRT_EVERYWHERE (UINT32_MAX - 1) ///< in place of a box's first entry: there was no room
+
+enum { SLRT_ENTRY_CELL, SLRT_ENTRY_BOX, SLRT_ENTRY_IN_CELL, SLRT_ENTRY_OF_BOX, SLRT_ENTRY };
+
+static uint32_t *slrt_first_entry(const sl_runtime_boxes *boxes, uint32_t cell) {
+    return boxes->memory + 1 + cell;
+}
+
+static uint32_t *slrt_own_entry(const sl_runtime_boxes *boxes, uint32_t box) {
+    return boxes->memory + 1 + (size_t)boxes->runtime->cell_count + box;
+}
+
+static uint32_t *slrt_entry(const sl_runtime_boxes *boxes, uint32_t entry) {
+    return boxes->memory + 1 + (size_t)boxes->runtime->cell_count + boxes->count +
+           (size_t)SLRT_ENTRY * entry;
+}
+
+SL_RUNTIME_API size_t sl_runtime_boxes_count(const sl_runtime *runtime, uint32_t count,
+                                             uint32_t room) {
+    return 1 + (size_t)runtime->cell_count + count + (size_t)SLRT_ENTRY * room;
+}
+
+SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runtime *runtime,
+                                           sl_runtime_box *list, uint32_t count, uint32_t room,
+                                           uint32_t *memory) {
+    uint32_t i;
+    if (room >= SLRT_EVERYWHERE) room = SLRT_EVERYWHERE - 1;
+    out->runtime = runtime;
+    out->count = count;
+    out->room = room;
+    out->boxes = list;
+    out->memory = memory;
+    memset(memory, 0xff, (1 + (size_t)runtime->cell_count + count) * sizeof *memory);
+    memory[0] = room ? 0 : SLRT_NO_ENTRY;
+    for (i = 0; i < room; i++)
+        slrt_entry(out, i)[SLRT_ENTRY_OF_BOX] = i + 1 < room ? i + 1 : SLRT_NO_ENTRY;
+    for (i = 0; i < count; i++) {
+        memset(&list[i], 0, sizeof list[i]);
+        list[i].min_x = list[i].min_y = 1; // it is nowhere
+    }
+}
+
+/// Takes a box out of its cells.
+static void slrt_take_out(sl_runtime_boxes *boxes, uint32_t box) {
+    uint32_t *own = slrt_own_entry(boxes, box);
+    uint32_t at = *own == SLRT_EVERYWHERE ? SLRT_NO_ENTRY : *own;
+    *own = SLRT_NO_ENTRY;
+    while (at != SLRT_NO_ENTRY) {
+        uint32_t *entry = slrt_entry(boxes, at);
+        uint32_t *link = slrt_first_entry(boxes, entry[SLRT_ENTRY_CELL]);
+        const uint32_t next = entry[SLRT_ENTRY_OF_BOX];
+        while (*link != at) link = &slrt_entry(boxes, *link)[SLRT_ENTRY_IN_CELL];
+        *link = entry[SLRT_ENTRY_IN_CELL];
+        entry[SLRT_ENTRY_OF_BOX] = boxes->memory[0];
+        boxes->memory[0] = at;
+        at = next;
+    }
+}
+
+/// Whether a box without width or height lies on a portal of a cell: not just an end of it.
+static bool slrt_lies_on_portal(const sl_runtime *rt, const sl_runtime_cell *cell,
+                                const double box[4]) {
+    const int axis = box[0] == box[2] ? 0 : 1; // which coordinate is the same in all of the box
+    uint32_t i;
+    if (box[0] == box[2] && box[1] == box[3]) return true;
+    for (i = cell->first_directed; i < cell->first_directed + cell->directed_count; i++) {
+        double a[2], b[2], low, high;
+        memcpy(a, rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 8, sizeof a);
+        memcpy(b, rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 24, sizeof b);
+        low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
+        high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
+        if (a[axis] == box[axis] && b[axis] == box[axis] && low < box[2 + !axis] &&
+            box[!axis] < high)
+            return true;
+    }
+    return false;
+}
+
+/// Whether a box has points within a cell, or lies on one of its portals. To touch a cell is not
+/// enough: a box at a wall is not seen from the wall's other side.
+static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const double box[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
+    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
+    bool left = true, right = true, under = true, over = true, touches = false;
+    if (slrt_is_beside_box(rt, &cell, box)) return false;
+    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
+        const double x = slrt_f64(corner), y = slrt_f64(corner + 8);
+        int k, most = -1;
+        for (k = 0; k < 4 && most <= 0; k++) {
+            const int side =
+                slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]);
+            if (side > most) most = side;
+        }
+        if (most < 0) return false;
+        touches = touches || !most;
+        left = left && x <= box[0];
+        under = under && y <= box[1];
+        right = right && x >= box[2];
+        over = over && y >= box[3];
+    }
+    if (!touches && !left && !right && !under && !over) return true;
+    return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
+}
+
+/// Puts a box into a cell, if it reaches into it. False if there is no room.
+static bool slrt_put_in_cell(sl_runtime_boxes *boxes, uint32_t box, const double at[4],
+                             uint32_t cell) {
+    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, box);
+    const uint32_t free = boxes->memory[0];
+    uint32_t *entry;
+    // The last box that came to a cell is the first in its list: a second bucket has the cell too.
+    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == box) return true;
+    if (!slrt_reaches_into(boxes->runtime, cell, at)) return true;
+    if (free == SLRT_NO_ENTRY) return false;
+    entry = slrt_entry(boxes, free);
+    boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
+    entry[SLRT_ENTRY_CELL] = cell;
+    entry[SLRT_ENTRY_BOX] = box;
+    entry[SLRT_ENTRY_IN_CELL] = *first;
+    entry[SLRT_ENTRY_OF_BOX] = *own;
+    *first = *own = free;
+    return true;
+}
+
+/// Puts a box into the cells of all buckets that it meets.
+static bool slrt_put_by_grid(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
+    const sl_runtime *rt = boxes->runtime;
+    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
+    const double low_x = at[0] > rt->min_x ? at[0] : rt->min_x;
+    const double low_y = at[1] > rt->min_y ? at[1] : rt->min_y;
+    const double high_x = at[2] < rt->max_x ? at[2] : rt->max_x;
+    const double high_y = at[3] < rt->max_y ? at[3] : rt->max_y;
+    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
+    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
+    uint32_t y, x, i;
+    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
+        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
+            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
+            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
+                if (!slrt_put_in_cell(boxes, box, at, slrt_u32(rt->grid_cells + (size_t)i * 4)))
+                    return false;
+        }
+    return true;
+}
+
+/// Puts a box into the cells that the tree has there, or that there are without a tree.
+static bool slrt_put_by_tree(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
+    enum { MOST = 128 };
+    const sl_runtime *rt = boxes->runtime;
+    int32_t stack[MOST];
+    uint32_t count = 0, i;
+    if (rt->nodes) stack[count++] = rt->root;
+    while (count && count < MOST - 1) {
+        const int32_t child = stack[--count];
+        const unsigned char *node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
+        if (child < 0) {
+            if (!slrt_put_in_cell(boxes, box, at, (uint32_t)~child)) return false;
+            continue;
+        }
+        i = slrt_i32(node + 8) ? 1 : 0;
+        if (at[i] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
+        if (at[2 + i] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
+    }
+    if (rt->nodes && !count) return true;
+    for (i = 0; i < rt->cell_count; i++) // no tree, or one that is too deep
+        if (!slrt_put_in_cell(boxes, box, at, i)) return false;
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
+                                          const sl_runtime_box *to) {
+    const sl_runtime *rt = boxes->runtime;
+    double at[4];
+    unsigned char bytes[sizeof at];
+    at[0] = to->min_x, at[1] = to->min_y, at[2] = to->max_x, at[3] = to->max_y;
+    memcpy(bytes, at, sizeof bytes);
+    boxes->boxes[box] = *to;
+    slrt_take_out(boxes, box);
+    if (!(slrt_usable(bytes, 4) && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x ||
+        at[3] < rt->min_y || at[0] > rt->max_x || at[1] > rt->max_y)
+        return true;
+    if (rt->grid_cells ? slrt_put_by_grid(boxes, box, at) : slrt_put_by_tree(boxes, box, at))
+        return true;
+    slrt_take_out(boxes, box);
+    *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
+    return false;
+}
+
 // --- eye-to-cell
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
@@ -1669,6 +1944,11 @@ typedef struct slrt_search {
     bool has_row;
     uint32_t *cells, room, count;
     uint64_t patience;
+    const sl_runtime_boxes *boxes;     ///< NULL for none; the rest is about them
+    unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
+    uint32_t *blockers, blocker_count; ///< with room for as many behind them
+    bool hiding;                       ///< the second search: boxes hide
+    bool gave_up;                      ///< the search took too long
 } slrt_search;
 
 static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
@@ -1883,6 +2163,441 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
     s->count++;
 }
 
+// --- boxes: what of them is seen
+//
+// A search enters a cell with a sector of directions. A box in that cell is seen there if box,
+// sector and cell have a point in common. All three are convex, and any two of them meet. So, by
+// Helly's theorem, the three meet unless a side of the cell, a border of the sector and a side of
+// the box keep them apart:
+//
+//        side of the cell
+//       -----.------------     The three half-planes have no point in common. The sign of one
+//             .  empty  /      determinant says so, of the third degree as a box's sides are
+//       box    .      /        axial.
+//      --------.-.--/-----
+//               ./  border
+//
+// A box that blocks takes an open arc from the sectors of what is behind it: the directions that
+// pass its inside. What of a sector is left is tested as above. Cost: for each visit of a cell, the
+// cell's boxes, times the blocking boxes that are seen past walls.
+
+enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2, SLRT_BOX_HIDDEN = 4 };
+
+static bool slrt_box_holds(const sl_runtime_box *box, double x, double y) {
+    return box->min_x <= x && x <= box->max_x && box->min_y <= y && y <= box->max_y;
+}
+
+/// The sign of an arm's x (axis 0) or y (axis 1).
+static int slrt_arm_sign(const slrt_arm *arm, int axis) {
+    const double from = axis ? arm->from_y : arm->from_x, to = axis ? arm->to_y : arm->to_x;
+    return (to > from) - (to < from);
+}
+
+static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *box, int right,
+                                   int top) {
+    return slrt_make_arm(s->x, s->y, right ? box->max_x : box->min_x,
+                         top ? box->max_y : box->min_y);
+}
+
+/// Whether a sector of at most 180 degrees has a direction with a part upward along an axis, or
+/// downward.
+static bool slrt_sector_goes(const slrt_arm *u, const slrt_arm *v, int axis, int up) {
+    const int of_u = up * slrt_arm_sign(u, axis), of_v = up * slrt_arm_sign(v, axis);
+    const int turn = axis ? up : -up;
+    if (of_u > 0 || of_v > 0) return true;
+    return !of_u && !of_v && turn * slrt_arm_sign(u, !axis) > 0 &&
+           turn * slrt_arm_sign(v, !axis) < 0;
+}
+
+/// Whether a box meets the sector from u to v. If not, a side of one of them lies between them.
+static bool slrt_box_meets_sector(const slrt_search *s, const sl_runtime_box *box,
+                                  const slrt_arm *u, const slrt_arm *v) {
+    bool right = true, left = true;
+    int k;
+    if ((s->x < box->min_x && !slrt_sector_goes(u, v, 0, 1)) ||
+        (s->x > box->max_x && !slrt_sector_goes(u, v, 0, -1)) ||
+        (s->y < box->min_y && !slrt_sector_goes(u, v, 1, 1)) ||
+        (s->y > box->max_y && !slrt_sector_goes(u, v, 1, -1)))
+        return false;
+    for (k = 0; k < 4 && (right || left); k++) {
+        const slrt_arm corner = slrt_arm_to_corner(s, box, k & 1, k & 2);
+        right = right && slrt_side(u, &corner) < 0;
+        left = left && slrt_side(v, &corner) > 0;
+    }
+    return !right && !left;
+}
+
+/// A power of two that brings a number to between 1 and 2.
+static double slrt_scale_of(double number) {
+    uint64_t bits;
+    double scale;
+    memcpy(&bits, &number, sizeof bits);
+    bits = bits >> 52 & 0x7ff;
+    if (bits < 1) bits = 1;
+    if (bits > 2045) bits = 2045;
+    bits = (2046 - bits) << 52;
+    memcpy(&scale, &bits, sizeof scale);
+    return scale;
+}
+
+/// Multiplies an exact sum by a number, and adds that to another one.
+static int slrt_add_times(double *parts, int count, const double *factor, int factor_count,
+                          double number) {
+    int i;
+    for (i = 0; i < factor_count; i++) count = slrt_add_product(parts, count, factor[i], number);
+    return count;
+}
+
+/// The sign of u_m (s x (a - e)) - (s x u)(value - e_m), for s = b - a and the coordinate m of the
+/// axis. `e` is the eye, `u` an arm.
+static int slrt_meet_sign_exact(const slrt_search *search, const slrt_arm *u, const double *a,
+                                const double *b, int axis, double value) {
+    const double place =
+        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a[0], a[1]), slrt_larger(b[0], b[1])),
+                                  slrt_larger(value, slrt_larger(search->x, search->y))));
+    const double length = slrt_scale_of(
+        slrt_larger(slrt_larger(u->to_x, u->to_y), slrt_larger(u->from_x, u->from_y)));
+    const double a_x = place * a[0], a_y = place * a[1], b_x = place * b[0], b_y = place * b[1];
+    const double e_x = place * search->x, e_y = place * search->y;
+    const double t_x = length * u->to_x, t_y = length * u->to_y;
+    const double f_x = length * u->from_x, f_y = length * u->from_y;
+    double turn[16], cross[16], parts[128];
+    int turns = 0, crosses = 0, count = 0;
+    turns = slrt_add_product(turn, turns, b_x, a_y);
+    turns = slrt_add_product(turn, turns, b_x, -e_y);
+    turns = slrt_add_product(turn, turns, a_x, e_y);
+    turns = slrt_add_product(turn, turns, b_y, -a_x);
+    turns = slrt_add_product(turn, turns, b_y, e_x);
+    turns = slrt_add_product(turn, turns, a_y, -e_x);
+    crosses = slrt_add_product(cross, crosses, b_x, t_y);
+    crosses = slrt_add_product(cross, crosses, b_x, -f_y);
+    crosses = slrt_add_product(cross, crosses, a_x, -t_y);
+    crosses = slrt_add_product(cross, crosses, a_x, f_y);
+    crosses = slrt_add_product(cross, crosses, b_y, -t_x);
+    crosses = slrt_add_product(cross, crosses, b_y, f_x);
+    crosses = slrt_add_product(cross, crosses, a_y, t_x);
+    crosses = slrt_add_product(cross, crosses, a_y, -f_x);
+    count = slrt_add_times(parts, count, turn, turns, axis ? t_y : t_x);
+    count = slrt_add_times(parts, count, turn, turns, axis ? -f_y : -f_x);
+    count = slrt_add_times(parts, count, cross, crosses, place * -value);
+    count = slrt_add_times(parts, count, cross, crosses, axis ? e_y : e_x);
+    return count ? (parts[count - 1] > 0) - (parts[count - 1] < 0) : 0;
+}
+
+/// The same: the rounded number decides if it is large enough.
+static int slrt_meet_sign(const slrt_search *search, const slrt_arm *u, const double *a,
+                          const double *b, int axis, double value) {
+    const double s_x = b[0] - a[0], s_y = b[1] - a[1];
+    const double one = s_x * (a[1] - search->y), two = s_y * (a[0] - search->x);
+    const double three = s_x * u->y, four = s_y * u->x;
+    const double part = axis ? u->y : u->x, away = value - (axis ? search->y : search->x);
+    const double sum = part * (one - two) - (three - four) * away;
+    const double bound =
+        4e-15 * (slrt_larger(part, 0) + (part < 0 ? -part : 0)) * (slrt_size(one, two)) +
+        4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
+    if (sum > bound) return 1;
+    if (-sum > bound) return -1;
+    return slrt_meet_sign_exact(search, u, a, b, axis, value);
+}
+
+/// Whether three half-planes have no point in common, any two of which have: left or right of an
+/// arm (`of_arm` 1 or -1), left of a cell's side from a to b, and above or below a value along an
+/// axis (`up` 1 or -1). By Farkas' lemma: the normals leave no direction free, and the corners
+/// between the lines go around the wrong way.
+static bool slrt_keep_apart(const slrt_search *s, const slrt_arm *u, int of_arm, const double *a,
+                            const double *b, int axis, int up, double value) {
+    const int part = slrt_arm_sign(u, axis);
+    const int along = (b[axis] > a[axis]) - (b[axis] < a[axis]);
+    slrt_arm side;
+    if (!part || along != -of_arm * part) return false;
+    side = slrt_make_arm(a[0], a[1], b[0], b[1]);
+    if (slrt_side(&side, u) != -up * part) return false;
+    return part * slrt_meet_sign(s, u, a, b, axis, value) > 0;
+}
+
+/// Whether a box, which reaches into a cell, has a point in that cell and in a sector in which the
+/// eye sees into it.
+static bool slrt_sees_box_in(const slrt_search *s, const sl_runtime_box *box, uint32_t cell,
+                             const slrt_arm *u, const slrt_arm *v) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    double a[2], b[2];
+    uint32_t i;
+    if (!slrt_box_meets_sector(s, box, u, v)) return false;
+    sl_runtime_get_vertex(s->rt, c.first_vertex + c.vertex_count - 1, &a[0], &a[1]);
+    for (i = 0; i < c.vertex_count; i++) {
+        int axis;
+        sl_runtime_get_vertex(s->rt, c.first_vertex + i, &b[0], &b[1]);
+        for (axis = 0; axis < 2; axis++) {
+            const double low = axis ? box->min_y : box->min_x;
+            const double high = axis ? box->max_y : box->max_x;
+            if (slrt_keep_apart(s, u, 1, a, b, axis, 1, low) ||
+                slrt_keep_apart(s, u, 1, a, b, axis, -1, high) ||
+                slrt_keep_apart(s, v, -1, a, b, axis, 1, low) ||
+                slrt_keep_apart(s, v, -1, a, b, axis, -1, high))
+                return false;
+        }
+        memcpy(a, b, sizeof a);
+    }
+    return true;
+}
+
+/// Where the lines of sight are that a box stops.
+typedef enum slrt_shadow { SLRT_NOWHERE, SLRT_IN_ARC, SLRT_ALL_ROUND_IT } slrt_shadow;
+
+/// The directions from `right` to `left` in which a box lies, for an eye that is not within it.
+/// Those between them pass its inside. Where the eye is on a side, they go along that side.
+static slrt_shadow slrt_shadow_of(const slrt_search *s, const sl_runtime_box *box, slrt_arm *right,
+                                  slrt_arm *left) {
+    // By column and row of the eye about the box: the corners (1 right, 2 top) of the borders.
+    static const unsigned char corners[3][3][2] = {
+        {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
+    const int column = s->x <= box->min_x ? 0 : s->x >= box->max_x ? 2 : 1;
+    const int row = s->y <= box->min_y ? 0 : s->y >= box->max_y ? 2 : 1;
+    const unsigned char *at = corners[column][row];
+    if (column == 1 && row == 1) return SLRT_ALL_ROUND_IT;
+    if (slrt_box_holds(box, s->x, s->y) && (box->min_x == box->max_x || box->min_y == box->max_y))
+        return SLRT_NOWHERE;
+    *right = slrt_arm_to_corner(s, box, at[0] & 1, at[0] & 2);
+    *left = slrt_arm_to_corner(s, box, at[1] & 1, at[1] & 2);
+    return SLRT_IN_ARC;
+}
+
+/// Whether a box lies before another one, so that a line through both passes it first. Where a flat
+/// box touches the other one, or the eye is within the box (`strictly`), a line comes to both in
+/// one point. Then it does not hide the other one.
+static bool slrt_is_before(const slrt_search *s, const sl_runtime_box *near_box,
+                           const sl_runtime_box *far_box, bool strictly) {
+    const bool flat_x = strictly || near_box->min_x == near_box->max_x;
+    const bool flat_y = strictly || near_box->min_y == near_box->max_y;
+    const double right = far_box->min_x - near_box->max_x, left = near_box->min_x - far_box->max_x;
+    const double over = far_box->min_y - near_box->max_y, under = near_box->min_y - far_box->max_y;
+    return ((flat_x ? right > 0 : right >= 0) && s->x <= far_box->min_x) ||
+           ((flat_x ? left > 0 : left >= 0) && s->x >= far_box->max_x) ||
+           ((flat_y ? over > 0 : over >= 0) && s->y <= far_box->min_y) ||
+           ((flat_y ? under > 0 : under >= 0) && s->y >= far_box->max_y);
+}
+
+/// Whether all of a box is on the eye's side of a directed portal's line.
+static bool slrt_is_before_portal(const slrt_search *s, const sl_runtime_box *box,
+                                  uint32_t directed, bool within) {
+    const unsigned char *left = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    int k;
+    for (k = 0; k < 4; k++)
+        if (slrt_side_of_line(left + 16, left, k & 1 ? box->max_x : box->min_x,
+                              k & 2 ? box->max_y : box->min_y) < (within ? 1 : 0))
+            return false;
+    return true;
+}
+
+/// What boxes may hide: a box, or what is behind a directed portal.
+typedef struct slrt_target {
+    uint32_t box; ///< SLRT_NO_ENTRY for none
+    uint32_t directed;
+    const uint32_t *blockers; ///< the boxes that may hide it
+    uint32_t blocker_count;
+} slrt_target;
+
+/// The arc that a blocking box may take from what is seen of a target. (Of a portal that is so only
+/// if slrt_is_before_portal; that takes longer to find out than whether the arc counts.)
+static slrt_shadow slrt_shadow_on(const slrt_search *s, const slrt_target *target, uint32_t blocker,
+                                  slrt_arm *right, slrt_arm *left) {
+    const sl_runtime_box *box = &s->boxes->boxes[blocker];
+    const bool within =
+        box->min_x < s->x && s->x < box->max_x && box->min_y < s->y && s->y < box->max_y;
+    if (target->box != SLRT_NO_ENTRY &&
+        (blocker == target->box || !slrt_is_before(s, box, &s->boxes->boxes[target->box], within)))
+        return SLRT_NOWHERE;
+    return slrt_shadow_of(s, box, right, left);
+}
+
+static bool slrt_is_inside(const slrt_arm *v, const slrt_arm *right, const slrt_arm *left) {
+    return slrt_side(right, v) > 0 && slrt_side(v, left) > 0;
+}
+
+/// Whether a box hides a direction of a target.
+static slrt_shadow slrt_hides(const slrt_search *s, const slrt_target *target, uint32_t blocker,
+                              const slrt_arm *direction, slrt_arm *right, slrt_arm *left) {
+    const slrt_shadow shadow = slrt_shadow_on(s, target, blocker, right, left);
+    if (shadow == SLRT_NOWHERE ||
+        (shadow == SLRT_IN_ARC && !slrt_is_inside(direction, right, left)))
+        return SLRT_NOWHERE;
+    if (target->box == SLRT_NO_ENTRY &&
+        !slrt_is_before_portal(s, &s->boxes->boxes[blocker], target->directed,
+                               shadow == SLRT_ALL_ROUND_IT))
+        return SLRT_NOWHERE;
+    return shadow;
+}
+
+/// Turns `from` to the left until no box hides that direction; false if all up to `to` is hidden.
+static bool slrt_skip_hidden(const slrt_search *s, const slrt_target *target, slrt_arm *from,
+                             const slrt_arm *to) {
+    bool moved = true;
+    while (moved) {
+        uint32_t i;
+        moved = false;
+        for (i = 0; i < target->blocker_count; i++) {
+            slrt_arm right, left;
+            const slrt_shadow shadow =
+                slrt_hides(s, target, target->blockers[i], from, &right, &left);
+            if (shadow == SLRT_NOWHERE) continue;
+            if (shadow == SLRT_ALL_ROUND_IT || slrt_is_inside(to, &right, &left)) return false;
+            *from = left;
+            moved = true;
+        }
+    }
+    return true;
+}
+
+/// The first shadow between two directions, borders included: moves `to` to where it starts, and
+/// `next` to where it ends. False for none.
+static bool slrt_find_shadow(const slrt_search *s, const slrt_target *target, const slrt_arm *from,
+                             slrt_arm *to, slrt_arm *next) {
+    bool found = false;
+    uint32_t i;
+    for (i = 0; i < target->blocker_count; i++) {
+        slrt_arm right, left;
+        if (slrt_shadow_on(s, target, target->blockers[i], &right, &left) != SLRT_IN_ARC ||
+            slrt_same_ray(&right, &left) ||
+            !slrt_within(&right, from, to, slrt_side(from, &right), slrt_side(&right, to)))
+            continue;
+        *to = right;
+        *next = left;
+        found = true;
+    }
+    return found;
+}
+
+/// Leaves out blockers that hide nothing between two directions.
+static void slrt_choose_blockers(const slrt_search *s, slrt_target *target, const slrt_arm *from,
+                                 const slrt_arm *to) {
+    uint32_t *chosen = s->blockers + s->blocker_count;
+    uint32_t i, count = 0;
+    for (i = 0; i < target->blocker_count; i++) {
+        slrt_arm right, left;
+        const uint32_t blocker = target->blockers[i];
+        const slrt_shadow shadow = slrt_shadow_on(s, target, blocker, &right, &left);
+        if (shadow == SLRT_NOWHERE) continue;
+        if (shadow == SLRT_IN_ARC && !slrt_is_inside(from, &right, &left) &&
+            !slrt_within(&right, from, to, slrt_side(from, &right), slrt_side(&right, to)))
+            continue;
+        chosen[count++] = blocker;
+    }
+    target->blockers = chosen;
+    target->blocker_count = count;
+}
+
+/// Whether the eye sees a box in a cell past the boxes that block, within the sector from u to v.
+static bool slrt_sees_box_past(const slrt_search *s, uint32_t box, uint32_t cell, slrt_arm u,
+                               const slrt_arm *v) {
+    slrt_target target;
+    target.box = box;
+    target.directed = 0;
+    target.blockers = s->blockers;
+    target.blocker_count = s->blocker_count;
+    if (!slrt_sees_box_in(s, &s->boxes->boxes[box], cell, &u, v)) return false;
+    slrt_choose_blockers(s, &target, &u, v);
+    while (slrt_skip_hidden(s, &target, &u, v)) {
+        slrt_arm to = *v, next;
+        const bool more = slrt_find_shadow(s, &target, &u, &to, &next);
+        if (slrt_sees_box_in(s, &s->boxes->boxes[box], cell, &u, &to)) return true;
+        if (!more || slrt_same_ray(&to, v) || slrt_is_inside(v, &to, &next)) return false;
+        u = next;
+    }
+    return false;
+}
+
+/// Whether others hide all of a box, walls aside.
+static bool slrt_is_hidden_box(const slrt_search *s, uint32_t box) {
+    slrt_arm from, to;
+    slrt_target target;
+    target.box = box;
+    target.directed = 0;
+    target.blockers = s->blockers;
+    target.blocker_count = s->blocker_count;
+    if (slrt_shadow_of(s, &s->boxes->boxes[box], &from, &to) != SLRT_IN_ARC) return false;
+    slrt_choose_blockers(s, &target, &from, &to);
+    return !slrt_skip_hidden(s, &target, &from, &to);
+}
+
+/// Whether boxes hide all that a sector shows behind a directed portal.
+static bool slrt_is_hidden_portal(const slrt_search *s, uint32_t directed,
+                                  const slrt_sector *sector) {
+    slrt_arm from = slrt_border(s, sector->right);
+    const slrt_arm to = slrt_border(s, sector->left);
+    slrt_target target;
+    target.box = SLRT_NO_ENTRY;
+    target.directed = directed;
+    target.blockers = s->blockers;
+    target.blocker_count = s->blocker_count;
+    return !slrt_skip_hidden(s, &target, &from, &to);
+}
+
+/// Whether some of a box is within range.
+static bool slrt_box_in_range(const slrt_search *s, const sl_runtime_box *box) {
+    const double x = s->x < box->min_x   ? box->min_x - s->x
+                     : s->x > box->max_x ? s->x - box->max_x
+                                         : 0;
+    const double y = s->y < box->min_y   ? box->min_y - s->y
+                     : s->y > box->max_y ? s->y - box->max_y
+                                         : 0;
+    const double limit = s->range * (1 + 1e-12);
+    return !(s->range > 0) || !(x * x + y * y > limit * limit);
+}
+
+/// For an eye on a wall that bounds a cell behind it: a line along that wall comes into the cell by
+/// a portal farther on. Whether it meets a box from there on.
+static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *box, uint32_t cell,
+                                   const slrt_arm *ray) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    slrt_search from = *s;
+    uint32_t i;
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
+        const slrt_arm along = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
+        const bool p_is_near = slrt_same_way(&along, ray);
+        if (slrt_side(&p, &q) || slrt_is_blocked(s, i)) continue;
+        if (!slrt_same_way(&p, &q)) return true; // the eye is on the portal
+        if (!slrt_same_ray(&p, ray)) continue;
+        from.x = p_is_near ? p.to_x : q.to_x;
+        from.y = p_is_near ? p.to_y : q.to_y;
+        if (slrt_box_meets_sector(&from, box, ray, ray)) return true;
+    }
+    return false;
+}
+
+static bool slrt_sees_box(const slrt_search *s, uint32_t box, uint32_t cell,
+                          const slrt_sector *sector) {
+    const sl_runtime_box *at = &s->boxes->boxes[box];
+    slrt_arm u, v;
+    if (!slrt_box_in_range(s, at)) return false;
+    if (sector->right != SLRT_ALL_ROUND) {
+        u = slrt_border(s, sector->right);
+        v = slrt_border(s, sector->left);
+    } else if (!s->hiding || slrt_box_holds(at, s->x, s->y)) {
+        return true;
+    } else {
+        slrt_shadow_of(s, at, &u, &v);
+    }
+    if (cell != s->eye_cell && slrt_same_ray(&u, &v) && slrt_holds(s->rt, cell, s->x, s->y) &&
+        !slrt_meets_behind_wall(s, at, cell, &u))
+        return false;
+    return s->hiding ? slrt_sees_box_past(s, box, cell, u, &v)
+                     : slrt_sees_box_in(s, at, cell, &u, &v);
+}
+
+/// Marks the boxes that are seen in a cell, through a sector.
+static void slrt_meet_boxes(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    const unsigned char wanted = s->hiding ? SLRT_BOX_PAST_WALLS : 0;
+    const unsigned char found = s->hiding ? SLRT_BOX_SEEN : SLRT_BOX_PAST_WALLS;
+    uint32_t at = *slrt_first_entry(s->boxes, cell);
+    while (at != SLRT_NO_ENTRY) {
+        const uint32_t *entry = slrt_entry(s->boxes, at);
+        unsigned char *mark = s->box_marks + entry[SLRT_ENTRY_BOX];
+        if (*mark == wanted && slrt_sees_box(s, entry[SLRT_ENTRY_BOX], cell, sector)) *mark = found;
+        at = entry[SLRT_ENTRY_IN_CELL];
+    }
+}
+
 /// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
 /// path was seen through a wider sector, and a cell that was entered with a wider one needs no
 /// second visit.
@@ -1893,6 +2608,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ON_PATH) return;
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
+    if (s->boxes) slrt_meet_boxes(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
                              sector->along);
     s->sectors[2 * (size_t)cell] = sector->right;
@@ -1906,6 +2622,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
 
 static void slrt_see_row(slrt_search *s) {
     uint32_t i;
+    s->gave_up = true;
     for (i = 0; i < s->rt->cell_count; i++)
         if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
 }
@@ -1918,6 +2635,7 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.along = s->marks[top[0]] & SLRT_ALONG;
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
+    if (s->hiding && slrt_is_hidden_portal(s, directed, &sector)) return;
     slrt_enter(s, slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4), &sector);
 }
 
@@ -2009,35 +2727,105 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
     return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
 }
 
+/// Prepares a search. False if the eye sees nothing.
+static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
+                              const unsigned char *shut, double range, uint32_t *scratch) {
+    const size_t count = rt->cell_count;
+    memset(s, 0, sizeof *s);
+    s->rt = rt;
+    s->view = view;
+    s->shut = shut;
+    s->range = slrt_range(rt, range);
+    s->x = slrt_no_dust(view->x);
+    s->y = slrt_no_dust(view->y);
+    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
+    s->path = scratch;
+    s->sectors = scratch + 4 * count;
+    s->marks = (unsigned char *)(scratch + 6 * count);
+    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
+}
+
+static void slrt_run_search(slrt_search *s) {
+    sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
+    s->count = 0;
+    s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
+    memset(s->marks, 0, s->rt->cell_count);
+    s->has_row = run.next != run.stop;
+    while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
+    slrt_search_cone(s, s->eye_cell);
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room) {
-    const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
-    const uint32_t cell = sl_runtime_locate(runtime, x, y);
-    const size_t count = runtime->cell_count;
-    sl_runtime_run run;
     slrt_search s;
-    if (cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell)) return 0;
-    memset(&s, 0, sizeof s);
-    s.rt = runtime;
-    s.view = view;
-    s.shut = shut;
-    s.range = slrt_range(runtime, range);
-    s.x = x;
-    s.y = y;
-    s.eye_cell = cell;
-    s.path = scratch;
-    s.sectors = scratch + 4 * count;
-    s.marks = (unsigned char *)(scratch + 6 * count);
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
     s.cells = cells;
     s.room = room;
-    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->directed_count + 16);
-    memset(s.marks, 0, count);
-    run = sl_runtime_row(runtime, cell);
-    s.has_row = run.next != run.stop;
-    while (sl_runtime_next(&run)) memset(s.marks + run.first, SLRT_IN_ROW, run.end - run.first);
-    slrt_search_cone(&s, cell);
+    slrt_run_search(&s);
     return s.count;
+}
+
+// --- boxes: what is asked
+
+SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
+    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
+}
+
+/// The first search finds the boxes that are seen past walls. If some of them block, a second one
+/// asks which of these are seen past the others, and leaves out cells that are hidden.
+static void slrt_look_at_boxes(slrt_search *s) {
+    const sl_runtime_boxes *boxes = s->boxes;
+    uint32_t i, count;
+    for (i = 0; i < boxes->count; i++)
+        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
+    slrt_run_search(s);
+    for (i = 0; i < boxes->count && !s->gave_up; i++)
+        if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
+    if (!s->blocker_count) return;
+    s->hiding = true;
+    for (i = 0; i < boxes->count; i++)
+        if (s->box_marks[i] == SLRT_BOX_PAST_WALLS && slrt_is_hidden_box(s, i))
+            s->box_marks[i] = SLRT_BOX_HIDDEN;
+    // What hides a box wholly also hides what is behind that box.
+    count = s->blocker_count;
+    s->blocker_count = 0;
+    for (i = 0; i < count; i++)
+        if (s->box_marks[s->blockers[i]] != SLRT_BOX_HIDDEN)
+            s->blockers[s->blocker_count++] = s->blockers[i];
+    slrt_run_search(s);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, unsigned char *seen,
+                                                   uint32_t *cells, uint32_t room) {
+    slrt_search s;
+    uint32_t i;
+    unsigned char wanted;
+    if (boxes->count) memset(seen, 0, boxes->count);
+    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    s.boxes = boxes;
+    s.box_marks = seen;
+    s.blockers = scratch + sl_runtime_scratch_count(boxes->runtime);
+    slrt_look_at_boxes(&s);
+    wanted = s.hiding ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
+    for (i = 0; i < boxes->count; i++)
+        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
+    return s.count;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
+                                              const sl_runtime_view *view,
+                                              const unsigned char *shut, double range,
+                                              uint32_t *scratch, unsigned char *seen) {
+    uint32_t i, count = 0;
+    sl_runtime_look_past_boxes(boxes, view, shut, range, scratch, seen, NULL, 0);
+    for (i = 0; i < boxes->count; i++) count += seen[i];
+    return count;
 }
 
 // --- the visible polygon

@@ -350,6 +350,12 @@ static sl_status bake_and_ask(sl_context *context, const char *const *parts) {
     if (status == SL_OK) status = sl_query_set_boxes(context, query, &box, 1);
     for (int i = 0; i < 2 && status == SL_OK; i++) {
         const sl_view view = sl_query_view(query, (sl_point){i ? 25 : 5, 4}, 0, 360);
+        const sl_moving_box clear = {box.box, false}; // is listed, and cuts no cells
+        bool seen;
+        status = sl_query_set_boxes(context, query, &clear, 1);
+        if (status == SL_OK) status = sl_query_boxes_seen(context, query, &view, &seen, NULL);
+        if (status == SL_OK) status = sl_query_set_boxes(context, query, &box, 1);
+        if (status != SL_OK) break;
         status = sl_query_look(context, query, &view, NULL, cells, NULL);
         if (status == SL_OK) status = sl_query_region(context, query, &view, &region);
         if (status != SL_OK || !sl_query_baked(query)->map.mirror_count) continue;

@@ -238,45 +238,62 @@ static void on_turned_maps(void **state) {
 
 enum { SIZE = 12, MAPS = 60, DOORS = 4, GLASS = 6 };
 
-static sl_segment random_segment(sl_random *random) {
+/// A place on the grid; turned by an angle that leaves coordinates whole, so lines stay lines.
+static sl_point on_grid(sl_point p, bool oblique) {
+    return oblique ? (sl_point){4 * p.x - 3 * p.y, 3 * p.x + 4 * p.y} : p;
+}
+
+static sl_segment random_segment(sl_random *random, bool oblique) {
     const bool upright = sl_random_below(random, 2), turned = sl_random_below(random, 2);
     const double at = (double)sl_random_below(random, SIZE + 1);
     const double from = (double)sl_random_below(random, SIZE);
     const double to = fmin(from + 1 + (double)sl_random_below(random, 4), SIZE);
-    const sl_segment s =
-        upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
+    const sl_point a = upright ? (sl_point){at, from} : (sl_point){from, at};
+    const sl_point b = upright ? (sl_point){at, to} : (sl_point){to, at};
+    const sl_segment s = {on_grid(a, oblique), on_grid(b, oblique)};
     return turned ? (sl_segment){s.b, s.a} : s;
 }
 
-static void random_map(sl_context *context, sl_random *random, sl_map *map) {
+static void random_map(sl_context *context, sl_random *random, bool oblique, sl_map *map) {
     const sl_point c[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
     for (int i = 0; i < 4; i++)
-        assert_ok(context, sl_map_add_wall(context, map, c[i], c[i + 1], 0));
+        assert_ok(context, sl_map_add_wall(context, map, on_grid(c[i], oblique),
+                                           on_grid(c[i + 1], oblique), 0));
     for (int i = 0; i < 10; i++) {
-        const sl_segment at = random_segment(random);
+        const sl_segment at = random_segment(random, oblique);
         assert_ok(context, sl_map_add_wall(context, map, at.a, at.b, 0));
     }
     for (int i = 0; i < DOORS; i++) {
         const char name[2] = {(char)('a' + i), 0};
-        assert_ok(context, sl_map_add_door(context, map, name, random_segment(random), true, 0));
+        assert_ok(context,
+                  sl_map_add_door(context, map, name, random_segment(random, oblique), true, 0));
     }
     for (int i = 0; i < GLASS; i++)
-        assert_ok(context, sl_map_add_oneway(context, map, random_segment(random), 0));
+        assert_ok(context, sl_map_add_oneway(context, map, random_segment(random, oblique), 0));
     assert_ok(context, sl_map_clean(context, map, NULL, NULL));
 }
 
-static void past_doors_and_glass(void **state) {
-    (void)state;
+static void try_random_maps(bool oblique) {
     sl_context *context = testing_context(NULL);
-    for (uint64_t seed = 1; seed <= MAPS; seed++) {
+    for (uint64_t seed = 1; seed <= testing_seeds(MAPS); seed++) {
         sl_random random = {seed};
         baked_file f = {.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
-        random_map(context, &random, &f.baked.map);
+        random_map(context, &random, oblique, &f.baked.map);
         baked_file_make(context, &f, false);
         looks_are_the_same(&f);
         baked_file_destroy(context, &f);
     }
     sl_context_destroy(context);
+}
+
+static void past_doors_and_glass(void **state) {
+    (void)state;
+    try_random_maps(false);
+}
+
+static void past_oblique_doors_and_glass(void **state) {
+    (void)state;
+    try_random_maps(true);
 }
 
 // --- by hand
@@ -330,6 +347,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(glass_is_dark_from_one_side),
         cmocka_unit_test(the_range_of_the_level_counts),
         cmocka_unit_test(past_doors_and_glass),
+        cmocka_unit_test(past_oblique_doors_and_glass),
         cmocka_unit_test(on_every_map),
         cmocka_unit_test(on_turned_maps),
     };

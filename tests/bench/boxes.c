@@ -1,0 +1,250 @@
+// What many moving boxes cost in a frame: all boxes move, then all eyes ask which boxes they see.
+//   bench_boxes KIND:N[:DEGREES]    a generated map, turned: office:20, office:20:17
+//   bench_boxes MAP [LEVEL]         a map file; the level of a WAD, the height of a slice
+// CSV: map, cells, boxes, eyes, what is asked, milliseconds a frame for the boxes' new places and
+// for the eyes, share of the boxes that an eye sees. Times are the processor's, the least of some
+// frames.
+#include "bake/slv.h"
+#include "sightline/generate.h"
+#include "sightline/io.h"
+#include "sightline/query.h"
+#include "sightline/solvers.h"
+#include "sightline/support.h"
+
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime/sightline_runtime.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { BOXES = 1000, EYES = 100, FRAMES = 5 };
+
+static void fail(const char *what) {
+    fprintf(stderr, "bench_boxes: %s\n", what);
+    exit(1);
+}
+
+static void *room(size_t count, size_t size) {
+    void *block = calloc(count ? count : 1, size);
+    if (!block) fail("out of memory");
+    return block;
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
+}
+
+// --- the map
+
+static sl_status generate(sl_context *context, const char *name, const char *colon, sl_map *map) {
+    size_t count;
+    const sl_map_kind *kinds = sl_map_kinds(&count);
+    sl_generate_options options = sl_generate_options_default();
+    char *turned;
+    options.size = strtoull(colon + 1, &turned, 10);
+    if (*turned == ':') options.turned = strtod(turned + 1, NULL);
+    for (size_t i = 0; i < count; i++)
+        if (strlen(kinds[i].name) == (size_t)(colon - name) &&
+            memcmp(kinds[i].name, name, (size_t)(colon - name)) == 0)
+            return sl_generate(context, &kinds[i], &options, map);
+    fail("there is no such kind of map");
+    return SL_BAD_ARGUMENT;
+}
+
+static void bake(sl_context *context, const char *name, const char *which, sl_baked *baked) {
+    const char *colon = strchr(name, ':'), *ending = strrchr(name, '.');
+    const bool is_wad = ending && strcmp(ending, ".wad") == 0;
+    sl_import_options import = sl_import_options_default();
+    import.map = is_wad ? which : NULL;
+    import.has_slice = which && !is_wad;
+    import.slice = import.has_slice ? strtod(which, NULL) : 0;
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    size_t count;
+    const sl_status status = colon ? generate(context, name, colon, &baked->map)
+                                   : sl_map_read(context, name, &import, &baked->map);
+    if (status != SL_OK || sl_map_clean(context, &baked->map, NULL, NULL) != SL_OK ||
+        sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space) !=
+            SL_OK ||
+        sl_see_methods(&count)->see(context, &baked->space, &options, &baked->visibility) != SL_OK)
+        fail(sl_context_message(context));
+}
+
+// --- what moves: boxes and eyes, on the way through the inside
+
+typedef struct frame {
+    sl_moving_box boxes[BOXES];
+    sl_point eyes[EYES];
+} frame;
+
+static sl_point place(const sl_space *space, sl_random *random) {
+    const sl_box b = space->bounds;
+    for (int tries = 0; tries < 100000; tries++) {
+        const sl_point p = {b.min.x + sl_random_unit(random) * (b.max.x - b.min.x),
+                            b.min.y + sl_random_unit(random) * (b.max.y - b.min.y)};
+        const uint32_t cell = sl_space_locate(space, p);
+        if (cell != SL_NO_CELL && space->cells[cell].inside && !space->cells[cell].solid) return p;
+    }
+    fail("the map has no inside");
+    return b.min;
+}
+
+/// Half the width of a box: as a person in a room.
+static double half_width(const sl_space *space) {
+    const sl_box b = space->bounds;
+    return 0.2 * sqrt((b.max.x - b.min.x) * (b.max.y - b.min.y) / space->cell_count);
+}
+
+static frame *choose(const sl_space *space, bool blocks) {
+    frame *frames = room(FRAMES, sizeof *frames);
+    sl_random random = {7};
+    const double half = half_width(space);
+    for (size_t i = 0; i < BOXES; i++) {
+        const sl_point at = place(space, &random);
+        const double turn = 6.2831853 * sl_random_unit(&random);
+        for (int f = 0; f < FRAMES; f++) {
+            const sl_point p = {at.x + 0.2 * half * f * cos(turn),
+                                at.y + 0.2 * half * f * sin(turn)};
+            frames[f].boxes[i] = (sl_moving_box){
+                .box = {{p.x - half, p.y - half}, {p.x + half, p.y + half}}, .blocks = blocks};
+        }
+    }
+    for (size_t i = 0; i < EYES; i++)
+        for (int f = 0; f < FRAMES; f++) frames[f].eyes[i] = place(space, &random);
+    return frames;
+}
+
+// --- what is asked
+
+typedef struct bench {
+    sl_context *context;
+    const char *name;
+    sl_baked baked;
+    sl_query *query;
+    bool seen[BOXES];
+    char *bytes;
+    sl_runtime runtime;
+    sl_runtime_boxes placed;
+    sl_runtime_box list[BOXES];
+    uint32_t *memory, *scratch;
+    unsigned char said[BOXES];
+} bench;
+
+enum { ROOM = 64 * BOXES };
+
+/// The times of one frame, and how many boxes the eyes saw.
+typedef struct cost {
+    double place, look;
+    size_t seen;
+} cost;
+
+typedef cost question(bench *b, const frame *f, size_t boxes, size_t eyes);
+
+static cost ask_query(bench *b, const frame *f, size_t boxes, size_t eyes) {
+    cost c = {0};
+    const double start = now();
+    if (sl_query_set_boxes(b->context, b->query, f->boxes, boxes) != SL_OK)
+        fail(sl_context_message(b->context));
+    // The boxes are placed when the first question needs them.
+    sl_view view = sl_view_all_round(b->baked.space.bounds.min);
+    view.eye.x -= 1;
+    if (sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL) != SL_OK)
+        fail(sl_context_message(b->context));
+    const double placed = now();
+    for (size_t i = 0; i < eyes; i++) {
+        view = sl_view_all_round(f->eyes[i]);
+        if (sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL) != SL_OK)
+            fail(sl_context_message(b->context));
+        for (size_t k = 0; k < boxes; k++) c.seen += b->seen[k];
+    }
+    c.place = placed - start;
+    c.look = now() - placed;
+    return c;
+}
+
+static cost ask_runtime(bench *b, const frame *f, size_t boxes, size_t eyes) {
+    cost c = {0};
+    sl_runtime_boxes *placed = &b->placed;
+    if (placed->count != boxes)
+        sl_runtime_boxes_start(placed, &b->runtime, b->list, (uint32_t)boxes, ROOM, b->memory);
+    const double start = now();
+    for (uint32_t i = 0; i < boxes; i++) {
+        const sl_box at = f->boxes[i].box;
+        const sl_runtime_box to = {at.min.x, at.min.y, at.max.x, at.max.y, f->boxes[i].blocks};
+        if (!sl_runtime_boxes_move(placed, i, &to)) fail("there is no room for the boxes");
+    }
+    const double moved = now();
+    for (size_t i = 0; i < eyes; i++) {
+        const sl_runtime_view view = sl_runtime_view_all_round(f->eyes[i].x, f->eyes[i].y);
+        c.seen += sl_runtime_boxes_seen(placed, &view, NULL, 0, b->scratch, b->said);
+    }
+    c.place = moved - start;
+    c.look = now() - moved;
+    return c;
+}
+
+static void open_runtime(bench *b) {
+    size_t size;
+    FILE *stream = open_memstream(&b->bytes, &size);
+    if (!stream || sli_slv_print(b->context, &b->baked, stream) != SL_OK || fclose(stream) != 0)
+        fail("out of memory");
+    if (sl_runtime_open(b->bytes, size, &b->runtime) != SL_RUNTIME_OK) fail("the bake is damaged");
+    b->memory = room(sl_runtime_boxes_count(&b->runtime, BOXES, ROOM), sizeof *b->memory);
+    b->scratch = room(sl_runtime_scratch_count(&b->runtime) + 2 * BOXES, sizeof *b->scratch);
+}
+
+static void print_row(bench *b, const char *what, question *ask, bool blocks, size_t boxes,
+                      size_t eyes) {
+    frame *frames = choose(&b->baked.space, blocks);
+    cost least = {INFINITY, INFINITY, 0};
+    for (int f = 0; f < FRAMES; f++) {
+        const cost c = ask(b, &frames[f], boxes, eyes);
+        least.place = fmin(least.place, c.place);
+        least.look = fmin(least.look, c.look);
+        least.seen = c.seen;
+    }
+    printf("%s,%u,%zu,%zu,%s,%.3f,%.3f,%.4f\n", b->name, b->baked.space.cell_count, boxes, eyes,
+           what, least.place, least.look, (double)least.seen / (double)(boxes * eyes));
+    free(frames);
+}
+
+int main(int argc, char **argv) {
+    static const struct {
+        const char *what;
+        question *ask;
+        bool blocks;
+    } table[] = {
+        {"query: which are seen", ask_query, false},
+        {"query: which are seen past each other", ask_query, true},
+        {"runtime: which are seen", ask_runtime, false},
+        {"runtime: which are seen past each other", ask_runtime, true},
+    };
+    if (argc < 2) fail("usage: bench_boxes KIND:N[:DEGREES] | MAP [LEVEL]");
+    bench *b = room(1, sizeof *b);
+    b->context = sl_context_create(NULL);
+    b->baked = (sl_baked){.method = "dfs", .solver = "funnel"};
+    b->name = argv[argc > 2 ? 2 : 1];
+    if (!b->context || sl_io_use(b->context) != SL_OK) fail("out of memory");
+    bake(b->context, argv[1], argc > 2 ? argv[2] : NULL, &b->baked);
+    if (sl_query_create(b->context, &b->baked, &b->query) != SL_OK)
+        fail(sl_context_message(b->context));
+    open_runtime(b);
+    puts("map,cells,boxes,eyes,asked,place_ms,look_ms,share_seen");
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        for (size_t boxes = 10; boxes <= BOXES; boxes *= 10)
+            for (size_t eyes = 1; eyes <= EYES; eyes *= 10)
+                print_row(b, table[i].what, table[i].ask, table[i].blocks, boxes, eyes);
+    sl_query_destroy(b->context, b->query);
+    free(b->memory);
+    free(b->scratch);
+    free(b->bytes);
+    sl_baked_destroy(b->context, &b->baked);
+    sl_context_destroy(b->context);
+    free(b);
+    return 0;
+}
