@@ -59,6 +59,7 @@ void app_destroy(app_state *app) {
     document_stop_soon(&app->document);
     export_stop(app);
     view_layer_stop(app);
+    heat_layer_stop(app);
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
@@ -67,6 +68,7 @@ void app_destroy(app_state *app) {
     if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
     node_layer_destroy(app->context, app->view.nodes);
     view_layer_destroy(app->context, app->view.views);
+    heat_layer_destroy(app->context, app->view.heat);
     watch_layer_destroy(app->context, app->view.watch);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
@@ -222,6 +224,7 @@ static void poll(app_state *app, bool wait) {
     } while (wait && app->document.stale);
     keep_up(app);
     view_layer_update(app, wait);
+    heat_layer_update(app, wait);
     map_file_tick(app, wait);
     recovery_tick(app);
 }
@@ -231,7 +234,9 @@ job_progress app_progress(const app_state *app) {
     if (document.running) return document;
     const job_progress file = map_file_progress(app), pictures = export_progress(app->exports);
     if (file.running) return file;
-    return pictures.running ? pictures : view_layer_progress(app->view.views);
+    if (pictures.running) return pictures;
+    const job_progress views = view_layer_progress(app->view.views);
+    return views.running ? views : heat_layer_progress(app->view.heat);
 }
 
 static void look(app_state *app) {
@@ -426,6 +431,7 @@ void app_draw(app_state *app, cairo_t *cairo) {
     pane_time_measure(app);
     const window_layout l = app_layout(app);
     app_fit(app, l.plan[0]);
+    heat_layer_follow(app);
     pane_dual_hover(app);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)

@@ -7,6 +7,7 @@
 #include "dialog.h"
 #include "document.h"
 #include "export.h"
+#include "heat.h"
 #include "layers.h"
 #include "lesson.h"
 #include "map_file.h"
@@ -27,7 +28,7 @@ typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } compa
 typedef struct kept_picture {
     cairo_surface_t *surface;
     struct {
-        uint32_t version, touched, show, depth, dark, views, mark;
+        uint32_t version, touched, show, depth, dark, views, mark, heat;
         sl_frame frame;
     } key;
     double seconds;   ///< that drawing it took
@@ -125,8 +126,10 @@ typedef struct view_state {
     account_picture account;
     first_person_counts first_person; ///< of the last frame
 
-    node_layer *nodes; ///< these three: NULL: none yet
+    heat_choice heat_choice;
+    node_layer *nodes; ///< these four: NULL: none yet
     view_layer *views;
+    heat_layer *heat;
     watch_layer *watch;
 } view_state;
 

@@ -35,6 +35,16 @@ unsigned layers_fill(const app_state *app) {
                                                                              : last;
 }
 
+void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {
+    const sl_space *space = &document->baked->space;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *c = &space->cells[i];
+        if (c->inside)
+            sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
+    }
+    cairo_clip(cairo);
+}
+
 /// What fills comes first: lines stay on top.
 void layers_draw(app_state *app, const sl_frame *frame, int index) {
     const unsigned about_cell = SHOW_PVS | SHOW_CULL | SHOW_TREE;

@@ -65,6 +65,9 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
     int at = add_layers(app, rows);
     if (layers_shows(app, LAYER_VIEWS) && view_layer_shown(app->view.views))
         rows[at++] = stroke("border of a view cell", palette->wall, false);
+    const heat_graph *graph;
+    if (heat_layer_values(app, &graph) && layers_fill(app) != LAYER_HEAT)
+        rows[at++] = stroke("between levels of the heat map", palette->wall, false);
     if (layers_shows(app, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
     if (layers_shows(app, LAYER_TREE) && app->view.seen.valid)
         rows[at++] = stroke("stab tree", palette->tree, false);
@@ -176,6 +179,102 @@ double layers_legend_row(ui_state *ui, double left, double right, double y, cons
     return end - 0.95 * t;
 }
 
+// --- keys of layers that are coloured by values
+
+int ramp_step(double value, double least, double most) {
+    const double share = most > least ? (value - least) / (most - least) : 0;
+    return (int)fmin(fmax(share, 0) * RAMP_STEPS, RAMP_STEPS - 1);
+}
+
+sl_colour ramp_colour(const ui_state *ui, int step) {
+    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
+}
+
+void legend_key_add(legend_key *key, const char *label, const char *text) {
+    snprintf(key->rows[key->count].label, sizeof key->rows->label, "%s", label);
+    snprintf(key->rows[key->count++].text, sizeof key->rows->text, "%s", text);
+}
+
+enum { KEYS_MOST = 2 };
+
+/// The keys of the layers that are shown.
+static int list_keys(const app_state *app, legend_key keys[KEYS_MOST]) {
+    int count = 0;
+    if (!app->view.seen.valid) return 0;
+    count += view_layer_key(app, &keys[count]);
+    count += heat_layer_key(app, &keys[count]);
+    return count;
+}
+
+/// The ramp between its ends.
+static void draw_ramp(ui_state *ui, const legend_key *key, double left, double right, double base) {
+    const double t = ui->text;
+    ui_text(ui, left, base, 0.95, false, ui->palette.ink, key->least);
+    ui_text_right(ui, right, base, 0.95, ui->palette.ink, key->most);
+    const double side = 0.4 * t + fmax(ui_text_width(ui, 0.95, false, key->least),
+                                       ui_text_width(ui, 0.95, false, key->most));
+    const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
+    for (int step = 0; step < RAMP_STEPS; step++)
+        ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
+                ramp_colour(ui, step));
+}
+
+/// Draws a key, or finds its lower edge alone. A narrow key has values below their labels.
+static double put_key(ui_state *ui, const legend_key *key, double left, double right, double y,
+                      bool draw) {
+    const double t = ui->text, wide = right - left;
+    for (int i = 0; i < key->count; i++) {
+        const char *label = key->rows[i].label, *text = key->rows[i].text;
+        const double value = *text ? ui_text_width(ui, 0.95, false, text) + 0.6 * t : 0;
+        const bool beside = ui_text_width(ui, 0.95, false, label) + value <= wide;
+        const double below = y + 1.1 * t + ui_lines_height(ui, wide, 0.95, i == 0, label);
+        const double end = beside ? below : below + ui_lines_height(ui, wide, 0.95, false, text);
+        if (draw) ui_lines(ui, left, y + 1.1 * t, wide, 0.95, i == 0, ui->palette.ink, label);
+        if (draw && beside)
+            ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.ink, text);
+        else if (draw)
+            ui_lines(ui, left, below, wide, 0.95, false, ui->palette.faint, text);
+        y = end - 0.95 * t;
+    }
+    if (draw && key->ramp) draw_ramp(ui, key, left, right, y + 1.1 * t);
+    return y + 1.6 * t;
+}
+
+double layers_key_column(app_state *app, double left, double right, double y) {
+    legend_key keys[KEYS_MOST];
+    const int count = list_keys(app, keys);
+    for (int i = 0; i < count; i++)
+        y = put_key(&app->ui, &keys[i], left, right, y + 0.4 * app->ui.text, true);
+    return y;
+}
+
+/// A page with a rim, over the plan.
+static void fill_framed(ui_state *ui, sl_box box) {
+    const sl_box rim = {{box.min.x - 1, box.min.y - 1}, {box.max.x + 1, box.max.y + 1}};
+    ui_fill_round(ui, rim, 0.3 * ui->text, ui->palette.faint);
+    ui_fill_round(ui, box, 0.3 * ui->text, ui->palette.page);
+}
+
+/// The keys at the lower right, one over the other, as far as they have room.
+static void draw_keys_over_plan(app_state *app, const sl_frame *frame) {
+    ui_state *ui = &app->ui;
+    legend_key keys[KEYS_MOST];
+    const int count = list_keys(app, keys);
+    const double t = ui->text, wide = 19 * t, right = frame->left + frame->width - t;
+    const double lowest = frame->top + frame->height - t;
+    double bottom = lowest;
+    for (int i = 0; i < count && wide <= frame->width - 2 * t; i++) {
+        const double high =
+            put_key(ui, &keys[i], right - wide + 0.6 * t, right - 0.6 * t, 0, false) + 0.4 * t;
+        if (lowest - bottom + high > 0.75 * frame->height) return;
+        const sl_box box = {{right - wide, bottom - high}, {right, bottom}};
+        fill_framed(ui, box);
+        put_key(ui, &keys[i], right - wide + 0.6 * t, right - 0.6 * t, bottom - high + 0.2 * t,
+                true);
+        bottom -= high + 0.5 * t;
+    }
+}
+
 // --- over the plan
 
 /// A legend that is higher than half of the plan is left to the panel.
@@ -190,9 +289,7 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
     if (!count || high > 0.75 * frame->height || wide < 8 * t) return;
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
-    ui_fill_round(ui, (sl_box){{left - 1, y - 1}, {left + wide + 1, bottom + 1}}, 0.3 * t,
-                  ui->palette.faint);
-    ui_fill_round(ui, (sl_box){{left, y}, {left + wide, bottom}}, 0.3 * t, ui->palette.page);
+    fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
     y += 0.1 * t;
     for (int i = 0; i < count; i++)
         y = layers_legend_row(ui, left + gap, left + wide - gap, y, &rows[i]);
@@ -201,5 +298,5 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
 void layers_draw_keys(app_state *app, const sl_frame *frame) {
     if (app->ui.side_panel && !app->ui.presents) return;
     if (app->tool.mode != MODE_QUIZ && app->ui.legend) draw_over_plan(app, frame);
-    if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS)) view_layer_draw_key(app, frame);
+    draw_keys_over_plan(app, frame);
 }
