@@ -116,25 +116,24 @@ static void add_border(app_state *app, const sl_frame *frame, const uint64_t *ce
     }
 }
 
-/// Draws the portals of the set once more: a solid fill covers those below it.
-static void draw_portals(app_state *app, const sl_frame *frame, const uint64_t *cells,
-                         const uint64_t *without) {
+void layers_draw_portals(const app_state *app, cairo_t *cairo, const sl_frame *frame,
+                         const uint64_t *cells, const uint64_t *without) {
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
-    cairo_new_path(app->ui.cairo);
+    cairo_new_path(cairo);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const sl_cell *c = &space->cells[cell];
-        if (!in_set(cells, without, cell)) continue;
+        if (cells && !in_set(cells, without, cell)) continue;
         for (uint32_t i = 0; i < c->directed_count; i++) {
             const sl_directed_portal *d = &space->directed[c->first_directed + i];
-            const bool twice = d->cell < cell && in_set(cells, without, d->cell);
-            if (!twice) sl_path_segment(app->ui.cairo, frame, d->left, d->right);
+            const bool twice = d->cell < cell && (!cells || in_set(cells, without, d->cell));
+            if (!twice) sl_path_segment(cairo, frame, d->left, d->right);
         }
     }
-    cairo_save(app->ui.cairo);
-    cairo_set_antialias(app->ui.cairo, CAIRO_ANTIALIAS_FAST);
-    tone_cased(app->ui.cairo, palette, palette->portal, 1.4 * frame->unit, 3);
-    cairo_restore(app->ui.cairo);
+    cairo_save(cairo);
+    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_FAST);
+    tone_cased(cairo, palette, palette->portal, 1.4 * frame->unit, 3);
+    cairo_restore(cairo);
 }
 
 /// Patterns are fixed to the map.
@@ -163,7 +162,8 @@ void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cell
     }
     tone_fill(cairo, app->ui.dark, which, frame->unit, origin_of(frame));
     const bool solid = tone_table()[which].pattern == PATTERN_SOLID;
-    if (solid && layers_shows(app, LAYER_PORTALS)) draw_portals(app, frame, cells, without);
+    if (solid && layers_shows(app, LAYER_PORTALS))
+        layers_draw_portals(app, cairo, frame, cells, without);
 }
 
 void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which) {

@@ -92,6 +92,11 @@ unsigned layers_fill(const app_state *app);
 void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cells,
                      const uint64_t *without, tone which, bool fills);
 
+/// Draws the portals of a set of cells once more (NULL: of all): a solid fill covers those below
+/// it.
+void layers_draw_portals(const app_state *app, cairo_t *cairo, const sl_frame *frame,
+                         const uint64_t *cells, const uint64_t *without);
+
 /// Fills one cell with a tone, and outlines it.
 void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which);
 

@@ -237,7 +237,7 @@ static double put_key(ui_state *ui, const legend_key *key, double left, double r
         y = end - 0.95 * t;
     }
     if (draw && key->ramp) draw_ramp(ui, key, left, right, y + 1.1 * t);
-    return y + 1.6 * t;
+    return y + (key->ramp ? 1.6 : 0.2) * t;
 }
 
 double layers_key_column(app_state *app, double left, double right, double y) {
@@ -255,30 +255,11 @@ static void fill_framed(ui_state *ui, sl_box box) {
     ui_fill_round(ui, box, 0.3 * ui->text, ui->palette.page);
 }
 
-/// The keys at the lower right, one over the other, as far as they have room.
-static void draw_keys_over_plan(app_state *app, const sl_frame *frame) {
-    ui_state *ui = &app->ui;
-    legend_key keys[KEYS_MOST];
-    const int count = list_keys(app, keys);
-    const double t = ui->text, wide = 19 * t, right = frame->left + frame->width - t;
-    const double lowest = frame->top + frame->height - t;
-    double bottom = lowest;
-    for (int i = 0; i < count && wide <= frame->width - 2 * t; i++) {
-        const double high =
-            put_key(ui, &keys[i], right - wide + 0.6 * t, right - 0.6 * t, 0, false) + 0.4 * t;
-        if (lowest - bottom + high > 0.75 * frame->height) return;
-        const sl_box box = {{right - wide, bottom - high}, {right, bottom}};
-        fill_framed(ui, box);
-        put_key(ui, &keys[i], right - wide + 0.6 * t, right - 0.6 * t, bottom - high + 0.2 * t,
-                true);
-        bottom -= high + 0.5 * t;
-    }
-}
-
 // --- over the plan
 
-/// A legend that is higher than half of the plan is left to the panel.
-static void draw_over_plan(app_state *app, const sl_frame *frame) {
+/// A legend that is higher than three quarters of the plan is left to the panel. Returns its box;
+/// one without a size where it is not drawn.
+static sl_box draw_over_plan(app_state *app, const sl_frame *frame) {
     ui_state *ui = &app->ui;
     legend_row rows[LEGEND_MOST];
     const int count = layers_legend(app, rows);
@@ -286,17 +267,42 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
     const double wide = fmin(20 * t, frame->width - 2 * gap);
     double high = gap;
     for (int i = 0; i < count; i++) high += legend_row_height(ui, wide - 2 * gap, &rows[i]);
-    if (!count || high > 0.75 * frame->height || wide < 8 * t) return;
+    const double lowest = frame->top + frame->height;
+    const sl_box none = {{frame->left, lowest}, {frame->left, lowest}};
+    if (!count || high > 0.75 * frame->height || wide < 8 * t) return none;
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
     fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
     y += 0.1 * t;
     for (int i = 0; i < count; i++)
         y = layers_legend_row(ui, left + gap, left + wide - gap, y, &rows[i]);
+    return (sl_box){{left, bottom - high}, {left + wide, bottom}};
+}
+
+/// The keys at the lower right, one over the other, as far as they have room: beside the legend, or
+/// over it.
+static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_box *legend) {
+    ui_state *ui = &app->ui;
+    legend_key keys[KEYS_MOST];
+    const int count = list_keys(app, keys);
+    const double t = ui->text, wide = 19 * t, right = frame->left + frame->width - t;
+    const bool beside = right - wide > legend->max.x + 0.5 * t;
+    double bottom = beside ? frame->top + frame->height - t : legend->min.y - 0.5 * t;
+    for (int i = 0; i < count && wide <= frame->width - 2 * t; i++) {
+        const double high =
+            put_key(ui, &keys[i], right - wide + 0.6 * t, right - 0.6 * t, 0, false) + 0.4 * t;
+        const sl_box box = {{right - wide, bottom - high}, {right, bottom}};
+        if (box.min.y < frame->top + 0.25 * frame->height) return;
+        fill_framed(ui, box);
+        put_key(ui, &keys[i], box.min.x + 0.6 * t, box.max.x - 0.6 * t, box.min.y + 0.2 * t, true);
+        bottom = box.min.y - 0.5 * t;
+    }
 }
 
 void layers_draw_keys(app_state *app, const sl_frame *frame) {
     if (app->ui.side_panel && !app->ui.presents) return;
-    if (app->tool.mode != MODE_QUIZ && app->ui.legend) draw_over_plan(app, frame);
-    draw_keys_over_plan(app, frame);
+    const double lowest = frame->top + frame->height;
+    sl_box legend = {{frame->left, lowest}, {frame->left, lowest}};
+    if (app->tool.mode != MODE_QUIZ && app->ui.legend) legend = draw_over_plan(app, frame);
+    draw_keys_over_plan(app, frame, &legend);
 }

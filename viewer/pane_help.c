@@ -41,7 +41,7 @@ static const char *const by_hand[][2] = {
     {"Return", "presses it; Left and Right move a slider"},
     {"Tab to the plan", "arrows move a cursor there, with Shift by a pixel"},
     {"Return there", "a click; Shift+Return: a right click"},
-    {"Space there", "takes hold, and lets go: so walls are drawn and things are dragged"},
+    {"Space there", "presses the button down or releases it: draws walls, drags things"},
 };
 enum { BY_HAND = sizeof by_hand / sizeof *by_hand };
 
@@ -205,7 +205,7 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
         if (app->ui.hover_is_focus)
             snprintf(text, UI_TIP_TEXT,
                      "Arrows move the cursor, with Shift by a pixel. Return clicks, Shift+Return "
-                     "asks why, Space takes hold and lets go, Escape leaves.");
+                     "asks why, Space presses or releases, Escape leaves.");
         break;
     case HIT_TIME:
         snprintf(text, UI_TIP_TEXT, "The steps of the lesson: drag to go to one (Left, Right)");

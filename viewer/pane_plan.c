@@ -63,6 +63,9 @@ static bool draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     if (sl_draw_plan(drawing(app), cairo, app->view.scene, layers, frame) != SL_OK) return false;
     if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
     heat_layer_draw(app, cairo, frame);
+    const unsigned fill = layers_fill(app);
+    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(app, LAYER_PORTALS))
+        layers_draw_portals(app, cairo, frame, NULL, NULL);
     if (app->view.show & SHOW_SPLITS)
         sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
                         app->document.baked->space.node_count, app->view.split_depth);
