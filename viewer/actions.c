@@ -56,7 +56,7 @@ MODE(quiz, MODE_QUIZ)
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
         app->view.show ^= SHOW_##NAME;                                                             \
-        if (app->view.show & SHOW_FILLS & SHOW_##NAME) app->view.fill = LAYER_##NAME;              \
+        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(app, LAYER_##NAME);         \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \

@@ -28,7 +28,8 @@ void app_init(app_state *app, sl_context *context) {
                  .eye = {.fov = 90},
                  .show =
                      SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
-                 .fill = LAYER_CULL,
+                 .filled = {[LAYER_CULL] = 1},
+                 .last_filled = 1,
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
@@ -256,9 +257,20 @@ void app_settle(app_state *app) {
     look(app);
 }
 
+#define STALE_SECONDS 20
+
+/// After a while the line says again what is open. Errors stay.
+static void tidy_message(app_state *app) {
+    const ui_state *ui = &app->ui;
+    if (app->steady || ui->message_is_error || !*ui->message) return;
+    if (ui->message_seconds < STALE_SECONDS || app_progress(app).running) return;
+    if (app->document.baked) say_document(app);
+}
+
 void app_tick(app_state *app, double seconds) {
     poll(app, app->steady);
     ui_tick(&app->ui, seconds);
+    tidy_message(app);
     app->view.motion = fmax(app->view.motion - seconds, 0);
     record_frame frame;
     if (record_play(&app->tool.recorder, seconds, &frame)) {
@@ -392,7 +404,7 @@ static void draw_edges(app_state *app, const window_layout *l) {
 
 void app_open_help(app_state *app) {
     app->ui.help = true;
-    app->ui.filter = (ui_field){0};
+    field_set(&app->ui.filter, "");
     app->ui.field = &app->ui.filter;
     app->ui.scrolls[SCROLL_HELP] = (ui_scroll){0};
     app->ui.focus = (ui_focus){0};

@@ -104,8 +104,9 @@ typedef struct view_state {
     plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
-    unsigned show; ///< layers, of show_bit
-    unsigned fill; ///< the layer that was switched on last of those that fill the plan
+    unsigned show;                ///< layers, of show_bit
+    unsigned filled[LAYER_COUNT]; ///< by layer: the larger, the later it was switched on
+    unsigned last_filled;         ///< the largest of them
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
     bool mesh;            ///< the cells are those of a mesh

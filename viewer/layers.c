@@ -30,9 +30,14 @@ bool layers_shows(const app_state *app, unsigned layer) {
 unsigned layers_fill(const app_state *app) {
     unsigned last = LAYER_COUNT;
     for (unsigned i = 0; i < LAYER_COUNT; i++)
-        if (SHOW_FILLS >> i & 1 && layers_shows(app, i)) last = i;
-    return app->view.fill < LAYER_COUNT && layers_shows(app, app->view.fill) ? app->view.fill
-                                                                             : last;
+        if (SHOW_FILLS >> i & 1 && layers_shows(app, i) &&
+            (last == LAYER_COUNT || app->view.filled[i] >= app->view.filled[last]))
+            last = i;
+    return last;
+}
+
+void layers_set_fill(app_state *app, unsigned layer) {
+    if (layer < LAYER_COUNT) app->view.filled[layer] = ++app->view.last_filled;
 }
 
 void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {

@@ -86,6 +86,8 @@ void layers_draw(app_state *app, const sl_frame *frame, int index);
 
 /// The layer that fills the plan: the one that was switched on last; LAYER_COUNT: none.
 unsigned layers_fill(const app_state *app);
+/// Has it fill the plan. Once it is switched off, the layer does that did before.
+void layers_set_fill(app_state *app, unsigned layer);
 
 /// Draws a set of cells without those of another (NULL: none): filled where its layer fills the
 /// plan, else as a line round the set.
@@ -120,6 +122,8 @@ typedef struct legend_row {
         LEGEND_DOOR,
         LEGEND_MIRROR,
         LEGEND_ONEWAY,
+        LEGEND_OBJECT,
+        LEGEND_OUTSIDE,
     } mark;
     tone which;       ///< of an area or a line
     sl_colour colour; ///< of a stroke, or of an area in a plain colour

@@ -3,6 +3,7 @@
 #include "app.h"
 #include "draw/marks.h" // private: samples are the marks of the plan
 #include "layers.h"
+#include "modes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -58,6 +59,12 @@ static legend_row stroke(const char *label, sl_colour colour, bool dashed) {
         .label = label, .mark = dashed ? LEGEND_DASHED : LEGEND_STROKE, .colour = colour};
 }
 
+/// Whether cells are neither inside nor solid ground: they are hatched.
+static bool has_outside(const app_state *app) {
+    const sl_space *space = &app->document.baked->space;
+    return space->inside_count + app->document.solid < space->cell_count;
+}
+
 int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
     const sl_palette *palette = &app->ui.palette;
     const sl_map *map = &app->document.map;
@@ -74,6 +81,8 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
     if (layers_shows(app, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
     if (layers_shows(app, LAYER_STARTS) && map->path_count)
         rows[at++] = stroke("path", palette->path, true);
+    if (map->range > 0 && mode_table()[app->tool.mode].eye)
+        rows[at++] = stroke("view range", palette->start, true);
     const struct {
         const char *label;
         bool shown;
@@ -82,7 +91,9 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
                  {"the eye", app->tool.mode != MODE_QUIZ, LEGEND_EYE},
                  {"door", map->door_count > 0, LEGEND_DOOR},
                  {"mirror", map->mirror_count > 0, LEGEND_MIRROR},
-                 {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY}};
+                 {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY},
+                 {"object", layers_shows(app, LAYER_STARTS) && map->object_count, LEGEND_OBJECT},
+                 {"outside", has_outside(app), LEGEND_OUTSIDE}};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
         if (marks[i].shown)
             rows[at++] = (legend_row){.label = marks[i].label, .mark = marks[i].mark};
@@ -93,6 +104,18 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
 }
 
 // --- samples
+
+static void draw_object(ui_state *ui, sl_box box, const sli_pens *pens) {
+    const double in = 0.2 * box_height(box);
+    cairo_rectangle(ui->cairo, box.min.x + in, box.min.y + in, box_width(box) - 2 * in,
+                    box_height(box) - 2 * in);
+    sli_pen_object(ui->cairo, &ui->palette, pens);
+}
+
+static void draw_outside(ui_state *ui, sl_box box) {
+    ui_fill(ui, box, ui->palette.ground);
+    sli_mark_hatch(ui->cairo, &ui->palette, box, 9 * ui_scale(ui), 0);
+}
 
 /// The mark of a thing, as the plan draws it.
 static void draw_mark(ui_state *ui, sl_box box, enum legend_mark mark) {
@@ -116,6 +139,10 @@ static void draw_mark(ui_state *ui, sl_box box, enum legend_mark mark) {
         sli_mark_door(ui->cairo, &ui->palette, &pens, a, b, false);
     else if (mark == LEGEND_MIRROR)
         sli_mark_mirror(ui->cairo, &ui->palette, &pens, a, b);
+    else if (mark == LEGEND_OBJECT)
+        draw_object(ui, box, &pens);
+    else if (mark == LEGEND_OUTSIDE)
+        draw_outside(ui, box);
     else
         sli_mark_oneway(ui->cairo, &ui->palette, &pens, a, b);
 }

@@ -168,7 +168,8 @@ void pane_help(app_state *app) {
     double top;
     const sl_box sheet = ui_begin_sheet(ui, 78 * t, 52 * t, "Keys; a click on a row does it", &top);
     const sl_box field = {{sheet.min.x + 1.2 * t, top}, {sheet.max.x - 1.2 * t, top + 2 * t}};
-    ui_text_field(ui, field, &ui->filter, "type to search", 0);
+    ui_text_field(ui, field, &ui->filter, "type to search", ui->field == &ui->filter);
+    ui_hit_focus(ui, HIT_FIELD, 0, field);
     const sl_box room = {{sheet.min.x, top + 2.3 * t}, {sheet.max.x, sheet.max.y - 0.8 * t}};
     const double y = ui_begin_scroll(ui, SCROLL_HELP, room);
     ui_end_scroll(ui, room, help_columns(ui, room, y, ui->filter.text));

@@ -38,8 +38,9 @@ eye 53 20 160 90
 key M
 key R
 key P
+key J
 key F5
-drag 818 554 761 554
+drag 818 536 761 536
 key F6
 END
 shoot office.map heat <<'END'
@@ -47,6 +48,7 @@ eye 53 20 160 90
 key M
 key R
 key P
+key J
 key 1
 move 300 280
 END

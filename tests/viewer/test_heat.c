@@ -299,11 +299,30 @@ static void test_stopped(void **state) {
     }
 }
 
+/// A layer that is switched on fills the plan. Once it is off, the one before does again.
+static void test_fills(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map");
+    assert_int_equal(layers_fill(app), LAYER_CULL);
+    press_key(app, "1");
+    assert_int_equal(layers_fill(app), LAYER_HEAT);
+    press_key(app, "V");
+    assert_int_equal(layers_fill(app), LAYER_PVS);
+    press_key(app, "V");
+    assert_int_equal(layers_fill(app), LAYER_HEAT);
+    press_key(app, "1");
+    assert_int_equal(layers_fill(app), LAYER_CULL);
+    press_key(app, "M");
+    assert_int_equal(layers_fill(app), LAYER_REGION);
+    end(app);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_measures),   cmocka_unit_test(test_changes),
         cmocka_unit_test(test_kept_scale), cmocka_unit_test(test_steps),
         cmocka_unit_test(test_refused),    cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_fills),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,7 +69,7 @@ HANDS = {
     "wall": ("office.map", "key F3\n", "drag 200 100 200 300\n",
              "move 200 100\nkey Tab\nkey Space\n" + "key Down\n" * 20 +
              "key Space\nkey Escape\n"),
-    "layer": ("office.map", "", "key V\n", "key ?\ntype visible set\nkey Tab\nkey Tab\n"
+    "layer": ("office.map", "", "key V\n", "key ?\ntype none\nkey Ctrl+A\ntype visible set\nkey Tab\nkey Tab\n"
                                             "key Return\n"),
     "door": ("effects/doors.map", "", "action nearest_door\n", "key ?\ntype nearest door\nkey Tab\n"
                                                                 "key Tab\nkey Return\n"),

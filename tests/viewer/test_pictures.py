@@ -29,8 +29,8 @@ PICTURES = {
     "draw": ("office.map", "action side_panel\nkey F3\ndrag 200 100 200 300\naction side_panel\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
     "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\naction side_panel\n"),
-    "views": ("office.map", "size 640 500\neye 53 20 160 90\nkey M\nkey R\nkey F5\n"
-                            "drag 573 467 530 467\nkey F6\nmove 200 200\n"),
+    "views": ("office.map", "size 640 530\neye 53 20 160 90\nkey M\nkey R\nkey F5\n"
+                            "drag 573 495 530 495\nkey F6\nmove 200 200\n"),
     "oblique_views": ("oblique/rotunda.map", "action side_panel\nkey M\nkey R\nkey F5\n"),
     "heat": ("office.map", "eye 53 20 160 90\nkey M\nkey R\nkey 1\nkey 2\nmove 200 200\n"),
     "heat_steps": ("effects/doors.map", "action side_panel\nkey M\nkey R\nkey T\nkey 1\nkey 6\n"
@@ -237,8 +237,8 @@ def check_range(viewer, folder):
     after = "action side_panel\nmove 5 5\nsave {0}.png\naction side_panel\n"
     # The slider dragged to its end, and back; clicked where it stands, which is no change to undo, and
     # undone; no range; the one that is set first.
-    states = {"given": ("20", ""), "farther": ("60.8", "drag 534 389 600 389\n"),
-              "nearer": ("9.58", "drag 588 389 511 389\n"), "undone": ("60.8", "click 511 389\nkey Ctrl+Z\n"),
+    states = {"given": ("20", ""), "farther": ("60.8", "drag 534 403 600 403\n"),
+              "nearer": ("9.58", "drag 588 403 511 403\n"), "undone": ("60.8", "click 511 403\nkey Ctrl+Z\n"),
               "lifted": (None, "key Ctrl+R\n"), "set": ("18.2", "key Ctrl+R\n")}
     viewer.script(folder, "effects/range.map", before + "".join(
         done + after.format(name) for name, (_, done) in states.items()))
