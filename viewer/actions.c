@@ -56,7 +56,7 @@ MODE(quiz, MODE_QUIZ)
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
         app->view.show ^= SHOW_##NAME;                                                             \
-        if (app->view.show & SHOW_FILLS & SHOW_##NAME) app->view.fill = LAYER_##NAME;              \
+        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(app, LAYER_##NAME);         \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \
@@ -130,6 +130,45 @@ static void views_split(app_state *app) {
 
 static void views_largest(app_state *app) {
     view_layer_mark_next(app);
+}
+
+static void heat_next(app_state *app) {
+    heat_choose(app, 1);
+}
+
+static void heat_back(app_state *app) {
+    heat_choose(app, -1);
+}
+
+static void heat_steps(app_state *app) {
+    heat_toggle_steps(app);
+}
+
+static bool is_heat_steps(const app_state *app) {
+    size_t count;
+    return !heat_measures(&count)[app->view.heat_choice.measure].part;
+}
+
+static void heat_hold(app_state *app) {
+    heat_toggle_held(app);
+}
+
+static bool is_heat_hold(const app_state *app) {
+    return app->view.heat_choice.held;
+}
+
+static void heat_step_by(app_state *app, int by) {
+    int last;
+    heat_set_step(app, heat_step_place(app, &last) + by);
+    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(app));
+}
+
+static void heat_coarser(app_state *app) {
+    heat_step_by(app, -1);
+}
+
+static void heat_finer(app_state *app) {
+    heat_step_by(app, 1);
 }
 
 // --- view
@@ -515,6 +554,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; the pictures that are written stay");
     else if (view_layer_stop(app))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
+    else if (heat_layer_stop(app))
+        ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
     else if (app->tool.mode == MODE_LEARN && app->tool.lesson.chosen_next)
         app->tool.lesson.chosen_next = 0;
     else if (app->tool.recorder.plays)
@@ -558,6 +599,14 @@ static const action_row actions[] = {
     {"views_split", "Ctrl+Right", "Split", "view cells: one more", NOT_LEARN, 0, views_split, NULL},
     {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
      views_largest, NULL},
+    {"heat_next", "2", "Next measure", "heat map: the next measure", NOT_LEARN, 0, heat_next, NULL},
+    {"heat_back", "3", "Back", "heat map: the measure before", NOT_LEARN, 0, heat_back, NULL},
+    {"heat_coarser", "4", "Coarser", "heat map: a coarser grid", NOT_LEARN, 0, heat_coarser, NULL},
+    {"heat_finer", "5", "Finer", "heat map: a finer grid", NOT_LEARN, 0, heat_finer, NULL},
+    {"heat_steps", "6", "Steps", "heat map: steps from the pointer, live", NOT_LEARN, 0, heat_steps,
+     is_heat_steps},
+    {"heat_hold", "7", "Keep colours", "heat map: keep the colour scale, to compare", NOT_LEARN, 0,
+     heat_hold, is_heat_hold},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},

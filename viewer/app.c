@@ -28,7 +28,8 @@ void app_init(app_state *app, sl_context *context) {
                  .eye = {.fov = 90},
                  .show =
                      SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
-                 .fill = LAYER_CULL,
+                 .filled = {[LAYER_CULL] = 1},
+                 .last_filled = 1,
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
@@ -59,6 +60,7 @@ void app_destroy(app_state *app) {
     document_stop_soon(&app->document);
     export_stop(app);
     view_layer_stop(app);
+    heat_layer_stop(app);
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
@@ -67,6 +69,7 @@ void app_destroy(app_state *app) {
     if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
     node_layer_destroy(app->context, app->view.nodes);
     view_layer_destroy(app->context, app->view.views);
+    heat_layer_destroy(app->context, app->view.heat);
     watch_layer_destroy(app->context, app->view.watch);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
@@ -222,6 +225,7 @@ static void poll(app_state *app, bool wait) {
     } while (wait && app->document.stale);
     keep_up(app);
     view_layer_update(app, wait);
+    heat_layer_update(app, wait);
     map_file_tick(app, wait);
     recovery_tick(app);
 }
@@ -231,7 +235,9 @@ job_progress app_progress(const app_state *app) {
     if (document.running) return document;
     const job_progress file = map_file_progress(app), pictures = export_progress(app->exports);
     if (file.running) return file;
-    return pictures.running ? pictures : view_layer_progress(app->view.views);
+    if (pictures.running) return pictures;
+    const job_progress views = view_layer_progress(app->view.views);
+    return views.running ? views : heat_layer_progress(app->view.heat);
 }
 
 static void look(app_state *app) {
@@ -251,9 +257,20 @@ void app_settle(app_state *app) {
     look(app);
 }
 
+#define STALE_SECONDS 20
+
+/// After a while the line says again what is open. Errors stay.
+static void tidy_message(app_state *app) {
+    const ui_state *ui = &app->ui;
+    if (app->steady || ui->message_is_error || !*ui->message) return;
+    if (ui->message_seconds < STALE_SECONDS || app_progress(app).running) return;
+    if (app->document.baked) say_document(app);
+}
+
 void app_tick(app_state *app, double seconds) {
     poll(app, app->steady);
     ui_tick(&app->ui, seconds);
+    tidy_message(app);
     app->view.motion = fmax(app->view.motion - seconds, 0);
     record_frame frame;
     if (record_play(&app->tool.recorder, seconds, &frame)) {
@@ -387,7 +404,7 @@ static void draw_edges(app_state *app, const window_layout *l) {
 
 void app_open_help(app_state *app) {
     app->ui.help = true;
-    app->ui.filter = (ui_field){0};
+    field_set(&app->ui.filter, "");
     app->ui.field = &app->ui.filter;
     app->ui.scrolls[SCROLL_HELP] = (ui_scroll){0};
     app->ui.focus = (ui_focus){0};
@@ -426,6 +443,7 @@ void app_draw(app_state *app, cairo_t *cairo) {
     pane_time_measure(app);
     const window_layout l = app_layout(app);
     app_fit(app, l.plan[0]);
+    heat_layer_follow(app);
     pane_dual_hover(app);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)

@@ -7,6 +7,7 @@
 #include "dialog.h"
 #include "document.h"
 #include "export.h"
+#include "heat.h"
 #include "layers.h"
 #include "lesson.h"
 #include "map_file.h"
@@ -27,7 +28,7 @@ typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } compa
 typedef struct kept_picture {
     cairo_surface_t *surface;
     struct {
-        uint32_t version, touched, show, depth, dark, views, mark;
+        uint32_t version, touched, show, depth, dark, views, mark, heat;
         sl_frame frame;
     } key;
     double seconds;   ///< that drawing it took
@@ -103,8 +104,9 @@ typedef struct view_state {
     plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
-    unsigned show; ///< layers, of show_bit
-    unsigned fill; ///< the layer that was switched on last of those that fill the plan
+    unsigned show;                ///< layers, of show_bit
+    unsigned filled[LAYER_COUNT]; ///< by layer: the larger, the later it was switched on
+    unsigned last_filled;         ///< the largest of them
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
     bool mesh;            ///< the cells are those of a mesh
@@ -125,8 +127,10 @@ typedef struct view_state {
     account_picture account;
     first_person_counts first_person; ///< of the last frame
 
-    node_layer *nodes; ///< these three: NULL: none yet
+    heat_choice heat_choice;
+    node_layer *nodes; ///< these four: NULL: none yet
     view_layer *views;
+    heat_layer *heat;
     watch_layer *watch;
 } view_state;
 

@@ -391,6 +391,13 @@ void browser_save(app_state *app) {
     set_path(b, b->folder, name);
 }
 
+void browser_save_to(app_state *app, const char *path) {
+    browser_state *b = begin(app, true);
+    if (!b) return;
+    field_set(&b->path, path);
+    follow(app, b);
+}
+
 // --- the picture
 
 static void write_size(double bytes, char text[32]) {

@@ -8,6 +8,8 @@
 void browser_open(app_state *app);
 /// Asks for the name to save the map under.
 void browser_save(app_state *app);
+/// The same with this path in the field.
+void browser_save_to(app_state *app, const char *path);
 
 void browser_draw(app_state *app);
 void browser_act(app_state *app, int id);

@@ -186,58 +186,9 @@ void dialog_check(app_state *app, int id, sl_box row, const char *label, bool on
     add_item(app, (dialog_item){.kind = ITEM_CHECK, .id = id, .box = row});
 }
 
-/// The width of the text before a place.
-static double width_to(ui_state *ui, const text_field *field, size_t at) {
-    char text[FIELD_TEXT];
-    memcpy(text, field->text, at);
-    text[at] = '\0';
-    return ui_text_width(ui, 1, false, text);
-}
-
-/// The place between two characters that is nearest to a click.
-static size_t find_cursor(ui_state *ui, const text_field *field, double x) {
-    size_t at = 0, best = 0;
-    double nearest = fabs(x);
-    while (field->text[at]) {
-        do at++;
-        while (((unsigned char)field->text[at] & 0xc0) == 0x80);
-        const double distance = fabs(width_to(ui, field, at) - x);
-        if (distance > nearest) break;
-        nearest = distance;
-        best = at;
-    }
-    return best;
-}
-
 void dialog_field(app_state *app, int id, sl_box box, text_field *field, const char *hint) {
-    ui_state *ui = &app->ui;
-    const double t = ui->text, left = box.min.x + 0.5 * t, wide = box_width(box) - t;
-    const double base = (box.min.y + box.max.y) / 2 + 0.36 * t;
-    const bool focused = *focus_of(&app->dialog) == id;
-    ui_fill(ui, box, ui->palette.outline);
-    ui_fill(ui, (sl_box){{box.min.x + 1, box.min.y + 1}, {box.max.x - 1, box.max.y - 1}},
-            ui->palette.page);
-    if (field->clicked) field->at = find_cursor(ui, field, field->click_x - left + field->shift);
-    field->clicked = false;
-    const double cursor = width_to(ui, field, field->at);
-    field->shift = fmin(fmax(field->shift, cursor - wide), cursor);
-    if (width_to(ui, field, strlen(field->text)) <= wide) field->shift = 0;
-    cairo_save(ui->cairo);
-    cairo_rectangle(ui->cairo, left - 2, box.min.y, wide + 4, box_height(box));
-    cairo_clip(ui->cairo);
-    if (*field->text)
-        ui_text(ui, left - field->shift, base, 1, false, ui->palette.ink, field->text);
-    else if (hint)
-        ui_text(ui, left, base, 1, false, ui->palette.faint, hint);
-    cairo_restore(ui->cairo);
-    if (focused) {
-        const double x = floor(left - field->shift + cursor);
-        ui_fill(ui,
-                (sl_box){{x, box.min.y + 0.35 * t}, {x + fmax(1, 0.1 * t), box.max.y - 0.35 * t}},
-                ui->palette.ink);
-    }
-    draw_focus(app, id, box);
-    ui_hit(ui, HIT_DIALOG, id, box);
+    ui_text_field(&app->ui, box, field, hint, *focus_of(&app->dialog) == id);
+    ui_hit(&app->ui, HIT_DIALOG, id, box);
     add_item(app, (dialog_item){.kind = ITEM_FIELD, .id = id, .field = field, .box = box});
 }
 
@@ -434,6 +385,7 @@ void dialog_press(app_state *app, const hit_area *hit, sl_point at) {
     *focus_of(d) = id;
     if (item->kind == ITEM_FIELD) {
         item->field->clicked = true;
+        item->field->chosen = false;
         item->field->click_x = at.x;
     } else if (item->kind != ITEM_LIST) {
         dialogs[dialog_open_now(app)].act(app, id);

@@ -6,7 +6,6 @@
 #ifndef VIEWER_DIALOG_H
 #define VIEWER_DIALOG_H
 
-#include "text_field.h"
 #include "ui.h"
 
 typedef struct app_state app_state;

@@ -79,7 +79,7 @@ static void describe(const app_state *app, setting list[SETTINGS]) {
     const setting all[SETTINGS] = {
         [DARK] = {"dark", 0, 1, app->ui.dark},
         [TEXT] = {"text", 0.7, 3, app->ui.text_scale},
-        [SHOW] = {"layers", 0, SHOW_ALL, app->view.show},
+        [SHOW] = {"shown", 0, SHOW_ALL, app->view.show},
         [CONE] = {"cone", 1, 360, app->view.eye.fov},
         [METHOD] = {"method", 0, (double)count - 1, (double)app->view.method},
         [WIDTH] = {"width", 320, 8192, round(app->ui.window_width / app->ui.density)},
@@ -88,7 +88,7 @@ static void describe(const app_state *app, setting list[SETTINGS]) {
         [FIRST_PERSON] = {"first_person", 0, 1, app->ui.first_person},
         [ACCOUNT] = {"account", 0, 1, app->ui.accounts},
         [EFFECTS] = {"effects", 0, 1, app->ui.effects},
-        [FILL] = {"fill", 0, LAYER_COUNT, app->view.fill},
+        [FILL] = {"filled", 0, LAYER_COUNT, layers_fill(app)},
         [LEGEND] = {"legend", 0, 1, app->ui.legend},
         [SIDE] = {"side", 0, 200, app->ui.edges[EDGE_SIDE]},
         [BELOW] = {"below", 0, 1, app->ui.edges[EDGE_BELOW]},
@@ -126,7 +126,7 @@ void settings_load(app_state *app) {
     app->ui.first_person = list[FIRST_PERSON].value != 0;
     app->ui.accounts = list[ACCOUNT].value != 0;
     app->ui.effects = list[EFFECTS].value != 0;
-    app->view.fill = (unsigned)list[FILL].value;
+    layers_set_fill(app, (unsigned)list[FILL].value);
     app->ui.legend = list[LEGEND].value != 0;
     app->ui.edges[EDGE_SIDE] = list[SIDE].value;
     app->ui.edges[EDGE_BELOW] = list[BELOW].value;

@@ -157,11 +157,17 @@ static bool lesson_key(app_state *app, const char *key) {
     return false;
 }
 
+/// Whether a key is for the field that typing goes to: it edits, or it types a letter.
+static bool takes_key(text_field *field, const char *key) {
+    bool changed;
+    return field_key(field, key, &changed) || strlen(key) == 1 || strcmp(key, "Space") == 0;
+}
+
 /// Keys that are not for the table of actions.
 static bool own_key(app_state *app, const char *key, bool down) {
     ui_state *ui = &app->ui;
     if (!down) return false;
-    if (ui->field && ui_field_key(ui->field, key)) {
+    if (ui->field && takes_key(ui->field, key)) {
         ui->scrolls[SCROLL_HELP].at = 0;
         return true;
     }
@@ -171,7 +177,7 @@ static bool own_key(app_state *app, const char *key, bool down) {
 
 void input_key(app_state *app, const char *key, bool down) {
     size_t count;
-    const ui_field *before = app->ui.field;
+    const text_field *before = app->ui.field;
     if (dialog_open_now(app) != DIALOG_NONE) {
         dialog_key(app, key, down);
         return;
@@ -212,7 +218,7 @@ void input_text(app_state *app, const char *text) {
         return;
     }
     if (!app->ui.field || app->ui.field_mutes) return;
-    ui_field_type(app->ui.field, text);
+    field_insert(app->ui.field, text);
     app->ui.scrolls[SCROLL_HELP].at = 0;
 }
 
@@ -288,6 +294,10 @@ static void click(app_state *app, const hit_area *hit) {
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
         app_shut_help(app);
+    } else if (hit->kind == HIT_FIELD && app->ui.field) {
+        app->ui.field->clicked = true;
+        app->ui.field->click_x = app->tool.pointer.x;
+        app->ui.field->chosen = false;
     } else if (hit->kind == HIT_SUBJECT) {
         lesson_set_subject(app->context, &app->tool.lesson, (size_t)hit->value);
         app_tick(app, 0);

@@ -30,9 +30,24 @@ bool layers_shows(const app_state *app, unsigned layer) {
 unsigned layers_fill(const app_state *app) {
     unsigned last = LAYER_COUNT;
     for (unsigned i = 0; i < LAYER_COUNT; i++)
-        if (SHOW_FILLS >> i & 1 && layers_shows(app, i)) last = i;
-    return app->view.fill < LAYER_COUNT && layers_shows(app, app->view.fill) ? app->view.fill
-                                                                             : last;
+        if (SHOW_FILLS >> i & 1 && layers_shows(app, i) &&
+            (last == LAYER_COUNT || app->view.filled[i] >= app->view.filled[last]))
+            last = i;
+    return last;
+}
+
+void layers_set_fill(app_state *app, unsigned layer) {
+    if (layer < LAYER_COUNT) app->view.filled[layer] = ++app->view.last_filled;
+}
+
+void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {
+    const sl_space *space = &document->baked->space;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *c = &space->cells[i];
+        if (c->inside)
+            sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
+    }
+    cairo_clip(cairo);
 }
 
 /// What fills comes first: lines stay on top.
@@ -106,25 +121,24 @@ static void add_border(app_state *app, const sl_frame *frame, const uint64_t *ce
     }
 }
 
-/// Draws the portals of the set once more: a solid fill covers those below it.
-static void draw_portals(app_state *app, const sl_frame *frame, const uint64_t *cells,
-                         const uint64_t *without) {
+void layers_draw_portals(const app_state *app, cairo_t *cairo, const sl_frame *frame,
+                         const uint64_t *cells, const uint64_t *without) {
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
-    cairo_new_path(app->ui.cairo);
+    cairo_new_path(cairo);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const sl_cell *c = &space->cells[cell];
-        if (!in_set(cells, without, cell)) continue;
+        if (cells && !in_set(cells, without, cell)) continue;
         for (uint32_t i = 0; i < c->directed_count; i++) {
             const sl_directed_portal *d = &space->directed[c->first_directed + i];
-            const bool twice = d->cell < cell && in_set(cells, without, d->cell);
-            if (!twice) sl_path_segment(app->ui.cairo, frame, d->left, d->right);
+            const bool twice = d->cell < cell && (!cells || in_set(cells, without, d->cell));
+            if (!twice) sl_path_segment(cairo, frame, d->left, d->right);
         }
     }
-    cairo_save(app->ui.cairo);
-    cairo_set_antialias(app->ui.cairo, CAIRO_ANTIALIAS_FAST);
-    tone_cased(app->ui.cairo, palette, palette->portal, 1.4 * frame->unit, 3);
-    cairo_restore(app->ui.cairo);
+    cairo_save(cairo);
+    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_FAST);
+    tone_cased(cairo, palette, palette->portal, 1.4 * frame->unit, 3);
+    cairo_restore(cairo);
 }
 
 /// Patterns are fixed to the map.
@@ -153,7 +167,8 @@ void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cell
     }
     tone_fill(cairo, app->ui.dark, which, frame->unit, origin_of(frame));
     const bool solid = tone_table()[which].pattern == PATTERN_SOLID;
-    if (solid && layers_shows(app, LAYER_PORTALS)) draw_portals(app, frame, cells, without);
+    if (solid && layers_shows(app, LAYER_PORTALS))
+        layers_draw_portals(app, cairo, frame, cells, without);
 }
 
 void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which) {

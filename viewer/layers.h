@@ -3,6 +3,7 @@
 #ifndef VIEWER_LAYERS_H
 #define VIEWER_LAYERS_H
 
+#include "document.h"
 #include "sightline/canvas.h"
 #include "sightline/effects.h"
 #include "sightline/region.h"
@@ -29,6 +30,8 @@ typedef struct app_state app_state;
     LAYER(SPLITS, "splits", "K", "Splits of the tree", "splits by depth", IN_ALL_MODES, 0, NULL)   \
     LAYER(VIEWS, "views", "F5", "View cells by cost", "view cells that adapt, by cost",            \
           IN_EXPLORE | IN_DRAW, 0, NULL)                                                           \
+    LAYER(HEAT, "heat", "1", "Heat map", "heat map of the visibility graph", IN_EXPLORE | IN_DRAW, \
+          0, layer_heat)                                                                           \
     LAYER(PVS, "pvs", "V", "Visible set of the cell", "the visible set", IN_EXPLORE | IN_DRAW, 0,  \
           layer_pvs)                                                                               \
     LAYER(CULL, "cull", "M", "Cells kept", "cells kept by culling", IN_EXPLORE | IN_DRAW, 0,       \
@@ -58,7 +61,8 @@ enum show_bit { LAYERS(SHOW_BIT) SHOW_ALL = (1 << LAYER_COUNT) - 1 };
 #undef SHOW_BIT
 
 /// Layers that can fill the plan. One of them does; the others are lines.
-#define SHOW_FILLS (SHOW_VIEWS | SHOW_PVS | SHOW_CULL | SHOW_REGION | SHOW_NODES | SHOW_WATCH)
+#define SHOW_FILLS                                                                                 \
+    (SHOW_VIEWS | SHOW_HEAT | SHOW_PVS | SHOW_CULL | SHOW_REGION | SHOW_NODES | SHOW_WATCH)
 
 typedef struct layer_row {
     const char *name;
@@ -82,11 +86,18 @@ void layers_draw(app_state *app, const sl_frame *frame, int index);
 
 /// The layer that fills the plan: the one that was switched on last; LAYER_COUNT: none.
 unsigned layers_fill(const app_state *app);
+/// Has it fill the plan. Once it is switched off, the layer does that did before.
+void layers_set_fill(app_state *app, unsigned layer);
 
 /// Draws a set of cells without those of another (NULL: none): filled where its layer fills the
 /// plan, else as a line round the set.
 void layers_draw_set(app_state *app, const sl_frame *frame, const uint64_t *cells,
                      const uint64_t *without, tone which, bool fills);
+
+/// Draws the portals of a set of cells once more (NULL: of all): a solid fill covers those below
+/// it.
+void layers_draw_portals(const app_state *app, cairo_t *cairo, const sl_frame *frame,
+                         const uint64_t *cells, const uint64_t *without);
 
 /// Fills one cell with a tone, and outlines it.
 void layers_draw_cell(app_state *app, const sl_frame *frame, uint32_t cell, tone which);
@@ -111,6 +122,8 @@ typedef struct legend_row {
         LEGEND_DOOR,
         LEGEND_MIRROR,
         LEGEND_ONEWAY,
+        LEGEND_OBJECT,
+        LEGEND_OUTSIDE,
     } mark;
     tone which;       ///< of an area or a line
     sl_colour colour; ///< of a stroke, or of an area in a plain colour
@@ -130,9 +143,33 @@ tone layers_method_tone(size_t method, size_t chosen);
 /// A row with its sample; returns the lower edge.
 double layers_legend_row(ui_state *ui, double left, double right, double y, const legend_row *row);
 
-/// Draws the legend over the plan, where no panel has it; and the key of the view cells.
+/// The key of a layer that is coloured by values: rows of words, and the ramp between its ends.
+typedef struct legend_key {
+    struct {
+        char label[64], text[96];
+    } rows[8];
+    int count;
+    bool ramp;
+    char least[32], most[32];
+} legend_key;
+
+void legend_key_add(legend_key *key, const char *label, const char *text);
+
+/// The number of a value's colour, and that colour.
+enum { RAMP_STEPS = 32 };
+int ramp_step(double value, double least, double most);
+sl_colour ramp_colour(const ui_state *ui, int step);
+
+/// Draws the keys of such layers in a column; returns the lower edge.
+double layers_key_column(app_state *app, double left, double right, double y);
+
+/// Draws the legend over the plan, where no panel has it; and the keys.
 void layers_draw_keys(app_state *app, const sl_frame *frame);
 
+/// Clips to the cells inside: squares and view cells reach into walled-in space.
+void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame);
+
+void layer_heat(app_state *app, const sl_frame *frame, int index);
 void layer_pvs(app_state *app, const sl_frame *frame, int index);
 void layer_cull(app_state *app, const sl_frame *frame, int index);
 void layer_region(app_state *app, const sl_frame *frame, int index);

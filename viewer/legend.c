@@ -3,6 +3,7 @@
 #include "app.h"
 #include "draw/marks.h" // private: samples are the marks of the plan
 #include "layers.h"
+#include "modes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -58,6 +59,12 @@ static legend_row stroke(const char *label, sl_colour colour, bool dashed) {
         .label = label, .mark = dashed ? LEGEND_DASHED : LEGEND_STROKE, .colour = colour};
 }
 
+/// Whether cells are neither inside nor solid ground: they are hatched.
+static bool has_outside(const app_state *app) {
+    const sl_space *space = &app->document.baked->space;
+    return space->inside_count + app->document.solid < space->cell_count;
+}
+
 int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
     const sl_palette *palette = &app->ui.palette;
     const sl_map *map = &app->document.map;
@@ -65,12 +72,17 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
     int at = add_layers(app, rows);
     if (layers_shows(app, LAYER_VIEWS) && view_layer_shown(app->view.views))
         rows[at++] = stroke("border of a view cell", palette->wall, false);
+    const heat_graph *graph;
+    if (heat_layer_values(app, &graph) && layers_fill(app) != LAYER_HEAT)
+        rows[at++] = stroke("between levels of the heat map", palette->wall, false);
     if (layers_shows(app, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
     if (layers_shows(app, LAYER_TREE) && app->view.seen.valid)
         rows[at++] = stroke("stab tree", palette->tree, false);
     if (layers_shows(app, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
     if (layers_shows(app, LAYER_STARTS) && map->path_count)
         rows[at++] = stroke("path", palette->path, true);
+    if (map->range > 0 && mode_table()[app->tool.mode].eye)
+        rows[at++] = stroke("view range", palette->start, true);
     const struct {
         const char *label;
         bool shown;
@@ -79,7 +91,9 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
                  {"the eye", app->tool.mode != MODE_QUIZ, LEGEND_EYE},
                  {"door", map->door_count > 0, LEGEND_DOOR},
                  {"mirror", map->mirror_count > 0, LEGEND_MIRROR},
-                 {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY}};
+                 {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY},
+                 {"object", layers_shows(app, LAYER_STARTS) && map->object_count, LEGEND_OBJECT},
+                 {"outside", has_outside(app), LEGEND_OUTSIDE}};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
         if (marks[i].shown)
             rows[at++] = (legend_row){.label = marks[i].label, .mark = marks[i].mark};
@@ -90,6 +104,18 @@ int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
 }
 
 // --- samples
+
+static void draw_object(ui_state *ui, sl_box box, const sli_pens *pens) {
+    const double in = 0.2 * box_height(box);
+    cairo_rectangle(ui->cairo, box.min.x + in, box.min.y + in, box_width(box) - 2 * in,
+                    box_height(box) - 2 * in);
+    sli_pen_object(ui->cairo, &ui->palette, pens);
+}
+
+static void draw_outside(ui_state *ui, sl_box box) {
+    ui_fill(ui, box, ui->palette.ground);
+    sli_mark_hatch(ui->cairo, &ui->palette, box, 9 * ui_scale(ui), 0);
+}
 
 /// The mark of a thing, as the plan draws it.
 static void draw_mark(ui_state *ui, sl_box box, enum legend_mark mark) {
@@ -113,6 +139,10 @@ static void draw_mark(ui_state *ui, sl_box box, enum legend_mark mark) {
         sli_mark_door(ui->cairo, &ui->palette, &pens, a, b, false);
     else if (mark == LEGEND_MIRROR)
         sli_mark_mirror(ui->cairo, &ui->palette, &pens, a, b);
+    else if (mark == LEGEND_OBJECT)
+        draw_object(ui, box, &pens);
+    else if (mark == LEGEND_OUTSIDE)
+        draw_outside(ui, box);
     else
         sli_mark_oneway(ui->cairo, &ui->palette, &pens, a, b);
 }
@@ -176,10 +206,87 @@ double layers_legend_row(ui_state *ui, double left, double right, double y, cons
     return end - 0.95 * t;
 }
 
+// --- keys of layers that are coloured by values
+
+int ramp_step(double value, double least, double most) {
+    const double share = most > least ? (value - least) / (most - least) : 0;
+    return (int)fmin(fmax(share, 0) * RAMP_STEPS, RAMP_STEPS - 1);
+}
+
+sl_colour ramp_colour(const ui_state *ui, int step) {
+    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
+}
+
+void legend_key_add(legend_key *key, const char *label, const char *text) {
+    snprintf(key->rows[key->count].label, sizeof key->rows->label, "%s", label);
+    snprintf(key->rows[key->count++].text, sizeof key->rows->text, "%s", text);
+}
+
+enum { KEYS_MOST = 2 };
+
+/// The keys of the layers that are shown.
+static int list_keys(const app_state *app, legend_key keys[KEYS_MOST]) {
+    int count = 0;
+    if (!app->view.seen.valid) return 0;
+    count += view_layer_key(app, &keys[count]);
+    count += heat_layer_key(app, &keys[count]);
+    return count;
+}
+
+/// The ramp between its ends.
+static void draw_ramp(ui_state *ui, const legend_key *key, double left, double right, double base) {
+    const double t = ui->text;
+    ui_text(ui, left, base, 0.95, false, ui->palette.ink, key->least);
+    ui_text_right(ui, right, base, 0.95, ui->palette.ink, key->most);
+    const double side = 0.4 * t + fmax(ui_text_width(ui, 0.95, false, key->least),
+                                       ui_text_width(ui, 0.95, false, key->most));
+    const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
+    for (int step = 0; step < RAMP_STEPS; step++)
+        ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
+                ramp_colour(ui, step));
+}
+
+/// Draws a key, or finds its lower edge alone. A narrow key has values below their labels.
+static double put_key(ui_state *ui, const legend_key *key, double left, double right, double y,
+                      bool draw) {
+    const double t = ui->text, wide = right - left;
+    for (int i = 0; i < key->count; i++) {
+        const char *label = key->rows[i].label, *text = key->rows[i].text;
+        const double value = *text ? ui_text_width(ui, 0.95, false, text) + 0.6 * t : 0;
+        const bool beside = ui_text_width(ui, 0.95, false, label) + value <= wide;
+        const double below = y + 1.1 * t + ui_lines_height(ui, wide, 0.95, i == 0, label);
+        const double end = beside ? below : below + ui_lines_height(ui, wide, 0.95, false, text);
+        if (draw) ui_lines(ui, left, y + 1.1 * t, wide, 0.95, i == 0, ui->palette.ink, label);
+        if (draw && beside)
+            ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.ink, text);
+        else if (draw)
+            ui_lines(ui, left, below, wide, 0.95, false, ui->palette.faint, text);
+        y = end - 0.95 * t;
+    }
+    if (draw && key->ramp) draw_ramp(ui, key, left, right, y + 1.1 * t);
+    return y + (key->ramp ? 1.6 : 0.2) * t;
+}
+
+double layers_key_column(app_state *app, double left, double right, double y) {
+    legend_key keys[KEYS_MOST];
+    const int count = list_keys(app, keys);
+    for (int i = 0; i < count; i++)
+        y = put_key(&app->ui, &keys[i], left, right, y + 0.4 * app->ui.text, true);
+    return y;
+}
+
+/// A page with a rim, over the plan.
+static void fill_framed(ui_state *ui, sl_box box) {
+    const sl_box rim = {{box.min.x - 1, box.min.y - 1}, {box.max.x + 1, box.max.y + 1}};
+    ui_fill_round(ui, rim, 0.3 * ui->text, ui->palette.faint);
+    ui_fill_round(ui, box, 0.3 * ui->text, ui->palette.page);
+}
+
 // --- over the plan
 
-/// A legend that is higher than half of the plan is left to the panel.
-static void draw_over_plan(app_state *app, const sl_frame *frame) {
+/// A legend that is higher than three quarters of the plan is left to the panel. Returns its box;
+/// one without a size where it is not drawn.
+static sl_box draw_over_plan(app_state *app, const sl_frame *frame) {
     ui_state *ui = &app->ui;
     legend_row rows[LEGEND_MOST];
     const int count = layers_legend(app, rows);
@@ -187,19 +294,42 @@ static void draw_over_plan(app_state *app, const sl_frame *frame) {
     const double wide = fmin(20 * t, frame->width - 2 * gap);
     double high = gap;
     for (int i = 0; i < count; i++) high += legend_row_height(ui, wide - 2 * gap, &rows[i]);
-    if (!count || high > 0.75 * frame->height || wide < 8 * t) return;
+    const double lowest = frame->top + frame->height;
+    const sl_box none = {{frame->left, lowest}, {frame->left, lowest}};
+    if (!count || high > 0.75 * frame->height || wide < 8 * t) return none;
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
-    ui_fill_round(ui, (sl_box){{left - 1, y - 1}, {left + wide + 1, bottom + 1}}, 0.3 * t,
-                  ui->palette.faint);
-    ui_fill_round(ui, (sl_box){{left, y}, {left + wide, bottom}}, 0.3 * t, ui->palette.page);
+    fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
     y += 0.1 * t;
     for (int i = 0; i < count; i++)
         y = layers_legend_row(ui, left + gap, left + wide - gap, y, &rows[i]);
+    return (sl_box){{left, bottom - high}, {left + wide, bottom}};
+}
+
+/// The keys at the lower right, one over the other, as far as they have room: beside the legend, or
+/// over it.
+static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_box *legend) {
+    ui_state *ui = &app->ui;
+    legend_key keys[KEYS_MOST];
+    const int count = list_keys(app, keys);
+    const double t = ui->text, wide = 19 * t, right = frame->left + frame->width - t;
+    const bool beside = right - wide > legend->max.x + 0.5 * t;
+    double bottom = beside ? frame->top + frame->height - t : legend->min.y - 0.5 * t;
+    for (int i = 0; i < count && wide <= frame->width - 2 * t; i++) {
+        const double high =
+            put_key(ui, &keys[i], right - wide + 0.6 * t, right - 0.6 * t, 0, false) + 0.4 * t;
+        const sl_box box = {{right - wide, bottom - high}, {right, bottom}};
+        if (box.min.y < frame->top + 0.25 * frame->height) return;
+        fill_framed(ui, box);
+        put_key(ui, &keys[i], box.min.x + 0.6 * t, box.max.x - 0.6 * t, box.min.y + 0.2 * t, true);
+        bottom = box.min.y - 0.5 * t;
+    }
 }
 
 void layers_draw_keys(app_state *app, const sl_frame *frame) {
     if (app->ui.side_panel && !app->ui.presents) return;
-    if (app->tool.mode != MODE_QUIZ && app->ui.legend) draw_over_plan(app, frame);
-    if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS)) view_layer_draw_key(app, frame);
+    const double lowest = frame->top + frame->height;
+    sl_box legend = {{frame->left, lowest}, {frame->left, lowest}};
+    if (app->tool.mode != MODE_QUIZ && app->ui.legend) legend = draw_over_plan(app, frame);
+    draw_keys_over_plan(app, frame, &legend);
 }

@@ -1,8 +1,7 @@
 /// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; for
 /// a mesh the triangulation, and the sides that are taken out or have to stay.
 #include "app.h"
-#include "draw/lesson.h"     // private: the lesson shows the inside of the library
-#include "geometry/orient.h" // private: the exact predicate
+#include "draw/lesson.h" // private: the lesson shows the inside of the library
 #include "sightline/canvas.h"
 
 #include <math.h>
@@ -122,7 +121,7 @@ static void say_side(const sli_mesh_steps *mesh, size_t place, char text[SENTENC
     sli_mesh_steps_corner(mesh, place, corner);
     snprintf(text + length, SENTENCE - (size_t)length,
              " stays: without it the corner at %.5g, %.5g would turn %s.", corner[1].x, corner[1].y,
-             sli_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
+             sl_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
 }
 
 static void say_cells(const sli_mesh_steps *mesh, const document_state *document,

@@ -50,7 +50,7 @@ static const option_row option_rows[] = {
     {"start", "X,Y", "where the eye begins; inside is all that starts reach", 'p'},
     {"script", "FILE", "run a script, without a window", 's'},
     {"screenshot", "OUT", "save the window as .png, .svg or .pdf, without a display", 'o'},
-    {"bench", NULL, "print frame times with all layers on, without a display", 'b'},
+    {"bench", NULL, "print frame times, all layers but the heat map on, no display", 'b'},
     {"frames", "N", "number of frames for --bench (default 300)", 'f'},
     {"soak", "SECONDS", "send random events, without a display", 'k'},
     {"seed", "N", "seed of the random events (default 1)", 'e'},

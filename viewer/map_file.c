@@ -240,12 +240,19 @@ static sl_status start_job(app_state *app, const char *path, bool recover) {
     return status;
 }
 
+/// The path that was typed is not lost.
+static void try_again(app_state *app, int answer) {
+    if (answer == 0 && app->file.failed) browser_save_to(app, app->file.failed);
+}
+
 static void fail_save(app_state *app, const char *path) {
+    static const char *const answers[] = {"A:Another path", "C:Close"};
     char text[1200];
     snprintf(text, sizeof text, "%s", sl_context_message(app->context));
     app->file.pending = PENDING_NONE;
     ui_say(&app->ui, true, "%s was not saved", base_of(path));
-    question_tell(app, "The map was not saved", text);
+    app_check(app, set_text(app, &app->file.failed, path));
+    question_ask(app, "The map was not saved", text, answers, 2, try_again);
 }
 
 static void take_saved(app_state *app, const save_job *job) {
@@ -371,5 +378,6 @@ void map_file_destroy(app_state *app) {
     document_source_destroy(app->context, &file->tried);
     sl_free(app->context, file->path);
     sl_free(app->context, file->of);
-    file->path = file->of = NULL;
+    sl_free(app->context, file->failed);
+    file->path = file->of = file->failed = NULL;
 }

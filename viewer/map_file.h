@@ -32,6 +32,7 @@ typedef struct file_state {
     uint64_t copy_state; ///< the state of the map that it has
     double copy_next;    ///< the clock's time of the next copy
     bool copies;         ///< whether copies are kept at all
+    char *failed;        ///< the path that was not saved to; NULL: none
     char *offer;         ///< the copy of an earlier session that is asked about; NULL: none
     int offer_lock;
 } file_state;

@@ -9,7 +9,6 @@
 #include "effects.h"
 #include "modes.h"
 
-#include "effects/mirrors.h" // private: where things lie in mirrored space
 #include "sightline/canvas.h"
 
 #include <math.h>
@@ -166,19 +165,19 @@ static void add_cells(const view_state *view, viewer *v) {
 
 // --- what is on walls and in portals, directly or in mirrors
 
-/// A place that parts or the eye look at: a frame of mirrored space, and the eye's image in the
-/// map.
+/// A part of what is seen, or all that is seen directly, and the eye's image in the map.
 typedef struct look {
-    sli_mirror_frame frame;
+    const view_state *view;
     sl_point eye;
     uint32_t part;
     int level;
 } look;
 
 static sl_segment place(const look *l, sl_segment s) {
-    bool rounded = false;
-    return (sl_segment){sli_mirror_frame_place(&l->frame, s.a, &rounded),
-                        sli_mirror_frame_place(&l->frame, s.b, &rounded)};
+    const sl_room_mirrors *mirrors = &l->view->present.mirrors;
+    const sl_mirrored_region *seen = &l->view->seen.in_mirrors;
+    return (sl_segment){sl_mirror_part_place(mirrors, seen, l->part, s.a),
+                        sl_mirror_part_place(mirrors, seen, l->part, s.b)};
 }
 
 /// Positive where a point is at the left of a segment.
@@ -243,24 +242,14 @@ static void add_part(viewer *v, const sl_mirror_part *part, uint32_t number) {
 }
 
 /// Parts come after their parents, so the mirrors that show them are there before them.
-static bool add_parts(viewer *v, const view_state *view, const sl_map *map) {
+static void add_parts(viewer *v, const view_state *view, const sl_map *map) {
     const sl_mirrored_region *seen = &view->seen.in_mirrors;
-    const sl_map *mirrors = view->present.mirrors.map;
-    if (!seen->part_count || !mirrors) return true;
-    sli_mirror_frame *frames = calloc(seen->part_count, sizeof *frames);
-    if (!frames) return false;
-    for (uint32_t i = 0; i < seen->part_count; i++) {
+    for (uint32_t i = 0; view->present.mirrors.map && i < seen->part_count; i++) {
         const sl_mirror_part *part = &seen->parts[i];
-        const sli_mirror_frame map_frame = sli_mirror_frame_of_map();
-        const sli_mirror_frame *from =
-            part->parent == SL_NO_PART ? &map_frame : &frames[part->parent];
-        frames[i] = sli_mirror_frame_reflect(from, mirrors->mirrors[part->mirror].segment);
         if ((int)part->depth >= v->level_count) continue;
         add_part(v, part, i);
-        add_effects(v, map, &(look){frames[i], part->region.view.eye, i, (int)part->depth});
+        add_effects(v, map, &(look){view, part->region.view.eye, i, (int)part->depth});
     }
-    free(frames);
-    return true;
 }
 
 // --- drawing
@@ -458,13 +447,14 @@ static bool make_levels(viewer *v, const view_state *view) {
 static void draw_view(app_state *app, sl_box box, viewer *v) {
     const double size = sqrt(app->document.area / fmax(app->document.counted, 1));
     const page p = {app, box, 0.22 * size * v->focal, box_width(box) / v->columns};
-    const look straight = {sli_mirror_frame_of_map(), v->eye, SL_NO_PART, 0};
+    const look straight = {&app->view, v->eye, SL_NO_PART, 0};
     v->near = 1e-3 * size;
     v->range = app->document.map.range;
     if (!make_levels(v, &app->view)) return;
     add_cells(&app->view, v);
     add_effects(v, &app->document.map, &straight);
-    if (add_parts(v, &app->view, &app->document.map)) draw_all(&p, v, &app->view.first_person);
+    add_parts(v, &app->view, &app->document.map);
+    draw_all(&p, v, &app->view.first_person);
     app->view.first_person.pieces = v->pieces;
     free(v->levels[0]);
     draw_count(app, v, box);

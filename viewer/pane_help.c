@@ -41,7 +41,7 @@ static const char *const by_hand[][2] = {
     {"Return", "presses it; Left and Right move a slider"},
     {"Tab to the plan", "arrows move a cursor there, with Shift by a pixel"},
     {"Return there", "a click; Shift+Return: a right click"},
-    {"Space there", "takes hold, and lets go: so walls are drawn and things are dragged"},
+    {"Space there", "presses the button down or releases it: draws walls, drags things"},
 };
 enum { BY_HAND = sizeof by_hand / sizeof *by_hand };
 
@@ -168,7 +168,8 @@ void pane_help(app_state *app) {
     double top;
     const sl_box sheet = ui_begin_sheet(ui, 78 * t, 52 * t, "Keys; a click on a row does it", &top);
     const sl_box field = {{sheet.min.x + 1.2 * t, top}, {sheet.max.x - 1.2 * t, top + 2 * t}};
-    ui_text_field(ui, field, &ui->filter, "type to search", 0);
+    ui_text_field(ui, field, &ui->filter, "type to search", ui->field == &ui->filter);
+    ui_hit_focus(ui, HIT_FIELD, 0, field);
     const sl_box room = {{sheet.min.x, top + 2.3 * t}, {sheet.max.x, sheet.max.y - 0.8 * t}};
     const double y = ui_begin_scroll(ui, SCROLL_HELP, room);
     ui_end_scroll(ui, room, help_columns(ui, room, y, ui->filter.text));
@@ -205,7 +206,7 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
         if (app->ui.hover_is_focus)
             snprintf(text, UI_TIP_TEXT,
                      "Arrows move the cursor, with Shift by a pixel. Return clicks, Shift+Return "
-                     "asks why, Space takes hold and lets go, Escape leaves.");
+                     "asks why, Space presses or releases, Escape leaves.");
         break;
     case HIT_TIME:
         snprintf(text, UI_TIP_TEXT, "The steps of the lesson: drag to go to one (Left, Right)");

@@ -62,6 +62,10 @@ static bool draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     cairo_paint(cairo);
     if (sl_draw_plan(drawing(app), cairo, app->view.scene, layers, frame) != SL_OK) return false;
     if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
+    heat_layer_draw(app, cairo, frame);
+    const unsigned fill = layers_fill(app);
+    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(app, LAYER_PORTALS))
+        layers_draw_portals(app, cairo, frame, NULL, NULL);
     if (app->view.show & SHOW_SPLITS)
         sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
                         app->document.baked->space.node_count, app->view.split_depth);
@@ -202,6 +206,7 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
         now.key.views = view_layer_shown(app->view.views) << 1 | (layers_fill(app) == LAYER_VIEWS);
         now.key.mark = view_layer_marked(app->view.views);
     }
+    if (!over && layers_fill(app) == LAYER_HEAT) now.key.heat = app->view.heat_choice.stamp + 1;
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {

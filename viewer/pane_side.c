@@ -94,8 +94,7 @@ static void draw_legend(app_state *app, column *c) {
     heading(&app->ui, c, "Legend", NULL);
     for (int i = 0; i < count; i++)
         c->y = layers_legend_row(&app->ui, c->left, c->right, c->y, &rows[i]);
-    if (app->view.seen.valid && layers_shows(app, LAYER_VIEWS))
-        c->y = view_layer_key(app, c->left, c->right, c->y);
+    c->y = layers_key_column(app, c->left, c->right, c->y);
     if (layer_nodes_words(app, text)) words(&app->ui, c, 0.9, app->ui.palette.faint, text);
 }
 
@@ -431,6 +430,8 @@ void pane_side(app_state *app, sl_box box) {
     static const char *const views[] = {"views_merge", "views_split", "views_largest", NULL};
     if (app->view.show & SHOW_VIEWS && view_layer_shown(app->view.views))
         button_row(app, &c, views);
+    static const char *const heat[] = {"heat_back", "heat_next", "heat_steps", "heat_hold", NULL};
+    if (layers_shows(app, LAYER_HEAT)) button_row(app, &c, heat);
     draw_methods(app, &c);
     draw_mirrored(app, &c);
     draw_difference(app, &c);

@@ -1,6 +1,5 @@
 #include "present.h"
 
-#include "geometry/orient.h" // private: the exact predicate
 #include "sightline/support.h"
 
 #include <string.h>
@@ -25,7 +24,7 @@ static bool find_shut(const sl_map *map, sl_point eye, bool backwards, bool *shu
     for (size_t i = 0; i < map->oneway_count; i++) {
         const sl_segment glass = map->oneways[i].segment;
         any |= shut[map->door_count + i] =
-            (backwards ? sli_orient(glass.b, glass.a, eye) : sli_orient(glass.a, glass.b, eye)) > 0;
+            (backwards ? sl_orient(glass.b, glass.a, eye) : sl_orient(glass.a, glass.b, eye)) > 0;
     }
     return any;
 }

@@ -108,13 +108,35 @@ static void print_doors(app_state *app, FILE *out) {
         fprintf(out, "door %s: %s\n", map->doors[i].name, map->doors[i].open ? "open" : "shut");
 }
 
+static void print_heat(app_state *app, FILE *out) {
+    const heat_graph *graph;
+    double least, most;
+    legend_key key;
+    char text[64];
+    heat_say_measure(app, text);
+    fprintf(out, "heat map: %s\n", text);
+    fprintf(out, "step: %.9g\n", heat_step(app));
+    const double *values = heat_layer_values(app, &graph);
+    if (!values || !heat_layer_key(app, &key)) {
+        fputs("values: none\n", out);
+        return;
+    }
+    heat_layer_scale(app, &least, &most);
+    fprintf(out, "scale: %.9g to %.9g\n", least, most);
+    fprintf(out, "pointer: %s\n", key.rows[1].text);
+    for (uint32_t p = 0; p < graph->grid.count; p++)
+        fprintf(out, "point %.9g %.9g: %.9g\n", graph->grid.points[p].x, graph->grid.points[p].y,
+                values[p]);
+}
+
 bool print_state(app_state *app, const char *what, FILE *out) {
     static const struct {
         const char *name;
         void (*print)(app_state *app, FILE *out);
     } states[] = {{"lesson", print_lesson}, {"program", print_program},
                   {"why", print_why},       {"quiz", print_quiz},
-                  {"doors", print_doors},   {"first_person", print_first_person}};
+                  {"doors", print_doors},   {"first_person", print_first_person},
+                  {"heat", print_heat}};
     for (size_t i = 0; i < sizeof states / sizeof *states; i++)
         if (strcmp(states[i].name, what) == 0) {
             states[i].print(app, out);

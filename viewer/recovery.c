@@ -118,7 +118,9 @@ void recovery_forget(app_state *app) {
     file->copy = NULL;
 }
 
-// --- what an earlier session has left
+// --- what earlier sessions have left
+
+static void offer_next(app_state *app, const char *after);
 
 static void take_answer(app_state *app, int answer) {
     file_state *file = &app->file;
@@ -128,8 +130,11 @@ static void take_answer(app_state *app, int answer) {
     if (answer == 1) remove_session(file->offer, file->offer_lock);
     if (answer == 2) close(file->offer_lock);
     if (answer != 0) {
+        char last[SESSION_TEXT];
+        snprintf(last, sizeof last, "%s", file->offer);
         sl_free(app->context, file->offer);
         file->offer = NULL;
+        offer_next(app, last);
         return;
     }
     name_file(path, file->offer, ".of");
@@ -193,24 +198,42 @@ static bool take_session(const char *session, int *lock) {
     return false;
 }
 
-void recovery_begin(app_state *app) {
-    char folder[PATH_TEXT], session[SESSION_TEXT];
-    app->file.copies = true;
-    if (!files_folder("XDG_STATE_HOME", ".local/state", folder, false)) return;
+/// Finds the session that is over and comes next by name after another one ("": the first), so that
+/// none is asked about twice. Takes its lock. False where there is none.
+static bool next_session(const char *folder, const char *after, char session[SESSION_TEXT],
+                         int *lock) {
     DIR *dir = opendir(folder);
-    if (!dir) return;
+    char name[SESSION_TEXT];
+    int found_lock = -1;
+    if (!dir) return false;
+    session[0] = '\0';
     for (struct dirent *entry; (entry = readdir(dir)) != NULL;) {
         const size_t length = strlen(entry->d_name);
-        int lock;
         if (strncmp(entry->d_name, "unsaved-", 8) != 0 || length < 6 ||
             strcmp(entry->d_name + length - 5, ".lock") != 0)
             continue;
         const int room =
-            snprintf(session, sizeof session, "%s/%.*s", folder, (int)(length - 5), entry->d_name);
-        if (room < 0 || (size_t)room >= sizeof session) continue;
-        if (!take_session(session, &lock)) continue;
-        offer(app, session, lock);
-        break;
+            snprintf(name, sizeof name, "%s/%.*s", folder, (int)(length - 5), entry->d_name);
+        if (room < 0 || (size_t)room >= sizeof name || strcmp(name, after) <= 0) continue;
+        if (*session && strcmp(name, session) > 0) continue;
+        if (!take_session(name, lock)) continue;
+        if (found_lock >= 0) close(found_lock);
+        found_lock = *lock;
+        snprintf(session, SESSION_TEXT, "%s", name);
     }
     closedir(dir);
+    *lock = found_lock;
+    return *session != '\0';
+}
+
+static void offer_next(app_state *app, const char *after) {
+    char folder[PATH_TEXT], session[SESSION_TEXT];
+    int lock;
+    if (!files_folder("XDG_STATE_HOME", ".local/state", folder, false)) return;
+    if (next_session(folder, after, session, &lock)) offer(app, session, lock);
+}
+
+void recovery_begin(app_state *app) {
+    app->file.copies = true;
+    offer_next(app, "");
 }

@@ -87,8 +87,9 @@ static sl_status do_expect(reader *r, const words *w) {
 }
 
 static sl_status check_key(reader *r, const char *key) {
-    // A dialog has keys of its own.
-    if (dialog_open_now(r->app) != DIALOG_NONE || input_takes(key)) return SL_OK;
+    // A dialog and a field have keys of their own.
+    const bool typed = dialog_open_now(r->app) != DIALOG_NONE || r->app->ui.field;
+    if (typed || input_takes(key)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }
 

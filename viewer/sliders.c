@@ -109,6 +109,28 @@ static void set_views(app_state *app, double share) {
     view_layer_go(app, (uint32_t)round(pow(most, share)));
 }
 
+// --- the grid of the heat map, from coarse to fine
+
+static bool has_heat(const app_state *app) {
+    return app->document.baked && layers_shows(app, LAYER_HEAT);
+}
+
+static double heat_share(const app_state *app) {
+    int last;
+    const int place = heat_step_place(app, &last);
+    return (double)place / fmax(last, 1);
+}
+
+static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(app));
+}
+
+static void set_heat(app_state *app, double share) {
+    int last;
+    heat_step_place(app, &last);
+    heat_set_step(app, (int)round(share * last));
+}
+
 // --- the view range, finer where it is short
 
 static bool has_range(const app_state *app) {
@@ -160,6 +182,8 @@ static const slider_row sliders[] = {
      "Sequences of the stab tree up to this many portals (- and =)"},
     {"View cells", has_views, views_share, views_text, set_views, NULL, NULL,
      "From one view cell to all elementary ones (Ctrl+Left, Ctrl+Right)"},
+    {"Grid step", has_heat, heat_share, heat_text, set_heat, NULL, NULL,
+     "From point to point of the heat map (4 coarser, 5 finer)"},
 };
 
 const slider_row *slider_table(size_t *count) {

@@ -41,6 +41,7 @@ static size_t character(const char *text) {
 
 void field_insert(text_field *field, const char *text) {
     size_t length = 0;
+    if (field->chosen && character(text)) field_set(field, "");
     const size_t all = strlen(field->text);
     for (size_t next; (next = character(text + length)) > 0; length += next)
         if (all + length + next >= FIELD_TEXT) break;
@@ -63,7 +64,13 @@ static size_t word_before(const text_field *field) {
 
 bool field_key(text_field *field, const char *key, bool *changed) {
     const size_t at = field->at, all = strlen(field->text);
-    if (strcmp(key, "Left") == 0)
+    const bool chosen = field->chosen;
+    const bool erases = strcmp(key, "Backspace") == 0 || strcmp(key, "Delete") == 0;
+    if (strcmp(key, "Ctrl+A") == 0)
+        field->at = all;
+    else if (chosen && erases)
+        erase(field, 0, all);
+    else if (strcmp(key, "Left") == 0)
         field->at = before(field, at);
     else if (strcmp(key, "Right") == 0)
         field->at = after(field, at);
@@ -80,7 +87,8 @@ bool field_key(text_field *field, const char *key, bool *changed) {
     else if (strcmp(key, "Ctrl+W") == 0)
         erase(field, word_before(field), at);
     else
-        return false;
+        return false; // a letter comes as text too
+    field->chosen = strcmp(key, "Ctrl+A") == 0 && all;
     *changed = strlen(field->text) != all;
     return true;
 }

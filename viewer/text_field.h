@@ -14,6 +14,7 @@ typedef struct text_field {
     double shift;   ///< pixels that are out of sight at the left
     double click_x; ///< a click that the next frame turns into a cursor; negative: none
     bool clicked;
+    bool chosen; ///< all of it, by Ctrl+A: what is typed replaces it
 } text_field;
 
 /// Replaces the text; the cursor goes to its end. Text that is too long is cut.
@@ -23,8 +24,9 @@ void field_set(text_field *field, const char *text);
 /// UTF-8, is left out.
 void field_insert(text_field *field, const char *text);
 
-/// A key that edits or moves: Left, Right, Home, End, Backspace, Delete, Ctrl+U (empties), Ctrl+W
-/// (deletes back to the last '/' or space). False for any other key. *changed: the text is another.
+/// A key that edits or moves: Left, Right, Home, End, Backspace, Delete, Ctrl+A (chooses all),
+/// Ctrl+U (empties), Ctrl+W (deletes back to the last '/' or space). False for any other key.
+/// *changed: the text is another.
 bool field_key(text_field *field, const char *key, bool *changed);
 
 #endif

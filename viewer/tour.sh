@@ -37,9 +37,20 @@ shoot office.map view-cells <<'END'
 eye 53 20 160 90
 key M
 key R
+key P
+key J
 key F5
-drag 818 531 761 531
+drag 818 536 761 536
 key F6
+END
+shoot office.map heat <<'END'
+eye 53 20 160 90
+key M
+key R
+key P
+key J
+key 1
+move 300 280
 END
 shoot office.map account <<'END'
 eye 53 20 160 90

@@ -256,85 +256,56 @@ void ui_edge(ui_state *ui, int number, sl_box box) {
 
 // --- text fields
 
-void ui_text_field(ui_state *ui, sl_box box, const ui_field *field, const char *empty, int number) {
-    const double t = ui->text, base = (box.min.y + box.max.y) / 2 + 0.36 * t;
-    const bool typed = ui->field == field;
-    const double rim = typed ? fmax(0.15 * t, 2) : 1;
-    char before[UI_FIELD_TEXT];
-    snprintf(before, sizeof before, "%.*s", (int)field->at, field->text);
-    const double at = ui_text_width(ui, 1, false, before), room = box_width(box) - 1.4 * t;
-    const double x = box.min.x + 0.7 * t - fmax(at - room, 0);
+/// The width of the text before a place.
+static double width_to(ui_state *ui, const text_field *field, size_t at) {
+    char text[FIELD_TEXT];
+    memcpy(text, field->text, at);
+    text[at] = '\0';
+    return ui_text_width(ui, 1, false, text);
+}
+
+/// The place between two characters that is nearest to a click.
+static size_t find_cursor(ui_state *ui, const text_field *field, double x) {
+    size_t at = 0, best = 0;
+    double nearest = fabs(x);
+    while (field->text[at]) {
+        do at++;
+        while (((unsigned char)field->text[at] & 0xc0) == 0x80);
+        const double distance = fabs(width_to(ui, field, at) - x);
+        if (distance > nearest) break;
+        nearest = distance;
+        best = at;
+    }
+    return best;
+}
+
+void ui_text_field(ui_state *ui, sl_box box, text_field *field, const char *empty, bool typed) {
+    const double t = ui->text, left = box.min.x + 0.5 * t, wide = box_width(box) - t;
+    const double base = (box.min.y + box.max.y) / 2 + 0.36 * t, rim = typed ? fmax(0.15 * t, 2) : 1;
+    const sl_box inner = {{box.min.x + rim, box.min.y + rim}, {box.max.x - rim, box.max.y - rim}};
     ui_fill(ui, box, typed ? ui->palette.glass : ui->palette.faint);
-    ui_fill(ui, (sl_box){{box.min.x + rim, box.min.y + rim}, {box.max.x - rim, box.max.y - rim}},
-            ui->palette.page);
+    ui_fill(ui, inner, ui->palette.page);
+    if (field->clicked) field->at = find_cursor(ui, field, field->click_x - left + field->shift);
+    field->clicked = false;
+    const double cursor = width_to(ui, field, field->at);
+    const double all = width_to(ui, field, strlen(field->text));
+    field->shift = fmin(fmax(field->shift, cursor - wide), cursor);
+    if (all <= wide) field->shift = 0;
+    const double x = left - field->shift, low = base - 0.9 * t, high = base + 0.25 * t;
     cairo_save(ui->cairo);
-    cairo_rectangle(ui->cairo, box.min.x + 0.4 * t, box.min.y, box_width(box) - 0.8 * t,
-                    box_height(box));
+    cairo_rectangle(ui->cairo, left - 2, box.min.y, wide + 4, box_height(box));
     cairo_clip(ui->cairo);
+    if (typed && field->chosen)
+        ui_fill(ui, (sl_box){{x, low}, {x + all, high}},
+                sl_colour_mix(ui->palette.page, ui->palette.glass, 0.3));
     // A long text is cut at the field's ends on purpose: it follows the cursor.
     sl_text_font(ui->cairo, t, false);
     sl_text_show(ui->cairo, *field->text ? ui->palette.ink : ui->palette.faint, x, base,
-                 *field->text ? field->text : empty);
+                 *field->text ? field->text
+                 : empty      ? empty
+                              : "");
     if (typed)
-        ui_fill(ui,
-                (sl_box){{x + at, base - 0.9 * t}, {x + at + fmax(0.1 * t, 1), base + 0.25 * t}},
+        ui_fill(ui, (sl_box){{x + cursor, low}, {x + cursor + fmax(0.1 * t, 1), high}},
                 ui->palette.ink);
     cairo_restore(ui->cairo);
-    ui_hit_focus(ui, HIT_FIELD, number, box);
-}
-
-void ui_field_set(ui_field *field, const char *text) {
-    *field = (ui_field){0};
-    ui_field_type(field, text);
-}
-
-/// A byte 10xxxxxx continues a character.
-static bool continues(char byte) {
-    return ((unsigned char)byte & 0xc0) == 0x80;
-}
-
-void ui_field_type(ui_field *field, const char *text) {
-    const size_t length = strlen(field->text), room = sizeof field->text - 1 - length;
-    size_t more = strlen(text);
-    if (more > room) {
-        more = room;
-        while (more && continues(text[more])) more--;
-    }
-    memmove(field->text + field->at + more, field->text + field->at, length - field->at + 1);
-    memcpy(field->text + field->at, text, more);
-    field->at += more;
-}
-
-static size_t before(const ui_field *field, size_t at) {
-    while (at && continues(field->text[--at])) continue;
-    return at;
-}
-
-static size_t after(const ui_field *field, size_t at) {
-    if (!field->text[at]) return at;
-    while (continues(field->text[++at])) continue;
-    return at;
-}
-
-static void cut_out(ui_field *field, size_t from, size_t to) {
-    memmove(field->text + from, field->text + to, strlen(field->text + to) + 1);
-    field->at = from;
-}
-
-bool ui_field_key(ui_field *field, const char *key) {
-    if (strcmp(key, "Left") == 0)
-        field->at = before(field, field->at);
-    else if (strcmp(key, "Right") == 0)
-        field->at = after(field, field->at);
-    else if (strcmp(key, "Home") == 0)
-        field->at = 0;
-    else if (strcmp(key, "End") == 0)
-        field->at = strlen(field->text);
-    else if (strcmp(key, "Backspace") == 0)
-        cut_out(field, before(field, field->at), field->at);
-    else if (strcmp(key, "Delete") == 0)
-        cut_out(field, field->at, after(field, field->at));
-    else
-        return strlen(key) == 1 || strcmp(key, "Space") == 0; // typed as text
-    return true;
 }

@@ -4,6 +4,7 @@
 
 #include "sightline/canvas.h"
 #include "sightline/geometry.h"
+#include "text_field.h"
 
 #include <cairo.h>
 #include <stdbool.h>
@@ -33,7 +34,7 @@ typedef struct hit_area {
     sl_box clip; ///< the part of the page where it is shown
 } hit_area;
 
-enum { HITS_MOST = 512, SPOTS_MOST = 512, UI_FIELD_TEXT = 512, UI_TIP_TEXT = 320 };
+enum { HITS_MOST = 512, SPOTS_MOST = 512, UI_TIP_TEXT = 320 };
 
 /// PANEL_SHEET: all beside a sheet over all, which shuts it.
 enum ui_panels { PANEL_PLAIN, PANEL_SHEET, PANEL_STATUS };
@@ -57,12 +58,6 @@ typedef struct ui_scroll {
     double at;           ///< pixels of the contents above the area
     double room, length; ///< of the area and of its contents, as drawn last
 } ui_scroll;
-
-/// A text that is typed, UTF-8, and the place of its cursor in bytes.
-typedef struct ui_field {
-    char text[UI_FIELD_TEXT];
-    size_t at;
-} ui_field;
 
 /// The widget that keys act on: the `copy`-th one of that kind and value in a frame, from 0.
 typedef struct ui_focus {
@@ -107,12 +102,12 @@ typedef struct ui_state {
     ui_scroll scrolls[SCROLLS];
     int scrolling; ///< the scroll area that is drawn; -1: none
     ui_focus focus;
-    int copies;       ///< of the focused widget met in this frame
-    bool reveal;      ///< scroll to the focused widget
-    ui_field *field;  ///< that typing goes to; NULL: none
-    bool field_mutes; ///< the key that opened it is not typed into it
-    ui_field filter;  ///< of the help
-    hit_area hovered; ///< what a tooltip would be about, and for how long the pointer rests there
+    int copies;        ///< of the focused widget met in this frame
+    bool reveal;       ///< scroll to the focused widget
+    text_field *field; ///< that typing goes to; NULL: none
+    bool field_mutes;  ///< the key that opened it is not typed into it
+    text_field filter; ///< of the help
+    hit_area hovered;  ///< what a tooltip would be about, and for how long the pointer rests there
     double hover_seconds;
     bool hover_is_focus;
     int bar_rows, time_lines, time_rows; ///< of buttons; of the lesson's sentence and its buttons
@@ -229,17 +224,12 @@ void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int numb
 /// A row of a list: a text, and another at the right (NULL: none). Returns the lower edge.
 double ui_row(ui_state *ui, double left, double right, double y, const char *text,
               const char *beside, bool chosen, hit_kind kind, int number);
-/// A text field with its cursor, where typing goes to it; `empty` stands there before.
-void ui_text_field(ui_state *ui, sl_box box, const ui_field *field, const char *empty, int number);
+/// A text field with its cursor, where typing goes to it; `empty` stands there before (NULL:
+/// nothing). A click places the cursor. The caller finds the clicks.
+void ui_text_field(ui_state *ui, sl_box box, text_field *field, const char *empty, bool typed);
 
 /// A border that can be dragged: marked under the pointer and where it has the focus.
 void ui_edge(ui_state *ui, int number, sl_box box);
-
-void ui_field_set(ui_field *field, const char *text);
-/// Adds text at the cursor, as far as there is room.
-void ui_field_type(ui_field *field, const char *text);
-/// Keys that move or delete; true: the key was one of those, or types a letter.
-bool ui_field_key(ui_field *field, const char *key);
 
 // --- focus and tooltips
 

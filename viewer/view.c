@@ -2,7 +2,6 @@
 #include "view.h"
 
 #include "app.h"
-#include "geometry/orient.h" // private: the exact predicate
 
 #include <math.h>
 
@@ -65,8 +64,8 @@ static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
     if (!spans(a.x, b.x, fmin(p.x, q.x), fmax(p.x, q.x)) ||
         !spans(a.y, b.y, fmin(p.y, q.y), fmax(p.y, q.y)))
         return false;
-    return sli_orient(a, b, p) * sli_orient(a, b, q) <= 0 &&
-           sli_orient(p, q, a) * sli_orient(p, q, b) <= 0;
+    return sl_orient(a, b, p) * sl_orient(a, b, q) <= 0 &&
+           sl_orient(p, q, a) * sl_orient(p, q, b) <= 0;
 }
 
 /// The wall in the way; wall_count for none.

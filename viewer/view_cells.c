@@ -165,7 +165,6 @@ sl_status view_job_end(sl_context *context, view_job *job, view_history *out) {
 
 // --- the layer
 
-#define RAMP_STEPS 32
 /// The first cut costs this much more than the cheapest one, as in `sightline viewcells` by
 /// default.
 #define TOLERANCE 0.1
@@ -404,12 +403,7 @@ void view_layer_mark_next(app_state *app) {
 // --- drawing
 
 static int step_of(const view_layer *layer, double cost) {
-    const double range = layer->most - layer->least;
-    return range > 0 ? (int)fmin((cost - layer->least) / range * RAMP_STEPS, RAMP_STEPS - 1) : 0;
-}
-
-static sl_colour colour_of(const ui_state *ui, int step) {
-    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
+    return ramp_step(cost, layer->least, layer->most);
 }
 
 /// Cells of one colour make one path. A thin stroke covers the seams between them.
@@ -421,7 +415,7 @@ static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *fra
             if (step_of(layer, cost_of(layer, layer->view_cells[i])) == step)
                 sl_path_polygon(cairo, frame, tree->corners + tree->first[i],
                                 tree->first[i + 1] - tree->first[i]);
-        sl_set_colour(cairo, colour_of(&app->ui, step));
+        sl_set_colour(cairo, ramp_colour(&app->ui, step));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -434,49 +428,18 @@ static void add_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment 
     for (size_t i = 0; i < count; i++) sl_path_segment(cairo, frame, borders[i].a, borders[i].b);
 }
 
-/// View cells reach into walled-in space without viewpoints: that is cut off.
-static void clip_to_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {
-    const sl_space *space = &document->baked->space;
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        const sl_cell *c = &space->cells[i];
-        if (c->inside)
-            sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
-    }
-    cairo_clip(cairo);
-}
-
 void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const view_layer *layer = app->view.views;
     if (!view_layer_shown(layer)) return;
     const sl_palette *palette = &app->ui.palette;
     cairo_save(cairo);
-    clip_to_inside(&app->document, cairo, frame);
+    layers_clip_inside(&app->document, cairo, frame);
     if (layers_fill(app) == LAYER_VIEWS) draw_cells(app, cairo, frame);
     add_borders(cairo, frame, layer->borders, layer->border_count);
     tone_cased(cairo, palette, palette->wall, 0.9 * frame->unit, 0);
     add_borders(cairo, frame, layer->mark_borders, layer->mark_border_count);
     tone_cased(cairo, palette, palette->start, 4 * frame->unit, 0);
     cairo_restore(cairo);
-}
-
-/// The ramp between its ends.
-static void draw_ramp(app_state *app, double left, double right, double base) {
-    const view_layer *layer = app->view.views;
-    ui_state *ui = &app->ui;
-    const double t = ui->text;
-    char least[32], most[32];
-    write_cost(layer->least, least);
-    write_cost(layer->most, most);
-    // A layer that does not fill the plan has no colours.
-    if (layers_fill(app) != LAYER_VIEWS) return;
-    ui_text(ui, left, base, 0.95, false, ui->palette.ink, least);
-    ui_text_right(ui, right, base, 0.95, ui->palette.ink, most);
-    const double side =
-        0.4 * t + fmax(ui_text_width(ui, 0.95, false, least), ui_text_width(ui, 0.95, false, most));
-    const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
-    for (int step = 0; step < RAMP_STEPS; step++)
-        ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
-                colour_of(&app->ui, step));
 }
 
 /// Writes the cost of the view cell under the pointer; a dash where there is none.
@@ -492,62 +455,24 @@ static void write_pointed(const app_state *app, char *text, size_t room) {
     snprintf(text, room, "%s walls", cost);
 }
 
-enum { KEY_ROWS = 5 };
-
-typedef struct key_row {
-    const char *label;
-    char text[96];
-} key_row;
-
-static void write_key(const app_state *app, key_row rows[KEY_ROWS]) {
+bool view_layer_key(const app_state *app, legend_key *key) {
     const view_layer *layer = app->view.views;
+    if (!view_layer_shown(layer) || !layers_shows(app, LAYER_VIEWS)) return false;
     const uint32_t most = view_layer_most(layer);
-    char cost[32];
-    rows[0].label = "view cells";
-    snprintf(rows[0].text, sizeof rows[0].text, "%u of %u", layer->cells, most);
-    rows[1].label = "expected cost";
+    char text[96], cost[32];
+    *key = (legend_key){.ramp = layers_fill(app) == LAYER_VIEWS};
+    snprintf(text, sizeof text, "%u of %u", layer->cells, most);
+    legend_key_add(key, "view cells", text);
     write_cost(layer->costs[layer->cells - 1], cost);
-    snprintf(rows[1].text, sizeof rows[1].text, "%s walls", cost);
-    rows[2].label = "times the least";
-    snprintf(rows[2].text, sizeof rows[2].text, "%.2f",
-             layer->costs[layer->cells - 1] / layer->costs[most - 1]);
-    rows[3].label = "memory of visible sets";
-    write_bytes(layer->bytes[layer->cells - 1], rows[3].text);
-    rows[4].label = "under the pointer";
-    write_pointed(app, rows[4].text, sizeof rows[4].text);
-}
-
-double view_layer_key(app_state *app, double left, double right, double y) {
-    ui_state *ui = &app->ui;
-    key_row rows[KEY_ROWS];
-    const double t = ui->text;
-    if (!view_layer_shown(app->view.views)) return y;
-    write_key(app, rows);
-    for (int i = 0; i < KEY_ROWS; i++) {
-        const double value = ui_text_width(ui, 0.95, false, rows[i].text) + 0.6 * t;
-        const double label = ui_text_width(ui, 0.95, i == 0, rows[i].label);
-        // A narrow key has the value below its label.
-        const bool beside = label + value <= right - left;
-        double end = ui_lines(ui, left, y + 1.1 * t, right - left, 0.95, i == 0, ui->palette.ink,
-                              rows[i].label);
-        if (beside)
-            ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.ink, rows[i].text);
-        else
-            end =
-                ui_lines(ui, left, end, right - left, 0.95, false, ui->palette.faint, rows[i].text);
-        y = end - 0.95 * t;
-    }
-    draw_ramp(app, left, right, y + 1.1 * t);
-    return y + 1.6 * t;
-}
-
-void view_layer_draw_key(app_state *app, const sl_frame *frame) {
-    if (!view_layer_shown(app->view.views)) return;
-    ui_state *ui = &app->ui;
-    const double t = ui->text, wide = 19 * t, high = (KEY_ROWS + 1.3) * 1.4 * t;
-    const double right = frame->left + frame->width - t, bottom = frame->top + frame->height - t;
-    if (wide > frame->width - 2 * t || high > 0.75 * frame->height) return;
-    ui_fill_round(ui, (sl_box){{right - wide, bottom - high}, {right, bottom}}, 0.3 * t,
-                  ui->palette.page);
-    view_layer_key(app, right - wide + 0.6 * t, right - 0.6 * t, bottom - high + 0.2 * t);
+    snprintf(text, sizeof text, "%s walls", cost);
+    legend_key_add(key, "expected cost", text);
+    snprintf(text, sizeof text, "%.2f", layer->costs[layer->cells - 1] / layer->costs[most - 1]);
+    legend_key_add(key, "times the least", text);
+    write_bytes(layer->bytes[layer->cells - 1], cost);
+    legend_key_add(key, "memory of visible sets", cost);
+    write_pointed(app, text, sizeof text);
+    legend_key_add(key, "under the pointer", text);
+    write_cost(layer->least, key->least);
+    write_cost(layer->most, key->most);
+    return true;
 }

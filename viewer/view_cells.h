@@ -34,6 +34,7 @@ sl_status view_job_end(sl_context *context, view_job *job, view_history *out);
 
 typedef struct app_state app_state;
 typedef struct view_layer view_layer;
+typedef struct legend_key legend_key;
 
 /// Starts the job for the open document where the layer needs it, and takes over its result. Waits
 /// for it if `wait` is set.
@@ -56,10 +57,8 @@ void view_layer_go(app_state *app, uint32_t cells);
 /// Draws the view cells. The picture depends on the document, the number, the mark and the theme
 /// alone.
 void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame);
-/// Draws their key: count, cost, memory, colours.
-/// The key in a column; returns its lower edge.
-double view_layer_key(app_state *app, double left, double right, double y);
-void view_layer_draw_key(app_state *app, const sl_frame *frame);
+/// Their key: count, cost, memory, colours. False where none are shown.
+bool view_layer_key(const app_state *app, legend_key *key);
 
 /// The marked view cell of the cut; SL_NO_VIEW_CELL: none.
 uint32_t view_layer_marked(const view_layer *layer);

@@ -295,6 +295,22 @@ void sl_mirrored_region_destroy(sl_context *context, sl_mirrored_region *region)
     *region = (sl_mirrored_region){0};
 }
 
+/// The frame of a part follows from those of its parents. There are as many as it has reflections.
+static sli_mirror_frame frame_of(const sl_map *map, const sl_mirrored_region *region,
+                                 uint32_t part) {
+    if (part == SL_NO_PART) return sli_mirror_frame_of_map();
+    const sl_mirror_part *p = &region->parts[part];
+    const sli_mirror_frame before = frame_of(map, region, p->parent);
+    return sli_mirror_frame_reflect(&before, map->mirrors[p->mirror].segment);
+}
+
+sl_point sl_mirror_part_place(const sl_room_mirrors *mirrors, const sl_mirrored_region *region,
+                              uint32_t part, sl_point point) {
+    const sli_mirror_frame frame = frame_of(mirrors->map, region, part);
+    bool rounded = false;
+    return sli_mirror_frame_place(&frame, point, &rounded);
+}
+
 double sl_mirrored_area(const sl_mirrored_region *region) {
     double sum = 0;
     for (size_t i = 0; i < region->part_count; i++) sum += sl_region_area(&region->parts[i].region);

@@ -163,3 +163,7 @@ int sli_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {
     };
     return sign_of_sum(products, 8);
 }
+
+int sl_orient(sl_point a, sl_point b, sl_point c) {
+    return sli_orient(a, b, c);
+}

@@ -174,6 +174,13 @@ static void ask_region(const trial *t, const sl_space *space, const sl_view *vie
     for (uint32_t i = 0; i < region.part_count; i++) {
         areas[chain_of(t, &region, i)] += sl_region_area(&region.parts[i].region);
         check_part(t, view, &region.parts[i]);
+        for (size_t k = 0; k < region.parts[i].region.count; k++) {
+            const sl_point image = region.parts[i].image[k];
+            const sl_point placed =
+                sl_mirror_part_place(&mirrors, &region, i, region.parts[i].region.points[k]);
+            if (placed.x != image.x || placed.y != image.y)
+                complain(t, view, "a corner of a part is not placed where its image is");
+        }
     }
     for (size_t i = 0; i < chains; i++) {
         if (fabs(areas[i] - truth->areas[i]) <= 1e-10 * t->scale * t->scale) continue;

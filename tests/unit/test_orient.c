@@ -49,7 +49,7 @@ static int plain_orient(sl_point a, sl_point b, sl_point c) {
 
 static void check(sl_point a, sl_point b, sl_point c) {
     const int expected = sign(rational_orient(a, b, c));
-    const int found = sli_orient(a, b, c), exact = sli_orient_exact(a, b, c);
+    const int found = sl_orient(a, b, c), exact = sli_orient_exact(a, b, c);
     if (found != expected || exact != expected)
         fail_msg("(%a %a) (%a %a) (%a %a): %d, exact part %d, rationals %d", a.x, a.y, b.x, b.y,
                  c.x, c.y, found, exact, expected);

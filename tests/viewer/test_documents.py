@@ -97,7 +97,23 @@ class Cases:
         self.run("endings", path, before + f"type {self.folder}/plan.png\nkey Return\n"
                  "expect .map (map text) or .slv (baked)\nkey Escape\nexpect *plan.map\n")
         self.run("no folder", path, before + f"type {self.folder}/nowhere/plan.map\nkey Return\n"
-                 "expect The map was not saved\nkey Return\nexpect *plan.map\n")
+                 "expect The map was not saved\nkey C\nexpect *plan.map\n")
+        # The path that was typed is in the field again.
+        self.run("another path", path, before + f"type {self.folder}/nowhere/plan.map\nkey Return\n"
+                 "expect The map was not saved\nkey A\nexpect Save the map\nkey Return\n"
+                 "expect nowhere/plan.map\nkey A\nkey Ctrl+W\nkey Ctrl+W\n"
+                 "type there.map\nkey Return\nexpect there.map - Sightline\n")
+        self.check((self.folder / "there.map").exists(), "the second path was not taken")
+
+    def chooses_all(self):
+        path = self.write("plan.map", PLAN)
+        field = "key Ctrl+Shift+S\nkey Ctrl+A\n"
+        self.run("replace", path, field + f"type {self.folder}/new.map\nkey Return\n"
+                 "expect new.map - Sightline\n")
+        self.run("delete", path, field + f"key Backspace\ntype {self.folder}/empty.map\n"
+                 "key Return\nexpect empty.map - Sightline\n")
+        # A key that moves keeps the text.
+        self.run("move", path, field + "key End\ntype x\nkey Return\nexpect Names end in .map\n")
 
     def saves_baked(self):
         path = self.write("plan.map", PLAN)

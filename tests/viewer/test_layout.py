@@ -19,6 +19,8 @@ SCENES = {
     "panes": ("office.map", "eye 53 20 160 90\nkey X\nkey L\nkey I\n"),
     "rock": ("dungeon.txt", "eye 7.5 14.5 0\n"),
     "layers": ("office.map", "key Q\nkey F5\nkey B\nkey K\n"),
+    "heat": ("office.map", "key 1\nkey 7\n"),
+    "heat_over_plan": ("office.map", "action side_panel\nkey F5\nkey 1\n" + "key 3\n" * 4),
     "search": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 4),
     "program": ("office.map", "eye 53 20 160\nkey F2\nkey R\nkey R\nkey Ctrl+L\n"),
     "why": ("office.map", "eye 53 20 160 90\nright 100 200\n"),
@@ -67,7 +69,7 @@ HANDS = {
     "wall": ("office.map", "key F3\n", "drag 200 100 200 300\n",
              "move 200 100\nkey Tab\nkey Space\n" + "key Down\n" * 20 +
              "key Space\nkey Escape\n"),
-    "layer": ("office.map", "", "key V\n", "key ?\ntype visible set\nkey Tab\nkey Tab\n"
+    "layer": ("office.map", "", "key V\n", "key ?\ntype none\nkey Ctrl+A\ntype visible set\nkey Tab\nkey Tab\n"
                                             "key Return\n"),
     "door": ("effects/doors.map", "", "action nearest_door\n", "key ?\ntype nearest door\nkey Tab\n"
                                                                 "key Tab\nkey Return\n"),

@@ -491,6 +491,25 @@ static void test_exported(void **state) {
     take_away("sightline-frames");
 }
 
+/// Words about what was done go after a while, errors do not.
+static void test_message(void **state) {
+    (void)state;
+    app_state *app = start(true);
+    open_map(app, MAPS "/office.map");
+    app->steady = false;
+    ui_say(&app->ui, false, "done");
+    app_tick(app, 5);
+    assert_string_equal(app->ui.message, "done");
+    app_tick(app, 30);
+    app_tick(app, 0);
+    assert_non_null(strstr(app->ui.message, "office.map: "));
+    ui_say(&app->ui, true, "wrong");
+    app_tick(app, 30);
+    app_tick(app, 0);
+    assert_string_equal(app->ui.message, "wrong");
+    end(app);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_maps),       cmocka_unit_test(test_turned),
@@ -498,6 +517,7 @@ int main(void) {
         cmocka_unit_test(test_taken_back), cmocka_unit_test(test_new_wall),
         cmocka_unit_test(test_mended),     cmocka_unit_test(test_exported),
         cmocka_unit_test(test_stopped),    cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_message),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,9 +29,12 @@ PICTURES = {
     "draw": ("office.map", "action side_panel\nkey F3\ndrag 200 100 200 300\naction side_panel\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
     "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\naction side_panel\n"),
-    "views": ("office.map", "eye 53 20 160 90\nkey M\nkey R\nkey F5\ndrag 573 448 530 448\n"
-                            "key F6\nmove 200 200\n"),
+    "views": ("office.map", "size 640 530\neye 53 20 160 90\nkey M\nkey R\nkey F5\n"
+                            "drag 573 495 530 495\nkey F6\nmove 200 200\n"),
     "oblique_views": ("oblique/rotunda.map", "action side_panel\nkey M\nkey R\nkey F5\n"),
+    "heat": ("office.map", "eye 53 20 160 90\nkey M\nkey R\nkey 1\nkey 2\nmove 200 200\n"),
+    "heat_steps": ("effects/doors.map", "action side_panel\nkey M\nkey R\nkey T\nkey 1\nkey 6\n"
+                                        "move 180 120\n"),
     "account": ("office.map", "eye 53 20 160 90\naction side_panel\nkey L\n"),
     "oblique": ("oblique/rotunda.map", "key B\n"),
     "oblique_delaunay": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 2),
@@ -41,7 +44,7 @@ PICTURES = {
     "oblique_first_person": ("oblique/rotunda.map", "key I\naction side_panel\nwait 2\n"),
     "doors": ("effects/doors.map", "key V\nkey M\n"),
     "mirrors": ("effects/mirrors.map", "key V\nkey M\naction side_panel\n"),
-    "reflections": ("effects/mirrors.map", "eye 10 5 0 40\nkey V\nkey F8\ndrag 482 432 520 432\n"),
+    "reflections": ("effects/mirrors.map", "eye 10 5 0 40\nkey V\nkey F8\ndrag 482 447 520 447\n"),
     "oneway": ("effects/oneway.map", "eye 25 10 180 60\naction side_panel\n"),
     "watch": ("effects/oneway.map", "eye 5 5 0 60\nkey M\nkey Y\nkey F8\n"),
     "objects": ("effects/objects.map", "action side_panel\neye 3 10 0 360\nclick 320 262\nmove 5 5\n"),
@@ -51,7 +54,7 @@ PICTURES = {
 
 # Keys that change the plan, each on its own; and how each is taken back. A mesh has no splits, and
 # its cells end at walls and portals alone: their outlines are seen where portals are not shown.
-LAYERS = ["C", "P", "K", "F5", "V", "B", "M", "R", "J", "Q"]
+LAYERS = ["C", "P", "K", "F5", "1", "V", "B", "M", "R", "J", "Q"]
 MESH_LAYERS = [key for key in LAYERS if key != "K"]
 SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Ctrl+B": "Ctrl+B", "?": "Escape", "O": "Escape",
             "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
@@ -234,8 +237,8 @@ def check_range(viewer, folder):
     after = "action side_panel\nmove 5 5\nsave {0}.png\naction side_panel\n"
     # The slider dragged to its end, and back; clicked where it stands, which is no change to undo, and
     # undone; no range; the one that is set first.
-    states = {"given": ("20", ""), "farther": ("60.8", "drag 534 374 600 374\n"),
-              "nearer": ("9.58", "drag 588 374 511 374\n"), "undone": ("60.8", "click 511 374\nkey Ctrl+Z\n"),
+    states = {"given": ("20", ""), "farther": ("60.8", "drag 534 403 600 403\n"),
+              "nearer": ("9.58", "drag 588 403 511 403\n"), "undone": ("60.8", "click 511 403\nkey Ctrl+Z\n"),
               "lifted": (None, "key Ctrl+R\n"), "set": ("18.2", "key Ctrl+R\n")}
     viewer.script(folder, "effects/range.map", before + "".join(
         done + after.format(name) for name, (_, done) in states.items()))

@@ -19,7 +19,7 @@ PATIENCE = 30
 DROP = pathlib.Path(sys.argv[2]).with_name("drop_file")
 
 # Where the cone's slider stands in a window of 1200 x 760: its knob at 90 degrees, and farther on.
-CONE, WIDER = (1045, 496), (1090, 496)
+CONE, WIDER = (1045, 554), (1090, 554)
 
 # name, what is done in the window (a list of acts), and the same for the script.
 # Acts: a key by its name for X; ("drag", X, Y, X2, Y2); ("wheel", X, Y, TURNS); ("drop", MAP).
@@ -34,6 +34,11 @@ STEPS = [
     ("zoomed", [("wheel", 300, 300, 3)], "move 300 300\n" + "wheel 1\n" * 3),
     ("back_out", [("wheel", 300, 300, -3)], "move 300 300\n" + "wheel -1\n" * 3),
     ("fit", ["f"], "key F\n"),
+    ("heat", ["m", "1", "2"], "key M\nkey 1\nkey 2\n"),
+    ("heat_finer", ["5"], "key 5\n"),
+    ("heat_kept", ["7"], "key 7\n"),
+    ("heat_steps", ["6"], "key 6\n"),
+    ("no_heat", ["6", "1", "m"], "key 6\nkey 1\nkey M\n"),
     ("learn", ["F2", "Right", "Right", "Right"], "key F2\n" + "key Right\n" * 3),
     ("back", ["Left"], "key Left\n"),
     ("moved", ["period", "period", "Up", "Up", "period", "Right"],

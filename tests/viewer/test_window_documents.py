@@ -182,6 +182,24 @@ class Cases:
             s.ends("recovered")
         self.viewer.check(not list(state.glob("unsaved-*")), "the copy stays after the changes are saved")
 
+    def offers_each(self):
+        """Two sessions ended: both are offered, one after the other."""
+        state = self.folder / "state/sightline"
+        state.mkdir(parents=True)
+        for name in ["unsaved-1-0", "unsaved-2-0"]:
+            (state / f"{name}.lock").touch()
+            (state / f"{name}.map").write_text(PLAN)
+        with self.session() as s:
+            s.keys("l", "l", "Escape", "ctrl+q")
+            s.ends("both later")
+        self.viewer.check(len(list(state.glob("unsaved-*.map"))) == 2, "a copy is gone")
+        with self.session() as s:
+            s.keys("d", "r")
+            s.shows("*Untitled")
+            s.keys("ctrl+q", "d")
+            s.ends("one and the other")
+        self.viewer.check(not list(state.glob("unsaved-*")), "a copy was not offered")
+
     def opens_by_path(self):
         path = self.write("plan.map", PLAN)
         tiles = self.write("tiles.tmx", TILES)
@@ -224,7 +242,7 @@ def main():
     viewer = Viewer(sys.argv)
     server, display = start_display()
     try:
-        for case in ["saves_and_quits", "recovers", "opens_by_path", "shows_a_bad_file"]:
+        for case in ["saves_and_quits", "recovers", "offers_each", "opens_by_path", "shows_a_bad_file"]:
             with tempfile.TemporaryDirectory() as name:
                 folder = pathlib.Path(name).resolve()
                 shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),

@@ -2,6 +2,8 @@
 #ifndef SIGHTLINE_GEOMETRY_H
 #define SIGHTLINE_GEOMETRY_H
 
+#include "sightline/context.h"
+
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -28,6 +30,10 @@ typedef struct sl_segment {
 typedef struct sl_box {
     sl_point min, max;
 } sl_box;
+
+/// 1 where c lies to the left of the line from a to b, -1 to the right, 0 on it. Exact for all
+/// finite doubles.
+SL_API int sl_orient(sl_point a, sl_point b, sl_point c);
 
 /// Shapes of polygons with holes, in three levels. Rings are not closed: the last point is not the
 /// first one again. Outer rings are counter-clockwise, holes clockwise.

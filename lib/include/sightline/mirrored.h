@@ -72,6 +72,12 @@ SL_API sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirr
                                          const sl_view *view, double range, uint32_t depth,
                                          sl_mirrored_region *out);
 
+/// Where a point of the map seems to be in a part, in mirrored space. Rounded. SL_NO_PART: where it
+/// is. `mirrors` are those that the region was made with.
+SL_API sl_point sl_mirror_part_place(const sl_room_mirrors *mirrors,
+                                     const sl_mirrored_region *region, uint32_t part,
+                                     sl_point point);
+
 /// The area of all parts. What two mirrors show counts twice.
 SL_API double sl_mirrored_area(const sl_mirrored_region *region);
 

@@ -1,0 +1,328 @@
+// The heat map of the viewer: its values are those of the library for the map as it is now, with
+// doors shut or open and after a change; it ends when it is told to.
+#include "testing.h"
+
+#include "actions.h"
+#include "app.h"
+#include "files.h"
+#include "input.h"
+#include "script.h"
+#include "sightline/bake.h"
+#include "sightline/io.h"
+
+#include <math.h>
+#include <time.h>
+
+#ifndef MAPS
+#error "MAPS: the folder of the maps"
+#endif
+
+// --- the viewer
+
+static app_state *start(const char *map) {
+    sl_context *context = sl_context_create(NULL);
+    app_state *app = calloc(1, sizeof *app);
+    assert_non_null(context);
+    assert_non_null(app);
+    assert_int_equal(sl_io_use(context), SL_OK);
+    app_init(app, context);
+    app->options = sl_import_options_default();
+    app->steady = true;
+    files_open(app, map, false);
+    app_settle(app);
+    if (!app->document.baked) fail_msg("%s: %s", map, app->ui.message);
+    script_frame(app);
+    return app;
+}
+
+static void end(app_state *app) {
+    sl_context *context = app->context;
+    app_destroy(app);
+    free(app);
+    sl_context_destroy(context);
+}
+
+static void press_key(app_state *app, const char *key) {
+    input_key(app, key, true);
+    input_key(app, key, false);
+    app_tick(app, 0);
+}
+
+// --- against the library
+
+/// What the library says of the map as it is now.
+typedef struct fresh {
+    sl_baked baked;
+    sl_space space;
+    sl_outline outline;
+    sl_vga_grid grid;
+    sl_vga_graph graph;
+    sl_vga_measures *measures;
+} fresh;
+
+static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh *f) {
+    sl_bake_options options = sl_bake_options_default();
+    sl_bake_account account;
+    sl_map map = {0};
+    *f = (fresh){0};
+    assert_int_equal(sl_map_copy(context, &app->document.map, &map), SL_OK);
+    assert_int_equal(sl_bake_space(context, &map, &options, &f->baked, &account), SL_OK);
+    bool *shut = calloc(f->baked.map.door_count + 1, sizeof *shut);
+    for (size_t i = 0; i < f->baked.map.door_count; i++) shut[i] = !f->baked.map.doors[i].open;
+    const sl_filtered_space filtered = {.shut = shut};
+    assert_int_equal(sl_filtered_space_make(context, &f->baked.space, &filtered, NULL, &f->space),
+                     SL_OK);
+    free(shut);
+    sl_map_destroy(context, &map);
+    assert_int_equal(sl_outline_make(context, &f->space, &f->outline), SL_OK);
+    assert_int_equal(sl_vga_grid_fill(context, &f->outline, heat_step(app), NULL, 0, &f->grid),
+                     SL_OK);
+    assert_int_equal(
+        sl_vga_graph_make(context, &f->outline, &f->grid, app->document.map.range, 1, &f->graph),
+        SL_OK);
+    f->measures = calloc(f->grid.count, sizeof *f->measures);
+    sl_vga_options measured = sl_vga_options_default();
+    measured.parts = part;
+    assert_int_equal(
+        sl_vga_measure(context, &f->outline, &f->grid, &f->graph, &measured, f->measures), SL_OK);
+}
+
+static void drop_fresh(sl_context *context, fresh *f) {
+    free(f->measures);
+    sl_vga_graph_destroy(context, &f->graph);
+    sl_vga_grid_destroy(context, &f->grid);
+    sl_outline_destroy(context, &f->outline);
+    sl_space_destroy(context, &f->space);
+    sl_baked_destroy(context, &f->baked);
+}
+
+/// The values that are shown; there must be some.
+static const double *shown(app_state *app, const heat_graph **graph) {
+    const double *values = heat_layer_values(app, graph);
+    if (!values) fail_msg("no heat map: %s", app->ui.message);
+    return values;
+}
+
+/// Each value is the library's, and the colour scale goes from the least to the largest.
+static void assert_fresh(app_state *app) {
+    size_t count;
+    const heat_measure *measure = &heat_measures(&count)[app->view.heat_choice.measure];
+    sl_context *context = sl_context_create(NULL);
+    const heat_graph *graph;
+    fresh f;
+    double least = INFINITY, most = -INFINITY, low, high;
+    const double *values = shown(app, &graph);
+    make_fresh(app, context, measure->part, &f);
+    assert_int_equal(graph->grid.count, f.grid.count);
+    assert_memory_equal(graph->grid.points, f.grid.points, f.grid.count * sizeof *f.grid.points);
+    for (uint32_t p = 0; p < f.grid.count; p++) {
+        const double value = *(double *)((char *)&f.measures[p] + measure->offset);
+        if (!isfinite(value)) {
+            assert_true(isnan(values[p]));
+            continue;
+        }
+        if (values[p] != value) fail_msg("%s: %g, not %g", measure->name, values[p], value);
+        least = fmin(least, value);
+        most = fmax(most, value);
+    }
+    heat_layer_scale(app, &low, &high);
+    assert_true(low == least && high == most);
+    drop_fresh(context, &f);
+    sl_context_destroy(context);
+}
+
+/// All measures, one after the other, and back to the first one.
+static void test_measures(void **state) {
+    static const char *const maps[] = {MAPS "/office.map", MAPS "/oblique/rotunda.map",
+                                       MAPS "/effects/range.map"};
+    size_t count;
+    (void)state;
+    heat_measures(&count);
+    for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {
+        app_state *app = start(maps[m]);
+        heat_set_step(app, 0);
+        press_key(app, "4");
+        press_key(app, "1");
+        for (size_t k = 0; k + 1 < count; k++) {
+            assert_int_equal(app->view.heat_choice.measure, k);
+            assert_fresh(app);
+            press_key(app, "2");
+        }
+        press_key(app, "2");
+        assert_int_equal(app->view.heat_choice.measure, 0);
+        press_key(app, "3");
+        assert_int_equal(app->view.heat_choice.measure, count - 1);
+        end(app);
+    }
+}
+
+/// A door that is shut, a wall that is drawn, another grid: the heat map is made anew.
+static void test_changes(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/effects/doors.map");
+    const heat_graph *graph;
+    press_key(app, "1");
+    assert_fresh(app);
+    const uint64_t before = (shown(app, &graph), graph->graph.edges);
+    press_key(app, "N");
+    assert_fresh(app);
+    assert_true((shown(app, &graph), graph->graph.edges) != before);
+    press_key(app, "Ctrl+Z");
+    assert_fresh(app);
+    assert_true((shown(app, &graph), graph->graph.edges) == before);
+    const uint32_t points = graph->grid.count;
+    press_key(app, "5");
+    assert_fresh(app);
+    assert_true((shown(app, &graph), graph->grid.count) > points);
+    press_key(app, "4");
+    const sl_wall wall = {.a = {2, 2}, .b = {8, 7}};
+    app_before_edit(app);
+    assert_int_equal(sl_map_add_walls(app->context, &app->document.map, &wall, 1), SL_OK);
+    app_after_edit(app);
+    app_tick(app, 0);
+    assert_fresh(app);
+    assert_true((shown(app, &graph), graph->graph.edges) < before);
+    end(app);
+}
+
+/// The scale that is kept stays while a door is shut. Another measure lets it go.
+static void test_kept_scale(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/effects/doors.map");
+    double least, most, low, high;
+    press_key(app, "1");
+    heat_layer_scale(app, &least, &most);
+    press_key(app, "7");
+    press_key(app, "N");
+    heat_layer_scale(app, &low, &high);
+    assert_true(low == least && high == most);
+    press_key(app, "7");
+    assert_fresh(app);
+    heat_layer_scale(app, &low, &high);
+    assert_true(low != least || high != most);
+    press_key(app, "7");
+    press_key(app, "2");
+    assert_fresh(app);
+    end(app);
+}
+
+static void point_at(app_state *app, sl_point at) {
+    const sl_box plan = app_layout(app).plan[0];
+    const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
+    input_move(app, sl_frame_point(&frame, at));
+    app_tick(app, 0);
+}
+
+/// Steps follow the pointer, through doors that are open.
+static void test_steps(void **state) {
+    static const sl_point places[] = {{5, 5}, {25, 15}, {15, 5}, {5, 15}};
+    (void)state;
+    app_state *app = start(MAPS "/effects/doors.map");
+    press_key(app, "1");
+    press_key(app, "6");
+    sl_context *context = sl_context_create(NULL);
+    fresh f;
+    make_fresh(app, context, SL_VGA_LOCAL, &f);
+    uint32_t *steps = calloc(f.grid.count, sizeof *steps);
+    double least, most;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const heat_graph *graph;
+        uint32_t from = 0;
+        point_at(app, places[i]);
+        const double *values = shown(app, &graph);
+        for (uint32_t p = 0; p < f.grid.count; p++)
+            if (hypot(f.grid.points[p].x - places[i].x, f.grid.points[p].y - places[i].y) <
+                hypot(f.grid.points[from].x - places[i].x, f.grid.points[from].y - places[i].y))
+                from = p;
+        assert_int_equal(sl_vga_step_depth(context, &f.graph, &from, 1, steps), SL_OK);
+        heat_layer_scale(app, &least, &most);
+        for (uint32_t p = 0; p < f.grid.count; p++) {
+            assert_true(steps[p] == UINT32_MAX ? isnan(values[p]) : values[p] == steps[p]);
+            assert_true(isnan(values[p]) || (least <= values[p] && values[p] <= most));
+        }
+        assert_true(values[from] == 0);
+    }
+    // Back to the measure before.
+    press_key(app, "6");
+    assert_int_equal(app->view.heat_choice.measure, 0);
+    assert_fresh(app);
+    free(steps);
+    drop_fresh(context, &f);
+    sl_context_destroy(context);
+    end(app);
+}
+
+/// Mirrors and one-way glass are refused by name, and nothing is shown.
+static void test_refused(void **state) {
+    static const char *const maps[][2] = {{MAPS "/effects/mirrors.map", "mirror"},
+                                          {MAPS "/effects/oneway.map", "one-way"}};
+    (void)state;
+    for (int m = 0; m < 2; m++) {
+        const heat_graph *graph;
+        app_state *app = start(maps[m][0]);
+        press_key(app, "1");
+        assert_true(app->ui.message_is_error);
+        assert_non_null(strstr(app->ui.message, "heat map"));
+        assert_non_null(strstr(app->ui.message, maps[m][1]));
+        assert_null(heat_layer_values(app, &graph));
+        end(app);
+    }
+}
+
+/// Escape stops the work at any time; switched off and on, the heat map is made again.
+static void test_stopped(void **state) {
+    (void)state;
+    for (int waits = 0; waits < 4; waits++) {
+        const heat_graph *graph;
+        app_state *app = start(MAPS "/office.map");
+        app->steady = false;
+        app->view.heat_choice.step = 0.25; // the finest grid: it takes a while
+        press_key(app, "1");
+        assert_true(heat_layer_progress(app->view.heat).running);
+        assert_true(app_progress(app).running);
+        const struct timespec pause = {0, 30000000L * waits};
+        nanosleep(&pause, NULL);
+        press_key(app, "Escape");
+        if (waits == 0) assert_null(heat_layer_values(app, &graph));
+        assert_false(heat_layer_progress(app->view.heat).running);
+        app->view.heat_choice.step = 5;
+        app->steady = true;
+        press_key(app, "1");
+        press_key(app, "1");
+        assert_fresh(app);
+        // Closed at any time.
+        app->steady = false;
+        app->view.heat_choice.step = 0.25;
+        app_tick(app, 0);
+        nanosleep(&pause, NULL);
+        end(app);
+    }
+}
+
+/// A layer that is switched on fills the plan. Once it is off, the one before does again.
+static void test_fills(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map");
+    assert_int_equal(layers_fill(app), LAYER_CULL);
+    press_key(app, "1");
+    assert_int_equal(layers_fill(app), LAYER_HEAT);
+    press_key(app, "V");
+    assert_int_equal(layers_fill(app), LAYER_PVS);
+    press_key(app, "V");
+    assert_int_equal(layers_fill(app), LAYER_HEAT);
+    press_key(app, "1");
+    assert_int_equal(layers_fill(app), LAYER_CULL);
+    press_key(app, "M");
+    assert_int_equal(layers_fill(app), LAYER_REGION);
+    end(app);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_measures),   cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_kept_scale), cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_fills),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,50 @@
+/// The visibility graph of a grid of points in the open map, and the measures of it that a heat map
+/// can show, under the names of `sightline vga`. A task works on it, a group of measures at a time.
+#ifndef VIEWER_HEAT_GRAPH_H
+#define VIEWER_HEAT_GRAPH_H
+
+#include "sightline/vga.h"
+
+/// A measure. `part` is of sl_vga_part; 0: steps from a chosen point, which need the graph alone.
+typedef struct heat_measure {
+    const char *name;
+    unsigned part;
+    size_t offset; ///< in sl_vga_measures
+} heat_measure;
+
+/// The measures. The last one is the number of steps from a point.
+const heat_measure *heat_measures(size_t *count);
+
+/// Zeroed to start. The caller fills the first block.
+typedef struct heat_graph {
+    sl_space space; ///< with walls in doors that are shut
+    double step, range;
+    unsigned wanted; ///< the group to measure next; 0: none
+
+    sl_outline outline;
+    sl_vga_grid grid;
+    sl_vga_graph graph;
+    sl_vga_measures *measures; ///< by point
+    uint32_t *points;          ///< by square of the grid; UINT32_MAX: none
+    unsigned parts;            ///< groups that are measured
+    bool made;                 ///< the graph is there
+} heat_graph;
+
+/// A grid has no more points than this: the bits of their graph take 50 MB.
+enum { HEAT_POINTS_MOST = 20000 };
+
+/// Makes the graph, if it is not there, and measures what is wanted. For task_start; `data` is the
+/// heat_graph. What was there before a failure stays.
+sl_status heat_graph_work(sl_context *context, void *data);
+
+/// NAN where the measure is not defined.
+double heat_graph_value(const heat_graph *graph, const heat_measure *measure, uint32_t point);
+
+/// The point in whose square a place lies; UINT32_MAX: none.
+uint32_t heat_graph_square(const heat_graph *graph, sl_point at);
+/// The nearest point that is seen from a place, in its square or one beside it; UINT32_MAX: none.
+uint32_t heat_graph_nearest(sl_context *context, const heat_graph *graph, sl_point at);
+
+void heat_graph_destroy(sl_context *context, heat_graph *graph); ///< and zeroes it
+
+#endif
