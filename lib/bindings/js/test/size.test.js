@@ -4,7 +4,7 @@ import { readFileSync, readdirSync } from 'node:fs'
 import { join } from 'node:path'
 import test from 'node:test'
 import { gzipSync } from 'node:zlib'
-import { folder } from './help.js'
+import { folder, load } from './help.js'
 
 const size = (...names) =>
   names.reduce((sum, name) => sum + gzipSync(readFileSync(join(folder, name)), { level: 9 }).length, 0)
@@ -19,9 +19,10 @@ test('the whole library is at most 200 kB', () => {
   assert.ok(bytes <= 200000, `${bytes} bytes`)
 })
 
-test('the package needs no other, and has what it says', () => {
+test('the package needs no other, and has what it says', async () => {
   const about = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'))
   assert.equal(about.license, 'MIT')
+  assert.equal(about.version, (await (await load('bake.js')).load()).version)
   assert.equal(about.dependencies, undefined)
   const there = readdirSync(folder)
   for (const entry of Object.values(about.exports).flatMap((each) => Object.values(typeof each === 'string' ? [each] : each)))
