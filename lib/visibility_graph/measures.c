@@ -37,7 +37,8 @@ static uint64_t count_set(const sl_bits *set, size_t words) {
 
 // --- local
 
-/// Ordered pairs of neighbours of a point that see each other.
+/// Ordered pairs of neighbours of a point that see each other. Sight is mutual, so of two tiles with
+/// the same pairs one is counted, twice.
 static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbours) {
     uint64_t count = 0;
     for (size_t b = 0; b < t->bundles; b++) {
@@ -45,9 +46,11 @@ static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbour
         for (size_t i = t->first[b]; i < t->first[b + 1]; i++) {
             const sli_vga_tile *tile = &t->tiles.items[i];
             const sl_bits others = neighbours[tile->bundle] & tile->any;
-            if (!others) continue;
+            if (tile->bundle < b || !others) continue;
+            uint64_t of_tile = 0;
             for (sl_bits rest = neighbours[b]; rest; rest &= rest - 1)
-                count += count_bits(t->rows.items[i].rows[__builtin_ctzll(rest)] & others);
+                of_tile += count_bits(t->rows.items[i].rows[__builtin_ctzll(rest)] & others);
+            count += tile->bundle == b ? of_tile : 2 * of_tile;
         }
     }
     return count;
@@ -74,7 +77,6 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
             out->visual_control += 1.0 / j->degree[q];
         }
     }
-    out->connectivity = degree;
     if (degree > 1)
         out->visual_clustering_coefficient =
             (double)count_triangles(t, s->level) / (degree * (degree - 1));
@@ -156,6 +158,7 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
         degree[p] = (uint32_t)count_set(sli_vga_row(graph, p), graph->words);
         double *all = (double *)&measures[p];
         for (size_t k = 0; k < sizeof *measures / sizeof *all; k++) all[k] = NAN;
+        if (options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL)) measures[p].connectivity = degree[p];
     }
     sl_bits *turning = NULL;
     sl_status status = sli_vga_find_turning(context, outline, grid, &turning);
