@@ -26,13 +26,20 @@ typedef struct entry {
     uint32_t slot, before;
 } entry;
 
-enum { STEPS = 512 };
+enum { STEPS = 512, KNOWN_BITS = 16 };
+
+/// A turn that was computed. From one start to the next most turns are the same.
+typedef struct known_turn {
+    uint32_t before, at, to;
+    float turn;
+} known_turn;
 
 typedef struct walker {
     const sli_vga_sights *sights;
-    float *turn;   ///< by slot, in right angles: of its path so far; INFINITY: none
-    float *most;   ///< by bundle: the largest of these
-    sl_bits *done; ///< points whose paths are final
+    float *turn;       ///< by slot, in right angles: of its path so far; INFINITY: none
+    float *most;       ///< by bundle: the largest of these
+    sl_bits *done;     ///< points whose paths are final
+    known_turn *known; ///< by hash
     SL_ARRAY(entry) heap;
     float cosines[2 * STEPS + 2]; ///< a little less than those of turns, by turn * STEPS
 } walker;
@@ -105,6 +112,15 @@ static bool is_box_aside(const bend *b, float x, float y, const sli_vga_box *box
     return (sides & 3) != 3 || !(sides & 4);
 }
 
+static float turn_at(walker *w, uint32_t before, uint32_t at, uint32_t to) {
+    const uint32_t hash = (at * 0x9e3779b1u ^ to * 0x85ebca6bu) + before * 0xc2b2ae35u;
+    known_turn *known = &w->known[hash >> (32 - KNOWN_BITS)];
+    if (known->before != before || known->at != at || known->to != to)
+        *known =
+            (known_turn){before, at, to, sli_vga_turn(sli_vga_cosine(w->sights, before, at, to))};
+    return known->turn;
+}
+
 // --- paths
 
 static sl_status try_point(sl_context *context, walker *w, const entry *at, uint32_t q) {
@@ -112,7 +128,7 @@ static sl_status try_point(sl_context *context, walker *w, const entry *at, uint
     const float old = w->turn[q];
     float turn = 0;
     if (at->key >= old) return SL_OK;
-    if (at->before != SLI_VGA_NONE) turn = sli_vga_turn(sli_vga_cosine(s, at->before, at->slot, q));
+    if (at->before != SLI_VGA_NONE) turn = turn_at(w, at->before, at->slot, q);
     if (at->key + turn >= old) return SL_OK;
     w->turn[q] = at->key + turn;
     // Only straight ahead, and beside walls, are points expanded.
@@ -175,7 +191,8 @@ static sl_status find_straightest(sl_context *context, walker *w, uint32_t from)
     const double radius = s->job->options->angular_radius;
     w->heap.count = 0;
     memset(w->done, 0, s->bundles * sizeof *w->done);
-    for (uint32_t q = 0; q < s->count; q++) w->turn[q] = INFINITY;
+    for (uint32_t q = 0; q < s->count; q++)
+        w->turn[q] = s->parts[q] == s->parts[from] ? INFINITY : -1; // never reached
     for (size_t k = 0; k < s->bundles; k++) w->most[k] = INFINITY;
     w->turn[from] = 0;
     SL_TRY(push(context, w, (entry){0, s->points[from], from, SLI_VGA_NONE}));
@@ -199,7 +216,7 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
     SL_TRY(find_straightest(context, w, from));
     for (uint32_t p = 0; p < s->count; p++) {
         const float of_p = w->turn[s->slots[p]];
-        if (of_p == INFINITY || (radius > 0 && of_p > radius)) continue;
+        if (of_p == INFINITY || of_p < 0 || (radius > 0 && of_p > radius)) continue;
         turn += of_p;
         nodes++;
     }
@@ -215,7 +232,7 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
 static void end(sl_context *context, void *all, void *state) {
     (void)all;
     walker *w = state;
-    void *parts[] = {w->turn, w->most, w->done, w->heap.items, w};
+    void *parts[] = {w->turn, w->most, w->done, w->known, w->heap.items, w};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
@@ -231,7 +248,8 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     w->turn = sl_alloc_array(context, slots, sizeof *w->turn);
     w->most = sl_alloc_array(context, s->bundles, sizeof *w->most);
     w->done = sl_alloc_array(context, s->bundles, sizeof *w->done);
-    if (!w->turn || !w->most || !w->done) {
+    w->known = sl_alloc_array(context, (size_t)1 << KNOWN_BITS, sizeof *w->known);
+    if (!w->turn || !w->most || !w->done || !w->known) {
         end(context, all, w);
         return SL_NO_MEMORY;
     }

@@ -37,8 +37,8 @@ static uint64_t count_set(const sl_bits *set, size_t words) {
 
 // --- local
 
-/// Ordered pairs of neighbours of a point that see each other. Sight is mutual, so of two tiles with
-/// the same pairs one is counted, twice.
+/// Ordered pairs of neighbours of a point that see each other. Sight is mutual, so of two tiles
+/// with the same pairs one is counted, twice.
 static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbours) {
     uint64_t count = 0;
     for (size_t b = 0; b < t->bundles; b++) {

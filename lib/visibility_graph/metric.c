@@ -204,7 +204,8 @@ static void find_bounds(walker *w, uint32_t from) {
     float *swap = w->bound;
     w->bound = w->old_bound;
     w->old_bound = swap;
-    for (uint32_t q = 0; q < count; q++) w->bound[q] = INFINITY;
+    const uint32_t *parts = w->sights->parts;
+    for (uint32_t q = 0; q < count; q++) w->bound[q] = parts[q] == parts[from] ? INFINITY : 0;
     bound_seen(w, from);
     if (w->old_from != SLI_VGA_NONE) {
         for (size_t i = 0; i < w->order.count; i++) move_bound(w, w->order.items[i]);

@@ -12,6 +12,7 @@ static void sights_destroy(sl_context *context, sli_vga_sights *s) {
     sl_free(context, s->points);
     sl_free(context, s->x);
     sl_free(context, s->y);
+    sl_free(context, s->parts);
     sl_free(context, s->turning);
     sl_free(context, s->boxes);
     sl_free(context, s->first);
@@ -53,11 +54,36 @@ static sl_status list_row(sl_context *context, sli_vga_sights *s, uint32_t slot,
     return SL_OK;
 }
 
+/// Numbers the parts of the graph that no path joins. `left` holds all slots, and is used up.
+static void number_parts(sli_vga_sights *s, uint32_t *queue, sl_bits *left) {
+    uint32_t parts = 0;
+    for (size_t b = 0; b < s->bundles; b++) {
+        while (left[b]) {
+            size_t head = 0, tail = 0;
+            queue[tail++] = (uint32_t)(b * 64) + (uint32_t)__builtin_ctzll(left[b]);
+            sl_bits_flip(left, queue[0]);
+            while (head < tail) {
+                const uint32_t at = queue[head++];
+                s->parts[at] = parts;
+                for (size_t i = s->first[at]; i < s->first[at + 1]; i++) {
+                    const sli_vga_word *word = &s->words.items[i];
+                    for (sl_bits q = word->seen & left[word->bundle]; q; q &= q - 1)
+                        queue[tail++] = word->bundle * 64 + (uint32_t)__builtin_ctzll(q);
+                    left[word->bundle] &= ~word->seen;
+                }
+            }
+            parts++;
+        }
+    }
+}
+
 static sl_status sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *s) {
     s->job = job;
     s->count = job->graph->count;
     s->bundles = sl_bits_words(s->count);
     sl_bits *row = sl_alloc_array(context, s->bundles, sizeof *row);
+    uint32_t *queue = sl_alloc_array(context, s->count, sizeof *queue);
+    s->parts = sl_alloc_array(context, s->bundles * 64, sizeof *s->parts);
     s->slots = sl_alloc_array(context, s->count, sizeof *s->slots);
     s->points = sl_alloc_array(context, s->count, sizeof *s->points);
     s->x = sl_alloc_array(context, s->bundles * 64, sizeof *s->x);
@@ -65,8 +91,8 @@ static sl_status sights_make(sl_context *context, const sli_vga_job *job, sli_vg
     s->turning = sl_alloc_array(context, s->bundles, sizeof *s->turning);
     s->boxes = sl_alloc_array(context, s->bundles, sizeof *s->boxes);
     s->first = sl_alloc_array(context, (size_t)s->count + 1, sizeof *s->first);
-    const bool room =
-        row && s->slots && s->points && s->x && s->y && s->turning && s->boxes && s->first;
+    const bool room = row && queue && s->parts && s->slots && s->points && s->x && s->y &&
+                      s->turning && s->boxes && s->first;
     sl_status status = room ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = sli_vga_order(context, job->grid, s->slots, s->points);
     if (status == SL_OK) place_points(s);
@@ -74,7 +100,12 @@ static sl_status sights_make(sl_context *context, const sli_vga_job *job, sli_vg
         if (slot % 64 == 0) status = sl_check_cancelled(context);
         if (status == SL_OK) status = list_row(context, s, slot, row);
     }
-    if (status == SL_OK) s->first[s->count] = s->words.count;
+    if (status == SL_OK) {
+        s->first[s->count] = s->words.count;
+        for (uint32_t slot = 0; slot < s->count; slot++) sl_bits_add(row, slot);
+        number_parts(s, queue, row);
+    }
+    sl_free(context, queue);
     sl_free(context, row);
     return status;
 }

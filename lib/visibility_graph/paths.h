@@ -30,6 +30,7 @@ typedef struct sli_vga_sights {
     size_t bundles;
     uint32_t *slots, *points; ///< by point, its slot; by slot, its point
     float *x, *y;             ///< by slot: the square
+    uint32_t *parts;          ///< by slot: points of other parts are never reached
     sl_bits *turning;         ///< slots at which paths may turn
     sli_vga_box *boxes;       ///< by bundle
     size_t *first;            ///< by slot, and one more: into `words`
