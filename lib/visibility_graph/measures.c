@@ -1,12 +1,11 @@
-/// Measures of a visibility graph, by the formulas of depthmapX (vgavisuallocal.cpp,
-/// vgavisualglobal.cpp of its salalib), after Turner et al. 2001 and Hillier and Hanson 1984.
+/// Local measures of a visibility graph, by the formulas of depthmapX (vgavisuallocal.cpp of its
+/// salalib), after Turner et al. 2001; and the call for all measures.
 ///
-/// Local measures look at the neighbours of a point and theirs. Global measures search from each
-/// point, level by level: the points of a level are those that the level before sees, and no
-/// earlier level. Both work on tiles of the graph (tiles.h), so sets are by slot here.
+/// Local measures look at the neighbours of a point and theirs. They work on tiles of the graph
+/// (tiles.h), so sets are by slot here.
 ///
-/// Cost: a local measure O(connectivity * bundles in sight) for a point. A search takes the tiles
-/// of all bundles, and few rows of them. Points are independent, so threads take bundles of them.
+/// Cost: O(connectivity * bundles in sight) for a point. Points are independent, so threads take
+/// bundles of them.
 #include "visibility_graph/measures.h"
 #include "visibility_graph/tiles.h"
 
@@ -38,7 +37,8 @@ static uint64_t count_set(const sl_bits *set, size_t words) {
 
 // --- local
 
-/// Ordered pairs of neighbours of a point that see each other.
+/// Ordered pairs of neighbours of a point that see each other. Sight is mutual, so of two tiles
+/// with the same pairs one is counted, twice.
 static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbours) {
     uint64_t count = 0;
     for (size_t b = 0; b < t->bundles; b++) {
@@ -46,9 +46,11 @@ static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbour
         for (size_t i = t->first[b]; i < t->first[b + 1]; i++) {
             const sli_vga_tile *tile = &t->tiles.items[i];
             const sl_bits others = neighbours[tile->bundle] & tile->any;
-            if (!others) continue;
+            if (tile->bundle < b || !others) continue;
+            uint64_t of_tile = 0;
             for (sl_bits rest = neighbours[b]; rest; rest &= rest - 1)
-                count += count_bits(t->rows.items[i].rows[__builtin_ctzll(rest)] & others);
+                of_tile += count_bits(t->rows.items[i].rows[__builtin_ctzll(rest)] & others);
+            count += tile->bundle == b ? of_tile : 2 * of_tile;
         }
     }
     return count;
@@ -75,7 +77,6 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
             out->visual_control += 1.0 / j->degree[q];
         }
     }
-    out->connectivity = degree;
     if (degree > 1)
         out->visual_clustering_coefficient =
             (double)count_triangles(t, s->level) / (degree * (degree - 1));
@@ -84,89 +85,6 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
         out->visual_controllability = degree / (double)count_set(s->next, t->bundles);
     else
         out->visual_control = NAN;
-}
-
-// --- global
-
-enum { DEPTHS = 4096 };
-
-/// Numbers of points by depth; the last entry holds all that are deeper.
-typedef struct depths {
-    uint64_t points[DEPTHS];
-    uint32_t deepest;
-} depths;
-
-/// Returns how many points are new; `seen` gets them.
-static uint64_t next_level(const sli_vga_tiles *t, scratch *s) {
-    uint64_t found = 0;
-    memset(s->next, 0, t->bundles * sizeof *s->next);
-    sli_vga_tiles_step(t, s->level, s->seen, s->next);
-    for (size_t k = 0; k < t->bundles; k++) {
-        s->seen[k] |= s->next[k];
-        found += count_bits(s->next[k]);
-    }
-    sl_bits *swap = s->level;
-    s->level = s->next;
-    s->next = swap;
-    return found;
-}
-
-static void search(const sli_vga_tiles *t, uint32_t point, uint32_t radius, scratch *s,
-                   depths *out) {
-    memset(s->seen, 0, t->bundles * sizeof *s->seen);
-    memset(s->level, 0, t->bundles * sizeof *s->level);
-    sl_bits_add(s->seen, t->slots[point]);
-    sl_bits_add(s->level, t->slots[point]);
-    out->points[0] = 1;
-    out->deepest = 0;
-    uint64_t left = t->count - 1;
-    for (uint32_t depth = 1; left && (radius == 0 || depth <= radius); depth++) {
-        const uint64_t found = next_level(t, s);
-        if (!found) break;
-        const uint32_t entry = depth < DEPTHS ? depth : DEPTHS - 1;
-        if (entry > out->deepest) out->points[entry] = 0;
-        out->points[entry] += found;
-        out->deepest = entry;
-        left -= found;
-    }
-}
-
-/// Hillier and Hanson's relative asymmetry of the root of a diamond.
-static double diamond_value(double n) {
-    return 2 * (n * (log2((n + 2) / 3) - 1) + 1) / ((n - 1) * (n - 2));
-}
-
-static double pyramid_value(double n) {
-    return 2 * (n - log2(n) - 1) / ((n - 1) * (n - 2));
-}
-
-static void measure_depths(const depths *d, sl_vga_measures *out) {
-    double nodes = 0, total = 0;
-    for (uint32_t k = 0; k <= d->deepest; k++) {
-        nodes += (double)d->points[k];
-        total += (double)k * (double)d->points[k];
-    }
-    out->visual_node_count = nodes;
-    if (nodes < 2) return;
-    const double mean = total / (nodes - 1);
-    out->visual_mean_depth = mean;
-    if (nodes > 2 && mean > 1) {
-        const double ra = 2 * (mean - 1) / (nodes - 2);
-        out->visual_integration_hh = diamond_value(nodes) / ra;
-        out->visual_integration_pvalue = pyramid_value(nodes) / ra;
-        out->visual_integration_tekl = log(0.5 * (nodes - 2)) / log(total - nodes + 1);
-    }
-    double entropy = 0, relative = 0, factorial = 1;
-    for (uint32_t k = 1; k <= d->deepest; k++) {
-        if (!d->points[k]) continue;
-        const double share = (double)d->points[k] / (nodes - 1);
-        entropy -= share * log2(share);
-        factorial *= (double)(k + 1);
-        const double expected = pow(mean, k) / factorial * exp(-mean);
-        relative += share * log2(share / expected);
-    }
-    out->visual_entropy = entropy;
-    out->visual_relativised_entropy = relative;
 }
 
 // --- all points
@@ -202,12 +120,8 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
     const sli_vga_job *j = v->all;
     const uint32_t first = (uint32_t)unit * POINTS_A_UNIT, count = j->graph->count;
     for (uint32_t p = first; p < count && p < first + POINTS_A_UNIT; p++) {
-        depths d;
         SL_TRY(sl_check_cancelled(context));
-        if (j->options->parts & SL_VGA_LOCAL) measure_local(v, state, p, &j->measures[p]);
-        if (!(j->options->parts & SL_VGA_GLOBAL)) continue;
-        search(&v->tiles, p, j->options->radius, state, &d);
-        measure_depths(&d, &j->measures[p]);
+        measure_local(v, state, p, &j->measures[p]);
     }
     return SL_OK;
 }
@@ -221,9 +135,12 @@ static sl_status measure_visual(sl_context *context, const sli_vga_job *job) {
                           .end = scratch_end,
                           .stage = "measures",
                           .units = "bundles of points"};
-    const sl_status status =
-        sl_work_run(context, &work, (job->graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT,
-                    job->options->threads);
+    const size_t units = (job->graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT;
+    sl_status status = SL_OK;
+    if (job->options->parts & SL_VGA_LOCAL)
+        status = sl_work_run(context, &work, units, job->options->threads);
+    if (status == SL_OK && job->options->parts & SL_VGA_GLOBAL)
+        status = sli_vga_measure_global(context, job, &v.tiles);
     sli_vga_tiles_destroy(context, &v.tiles);
     return status;
 }
@@ -241,6 +158,7 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
         degree[p] = (uint32_t)count_set(sli_vga_row(graph, p), graph->words);
         double *all = (double *)&measures[p];
         for (size_t k = 0; k < sizeof *measures / sizeof *all; k++) all[k] = NAN;
+        if (options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL)) measures[p].connectivity = degree[p];
     }
     sl_bits *turning = NULL;
     sl_status status = sli_vga_find_turning(context, outline, grid, &turning);

@@ -4,6 +4,7 @@
 
 #include "sightline/support.h"
 #include "sightline/vga.h"
+#include "visibility_graph/tiles.h"
 
 typedef struct sli_vga_job {
     const sl_vga_grid *grid;
@@ -21,6 +22,10 @@ static inline const sl_bits *sli_vga_row(const sl_vga_graph *graph, uint32_t poi
 /// The points beside walls. The result is the caller's.
 sl_status sli_vga_find_turning(sl_context *context, const sl_outline *outline,
                                const sl_vga_grid *grid, sl_bits **out);
+
+/// Global measures of all points.
+sl_status sli_vga_measure_global(sl_context *context, const sli_vga_job *job,
+                                 const sli_vga_tiles *tiles);
 
 /// Metric and angular measures of all points, as the options ask.
 sl_status sli_vga_measure_paths(sl_context *context, const sli_vga_job *job);

@@ -48,7 +48,8 @@ static int compare_keys(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-static sl_status order(sl_context *context, const sl_vga_grid *grid, sli_vga_tiles *t) {
+sl_status sli_vga_order(sl_context *context, const sl_vga_grid *grid, uint32_t *slots,
+                        uint32_t *points) {
     placed *all = sl_alloc_array(context, grid->count, sizeof *all);
     if (!all) return SL_NO_MEMORY;
     for (uint32_t p = 0; p < grid->count; p++) {
@@ -57,8 +58,8 @@ static sl_status order(sl_context *context, const sl_vga_grid *grid, sli_vga_til
     }
     qsort(all, grid->count, sizeof *all, compare_keys);
     for (uint32_t slot = 0; slot < grid->count; slot++) {
-        t->points[slot] = all[slot].point;
-        t->slots[all[slot].point] = slot;
+        points[slot] = all[slot].point;
+        slots[all[slot].point] = slot;
     }
     sl_free(context, all);
     return SL_OK;
@@ -101,7 +102,7 @@ sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
     t.points = sl_alloc_array(context, grid->count, sizeof *t.points);
     t.first = sl_alloc_array(context, t.bundles + 1, sizeof *t.first);
     sl_status status = place && t.slots && t.points && t.first ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = order(context, grid, &t);
+    if (status == SL_OK) status = sli_vga_order(context, grid, t.slots, t.points);
     for (size_t b = 0; b < t.bundles && status == SL_OK; b++) {
         t.first[b] = t.tiles.count;
         status = sl_check_cancelled(context);

@@ -27,6 +27,10 @@ typedef struct sli_vga_tiles {
     SL_ARRAY(sli_vga_tile_rows) rows; ///< by tile
 } sli_vga_tiles;
 
+/// Numbers the points along a Z-curve: by point its slot, by slot its point.
+sl_status sli_vga_order(sl_context *context, const sl_vga_grid *grid, uint32_t *slots,
+                        uint32_t *points);
+
 sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
                              const sl_vga_graph *graph, sli_vga_tiles *out);
 void sli_vga_tiles_destroy(sl_context *context, sli_vga_tiles *tiles);

@@ -1,7 +1,8 @@
 // What visibility graph analysis costs, part by part, on one thread and in processor time.
-//   bench_vga MAP STEP [SECONDS]   CSV: machine, map, points, edges, part, seconds, microseconds a
-//                                  point, and how often that goes into SECONDS: the time that
-//                                  another program takes for the part
+//   bench_vga MAP STEP [SECONDS [PART]]
+//       CSV: machine, map, points, edges, part, seconds, microseconds a point, and how often that
+//       goes into SECONDS: the time that another program takes for the part (0: none).
+//       PART: this part alone.
 #include "read_space.h"
 
 #include "sightline/sightline.h"
@@ -9,6 +10,7 @@
 #include "sightline/vga.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <sys/utsname.h>
 #include <time.h>
 
@@ -29,7 +31,8 @@ typedef struct table {
     struct utsname machine;
     uint32_t points;
     uint64_t edges;
-    double other; ///< seconds; 0 where none are given
+    double other;     ///< seconds; 0 where none are given
+    const char *only; ///< the part to measure; NULL: all
 } table;
 
 static void print_row(const table *t, const char *part, double seconds) {
@@ -44,7 +47,8 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     static const struct {
         const char *name;
         unsigned parts;
-    } parts[] = {{"visual", SL_VGA_LOCAL | SL_VGA_GLOBAL},
+    } parts[] = {{"depths", SL_VGA_GLOBAL},
+                 {"local", SL_VGA_LOCAL},
                  {"through", SL_VGA_THROUGH},
                  {"metric", SL_VGA_METRIC},
                  {"angular", SL_VGA_ANGULAR}};
@@ -63,12 +67,14 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     sl_vga_measures *measures = sl_alloc_array(context, grid.count + 1, sizeof *measures);
     if (!measures) must(context, SL_NO_MEMORY);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (t->only && strcmp(t->only, parts[i].name) != 0) continue;
         sl_vga_options options = sl_vga_options_default();
         options.parts = parts[i].parts;
         options.threads = 1;
         start = now();
         must(context, sl_vga_measure(context, &outline, &grid, &graph, &options, measures));
         print_row(t, parts[i].name, now() - start);
+        fflush(stdout);
     }
     sl_free(context, measures);
     sl_vga_graph_destroy(context, &graph);
@@ -79,14 +85,16 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
 int main(int argc, char **argv) {
     const double step = argc > 2 ? strtod(argv[2], NULL) : 0;
     if (!(step > 0)) {
-        fputs("usage: bench_vga MAP STEP [SECONDS]\n", stderr);
+        fputs("usage: bench_vga MAP STEP [SECONDS [PART]]\n", stderr);
         return 2;
     }
     sl_space space = {0};
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
     must(context, bench_read_space(context, argv[1], NULL, &space));
-    table t = {.map = argv[1], .other = argc > 3 ? strtod(argv[3], NULL) : 0};
+    table t = {.map = argv[1],
+               .other = argc > 3 ? strtod(argv[3], NULL) : 0,
+               .only = argc > 4 ? argv[4] : NULL};
     uname(&t.machine);
     measure(context, &space, step, &t);
     sl_space_destroy(context, &space);

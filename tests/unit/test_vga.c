@@ -201,6 +201,166 @@ static void measures_are_those_of_brute_force(void **state) {
     sl_context_destroy(context);
 }
 
+// --- searches, beside plain ones
+
+/// Whether a wall touches one of the nine squares about a point. Walls are axial here.
+static bool is_beside_wall(const fixture *f, uint32_t p) {
+    const sl_point at = f->grid.points[p];
+    const double far = 1.5 * f->grid.step;
+    for (uint32_t i = 0; i < f->space.wall_count; i++) {
+        const sl_wall w = f->space.walls[i];
+        if (fmin(w.a.x, w.b.x) <= at.x + far && fmax(w.a.x, w.b.x) >= at.x - far &&
+            fmin(w.a.y, w.b.y) <= at.y + far && fmax(w.a.y, w.b.y) >= at.y - far)
+            return true;
+    }
+    return false;
+}
+
+static sl_point step_of(const fixture *f, uint32_t from, uint32_t to) {
+    const sl_point a = f->grid.points[from], b = f->grid.points[to];
+    return (sl_point){round((b.x - a.x) / f->grid.step), round((b.y - a.y) / f->grid.step)};
+}
+
+/// In right angles.
+static float turn_at(const fixture *f, uint32_t before, uint32_t at, uint32_t to) {
+    const sl_point a = step_of(f, before, at), b = step_of(f, at, to);
+    const double lengths = sqrt((a.x * a.x + a.y * a.y) * (b.x * b.x + b.y * b.y));
+    const double cosine = (a.x * b.x + a.y * b.y) / lengths;
+    return (float)(acos(fmin(fmax(cosine, -1), 1)) / 1.5707963267948966);
+}
+
+typedef struct plain_path {
+    float length, turn; ///< in squares, and in right angles
+    uint32_t last;      ///< the point before it that gave the length
+    uint32_t before;    ///< the first that gave it, as rounded; `from` has itself
+    bool done, turns;
+} plain_path;
+
+/// Dijkstra's algorithm by its definition, without a heap. Single precision and ties as depthmapX.
+static void find_plain_paths(const fixture *f, uint32_t from, bool angular, plain_path *paths) {
+    const uint32_t n = f->grid.count;
+    for (uint32_t q = 0; q < n; q++) {
+        paths[q] = (plain_path){INFINITY, INFINITY, from, from, false, is_beside_wall(f, q)};
+        if (q == from) paths[q].length = paths[q].turn = 0;
+    }
+    for (;;) {
+        uint32_t u = n;
+        for (uint32_t q = 0; q < n; q++) {
+            const float key = angular ? paths[q].turn : paths[q].length;
+            if (paths[q].done || key == INFINITY) continue;
+            if (u == n || key < (angular ? paths[u].turn : paths[u].length)) u = q;
+        }
+        if (u == n) return;
+        plain_path *at = &paths[u];
+        at->done = true;
+        if (!angular && u != from && at->last != from)
+            at->turn = paths[at->last].turn + turn_at(f, paths[at->last].before, at->last, u);
+        else if (!angular)
+            at->turn = 0;
+        if (u != from && !at->turns && !(angular && at->turn == 0)) continue;
+        for (uint32_t q = 0; q < n; q++) {
+            plain_path *to = &paths[q];
+            if (to->done || !has_edge(&f->graph, u, q)) continue;
+            const sl_point step = step_of(f, u, q);
+            const double way = sqrt(step.x * step.x + step.y * step.y);
+            if (angular) {
+                // Where the point before sees it, it has tried.
+                if (u != from && has_edge(&f->graph, at->before, q)) continue;
+                const float turn = at->turn + (u == from ? 0 : turn_at(f, at->before, u, q));
+                if (turn >= to->turn) continue;
+                to->turn = turn;
+                to->before = u;
+            } else if (at->length + way < to->length) {
+                const float length = at->length + (float)way;
+                if (length != to->length) to->before = u;
+                to->length = length;
+                to->last = u;
+            }
+        }
+    }
+}
+
+static void check_plain_paths(const fixture *f, uint32_t from, const sl_vga_measures *m) {
+    const uint32_t n = f->grid.count;
+    plain_path *paths = test_calloc(n, sizeof *paths);
+    double length = 0, turn = 0, angular = 0, nodes = 0;
+    find_plain_paths(f, from, false, paths);
+    for (uint32_t q = 0; q < n; q++) {
+        if (paths[q].length == INFINITY) continue;
+        length += paths[q].length * f->grid.step;
+        turn += paths[q].turn;
+        nodes++;
+    }
+    assert_true(m->metric_node_count == nodes);
+    assert_true(m->metric_mean_shortest_path_distance == length / nodes);
+    assert_true(m->metric_mean_shortest_path_angle == turn / nodes);
+    find_plain_paths(f, from, true, paths);
+    nodes = 0;
+    for (uint32_t q = 0; q < n; q++) {
+        if (paths[q].turn == INFINITY) continue;
+        angular += paths[q].turn;
+        nodes++;
+    }
+    assert_true(m->angular_node_count == nodes);
+    assert_true(m->angular_total_depth == angular);
+    test_free(paths);
+}
+
+/// Steps, one point at a time.
+static void check_plain_depths(sl_context *context, const fixture *f, uint32_t from,
+                               uint32_t radius, const sl_vga_measures *m) {
+    const uint32_t n = f->grid.count;
+    uint32_t *depths = test_calloc(n, sizeof *depths);
+    double nodes = 0, total = 0;
+    assert_ok(context, sl_vga_step_depth(context, &f->graph, &from, 1, depths));
+    for (uint32_t q = 0; q < n; q++) {
+        if (depths[q] == UINT32_MAX || (radius && depths[q] > radius)) continue;
+        nodes++;
+        total += depths[q];
+    }
+    assert_true(m->visual_node_count == nodes);
+    if (nodes > 1) assert_true(m->visual_mean_depth == total / (nodes - 1));
+    test_free(depths);
+}
+
+/// Of random maps, in several parts, with points on walls' lines. `range` makes groups small.
+static void searches_are_those_of_plain_ones(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    size_t points = 0, deep = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(16); seed++) {
+        fixture f = {0};
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &f.map));
+        assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
+        if (f.map.wall_count && sl_subdivide_mesh(context, &f.map, &f.space) == SL_OK) {
+            const sl_box b = f.space.bounds;
+            const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
+            fill_and_connect(context, size > 20 ? 1 : 0.5, &f);
+            if (seed % 3 == 0) {
+                sl_vga_graph_destroy(context, &f.graph);
+                assert_ok(context,
+                          sl_vga_graph_make(context, &f.outline, &f.grid, 2.5, 1, &f.graph));
+            }
+            sl_vga_options options = sl_vga_options_default();
+            options.parts = SL_VGA_GLOBAL | SL_VGA_METRIC | SL_VGA_ANGULAR;
+            options.radius = seed % 4 == 1 ? 2 : 0;
+            options.threads = 1 + seed % 2;
+            sl_vga_measures *m = test_calloc(f.grid.count + 1, sizeof *m);
+            assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, m));
+            for (uint32_t p = 0; p < f.grid.count; p++) {
+                check_plain_depths(context, &f, p, options.radius, &m[p]);
+                deep += m[p].visual_mean_depth > 2;
+                if (p % 16 == seed % 16) check_plain_paths(&f, p, &m[p]);
+            }
+            points += f.grid.count;
+            test_free(m);
+        }
+        fixture_destroy(context, &f);
+    }
+    assert_true(points > 2000 && deep > 100);
+    sl_context_destroy(context);
+}
+
 static void seeds_stay_in_their_room(void **state) {
     (void)state;
     static const char text[] = "sightline 1\nwalls 0 0 4 0 4 2 0 2 0 0\nwall 2 0 2 2\n";
@@ -227,6 +387,7 @@ int main(void) {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
         cmocka_unit_test(oblique_pairs_too),
         cmocka_unit_test(measures_are_those_of_brute_force),
+        cmocka_unit_test(searches_are_those_of_plain_ones),
         cmocka_unit_test(seeds_stay_in_their_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,65 @@
+/// What searches for shortest and straightest paths share.
+#ifndef SL_VGA_PATHS_H
+#define SL_VGA_PATHS_H
+
+#include "visibility_graph/measures.h"
+#include "visibility_graph/tiles.h"
+
+#include <math.h>
+
+#define SLI_RIGHT_ANGLE 1.5707963267948966
+
+/// No slot.
+#define SLI_VGA_NONE UINT32_MAX
+
+/// What a point sees of a bundle of 64 points.
+typedef struct sli_vga_word {
+    uint32_t bundle;
+    uint64_t seen;
+} sli_vga_word;
+
+/// The smallest box around the points of a bundle.
+typedef struct sli_vga_box {
+    float left, right, bottom, top;
+} sli_vga_box;
+
+/// The graph for searches. Points are numbered by slot: those near each other have near numbers.
+typedef struct sli_vga_sights {
+    const sli_vga_job *job;
+    uint32_t count;
+    size_t bundles;
+    uint32_t *slots, *points; ///< by point, its slot; by slot, its point
+    float *x, *y;             ///< by slot: the square
+    uint32_t *parts;          ///< by slot: points of other parts are never reached
+    sl_bits *turning;         ///< slots at which paths may turn
+    sli_vga_box *boxes;       ///< by bundle
+    size_t *first;            ///< by slot, and one more: into `words`
+    SL_ARRAY(sli_vga_word) words;
+} sli_vga_sights;
+
+static inline double sli_vga_distance(const sli_vga_sights *s, uint32_t a, uint32_t b) {
+    const double dx = (double)s->x[a] - (double)s->x[b], dy = (double)s->y[a] - (double)s->y[b];
+    return sqrt(dx * dx + dy * dy);
+}
+
+/// The cosine of the turn of the path before, at, to.
+static inline double sli_vga_cosine(const sli_vga_sights *s, uint32_t before, uint32_t at,
+                                    uint32_t to) {
+    const double ax = (double)s->x[to] - (double)s->x[at], ay = (double)s->y[to] - (double)s->y[at];
+    const double bx = (double)s->x[at] - (double)s->x[before],
+                 by = (double)s->y[at] - (double)s->y[before];
+    return (ax * bx + ay * by) / sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
+}
+
+/// The turn itself, in right angles.
+static inline float sli_vga_turn(double cosine) {
+    return (float)(acos(fmin(fmax(cosine, -1), 1)) / SLI_RIGHT_ANGLE);
+}
+
+/// Measures lengths of shortest paths, and turns along them.
+sl_status sli_vga_measure_metric(sl_context *context, const sli_vga_sights *sights);
+
+/// Measures turns of straightest paths.
+sl_status sli_vga_measure_angular(sl_context *context, const sli_vga_sights *sights);
+
+#endif
