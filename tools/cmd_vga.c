@@ -5,6 +5,7 @@
 #include "pipeline.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"
+#include "vga_change.h"
 #include "vga_grid.h"
 #include "vga_table.h"
 
@@ -15,7 +16,8 @@
 
 typedef struct vga_plan {
     const char *input, *output, *picture, *pairs;
-    door_choice doors;
+    const char *compare; ///< another plan, to be compared
+    door_choice doors, other_doors;
     map_pipeline pipeline;
     vga_grid_plan points;
     option_list from;
@@ -94,6 +96,12 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     SL_TRY(check_radius(context, p, p->angular_given, VGA_PART_ANGULAR, "angular"));
     if (p->scale_given && !p->picture)
         return sl_fail(context, SL_BAD_ARGUMENT, "--scale is for a --picture");
+    if (p->other_doors.shut && !p->compare)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--compare-shut is for --compare MAP");
+    if (p->scale_given && p->compare && p->scale.x != -p->scale.y)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--scale %.9g,%.9g: changes need ends at both sides of 0, as -2,2",
+                       p->scale.x, p->scale.y);
     if (p->scale_given && !(p->scale.x < p->scale.y))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
@@ -264,8 +272,8 @@ static sl_status check_direction(sl_context *context, const vga_plan *plan, cons
     return SL_OK;
 }
 
-static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
-    sl_context *context = console->context;
+/// From the map to its measures.
+static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~0u, &w->baked));
     SL_TRY(
         sl_effects_check_because(context, &w->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
@@ -283,13 +291,82 @@ static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
                                    &w->link_count));
     SL_TRY(measure(context, plan, w));
+    return SL_OK;
+}
+
+static void work_destroy(sl_context *context, vga_work *w) {
+    sl_free(context, w->table.measures);
+    sl_free(context, w->table.isovists);
+    sl_free(context, w->table.depths);
+    sl_free(context, w->links);
+    sl_vga_grid_destroy(context, &w->table.grid);
+    sl_vga_graph_destroy(context, &w->graph);
+    eyes_destroy(context, &w->eyes);
+    sl_outline_destroy(context, &w->outline);
+    sl_space_destroy(context, &w->dark);
+    sl_baked_destroy(context, &w->baked);
+}
+
+static sl_status draw_change(sl_context *context, const vga_plan *plan, const vga_work *w,
+                             const vga_change *change) {
+    const name_table measures = vga_measures();
+    char name[96];
+    snprintf(name, sizeof name, "change of %s", name_table_at(&measures, plan->measure));
+    const heat_map heat = {.input = plan->input,
+                           .map = plan->pipeline.input.import.map,
+                           .measure = name,
+                           .drawing = &plan->drawing,
+                           .path = plan->picture};
+    sl_field field;
+    double *values;
+    SL_TRY(vga_change_field(context, change, plan->measure, &values, &field));
+    field.least = plan->scale.x;
+    field.most = plan->scale.y;
+    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
+    sl_free(context, values);
+    return status;
+}
+
+/// Where the table goes: a file, stdout, or nowhere (NULL).
+static const char *table_path(const vga_plan *plan) {
+    if (plan->output) return plan->output;
+    return plan->picture ? NULL : "-";
+}
+
+/// Computes the other plan too, and shows the difference.
+static sl_status compare(command_console *console, const vga_plan *plan, const vga_work *w) {
+    sl_context *context = console->context;
+    const char *path = table_path(plan);
+    vga_plan other_plan = *plan;
+    vga_work other = {0};
+    vga_change change = {0};
+    other_plan.input = plan->compare;
+    if (plan->other_doors.shut || plan->other_doors.open) other_plan.doors = plan->other_doors;
+    if (!plan->range_given) other_plan.range = 0;
+    sl_status status = pipeline_plan(context, plan->compare, &other_plan.pipeline);
+    if (status == SL_OK) status = compute(context, &other_plan, &other);
+    if (status == SL_OK) status = vga_change_make(context, &w->table, &other.table, &change);
+    if (status == SL_OK && plan->picture) status = draw_change(context, plan, w, &change);
+    progress_line_clear(&console->line);
+    if (status == SL_OK && path) status = vga_change_write(context, &change, path);
+    if (status == SL_OK && !console->quiet && (!path || strcmp(path, "-") != 0))
+        vga_change_print(&change, plan->measure);
+    vga_change_destroy(context, &change);
+    work_destroy(context, &other);
+    return status;
+}
+
+static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
+    sl_context *context = console->context;
+    const char *path = table_path(plan);
+    SL_TRY(compute(context, plan, w));
+    if (plan->pairs) SL_TRY(write_pairs(context, plan, w));
+    if (plan->compare) return compare(console, plan, w);
     if (plan->picture) SL_TRY(draw(context, plan, w));
     progress_line_clear(&console->line);
-    if (plan->pairs) SL_TRY(write_pairs(context, plan, w));
-    const bool to_stdout = plan->output ? strcmp(plan->output, "-") == 0 : !plan->picture;
-    if (plan->output || !plan->picture)
-        SL_TRY(vga_write(context, &w->table, plan->output ? plan->output : "-"));
-    if (!to_stdout && !console->quiet) vga_print_summary(&w->table, plan->measure);
+    if (path) SL_TRY(vga_write(context, &w->table, path));
+    if (!console->quiet && (!path || strcmp(path, "-") != 0))
+        vga_print_summary(&w->table, plan->measure);
     return SL_OK;
 }
 
@@ -340,6 +417,13 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          "add the column visual_step_depth: steps from here; with --measures metric or angular the "
          "paths from here too; may be given several times",
          .list = &plan.from, .rare = true},
+        {"compare", 0, "MAP",
+         "compute another plan on the same grid too, and show the other less this one",
+         .text = &plan.compare, .is_input = true},
+        {"compare-shut", 0, "NAME,...",
+         "shut these doors of the other plan (default: as in this one); to see what a door does, "
+         "compare a map with itself",
+         .text = &plan.other_doors.shut, .rare = true},
         {"pairs", 0, "FILE.csv", "write the pairs of points that see each other",
          .text = &plan.pairs, .check = CHECK_TABLE, .rare = true},
         {"seen-from", 0, NULL, "with one-way glass: who sees a point (default: what a point sees)",
@@ -375,7 +459,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         .tables = print_tables,
         .examples = "  sightline vga office.map --grid 1 -o office.csv --picture office.png\n"
                     "  sightline vga office.map --grid 1 --measure visual_control --picture "
-                    "a.png",
+                    "a.png\n"
+                    "  sightline vga old.map --grid 1 --compare new.map --picture gain.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
@@ -385,15 +470,6 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     SL_TRY(make_plan(console->context, &plan));
     vga_work w = {0};
     const sl_status status = work(console, &plan, &w);
-    sl_free(console->context, w.table.measures);
-    sl_free(console->context, w.table.isovists);
-    sl_free(console->context, w.table.depths);
-    sl_free(console->context, w.links);
-    sl_vga_grid_destroy(console->context, &w.table.grid);
-    sl_vga_graph_destroy(console->context, &w.graph);
-    eyes_destroy(console->context, &w.eyes);
-    sl_outline_destroy(console->context, &w.outline);
-    sl_space_destroy(console->context, &w.dark);
-    sl_baked_destroy(console->context, &w.baked);
+    work_destroy(console->context, &w);
     return status;
 }

@@ -32,7 +32,20 @@ typedef struct picture {
     size_t value_count;
     double least, most; ///< the ends of the scale
     bool under, over;   ///< some values are beyond them
+    bool diverging;     ///< from losses over 0 to gains
 } picture;
+
+/// The colour of a place on the scale, 0 to 1. Of changes: blue for losses, the page's grey at 0,
+/// red for gains, equally strong (the ends of RdBu, Harrower and Brewer 2003).
+static sl_colour ramp_colour(const picture *p, double place) {
+    static const sl_colour ends[2][3] = {
+        {{0.130, 0.400, 0.675}, {0.930, 0.930, 0.930}, {0.700, 0.095, 0.170}},
+        {{0.400, 0.690, 0.940}, {0.220, 0.230, 0.250}, {0.960, 0.520, 0.400}}};
+    const bool dark = p->scene.palette.dark;
+    if (!p->diverging) return sl_palette_ramp(dark, place);
+    const double far = fabs(2 * place - 1);
+    return sl_colour_mix(ends[dark][1], ends[dark][place < 0.5 ? 0 : 2], fmin(far, 1));
+}
 
 /// The scale's ends are those of the values where `least` and `most` are equal.
 static void find_range(picture *p, double least, double most) {
@@ -84,7 +97,7 @@ static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture 
             else
                 add_patch(cairo, frame, p->patches, i);
         }
-        sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (step + 0.5) / RAMP_STEPS));
+        sl_set_colour(cairo, ramp_colour(p, (step + 0.5) / RAMP_STEPS));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -213,7 +226,7 @@ static void draw_ramp(cairo_t *cairo, const picture *p, const sli_page *g, doubl
             cairo_line_to(cairo, right + tip, g->key + high / 2);
             cairo_line_to(cairo, right, g->key + high);
         }
-        sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (i + 0.5) / RAMP_STEPS));
+        sl_set_colour(cairo, ramp_colour(p, (i + 0.5) / RAMP_STEPS));
         cairo_fill(cairo);
     }
 }
@@ -310,6 +323,12 @@ sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const s
                  .values = field->values,
                  .value_count = field->columns * field->rows};
     find_range(&p, field->least, field->most);
+    p.diverging = field->diverging;
+    if (p.diverging && p.least <= p.most) {
+        p.most = fmax(fabs(p.least), fabs(p.most));
+        if (p.most == 0) p.most = 1; // nothing changes
+        p.least = -p.most;
+    }
     return draw_picture(context, baked, options, &p, path);
 }
 

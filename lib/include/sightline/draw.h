@@ -122,6 +122,9 @@ typedef struct sl_field {
     /// The ends of the colour scale, so that several pictures can be compared. Values beyond have
     /// the colours of the ends. Equal, as in a zeroed field: the least and the largest value.
     double least, most;
+    /// Values are changes: one colour for gains and one for losses, pale at 0. The scale reaches as
+    /// far on both sides of 0.
+    bool diverging;
 } sl_field;
 
 /// Draws a heat map over the plan with its colour scale, likewise. SL_BAD_ARGUMENT also on a scale
