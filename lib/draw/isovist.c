@@ -27,6 +27,7 @@ typedef struct picture {
     size_t region_count;
     const sl_field *field;
     const sl_patches *patches;
+    const sl_drawn_lines *lines;
     const char *caption, *scale, *unit; ///< `scale`: what the colours tell, in `unit` (or NULL)
     const double *values;               ///< of the field or the patches
     size_t value_count;
@@ -117,6 +118,23 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
     cairo_stroke(cairo);
 }
 
+/// From low to high values, each a little wider than the last.
+static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const picture *p,
+                                   const sl_frame *frame) {
+    for (int step = 0; step < RAMP_STEPS; step++) {
+        SL_TRY(sl_check_cancelled(context));
+        for (size_t i = 0; i < p->value_count; i++) {
+            if (isnan(p->values[i]) || step_of(p, p->values[i]) != step) continue;
+            sl_path_segment(cairo, frame, p->lines->lines[i].a, p->lines->lines[i].b);
+        }
+        sl_set_colour(cairo, ramp_colour(p, (step + 0.5) / RAMP_STEPS));
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+        cairo_set_line_width(cairo, (1.2 + 1.8 * step / RAMP_STEPS) * frame->unit);
+        cairo_stroke(cairo);
+    }
+    return SL_OK;
+}
+
 static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl_point eye) {
     const sl_point at = sl_frame_point(frame, eye);
     cairo_new_sub_path(cairo);
@@ -131,7 +149,9 @@ static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame) {
     const picture *p = what;
+    if (p->lines && p->lines->alone) return draw_valued_lines(context, cairo, p, frame);
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
+    if (p->lines) return draw_valued_lines(context, cairo, p, frame);
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
     // Squares and patches may reach from the floor into solid ground.
@@ -329,6 +349,15 @@ sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const s
         if (p.most == 0) p.most = 1; // nothing changes
         p.least = -p.most;
     }
+    return draw_picture(context, baked, options, &p, path);
+}
+
+sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
+                             const sl_drawn_lines *lines, const sl_draw_options *options,
+                             const char *path) {
+    picture p = {
+        .lines = lines, .scale = lines->name, .values = lines->values, .value_count = lines->count};
+    find_range(&p, 0, 0);
     return draw_picture(context, baked, options, &p, path);
 }
 

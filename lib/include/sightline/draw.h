@@ -149,6 +149,20 @@ SL_API sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked
                                       const sl_patches *patches, const char *caption,
                                       const sl_draw_options *options, const char *path);
 
+/// Lines coloured by a value each.
+typedef struct sl_drawn_lines {
+    const char *name; ///< what the values are: "integration"
+    const sl_segment *lines;
+    const double *values; ///< NaN: the line is not drawn
+    uint32_t count;
+    bool alone; ///< without the plan under them
+} sl_drawn_lines;
+
+/// Draws lines over the plan with their colour scale, likewise; lines of high values lie on top.
+SL_API sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
+                                    const sl_drawn_lines *lines, const sl_draw_options *options,
+                                    const char *path);
+
 // --- charts
 
 /// How values lie along an axis. Symmetric logarithm: linear between -1 and 1, powers of ten at
