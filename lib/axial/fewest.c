@@ -1,8 +1,9 @@
 /// Fewer axial lines: a subset of the all-line map that still covers the plan.
 ///
-/// A line covers the probes that it crosses. Probes are the walls' own lines, extended into the
-/// open: where one crosses them, one passes from one convex room to the next (Peponis, Wineman,
-/// Bafna, Rashid and Kim 1998). Turner, Penn and Hillier (2005) drop lines in two ways:
+/// A line covers the probes that it crosses from side to side. Probes are the walls' own lines,
+/// extended into the open: where one crosses them, one passes from one convex room to the next
+/// (Peponis, Wineman, Bafna, Rashid and Kim 1998). Turner, Penn and Hillier (2005) drop lines in
+/// two ways:
 ///
 /// 1. Subsets: a line goes where a longer line covers all that it covers.
 /// 2. Fewest: a line goes where all that it covers is covered by others, the shortest line first.
@@ -59,11 +60,17 @@ static sl_bits *covers_of(const chooser *c, uint32_t line) {
     return c->covers + line * c->words;
 }
 
+/// From one side of the probe to the other; it may graze the probe's end, but not run along it.
+static bool crosses(const sl_segment *line, const sl_segment *probe) {
+    return sli_orient(probe->a, probe->b, line->a) * sli_orient(probe->a, probe->b, line->b) < 0 &&
+           sli_touch(line, probe);
+}
+
 static sl_status find_cover(sl_context *context, chooser *c) {
     for (uint32_t i = 0; i < c->all->count; i++) {
         if (i % 64 == 0) SL_TRY(sl_check_cancelled(context));
         for (uint32_t k = 0; k < c->all->probe_count; k++)
-            if (sli_touch(&c->all->lines[i], &c->all->probes[k])) sl_bits_add(covers_of(c, i), k);
+            if (crosses(&c->all->lines[i], &c->all->probes[k])) sl_bits_add(covers_of(c, i), k);
     }
     return SL_OK;
 }

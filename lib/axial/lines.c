@@ -316,7 +316,8 @@ static sl_status find_events(sl_context *context, finder *f, sl_point a, sl_poin
 
 /// Follows the line from a corner on it, forwards or backwards, to its end. *first is cleared where
 /// it meets another corner that would hold it. `sides`: where walls keep it from being. Walls along
-/// the line add up: it slides along them on one side, and does not cross over.
+/// the line add up: it slides along them on one side, and does not cross over. A probe, which has
+/// no `first`, ends where it comes to a wall along it.
 static sl_point follow(const finder *f, uint32_t a, uint32_t b, bool forwards, int sides,
                        bool *first) {
     const plan *p = f->plan;
@@ -333,12 +334,14 @@ static sl_point follow(const finder *f, uint32_t a, uint32_t b, bool forwards, i
         if (e->corner == UINT32_MAX)
             return (sl_point){u.x + (v.x - u.x) * e->place, u.y + (v.y - u.y) * e->place};
         const int here = sides_at(p, e->corner, u, v);
-        sides = has_wall(p, last, e->corner) ? sides | here : here;
+        const bool along = has_wall(p, last, e->corner);
+        if (along && !first) break;
+        sides = along ? sides | here : here;
         last = e->corner;
-        if (holds_line(p, last, begin)) *first = false;
+        if (first && holds_line(p, last, begin)) *first = false;
         if (sides == BOTH) return p->corners[last];
     }
-    return p->corners[last]; // the border of the map has no wall
+    return p->corners[last]; // or the border of the map, if it has no wall
 }
 
 // --- all corners
@@ -403,10 +406,9 @@ static sl_status extend_walls(sl_context *context, finder *f, uint32_t corner, f
     for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++) {
         const uint32_t end = p->ends[i];
         const sl_point u = p->corners[end], v = p->corners[corner];
-        bool any = true;
         if (sides_at(p, corner, u, v) == BOTH) continue;
         SL_TRY(find_events(context, f, u, v));
-        const sl_point to = follow(f, end, corner, true, 0, &any);
+        const sl_point to = follow(f, end, corner, true, 0, NULL);
         const sl_point middle = {v.x + (to.x - v.x) / 2, v.y + (to.y - v.y) / 2};
         if (sli_same_point(v, to) || !is_inside_at(p->space, middle)) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &out->probes, 1));

@@ -43,6 +43,7 @@ static sl_colour ramp_colour(const picture *p, double place) {
         {{0.130, 0.400, 0.675}, {0.930, 0.930, 0.930}, {0.700, 0.095, 0.170}},
         {{0.400, 0.690, 0.940}, {0.220, 0.230, 0.250}, {0.960, 0.520, 0.400}}};
     const bool dark = p->scene.palette.dark;
+    if (p->lines) place = 0.2 + 0.8 * place; // thin lines in the page's colour would be lost
     if (!p->diverging) return sl_palette_ramp(dark, place);
     const double far = fabs(2 * place - 1);
     return sl_colour_mix(ends[dark][1], ends[dark][place < 0.5 ? 0 : 2], fmin(far, 1));
@@ -129,7 +130,7 @@ static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const pi
         }
         sl_set_colour(cairo, ramp_colour(p, (step + 0.5) / RAMP_STEPS));
         cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-        cairo_set_line_width(cairo, (1.2 + 1.8 * step / RAMP_STEPS) * frame->unit);
+        cairo_set_line_width(cairo, (1.5 + 2.0 * step / RAMP_STEPS) * frame->unit);
         cairo_stroke(cairo);
     }
     return SL_OK;
