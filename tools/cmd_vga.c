@@ -20,7 +20,9 @@ typedef struct vga_plan {
     door_choice doors, other_doors;
     map_pipeline pipeline;
     vga_grid_plan points;
-    option_list from;
+    option_list from, agents_from;
+    sl_vga_agents agents;
+    const char *agents_given, *agent_option;
     double range;
     bool turned; ///< who sees a point, in place of what it sees
     unsigned parts;
@@ -86,6 +88,13 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (p->from.count && !(part & steps & ~(unsigned)VGA_PART_STEPS)) p->parts |= VGA_PART_STEPS;
     if (p->from.count && p->parts & VGA_PART_METRIC) p->parts |= VGA_PART_STEP_LENGTHS;
     if (p->from.count && p->parts & VGA_PART_ANGULAR) p->parts |= VGA_PART_STEP_TURNS;
+    if (part == VGA_PART_AGENTS && !p->agents_given)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--measure gate_counts needs --agents N: how many walk");
+    if ((p->agent_option || p->agents_from.count) && !p->agents_given)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --agents N",
+                       p->agent_option ? p->agent_option : "agents-from");
+    if (p->agents_given) p->parts |= VGA_PART_AGENTS;
     p->parts |= part;
     if (!p->parts)
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
@@ -158,6 +167,27 @@ static sl_status find_depths(sl_context *context, const vga_plan *plan, vga_work
     return status;
 }
 
+static sl_status walk_agents(sl_context *context, const vga_plan *plan, vga_work *w) {
+    const sl_vga_grid *grid = &w->table.grid;
+    sl_vga_agents agents = plan->agents;
+    uint32_t *starts = sl_alloc_array(context, plan->agents_from.count + 1, sizeof *starts);
+    w->table.gates = sl_alloc_array(context, grid->count, sizeof *w->table.gates);
+    sl_status status = starts && w->table.gates ? SL_OK : SL_NO_MEMORY;
+    agents.threads = plan->options.threads;
+    agents.starts = starts;
+    agents.start_count = plan->agents_from.count;
+    if (w->baked.map.oneway_count)
+        status = sl_fail(context, SL_UNSUPPORTED,
+                         "--agents: the map has one-way glass, and agents walk wherever they see; "
+                         "--without oneway leaves it out");
+    if (status == SL_OK)
+        status = vga_grid_find(context, grid, "--agents-from", &plan->agents_from, starts);
+    if (status == SL_OK)
+        status = sl_vga_walk_agents(context, grid, &w->graph, &agents, w->table.gates);
+    sl_free(context, starts);
+    return status;
+}
+
 static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
     const isovist_scene scene = {.outline = &w->outline, .range = plan->range};
@@ -212,6 +242,7 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
     if (plan->from.count) SL_TRY(find_depths(context, plan, w));
+    if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
     if (plan->options.parts)
         SL_TRY(sl_vga_measure_linked(context, &w->outline, grid, &w->graph, w->links, w->link_count,
                                      &plan->options, table->measures));
@@ -298,6 +329,7 @@ static void work_destroy(sl_context *context, vga_work *w) {
     sl_free(context, w->table.measures);
     sl_free(context, w->table.isovists);
     sl_free(context, w->table.depths);
+    sl_free(context, w->table.gates);
     sl_free(context, w->links);
     sl_vga_grid_destroy(context, &w->table.grid);
     sl_vga_graph_destroy(context, &w->graph);
@@ -377,7 +409,7 @@ static void print_tables(void) {
         const name_table parts = vga_parts();
         if (1u << bit == VGA_PART_ALL) continue;
         const bool steps = 1u << bit == VGA_PART_STEPS;
-        printf("  %s:\n", steps ? "with --from" : name_table_at(&parts, bit));
+        printf("  %s:\n", steps ? "with --from and --agents" : name_table_at(&parts, bit));
         for (size_t k = 0; k < measures.count; k++)
             if (steps ? vga_measure_part(k) >= VGA_PART_STEPS : vga_measure_part(k) == 1u << bit)
                 printf("    %s\n", name_table_at(&measures, k));
@@ -387,6 +419,7 @@ static void print_tables(void) {
 sl_status cmd_vga(command_console *console, int argc, char **argv) {
     vga_plan plan = {.pipeline = pipeline_default(),
                      .options = sl_vga_options_default(),
+                     .agents = sl_vga_agents_default(),
                      .drawing = sl_draw_options_default()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
@@ -445,6 +478,26 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          "angular: only paths that turn up to A right angles (default: all)",
          .number = &plan.options.angular_radius, .over_0 = true, .topic = "limits",
          .given = &plan.angular_given, .rare = true},
+        {"agents", 0, "N",
+         "let N agents walk by sight, and add the column gate_counts: steps onto a point (Turner "
+         "and "
+         "Penn 2002)",
+         .count32 = &plan.agents.agents, .least = 1, .most = 1 << 30, .topic = "agents",
+         .given = &plan.agents_given},
+        {"agents-from", 0, "X,Y",
+         "where agents start (default: anywhere); may be given several times",
+         .list = &plan.agents_from, .topic = "agents", .rare = true},
+        {"agent-steps", 0, "N", "steps of an agent (default 1000)", .count32 = &plan.agents.steps,
+         .least = 1, .most = 1 << 30, .topic = "agents", .given = &plan.agent_option, .rare = true},
+        {"agent-look", 0, "N", "steps until an agent picks a new goal (default 3)",
+         .count32 = &plan.agents.look, .least = 1, .most = 1 << 30, .topic = "agents",
+         .given = &plan.agent_option, .rare = true},
+        {"agent-view", 0, "DEG", "field of view of an agent, in degrees (default 170)",
+         .number = &plan.agents.view, .over_0 = true, .most = 360, .topic = "agents",
+         .needs = "over 0 and up to 360 degrees are needed", .given = &plan.agent_option,
+         .rare = true},
+        {"seed", 0, "N", "random seed of agents (default 1)", .count = &plan.agents.seed,
+         .topic = "agents", .given = &plan.agent_option, .rare = true},
         {.group = &points},
         {.group = &picture},
         {.group = &pipeline},

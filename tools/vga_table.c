@@ -66,6 +66,7 @@ static const column columns[] = {
     OF_STEPS(STEP_LENGTHS, metric_step_shortest_path_angle),
     OF_STEPS(STEP_LENGTHS, metric_straight_line_distance),
     OF_STEPS(STEP_TURNS, angular_step_depth),
+    {"gate_counts", VGA_PART_AGENTS, 0},
 };
 enum { COLUMNS = sizeof columns / sizeof *columns, BEST = 10 };
 
@@ -80,6 +81,7 @@ unsigned vga_measure_part(size_t measure) {
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {
     const column *c = &columns[measure];
     const void *from = &table->measures[point];
+    if (c->part == VGA_PART_AGENTS) return (double)table->gates[point];
     if (c->part >= VGA_PART_STEPS) from = &table->depths[point];
     if (c->part == VGA_PART_ISOVIST) from = &table->isovists[point].measures;
     const double value = *(const double *)((const char *)from + c->offset);

@@ -12,6 +12,7 @@ typedef struct vga_table {
     sl_vga_measures *measures;
     isovist_result *isovists; ///< NULL where they are not measured
     sl_vga_depths *depths;    ///< from chosen points; NULL where there are none
+    uint64_t *gates;          ///< steps of agents; NULL where there are none
     unsigned parts;
 } vga_table;
 
@@ -19,6 +20,7 @@ enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_
 enum { VGA_PART_ISOVIST = 16, VGA_PART_ALL = 32 };
 /// What is measured from chosen points, from the first of these bits on.
 enum { VGA_PART_STEPS = 64, VGA_PART_STEP_LENGTHS = 128, VGA_PART_STEP_TURNS = 256 };
+enum { VGA_PART_AGENTS = 512 };
 
 /// The groups that can be chosen, numbered as the bits are; the last is "all".
 name_table vga_parts(void);

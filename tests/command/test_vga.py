@@ -266,6 +266,68 @@ class Linked(unittest.TestCase):
             self.assertAlmostEqual(float(row["metric_step_shortest_path_length"]), from_one[i], 5)
 
 
+class Random:
+    """SplitMix64"""
+    MASK = (1 << 64) - 1
+
+    def __init__(self, seed):
+        self.state = seed & self.MASK
+
+    def next(self):
+        self.state = z = (self.state + 0x9e3779b97f4a7c15) & self.MASK
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9 & self.MASK
+        z = (z ^ z >> 27) * 0x94d049bb133111eb & self.MASK
+        return z ^ z >> 31
+
+
+class Agents(BruteForce):
+    """The same walks, on the plan and the graph of brute force."""
+    test_grid = test_local = test_global = test_paths = None
+
+    def walk(self, seed, agent, steps, counts):
+        random = Random(seed ^ (agent + 1) * 0xbf58476d1ce4e5b9)
+        random = Random(random.next())
+        number = {p: i for i, p in enumerate(self.points)}
+        at, heading = random.next() % len(self.points), None
+        while steps:
+            def ahead(q, origin=self.points[at], heading=heading):
+                way = [self.points[q][k] - origin[k] for k in (0, 1)]
+                if heading is None:
+                    return True
+                turn = math.atan2(heading[0] * way[1] - heading[1] * way[0],
+                                  heading[0] * way[0] + heading[1] * way[1])
+                return abs(turn) <= math.radians(85)
+            seen = [q for q in self.graph[at] if ahead(q)] or self.graph[at]
+            goal = seen[random.next() % len(seen)]
+            origin = at
+            heading = [self.points[goal][k] - self.points[at][k] for k in (0, 1)]
+            length = max(abs(heading[0]), abs(heading[1]))
+            for k in range(1, int(min(3, length)) + 1):
+                place = tuple(self.points[origin][i] + math.floor(k * heading[i] / length + 0.5)
+                              for i in (0, 1))
+                if not steps or number.get(place) not in self.graph[origin]:
+                    break
+                at, steps = number[place], steps - 1
+                counts[at] += 1
+            if at == origin:
+                heading, steps = None, steps - 1
+
+    def test_walks(self):
+        counts = [0] * len(self.points)
+        for agent in range(25):
+            self.walk(7, agent, 40, counts)
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("small.map").write_text("sightline 1\n" + "".join(
+                "wall " + " ".join(map(str, wall)) + "\n" for wall in SMALL))
+            for threads in "1", "3":
+                result = box.run(["vga", "small.map", "--grid", "1", "--agents", "25", "--seed", "7",
+                                  "--agent-steps", "40", "--measure", "gate_counts", "--quiet",
+                                  "--threads", threads])
+                rows = list(csv.DictReader(result.stdout.splitlines()))
+                self.assertEqual([int(row["gate_counts"]) for row in rows], counts)
+        self.assertGreater(len(set(counts)), 5)
+
+
 if __name__ == "__main__":
     PROGRAM = sys.argv[1]
     if len(sys.argv) > 3:

@@ -160,6 +160,28 @@ SL_API sl_status sl_vga_depth(sl_context *context, const sl_outline *outline,
                               const sl_vga_link *links, size_t link_count, unsigned parts,
                               const uint32_t *from, size_t from_count, sl_vga_depths *depths);
 
+/// Agents that walk by sight. Start from sl_vga_agents_default().
+typedef struct sl_vga_agents {
+    uint32_t agents, steps; ///< their number, and the steps of each; 1000 by default
+    uint32_t look;          ///< steps until an agent picks its next goal; by default 3
+    double view;            ///< the field of view in degrees, over 0; by default 170
+    uint64_t seed;
+    const uint32_t *starts; ///< the points to start from, by chance; none: all points
+    size_t start_count;
+    unsigned threads; ///< 0: one per core; the result is the same for any number
+} sl_vga_agents;
+
+/// The default options: those of Turner and Penn 2002.
+SL_API sl_vga_agents sl_vga_agents_default(void);
+
+/// Counts how often agents step onto each point ("gate counts" of depthmapX). `counts` has an entry
+/// for each point. An agent picks a point ahead that it sees, walks towards it for some steps, and
+/// picks anew. SL_BAD_ARGUMENT for a start that is no point, for `look` 0, and for a field of view
+/// that is not over 0 and at most 360. Agents walk wherever they see: leave out glass.
+SL_API sl_status sl_vga_walk_agents(sl_context *context, const sl_vga_grid *grid,
+                                    const sl_vga_graph *graph, const sl_vga_agents *options,
+                                    uint64_t *counts);
+
 /// Turns a graph over: row p then has the points that see p. For graphs with one-way glass.
 SL_API sl_status sl_vga_graph_turn(sl_context *context, sl_vga_graph *graph);
 
