@@ -65,6 +65,12 @@ static sl_status find_pairs(sl_context *context, const sl_segment *lines, uint32
     for (uint32_t i = 0; i < count && status == SL_OK; i++) {
         const uint32_t a = order[i].line;
         if (i % 64 == 0) status = sl_check_cancelled(context);
+        // Each pair is kept in a list, and then at both of its lines.
+        if ((double)out->list.count * 4 * sizeof(pair) > (double)sl_machine_memory() / 2)
+            status = sl_fail(context, SL_UNSUPPORTED,
+                             "%u lines touch in more pairs than this machine has memory for; take "
+                             "fewer lines",
+                             count);
         for (uint32_t k = i + 1; k < count && order[k].left <= order[i].right; k++) {
             const uint32_t b = order[k].line;
             if (status != SL_OK || !sli_touch(&lines[a], &lines[b])) continue;

@@ -205,7 +205,7 @@ class AllLines(unittest.TestCase):
         return {1, -1} <= marks or (along and len(marks - {0}) == 1)
 
     def test_fewer_lines_join_what_all_join(self):
-        plan = str(MAPS / "office.map")
+        plan = str(MAPS / "gallery.map")
         every, subsets, fewest = (
             [line_of(row) for row in table(["axial", plan, "--lines", kind])]
             for kind in ("all", "subsets", "fewest"))
@@ -333,7 +333,7 @@ class Segments(unittest.TestCase):
 
     def test_threads_do_not_matter(self):
         for command in (["segments", "streets.map"], ["axial", "streets.map", "--lines", "drawn"],
-                        ["axial", str(MAPS / "office.map"), "--lines", "fewest"]):
+                        ["axial", str(MAPS / "gallery.map"), "--lines", "fewest"]):
             one, three = (table([*command, "--threads", threads], [("streets.map", self.text)])
                           for threads in ("1", "3"))
             self.assertEqual(one, three)

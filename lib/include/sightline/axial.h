@@ -53,8 +53,8 @@ typedef struct sl_line_graph {
     uint32_t *others;
 } sl_line_graph;
 
-/// Exact: closed segments that touch are joined. Cost: O(n log n + pairs whose extents in x
-/// overlap).
+/// Exact: closed segments that touch are joined. SL_UNSUPPORTED for more pairs than fit into half
+/// of the machine's memory. Cost: O(n log n + pairs whose extents in x overlap).
 SL_API sl_status sl_line_graph_make(sl_context *context, const sl_segment *lines, uint32_t count,
                                     sl_line_graph *out);
 SL_API void sl_line_graph_destroy(sl_context *context, sl_line_graph *graph); ///< and zeroes it

@@ -33,7 +33,8 @@ typedef struct sl_vga_grid {
 /// Fills a grid: all points that free steps to a neighbour, up, down, left or right, lead to from
 /// the seeds. Each seed stands for the grid point nearest to it. Without seeds: all points inside,
 /// which are neither on a wall nor in solid ground. Points lie at multiples of the step, as
-/// depthmapX puts them. SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is
+/// depthmapX puts them. A step through one-way glass is free from where it is seen through.
+/// SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is
 /// not inside the bounds, and for more than 2^31 squares.
 SL_API sl_status sl_vga_grid_fill(sl_context *context, const sl_outline *outline, double step,
                                   const sl_point *seeds, size_t seed_count, sl_vga_grid *out);
