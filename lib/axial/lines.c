@@ -13,8 +13,9 @@
 /// Invariant: a line counts once, by the first two corners on it. Its ends are corners, or the
 /// rounded places where walls stop it.
 ///
-/// Cost: a walk through the buckets of a grid for each pair of corners, most of which end at once;
-/// O(walls) for each pair in sight. Corners are independent, so threads take them one by one.
+/// Cost: a walk through the buckets of a grid for each pair of corners, most of which end at once,
+/// and one across the map for each pair in sight. Corners are independent, so threads take them one
+/// by one.
 #include "sightline/axial.h"
 
 #include "geometry/orient.h"
@@ -289,24 +290,55 @@ static double place_of(sl_point a, sl_point b, sl_point at) {
     return fabs(dx) >= fabs(dy) ? (at.x - a.x) / dx : (at.y - a.y) / dy;
 }
 
+/// Adds what one wall does to the line.
+static sl_status add_events(sl_context *context, finder *f, uint32_t wall, sl_point a, sl_point b) {
+    const plan *p = f->plan;
+    const uint32_t *ends = p->walls[wall];
+    const sl_point u = p->corners[ends[0]], v = p->corners[ends[1]];
+    const int to_u = sli_orient(a, b, u), to_v = sli_orient(a, b, v);
+    if (to_u * to_v > 0) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &f->events, 2));
+    if (to_u == 0) f->events.items[f->events.count++] = (event){place_of(a, b, u), ends[0]};
+    if (to_v == 0) f->events.items[f->events.count++] = (event){place_of(a, b, v), ends[1]};
+    if (to_u * to_v < 0) {
+        const double far = (u.x - a.x) * (b.y - a.y) - (u.y - a.y) * (b.x - a.x);
+        const double near = (v.x - a.x) * (b.y - a.y) - (v.y - a.y) * (b.x - a.x);
+        double share = far / (far - near);
+        if (!(share >= 0 && share <= 1)) share = 0.5; // nearly in one line: somewhere on the wall
+        const sl_point at = {u.x + (v.x - u.x) * share, u.y + (v.y - u.y) * share};
+        f->events.items[f->events.count++] = (event){place_of(a, b, at), UINT32_MAX};
+    }
+    return SL_OK;
+}
+
+/// The part of the line through a and b that lies within the bounds, or a little more.
+static sl_segment within_bounds(const sl_box *bounds, sl_point a, sl_point b) {
+    const double d[2] = {b.x - a.x, b.y - a.y}, at[2] = {a.x, a.y};
+    const double least[2] = {bounds->min.x, bounds->min.y};
+    const double most[2] = {bounds->max.x, bounds->max.y};
+    double from = -INFINITY, to = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        if (d[k] == 0) continue;
+        const double s = (least[k] - at[k]) / d[k], t = (most[k] - at[k]) / d[k];
+        from = fmax(from, fmin(s, t));
+        to = fmin(to, fmax(s, t));
+    }
+    return (sl_segment){{a.x + d[0] * from, a.y + d[1] * from}, {a.x + d[0] * to, a.y + d[1] * to}};
+}
+
+/// All that the line through two corners meets. A wall may come several times: follow() passes over
+/// what it has met.
 static sl_status find_events(sl_context *context, finder *f, sl_point a, sl_point b) {
     const plan *p = f->plan;
+    const sl_segment whole = within_bounds(&p->space->bounds, a, b);
+    const span columns = columns_of(p, whole.a, whole.b);
     f->events.count = 0;
-    for (uint32_t w = 0; w < p->wall_count; w++) {
-        const sl_point u = p->corners[p->walls[w][0]], v = p->corners[p->walls[w][1]];
-        const int to_u = sli_orient(a, b, u), to_v = sli_orient(a, b, v);
-        if (to_u * to_v > 0) continue;
-        SL_TRY(SL_ARRAY_ROOM(context, &f->events, 2));
-        if (to_u == 0)
-            f->events.items[f->events.count++] = (event){place_of(a, b, u), p->walls[w][0]};
-        if (to_v == 0)
-            f->events.items[f->events.count++] = (event){place_of(a, b, v), p->walls[w][1]};
-        if (to_u * to_v < 0) {
-            const double far = (u.x - a.x) * (b.y - a.y) - (u.y - a.y) * (b.x - a.x);
-            const double near = (v.x - a.x) * (b.y - a.y) - (v.y - a.y) * (b.x - a.x);
-            const double share = far / (far - near);
-            const sl_point at = {u.x + (v.x - u.x) * share, u.y + (v.y - u.y) * share};
-            f->events.items[f->events.count++] = (event){place_of(a, b, at), UINT32_MAX};
+    for (uint32_t c = columns.from; c <= columns.to; c++) {
+        const span rows = rows_of(p, whole.a, whole.b, c);
+        for (uint32_t r = rows.from; r <= rows.to; r++) {
+            const size_t square = (size_t)c * p->rows + r;
+            for (uint32_t i = p->bucket_first[square]; i < p->bucket_first[square + 1]; i++)
+                SL_TRY(add_events(context, f, p->bucket[i], a, b));
         }
     }
     if (f->events.count)

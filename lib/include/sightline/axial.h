@@ -34,7 +34,7 @@ typedef struct sl_axial_lines {
 /// exact; its ends are rounded where they are not corners. Only lines inside are taken. Probes are
 /// the walls' own lines, extended beyond corners into the open (the s-lines of Peponis, Wineman,
 /// Bafna, Rashid and Kim 1998). `threads`: 0 for one per core. Cost: O(corners^2) tests of sight,
-/// and O(walls) for each pair in sight.
+/// and the walls near the line for each pair in sight.
 SL_API sl_status sl_axial_all_lines(sl_context *context, const sl_outline *outline,
                                     unsigned threads, sl_axial_lines *out);
 SL_API void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines); ///< and zeroes it
