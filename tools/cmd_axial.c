@@ -102,10 +102,17 @@ static sl_status read_radius(sl_context *context, const char *text, uint32_t *ra
 }
 
 static sl_status check_radii(sl_context *context, const axial_plan *plan) {
-    uint32_t radius;
+    uint32_t radius, other;
     char ending[32];
-    for (size_t i = 0; i < plan->radii.count; i++)
+    for (size_t i = 0; i < plan->radii.count; i++) {
         SL_TRY(read_radius(context, plan->radii.items[i], &radius, ending));
+        for (size_t k = 0; k < i; k++) {
+            SL_TRY(read_radius(context, plan->radii.items[k], &other, ending));
+            if (other == radius)
+                return sl_fail(context, SL_BAD_ARGUMENT, "--radius %s is given twice",
+                               plan->radii.items[i]);
+        }
+    }
     return SL_OK;
 }
 

@@ -72,9 +72,24 @@ static sl_status read_radius(sl_context *context, const char *option, const char
     return SL_OK;
 }
 
-/// One analysis for each radius. `compute`: else the radii are only checked.
-static sl_status run(sl_context *context, const segments_plan *plan, segments_work *w,
-                     bool compute) {
+/// Two columns of one name would be no use.
+static sl_status check_apart(sl_context *context, const char *option, const option_list *radii) {
+    double one, other;
+    char ending[64];
+    for (size_t i = 0; i < radii->count; i++) {
+        SL_TRY(read_radius(context, option, "", radii->items[i], &one, ending));
+        for (size_t k = 0; k < i; k++) {
+            SL_TRY(read_radius(context, option, "", radii->items[k], &other, ending));
+            if (one == other)
+                return sl_fail(context, SL_BAD_ARGUMENT, "%s %s is given twice", option,
+                               radii->items[i]);
+        }
+    }
+    return SL_OK;
+}
+
+/// One analysis for each radius.
+static sl_status run(sl_context *context, const segments_plan *plan, segments_work *w) {
     const size_t metric = plan->metric.count, angular = plan->angular.count;
     const size_t count = metric + angular ? metric + angular : 1;
     for (size_t i = 0; i < count; i++) {
@@ -86,7 +101,6 @@ static sl_status run(sl_context *context, const segments_plan *plan, segments_wo
         else if (i < metric + angular)
             SL_TRY(read_radius(context, "--angular-radius", "angular",
                                plan->angular.items[i - metric], &options.angular_radius, ending));
-        if (!compute) continue;
         SL_TRY(sl_segment_measure(context, w->segments, w->table.count, &options, w->measures));
         SL_TRY(line_table_add(context, &w->table, measures, MEASURES, w->measures,
                               sizeof *w->measures, ending));
@@ -96,9 +110,10 @@ static sl_status run(sl_context *context, const segments_plan *plan, segments_wo
 
 static sl_status work(command_console *console, const segments_plan *plan, segments_work *w) {
     sl_context *context = console->context;
-    SL_TRY(run(context, plan, w, false));
+    SL_TRY(check_apart(context, "--metric-radius", &plan->metric));
+    SL_TRY(check_apart(context, "--angular-radius", &plan->angular));
     SL_TRY(read_segments(context, plan, w));
-    SL_TRY(run(context, plan, w, true));
+    SL_TRY(run(context, plan, w));
     const line_column *column = line_table_column(&w->table, plan->measure);
     if (plan->picture)
         SL_TRY(line_table_draw(context, &w->table, column, NULL, plan->input,
