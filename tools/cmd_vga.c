@@ -5,18 +5,26 @@
 #include "pipeline.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"
+#include "vga_change.h"
+#include "vga_grid.h"
 #include "vga_table.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct vga_plan {
-    const char *input, *output, *picture;
-    door_choice doors;
+    const char *input, *output, *picture, *pairs;
+    const char *compare; ///< another plan, to be compared
+    door_choice doors, other_doors;
     map_pipeline pipeline;
-    option_list at, from;
-    double step, range;
+    vga_grid_plan points;
+    option_list from, agents_from;
+    sl_vga_agents agents;
+    const char *agents_given, *agent_option;
+    double range;
+    bool turned; ///< who sees a point, in place of what it sees
     unsigned parts;
     const char *step_given, *parts_given, *range_given, *measure_given, *scale_given;
     const char *visual_given, *metric_given, *angular_given; ///< radii
@@ -28,8 +36,11 @@ typedef struct vga_plan {
 
 typedef struct vga_work {
     sl_baked baked;
+    sl_space dark; ///< with glass that is a wall on its dark side
     sl_outline outline;
     sl_vga_graph graph;
+    sl_vga_link *links;
+    size_t link_count;
     eye_places eyes; ///< the points again, for their regions
     vga_table table;
 } vga_work;
@@ -66,20 +77,40 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->parts_given) p->parts = p->measure_given ? 0 : VGA_PART_VISUAL;
     if (p->parts & VGA_PART_ALL) p->parts |= VGA_PART_ALL - 1;
     p->parts &= VGA_PART_ALL - 1;
-    if (p->from.count) p->parts |= VGA_PART_STEPS;
     const unsigned part = p->measure_given ? vga_measure_part(p->measure) : 0;
-    if (part == VGA_PART_STEPS && !p->from.count)
+    const unsigned steps = VGA_PART_STEPS | VGA_PART_STEP_LENGTHS | VGA_PART_STEP_TURNS;
+    if (part & steps && !p->from.count) {
+        const name_table measures = vga_measures();
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--measure visual_step_depth needs --from X,Y: where the steps begin");
+                       "--measure %s needs --from X,Y: where the steps begin",
+                       name_table_at(&measures, p->measure));
+    }
+    if (p->from.count && !(part & steps & ~(unsigned)VGA_PART_STEPS)) p->parts |= VGA_PART_STEPS;
+    if (p->from.count && p->parts & VGA_PART_METRIC) p->parts |= VGA_PART_STEP_LENGTHS;
+    if (p->from.count && p->parts & VGA_PART_ANGULAR) p->parts |= VGA_PART_STEP_TURNS;
+    if (part == VGA_PART_AGENTS && !p->agents_given)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--measure gate_counts needs --agents N: how many walk");
+    if ((p->agent_option || p->agents_from.count) && !p->agents_given)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --agents N",
+                       p->agent_option ? p->agent_option : "agents-from");
+    if (p->agents_given) p->parts |= VGA_PART_AGENTS;
     p->parts |= part;
     if (!p->parts)
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
+    SL_TRY(vga_grid_check(context, &p->points));
     SL_TRY(check_radius(context, p, p->visual_given, VGA_PART_VISUAL, "visual"));
     SL_TRY(check_radius(context, p, p->metric_given, VGA_PART_METRIC, "metric"));
     SL_TRY(check_radius(context, p, p->angular_given, VGA_PART_ANGULAR, "angular"));
     if (p->scale_given && !p->picture)
         return sl_fail(context, SL_BAD_ARGUMENT, "--scale is for a --picture");
+    if (p->other_doors.shut && !p->compare)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--compare-shut is for --compare MAP");
+    if (p->scale_given && p->compare && p->scale.x != -p->scale.y)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--scale %.9g,%.9g: changes need ends at both sides of 0, as -2,2",
+                       p->scale.x, p->scale.y);
     if (p->scale_given && !(p->scale.x < p->scale.y))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
@@ -87,27 +118,7 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     return pipeline_plan(context, p->input, &p->pipeline);
 }
 
-// --- the grid
-
-static sl_status fill_grid(sl_context *context, const vga_plan *plan, vga_work *w) {
-    const sl_space *space = &w->baked.space;
-    sl_point *seeds = sl_alloc_array(context, plan->at.count + 1, sizeof *seeds);
-    sl_status status = seeds ? SL_OK : SL_NO_MEMORY;
-    for (size_t i = 0; i < plan->at.count && status == SL_OK; i++) {
-        status = read_point(context, "--at", plan->at.items[i], &seeds[i]);
-        if (status == SL_OK)
-            status = input_locate(context, "--at", plan->at.items[i], space, seeds[i], NULL);
-    }
-    if (status == SL_OK)
-        status = sl_vga_grid_fill(context, &w->outline, plan->step, seeds, plan->at.count,
-                                  &w->table.grid);
-    sl_free(context, seeds);
-    if (status == SL_OK && w->table.grid.count == 0)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--grid %.9g: no point of the grid is inside the map; choose a smaller step",
-                       plan->step);
-    return status;
-}
+// --- the size of the graph
 
 static sl_status refuse_size(sl_context *context, const vga_plan *plan, double points) {
     char most[SIZE_TEXT];
@@ -115,7 +126,7 @@ static sl_status refuse_size(sl_context *context, const vga_plan *plan, double p
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "--grid %.9g: the graph of %.0f points needs %.3g GiB; half of this machine's "
                    "memory is %s; choose a larger step, or one room with --at",
-                   plan->step, points, points * points / 8 / 1073741824.0, most);
+                   plan->points.step, points, points * points / 8 / 1073741824.0, most);
 }
 
 /// Refuses a step by the area inside, before a grid is filled that is far too large.
@@ -123,8 +134,8 @@ static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_
     double area = 0;
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (space->cells[c].inside) area += sl_space_area(space, c);
-    const double points = area / plan->step / plan->step;
-    if (plan->at.count || points * points / 8 <= (double)sl_machine_memory()) return SL_OK;
+    const double points = area / plan->points.step / plan->points.step;
+    if (plan->points.at.count || points * points / 8 <= (double)sl_machine_memory()) return SL_OK;
     return refuse_size(context, plan, points);
 }
 
@@ -144,27 +155,36 @@ static sl_status find_depths(sl_context *context, const vga_plan *plan, vga_work
     const sl_vga_grid *grid = &w->table.grid;
     uint32_t *from = sl_alloc_array(context, plan->from.count, sizeof *from);
     w->table.depths = sl_alloc_array(context, grid->count, sizeof *w->table.depths);
+    const unsigned parts = (plan->parts & VGA_PART_STEPS ? SL_VGA_GLOBAL : 0u) |
+                           (plan->parts & VGA_PART_STEP_LENGTHS ? SL_VGA_METRIC : 0u) |
+                           (plan->parts & VGA_PART_STEP_TURNS ? SL_VGA_ANGULAR : 0u);
     sl_status status = from && w->table.depths ? SL_OK : SL_NO_MEMORY;
-    for (size_t i = 0; i < plan->from.count && status == SL_OK; i++) {
-        const char *text = plan->from.items[i];
-        sl_point at = {0};
-        status = read_point(context, "--from", text, &at);
-        const double x = round(at.x / grid->step) * grid->step;
-        const double y = round(at.y / grid->step) * grid->step;
-        uint32_t p = 0;
-        while (p < grid->count && (fabs(grid->points[p].x - x) > grid->step / 4 ||
-                                   fabs(grid->points[p].y - y) > grid->step / 4))
-            p++;
-        from[i] = p;
-        if (status == SL_OK && p == grid->count)
-            status = sl_fail(context, SL_BAD_ARGUMENT,
-                             "--from %s: the grid has no point there; choose a place in a room "
-                             "that the grid fills",
-                             text);
-    }
+    if (status == SL_OK) status = vga_grid_find(context, grid, "--from", &plan->from, from);
     if (status == SL_OK)
-        status = sl_vga_step_depth(context, &w->graph, from, plan->from.count, w->table.depths);
+        status = sl_vga_depth(context, &w->outline, grid, &w->graph, w->links, w->link_count, parts,
+                              from, plan->from.count, w->table.depths);
     sl_free(context, from);
+    return status;
+}
+
+static sl_status walk_agents(sl_context *context, const vga_plan *plan, vga_work *w) {
+    const sl_vga_grid *grid = &w->table.grid;
+    sl_vga_agents agents = plan->agents;
+    uint32_t *starts = sl_alloc_array(context, plan->agents_from.count + 1, sizeof *starts);
+    w->table.gates = sl_alloc_array(context, grid->count, sizeof *w->table.gates);
+    sl_status status = starts && w->table.gates ? SL_OK : SL_NO_MEMORY;
+    agents.threads = plan->options.threads;
+    agents.starts = starts;
+    agents.start_count = plan->agents_from.count;
+    if (w->baked.map.oneway_count)
+        status = sl_fail(context, SL_UNSUPPORTED,
+                         "--agents: the map has one-way glass, and agents walk wherever they see; "
+                         "--without oneway leaves it out");
+    if (status == SL_OK)
+        status = vga_grid_find(context, grid, "--agents-from", &plan->agents_from, starts);
+    if (status == SL_OK)
+        status = sl_vga_walk_agents(context, grid, &w->graph, &agents, w->table.gates);
+    sl_free(context, starts);
     return status;
 }
 
@@ -178,6 +198,32 @@ static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_
     return isovist_run(context, &scene, &w->eyes, plan->options.threads, w->table.isovists);
 }
 
+static sl_status put_pairs(sl_context *context, const vga_work *w, FILE *out) {
+    const sl_vga_grid *grid = &w->table.grid;
+    char text[4][SL_NUMBER_TEXT];
+    fputs("x,y,to_x,to_y\n", out);
+    for (uint32_t p = 0; p < grid->count; p++) {
+        const sl_bits *row = w->graph.rows + p * w->graph.words;
+        SL_TRY(sl_check_cancelled(context));
+        sl_number_write(grid->points[p].x, text[0]);
+        sl_number_write(grid->points[p].y, text[1]);
+        for (uint32_t q = 0; q < grid->count; q++) {
+            if (!sl_bits_has(row, q)) continue;
+            sl_number_write(grid->points[q].x, text[2]);
+            sl_number_write(grid->points[q].y, text[3]);
+            fprintf(out, "%s,%s,%s,%s\n", text[0], text[1], text[2], text[3]);
+        }
+    }
+    return SL_OK;
+}
+
+/// Who sees whom: a row for each ordered pair.
+static sl_status write_pairs(sl_context *context, const vga_plan *plan, const vga_work *w) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, plan->pairs, &output));
+    return sl_output_close(context, &output, put_pairs(context, w, output.stream));
+}
+
 static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     vga_table *table = &w->table;
     const sl_vga_grid *grid = &table->grid;
@@ -185,20 +231,33 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     const unsigned of_graph = plan->parts & ~(unsigned)VGA_PART_ISOVIST;
     table->measures = sl_alloc_array(context, grid->count, sizeof *table->measures);
     if (!table->measures) return SL_NO_MEMORY;
-    if (of_graph) {
+    if (of_graph || plan->pairs) {
         SL_TRY(check_memory(context, plan, grid->count));
         SL_TRY(sl_vga_graph_make(context, &w->outline, grid, plan->range, plan->options.threads,
                                  &w->graph));
+        if (plan->turned) SL_TRY(sl_vga_graph_turn(context, &w->graph));
     }
     plan->options.parts = (of_graph & VGA_PART_VISUAL ? SL_VGA_LOCAL | SL_VGA_GLOBAL : 0u) |
                           (of_graph & VGA_PART_THROUGH ? SL_VGA_THROUGH : 0u) |
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
     if (plan->from.count) SL_TRY(find_depths(context, plan, w));
+    if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
     if (plan->options.parts)
-        SL_TRY(
-            sl_vga_measure(context, &w->outline, grid, &w->graph, &plan->options, table->measures));
+        SL_TRY(sl_vga_measure_linked(context, &w->outline, grid, &w->graph, w->links, w->link_count,
+                                     &plan->options, table->measures));
     return plan->parts & VGA_PART_ISOVIST ? measure_regions(context, plan, w) : SL_OK;
+}
+
+/// Glass is a wall on its dark side.
+static sl_status make_outline(sl_context *context, vga_work *w) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sl_space *space = &w->baked.space;
+    if (w->baked.map.oneway_count) {
+        SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &w->dark));
+        space = &w->dark;
+    }
+    return sl_outline_make(context, space, &w->outline);
 }
 
 /// Fields go row by row from the lowest, grids column by column. A point is the middle of a square.
@@ -231,24 +290,115 @@ static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work 
     return status;
 }
 
-static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
-    sl_context *context = console->context;
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", SL_EFFECT_RANGE | SL_EFFECT_DOOR,
-                               &w->baked));
+/// Measures of a map with glass are directed: what a point sees, or who sees it.
+static sl_status check_direction(sl_context *context, const vga_plan *plan, const vga_work *w) {
+    if (w->baked.map.oneway_count) {
+        sl_note(context, plan->turned ? "one-way glass: measures are of who sees a point"
+                                      : "one-way glass: measures are of what a point sees; "
+                                        "--seen-from counts who sees it");
+    } else if (plan->turned) {
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--seen-from is for maps with one-way glass: without it, who is seen sees");
+    }
+    return SL_OK;
+}
+
+/// From the map to its measures.
+static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~0u, &w->baked));
+    SL_TRY(
+        sl_effects_check_because(context, &w->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
+                                 "steps and paths lead straight to points, not to mirror images"));
+    SL_TRY(check_direction(context, plan, w));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
-    SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
+    SL_TRY(make_outline(context, w));
     SL_TRY(check_area(context, plan, &w->baked.space));
-    SL_TRY(fill_grid(context, plan, w));
+    SL_TRY(vga_grid_choose(context, &plan->points, &plan->pipeline.input, &w->outline,
+                           &w->table.grid));
+    if (plan->points.links)
+        SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
+                                   &w->link_count));
     SL_TRY(measure(context, plan, w));
+    return SL_OK;
+}
+
+static void work_destroy(sl_context *context, vga_work *w) {
+    sl_free(context, w->table.measures);
+    sl_free(context, w->table.isovists);
+    sl_free(context, w->table.depths);
+    sl_free(context, w->table.gates);
+    sl_free(context, w->links);
+    sl_vga_grid_destroy(context, &w->table.grid);
+    sl_vga_graph_destroy(context, &w->graph);
+    eyes_destroy(context, &w->eyes);
+    sl_outline_destroy(context, &w->outline);
+    sl_space_destroy(context, &w->dark);
+    sl_baked_destroy(context, &w->baked);
+}
+
+static sl_status draw_change(sl_context *context, const vga_plan *plan, const vga_work *w,
+                             const vga_change *change) {
+    const name_table measures = vga_measures();
+    char name[96];
+    snprintf(name, sizeof name, "change of %s", name_table_at(&measures, plan->measure));
+    const heat_map heat = {.input = plan->input,
+                           .map = plan->pipeline.input.import.map,
+                           .measure = name,
+                           .drawing = &plan->drawing,
+                           .path = plan->picture};
+    sl_field field;
+    double *values;
+    SL_TRY(vga_change_field(context, change, plan->measure, &values, &field));
+    field.least = plan->scale.x;
+    field.most = plan->scale.y;
+    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
+    sl_free(context, values);
+    return status;
+}
+
+/// Where the table goes: a file, stdout, or nowhere (NULL).
+static const char *table_path(const vga_plan *plan) {
+    if (plan->output) return plan->output;
+    return plan->picture ? NULL : "-";
+}
+
+/// Computes the other plan too, and shows the difference.
+static sl_status compare(command_console *console, const vga_plan *plan, const vga_work *w) {
+    sl_context *context = console->context;
+    const char *path = table_path(plan);
+    vga_plan other_plan = *plan;
+    vga_work other = {0};
+    vga_change change = {0};
+    other_plan.input = plan->compare;
+    if (plan->other_doors.shut || plan->other_doors.open) other_plan.doors = plan->other_doors;
+    if (!plan->range_given) other_plan.range = 0;
+    sl_status status = pipeline_plan(context, plan->compare, &other_plan.pipeline);
+    if (status == SL_OK) status = compute(context, &other_plan, &other);
+    if (status == SL_OK) status = vga_change_make(context, &w->table, &other.table, &change);
+    if (status == SL_OK && plan->picture) status = draw_change(context, plan, w, &change);
+    progress_line_clear(&console->line);
+    if (status == SL_OK && path) status = vga_change_write(context, &change, path);
+    if (status == SL_OK && !console->quiet && (!path || strcmp(path, "-") != 0))
+        vga_change_print(&change, plan->measure);
+    vga_change_destroy(context, &change);
+    work_destroy(context, &other);
+    return status;
+}
+
+static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
+    sl_context *context = console->context;
+    const char *path = table_path(plan);
+    SL_TRY(compute(context, plan, w));
+    if (plan->pairs) SL_TRY(write_pairs(context, plan, w));
+    if (plan->compare) return compare(console, plan, w);
     if (plan->picture) SL_TRY(draw(context, plan, w));
     progress_line_clear(&console->line);
-    const bool to_stdout = plan->output ? strcmp(plan->output, "-") == 0 : !plan->picture;
-    if (plan->output || !plan->picture)
-        SL_TRY(vga_write(context, &w->table, plan->output ? plan->output : "-"));
-    if (!to_stdout && !console->quiet) vga_print_summary(&w->table, plan->measure);
+    if (path) SL_TRY(vga_write(context, &w->table, path));
+    if (!console->quiet && (!path || strcmp(path, "-") != 0))
+        vga_print_summary(&w->table, plan->measure);
     return SL_OK;
 }
 
@@ -258,27 +408,31 @@ static void print_tables(void) {
     for (unsigned bit = 0; 1u << bit <= VGA_PART_STEPS; bit++) {
         const name_table parts = vga_parts();
         if (1u << bit == VGA_PART_ALL) continue;
-        printf("  %s:\n", 1u << bit == VGA_PART_STEPS ? "with --from" : name_table_at(&parts, bit));
+        const bool steps = 1u << bit == VGA_PART_STEPS;
+        printf("  %s:\n", steps ? "with --from and --agents" : name_table_at(&parts, bit));
         for (size_t k = 0; k < measures.count; k++)
-            if (vga_measure_part(k) == 1u << bit) printf("    %s\n", name_table_at(&measures, k));
+            if (steps ? vga_measure_part(k) >= VGA_PART_STEPS : vga_measure_part(k) == 1u << bit)
+                printf("    %s\n", name_table_at(&measures, k));
     }
 }
 
 sl_status cmd_vga(command_console *console, int argc, char **argv) {
     vga_plan plan = {.pipeline = pipeline_default(),
                      .options = sl_vga_options_default(),
+                     .agents = sl_vga_agents_default(),
                      .drawing = sl_draw_options_default()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
     const option_table doors = door_option_table(&plan.doors);
+    const option_table points = vga_grid_option_table(&plan.points);
     const option_spec options[] = {
-        {"grid", 0, "STEP", "distance between neighbouring points", .number = &plan.step,
+        {"grid", 0, "STEP", "distance between neighbouring points", .number = &plan.points.step,
          .over_0 = true, .given = &plan.step_given},
         {"at", 0, "X,Y",
          "fill the grid from here through doors that are open (default: all that is inside); may "
          "be "
          "given several times",
-         .list = &plan.at},
+         .list = &plan.points.at},
         {"output", 'o', "TABLE",
          "where the table goes: .csv, or .geojson for a GIS (default: stdout, or nowhere if there "
          "is a --picture)",
@@ -293,8 +447,20 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .choices = &plan.parts, .names = vga_parts(), .given = &plan.parts_given},
         {.group = &doors},
         {"from", 0, "X,Y",
-         "add the column visual_step_depth: steps from here; may be given several times",
+         "add the column visual_step_depth: steps from here; with --measures metric or angular the "
+         "paths from here too; may be given several times",
          .list = &plan.from, .rare = true},
+        {"compare", 0, "MAP",
+         "compute another plan on the same grid too, and show the other less this one",
+         .text = &plan.compare, .is_input = true},
+        {"compare-shut", 0, "NAME,...",
+         "shut these doors of the other plan (default: as in this one); to see what a door does, "
+         "compare a map with itself",
+         .text = &plan.other_doors.shut, .rare = true},
+        {"pairs", 0, "FILE.csv", "write the pairs of points that see each other",
+         .text = &plan.pairs, .check = CHECK_TABLE, .rare = true},
+        {"seen-from", 0, NULL, "with one-way glass: who sees a point (default: what a point sees)",
+         .flag = &plan.turned, .rare = true},
         {"range", 0, "R", "nothing farther is seen (default: the map's range, if any)",
          .number = &plan.range, .over_0 = true, .given = &plan.range_given},
         {"scale", 0, "MIN,MAX",
@@ -312,6 +478,27 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          "angular: only paths that turn up to A right angles (default: all)",
          .number = &plan.options.angular_radius, .over_0 = true, .topic = "limits",
          .given = &plan.angular_given, .rare = true},
+        {"agents", 0, "N",
+         "let N agents walk by sight, and add the column gate_counts: steps onto a point (Turner "
+         "and "
+         "Penn 2002)",
+         .count32 = &plan.agents.agents, .least = 1, .most = 1 << 30, .topic = "agents",
+         .given = &plan.agents_given},
+        {"agents-from", 0, "X,Y",
+         "where agents start (default: anywhere); may be given several times",
+         .list = &plan.agents_from, .topic = "agents", .rare = true},
+        {"agent-steps", 0, "N", "steps of an agent (default 1000)", .count32 = &plan.agents.steps,
+         .least = 1, .most = 1 << 30, .topic = "agents", .given = &plan.agent_option, .rare = true},
+        {"agent-look", 0, "N", "steps until an agent picks a new goal (default 3)",
+         .count32 = &plan.agents.look, .least = 1, .most = 1 << 30, .topic = "agents",
+         .given = &plan.agent_option, .rare = true},
+        {"agent-view", 0, "DEG", "field of view of an agent, in degrees (default 170)",
+         .number = &plan.agents.view, .over_0 = true, .most = 360, .topic = "agents",
+         .needs = "over 0 and up to 360 degrees are needed", .given = &plan.agent_option,
+         .rare = true},
+        {"seed", 0, "N", "random seed of agents (default 1)", .count = &plan.agents.seed,
+         .topic = "agents", .given = &plan.agent_option, .rare = true},
+        {.group = &points},
         {.group = &picture},
         {.group = &pipeline},
     };
@@ -325,7 +512,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         .tables = print_tables,
         .examples = "  sightline vga office.map --grid 1 -o office.csv --picture office.png\n"
                     "  sightline vga office.map --grid 1 --measure visual_control --picture "
-                    "a.png",
+                    "a.png\n"
+                    "  sightline vga old.map --grid 1 --compare new.map --picture gain.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
@@ -335,13 +523,6 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     SL_TRY(make_plan(console->context, &plan));
     vga_work w = {0};
     const sl_status status = work(console, &plan, &w);
-    sl_free(console->context, w.table.measures);
-    sl_free(console->context, w.table.isovists);
-    sl_free(console->context, w.table.depths);
-    sl_vga_grid_destroy(console->context, &w.table.grid);
-    sl_vga_graph_destroy(console->context, &w.graph);
-    eyes_destroy(console->context, &w.eyes);
-    sl_outline_destroy(console->context, &w.outline);
-    sl_baked_destroy(console->context, &w.baked);
+    work_destroy(console->context, &w);
     return status;
 }

@@ -8,6 +8,7 @@
 const char *command_summary(const char *name);
 
 /// argv[0] is the name of the command. The message of a failure is in the console's context.
+sl_status cmd_axial(command_console *console, int argc, char **argv);
 sl_status cmd_bake(command_console *console, int argc, char **argv);
 sl_status cmd_check(command_console *console, int argc, char **argv);
 sl_status cmd_compare(command_console *console, int argc, char **argv);
@@ -22,6 +23,7 @@ sl_status cmd_merge(command_console *console, int argc, char **argv);
 sl_status cmd_isovist(command_console *console, int argc, char **argv);
 sl_status cmd_reject(command_console *console, int argc, char **argv);
 sl_status cmd_regions(command_console *console, int argc, char **argv);
+sl_status cmd_segments(command_console *console, int argc, char **argv);
 sl_status cmd_vga(command_console *console, int argc, char **argv);
 sl_status cmd_viewcells(command_console *console, int argc, char **argv);
 sl_status cmd_walk(command_console *console, int argc, char **argv);

@@ -6,17 +6,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/// The name of a measure in words.
-static void write_measure(const char *measure, char *text, size_t size) {
+void heat_map_words(const char *measure, char *text, size_t size) {
     snprintf(text, size, "%s", measure);
     for (char *at = text; *at; at++)
         if (*at == '_') *at = ' ';
 }
 
-static void write_title(const heat_map *heat, const char *measure, char *text, size_t size) {
-    const char *slash = strrchr(heat->input, '/'), *map = heat->map;
+void heat_map_title(const char *input, const char *map, const char *measure, char *text,
+                    size_t size) {
+    const char *slash = strrchr(input, '/');
     char name[256], readable[256];
-    snprintf(name, sizeof name, "%s", slash ? slash + 1 : heat->input);
+    snprintf(name, sizeof name, "%s", slash ? slash + 1 : input);
     char *ending = strrchr(name, '.');
     if (ending && ending != name && !map) *ending = '\0';
     text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);
@@ -27,8 +27,8 @@ static void write_title(const heat_map *heat, const char *measure, char *text, s
 sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
                         sl_field *field) {
     char measure[64], title[512];
-    write_measure(heat->measure, measure, sizeof measure);
-    write_title(heat, measure, title, sizeof title);
+    heat_map_words(heat->measure, measure, sizeof measure);
+    heat_map_title(heat->input, heat->map, measure, title, sizeof title);
     sl_draw_options drawing = *heat->drawing;
     if (!drawing.title) drawing.title = title;
     field->name = measure;

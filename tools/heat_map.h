@@ -18,4 +18,11 @@ typedef struct heat_map {
 sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
                         sl_field *field);
 
+/// The name of a measure in words: "visual control".
+void heat_map_words(const char *measure, char *text, size_t size);
+
+/// The title of a picture: "office: area", or "doom.wad E1M1: area".
+void heat_map_title(const char *input, const char *map, const char *measure, char *text,
+                    size_t size);
+
 #endif

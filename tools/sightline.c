@@ -29,6 +29,8 @@ static const command commands[] = {
     {"eye", "show what one viewpoint sees", cmd_eye, "questions"},
     {"isovist", "compute visible regions, their measures and heat maps", cmd_isovist, NULL},
     {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
+    {"axial", "find axial lines and their measures", cmd_axial, NULL},
+    {"segments", "compute angular segment analysis of a street network", cmd_segments, NULL},
     {"explain", "show why a cell does or does not see another", cmd_explain, NULL},
     {"compare", "run every method on one map: accuracy against time", cmd_compare, "studies"},
     {"walk", "cull frame by frame, without visible sets", cmd_walk, NULL},

@@ -22,13 +22,15 @@ name_table vga_parts(void) {
 typedef struct column {
     const char *name;
     unsigned part;
-    size_t offset; ///< in sl_vga_measures, or in sl_region_measures
+    size_t offset; ///< in sl_vga_measures, sl_region_measures or sl_vga_depths
 } column;
 
 #define OF_GRAPH(part, name)                                                                       \
     { #name, VGA_PART_##part, offsetof(sl_vga_measures, name) }
 #define OF_REGION(name)                                                                            \
     { #name, VGA_PART_ISOVIST, offsetof(sl_region_measures, name) }
+#define OF_STEPS(part, name)                                                                       \
+    { #name, VGA_PART_##part, offsetof(sl_vga_depths, name) }
 static const column columns[] = {
     OF_GRAPH(VISUAL, connectivity),
     OF_GRAPH(VISUAL, visual_mean_depth),
@@ -59,7 +61,12 @@ static const column columns[] = {
     OF_REGION(max_radial),
     OF_GRAPH(METRIC, metric_node_count),
     OF_GRAPH(ANGULAR, angular_node_count),
-    {"visual_step_depth", VGA_PART_STEPS, 0},
+    OF_STEPS(STEPS, visual_step_depth),
+    OF_STEPS(STEP_LENGTHS, metric_step_shortest_path_length),
+    OF_STEPS(STEP_LENGTHS, metric_step_shortest_path_angle),
+    OF_STEPS(STEP_LENGTHS, metric_straight_line_distance),
+    OF_STEPS(STEP_TURNS, angular_step_depth),
+    {"gate_counts", VGA_PART_AGENTS, 0},
 };
 enum { COLUMNS = sizeof columns / sizeof *columns, BEST = 10 };
 
@@ -74,8 +81,8 @@ unsigned vga_measure_part(size_t measure) {
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {
     const column *c = &columns[measure];
     const void *from = &table->measures[point];
-    if (c->part == VGA_PART_STEPS)
-        return table->depths[point] == UINT32_MAX ? NAN : table->depths[point];
+    if (c->part == VGA_PART_AGENTS) return (double)table->gates[point];
+    if (c->part >= VGA_PART_STEPS) from = &table->depths[point];
     if (c->part == VGA_PART_ISOVIST) from = &table->isovists[point].measures;
     const double value = *(const double *)((const char *)from + c->offset);
     return isfinite(value) ? value : NAN;

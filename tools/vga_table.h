@@ -11,18 +11,21 @@ typedef struct vga_table {
     sl_vga_grid grid;
     sl_vga_measures *measures;
     isovist_result *isovists; ///< NULL where they are not measured
-    uint32_t *depths;         ///< steps from chosen points; NULL where there are none
+    sl_vga_depths *depths;    ///< from chosen points; NULL where there are none
+    uint64_t *gates;          ///< steps of agents; NULL where there are none
     unsigned parts;
 } vga_table;
 
 enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_ANGULAR = 8 };
-enum { VGA_PART_ISOVIST = 16, VGA_PART_ALL = 32, VGA_PART_STEPS = 64 };
+enum { VGA_PART_ISOVIST = 16, VGA_PART_ALL = 32 };
+/// What is measured from chosen points, from the first of these bits on.
+enum { VGA_PART_STEPS = 64, VGA_PART_STEP_LENGTHS = 128, VGA_PART_STEP_TURNS = 256 };
+enum { VGA_PART_AGENTS = 512 };
 
 /// The groups that can be chosen, numbered as the bits are; the last is "all".
 name_table vga_parts(void);
 
-/// The measures in the order of the columns. All but the last, steps from chosen points, can be
-/// computed at any time.
+/// The measures in the order of the columns. The last ones are depths from chosen points.
 name_table vga_measures(void);
 /// The group of a measure.
 unsigned vga_measure_part(size_t measure);

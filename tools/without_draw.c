@@ -51,6 +51,13 @@ sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const s
     return built_need_pictures(context);
 }
 
+sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
+                             const sl_drawn_lines *lines, const sl_draw_options *options,
+                             const char *path) {
+    (void)baked, (void)lines, (void)options, (void)path;
+    return built_need_pictures(context);
+}
+
 sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
                                const sl_patches *patches, const char *caption,
                                const sl_draw_options *options, const char *path) {

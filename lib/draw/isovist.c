@@ -27,12 +27,27 @@ typedef struct picture {
     size_t region_count;
     const sl_field *field;
     const sl_patches *patches;
+    const sl_drawn_lines *lines;
     const char *caption, *scale, *unit; ///< `scale`: what the colours tell, in `unit` (or NULL)
     const double *values;               ///< of the field or the patches
     size_t value_count;
     double least, most; ///< the ends of the scale
     bool under, over;   ///< some values are beyond them
+    bool diverging;     ///< from losses over 0 to gains
 } picture;
+
+/// The colour of a place on the scale, 0 to 1. Of changes: blue for losses, the page's grey at 0,
+/// red for gains, equally strong (the ends of RdBu, Harrower and Brewer 2003).
+static sl_colour ramp_colour(const picture *p, double place) {
+    static const sl_colour ends[2][3] = {
+        {{0.130, 0.400, 0.675}, {0.930, 0.930, 0.930}, {0.700, 0.095, 0.170}},
+        {{0.400, 0.690, 0.940}, {0.220, 0.230, 0.250}, {0.960, 0.520, 0.400}}};
+    const bool dark = p->scene.palette.dark;
+    if (p->lines) place = 0.2 + 0.8 * place; // thin lines in the page's colour would be lost
+    if (!p->diverging) return sl_palette_ramp(dark, place);
+    const double far = fabs(2 * place - 1);
+    return sl_colour_mix(ends[dark][1], ends[dark][place < 0.5 ? 0 : 2], fmin(far, 1));
+}
 
 /// The scale's ends are those of the values where `least` and `most` are equal.
 static void find_range(picture *p, double least, double most) {
@@ -84,7 +99,7 @@ static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture 
             else
                 add_patch(cairo, frame, p->patches, i);
         }
-        sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (step + 0.5) / RAMP_STEPS));
+        sl_set_colour(cairo, ramp_colour(p, (step + 0.5) / RAMP_STEPS));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -104,6 +119,23 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
     cairo_stroke(cairo);
 }
 
+/// From low to high values, each a little wider than the last.
+static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const picture *p,
+                                   const sl_frame *frame) {
+    for (int step = 0; step < RAMP_STEPS; step++) {
+        SL_TRY(sl_check_cancelled(context));
+        for (size_t i = 0; i < p->value_count; i++) {
+            if (isnan(p->values[i]) || step_of(p, p->values[i]) != step) continue;
+            sl_path_segment(cairo, frame, p->lines->lines[i].a, p->lines->lines[i].b);
+        }
+        sl_set_colour(cairo, ramp_colour(p, (step + 0.5) / RAMP_STEPS));
+        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+        cairo_set_line_width(cairo, (1.5 + 2.0 * step / RAMP_STEPS) * frame->unit);
+        cairo_stroke(cairo);
+    }
+    return SL_OK;
+}
+
 static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl_point eye) {
     const sl_point at = sl_frame_point(frame, eye);
     cairo_new_sub_path(cairo);
@@ -118,7 +150,9 @@ static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame) {
     const picture *p = what;
+    if (p->lines && p->lines->alone) return draw_valued_lines(context, cairo, p, frame);
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
+    if (p->lines) return draw_valued_lines(context, cairo, p, frame);
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
     // Squares and patches may reach from the floor into solid ground.
@@ -213,7 +247,7 @@ static void draw_ramp(cairo_t *cairo, const picture *p, const sli_page *g, doubl
             cairo_line_to(cairo, right + tip, g->key + high / 2);
             cairo_line_to(cairo, right, g->key + high);
         }
-        sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (i + 0.5) / RAMP_STEPS));
+        sl_set_colour(cairo, ramp_colour(p, (i + 0.5) / RAMP_STEPS));
         cairo_fill(cairo);
     }
 }
@@ -310,6 +344,21 @@ sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const s
                  .values = field->values,
                  .value_count = field->columns * field->rows};
     find_range(&p, field->least, field->most);
+    p.diverging = field->diverging;
+    if (p.diverging && p.least <= p.most) {
+        p.most = fmax(fabs(p.least), fabs(p.most));
+        if (p.most == 0) p.most = 1; // nothing changes
+        p.least = -p.most;
+    }
+    return draw_picture(context, baked, options, &p, path);
+}
+
+sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
+                             const sl_drawn_lines *lines, const sl_draw_options *options,
+                             const char *path) {
+    picture p = {
+        .lines = lines, .scale = lines->name, .values = lines->values, .value_count = lines->count};
+    find_range(&p, 0, 0);
     return draw_picture(context, baked, options, &p, path);
 }
 

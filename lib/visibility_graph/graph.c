@@ -359,3 +359,15 @@ sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline, cons
     *out = graph;
     return SL_OK;
 }
+
+sl_status sl_vga_graph_turn(sl_context *context, sl_vga_graph *graph) {
+    uint64_t *rows = sl_alloc_array(context, graph->count * graph->words, sizeof *rows);
+    if (!rows) return SL_NO_MEMORY;
+    for (size_t p = 0; p < graph->count; p++)
+        for (size_t w = 0; w < graph->words; w++)
+            for (uint64_t rest = graph->rows[p * graph->words + w]; rest; rest &= rest - 1)
+                sl_bits_add(rows + (w * 64 + (size_t)__builtin_ctzll(rest)) * graph->words, p);
+    sl_free(context, graph->rows);
+    graph->rows = rows;
+    return SL_OK;
+}

@@ -145,3 +145,47 @@ sl_status sl_vga_grid_fill(sl_context *context, const sl_outline *outline, doubl
     sl_free(context, f.waiting.items);
     return status;
 }
+
+// --- a part of a grid
+
+void sl_vga_grid_keep(sl_vga_grid *grid, const uint64_t *kept) {
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < grid->count; p++) {
+        if (!sl_bits_has(kept, p)) continue;
+        grid->points[count] = grid->points[p];
+        grid->squares[count++] = grid->squares[p];
+    }
+    grid->count = count;
+}
+
+sl_status sl_vga_grid_border(sl_context *context, const sl_vga_grid *grid, uint64_t *border) {
+    const size_t columns = grid->columns, rows = grid->rows;
+    sl_bits *taken = sl_alloc_array(context, sl_bits_words(columns * rows), sizeof *taken);
+    if (!taken) return SL_NO_MEMORY;
+    for (uint32_t p = 0; p < grid->count; p++) sl_bits_add(taken, grid->squares[p]);
+    for (uint32_t p = 0; p < grid->count; p++) {
+        const size_t column = grid->squares[p] / rows, row = grid->squares[p] % rows;
+        bool whole = column > 0 && row > 0 && column + 1 < columns && row + 1 < rows;
+        for (size_t k = 0; k < 9 && whole; k++)
+            whole = sl_bits_has(taken, (column + k / 3 - 1) * rows + row + k % 3 - 1);
+        if (!whole) sl_bits_add(border, p);
+    }
+    sl_free(context, taken);
+    return SL_OK;
+}
+
+uint32_t sl_vga_grid_find(const sl_vga_grid *grid, sl_point place) {
+    const double column = round(place.x / grid->step) - (double)grid->left;
+    const double row = round(place.y / grid->step) - (double)grid->bottom;
+    if (!(column >= 0 && column < grid->columns && row >= 0 && row < grid->rows)) return UINT32_MAX;
+    const uint32_t square = (uint32_t)column * grid->rows + (uint32_t)row;
+    uint32_t low = 0, high = grid->count;
+    while (low < high) { // squares ascend
+        const uint32_t middle = low + (high - low) / 2;
+        if (grid->squares[middle] < square)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < grid->count && grid->squares[low] == square ? low : UINT32_MAX;
+}

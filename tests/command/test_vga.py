@@ -186,6 +186,148 @@ class BruteForce(unittest.TestCase):
         self.check("metric_node_count", map(len, every))
 
 
+class Linked(unittest.TestCase):
+    """Two floors side by side. Stairs link two points, which count as one place."""
+    FLOORS = SMALL + [(a + 20, b, c + 20, d) for a, b, c, d in SMALL[:6]]
+    LINKS = [((8, 5), (21, 5)), ((21, 5), (28, 1)), ((1, 1), (23, 3))]
+
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder, sandbox.Sandbox(PROGRAM) as box:
+            plan, table, links = (pathlib.Path(folder) / name for name in
+                                  ("floors.map", "all.csv", "links.csv"))
+            plan.write_text("sightline 1\n" + "".join(
+                "wall " + " ".join(map(str, wall)) + "\n" for wall in cls.FLOORS))
+            links.write_text("x1\ty1\tx2\ty2\n" + "".join(
+                f"{a[0]}\t{a[1]}\t{b[0]}\t{b[1]}\n" for a, b in cls.LINKS))
+            result = box.run(["vga", str(plan), "--grid", "1", "--measures", "visual,metric,angular",
+                              "--from", "24,3", "--links", str(links), "--quiet", "-o", str(table)])
+            if result.status:
+                raise AssertionError(result.text())
+            with open(table) as file:
+                cls.rows = list(csv.DictReader(file))
+        cls.points = [(float(row["x"]), float(row["y"])) for row in cls.rows]
+        cls.number = {p: i for i, p in enumerate(cls.points)}
+        cls.graph = [[j for j, q in enumerate(cls.points) if i != j and
+                      not any(crosses(p, q, wall) for wall in cls.FLOORS)]
+                     for i, p in enumerate(cls.points)]
+        # One link shares a point with another: three points are one place.
+        groups = [{cls.number[p] for p in cls.LINKS[0] + cls.LINKS[1]},
+                  {cls.number[p] for p in cls.LINKS[2]}]
+        cls.place = {i: next((g for g in groups if i in g), {i}) for i in range(len(cls.points))}
+
+    def beside(self, i):
+        x, y = self.points[i]
+        return any(min(w[0], w[2]) <= x + 1.5 and max(w[0], w[2]) >= x - 1.5 and
+                   min(w[1], w[3]) <= y + 1.5 and max(w[1], w[3]) >= y - 1.5 for w in self.FLOORS)
+
+    def steps(self, start):
+        depths, level = dict.fromkeys(self.place[start], 0), self.place[start]
+        while level:
+            seen = {r for p in level for q in self.graph[p] for r in self.place[q]} - set(depths)
+            depths.update(dict.fromkeys(seen, depths[next(iter(level))] + 1))
+            level = seen
+        return depths
+
+    def lengths(self, start):
+        lengths, heap = {}, [(0.0, start)]
+        while heap:
+            length, p = heapq.heappop(heap)
+            if p in lengths:
+                continue
+            lengths[p] = length
+            for q in self.place[p] - {p}:
+                heapq.heappush(heap, (length, q))
+            if p == start or self.beside(p) or len(self.place[p]) > 1:
+                for q in self.graph[p]:
+                    heapq.heappush(heap, (length + math.dist(self.points[p], self.points[q]), q))
+        return lengths
+
+    def mean(self, depths, more):
+        one_each = {min(self.place[p]): value for p, value in depths.items()}
+        return sum(one_each.values()) / (len(one_each) - more)
+
+    def test_steps(self):
+        nodes = len({min(place) for place in self.place.values()})
+        for i, row in enumerate(self.rows):
+            self.assertEqual(int(row["visual_node_count"]), nodes)
+            self.assertAlmostEqual(float(row["visual_mean_depth"]), self.mean(self.steps(i), 1), 9)
+        from_one = self.steps(self.number[24, 3])
+        self.assertEqual([float(row["visual_step_depth"]) for row in self.rows],
+                         [from_one[i] for i in range(len(self.rows))])
+        self.assertEqual([int(row["connectivity"]) for row in self.rows], list(map(len, self.graph)))
+
+    def test_paths(self):
+        for i, row in enumerate(self.rows):
+            self.assertAlmostEqual(float(row["metric_mean_shortest_path_distance"]),
+                                   self.mean(self.lengths(i), 0), 5)
+        from_one = self.lengths(self.number[24, 3])
+        for i, row in enumerate(self.rows):
+            self.assertAlmostEqual(float(row["metric_step_shortest_path_length"]), from_one[i], 5)
+
+
+class Random:
+    """SplitMix64"""
+    MASK = (1 << 64) - 1
+
+    def __init__(self, seed):
+        self.state = seed & self.MASK
+
+    def next(self):
+        self.state = z = (self.state + 0x9e3779b97f4a7c15) & self.MASK
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9 & self.MASK
+        z = (z ^ z >> 27) * 0x94d049bb133111eb & self.MASK
+        return z ^ z >> 31
+
+
+class Agents(BruteForce):
+    """The same walks, on the plan and the graph of brute force."""
+    test_grid = test_local = test_global = test_paths = None
+
+    def walk(self, seed, agent, steps, counts):
+        random = Random(seed ^ (agent + 1) * 0xbf58476d1ce4e5b9)
+        random = Random(random.next())
+        number = {p: i for i, p in enumerate(self.points)}
+        at, heading = random.next() % len(self.points), None
+        while steps:
+            def ahead(q, origin=self.points[at], heading=heading):
+                way = [self.points[q][k] - origin[k] for k in (0, 1)]
+                if heading is None:
+                    return True
+                turn = math.atan2(heading[0] * way[1] - heading[1] * way[0],
+                                  heading[0] * way[0] + heading[1] * way[1])
+                return abs(turn) <= math.radians(85)
+            seen = [q for q in self.graph[at] if ahead(q)] or self.graph[at]
+            goal = seen[random.next() % len(seen)]
+            origin = at
+            heading = [self.points[goal][k] - self.points[at][k] for k in (0, 1)]
+            length = max(abs(heading[0]), abs(heading[1]))
+            for k in range(1, int(min(3, length)) + 1):
+                place = tuple(self.points[origin][i] + math.floor(k * heading[i] / length + 0.5)
+                              for i in (0, 1))
+                if not steps or number.get(place) not in self.graph[origin]:
+                    break
+                at, steps = number[place], steps - 1
+                counts[at] += 1
+            if at == origin:
+                heading, steps = None, steps - 1
+
+    def test_walks(self):
+        counts = [0] * len(self.points)
+        for agent in range(25):
+            self.walk(7, agent, 40, counts)
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("small.map").write_text("sightline 1\n" + "".join(
+                "wall " + " ".join(map(str, wall)) + "\n" for wall in SMALL))
+            for threads in "1", "3":
+                result = box.run(["vga", "small.map", "--grid", "1", "--agents", "25", "--seed", "7",
+                                  "--agent-steps", "40", "--measure", "gate_counts", "--quiet",
+                                  "--threads", threads])
+                rows = list(csv.DictReader(result.stdout.splitlines()))
+                self.assertEqual([int(row["gate_counts"]) for row in rows], counts)
+        self.assertGreater(len(set(counts)), 5)
+
+
 if __name__ == "__main__":
     PROGRAM = sys.argv[1]
     if len(sys.argv) > 3:

@@ -3,10 +3,12 @@
 
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "sightline/effects.h"
 #include "sightline/sees.h"
 #include "sightline/vga.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct fixture {
     sl_map map;
@@ -382,6 +384,125 @@ static void seeds_stay_in_their_room(void **state) {
     sl_context_destroy(context);
 }
 
+/// Glass is seen through from its right: rows are directed, and the turned graph has the columns.
+static void glass_is_seen_through_one_way(void **state) {
+    (void)state;
+    static const char text[] = "sightline 1\nwalls 0 0 4 0 4 3 0 3 0 0\nwall 2 0 2 1\n"
+                               "wall 2 2 2 3\noneway 2 1 2 2\n";
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    sl_space plain = {0};
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    assert_ok(context, sl_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
+    assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &f.map, &plain));
+    assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
+    fill_and_connect(context, 0.5, &f);
+    size_t one_way = 0;
+    for (uint32_t a = 0; a < f.grid.count; a++) {
+        for (uint32_t b = 0; b < f.grid.count; b++) {
+            bool sees;
+            if (a == b) continue;
+            assert_ok(context, sl_sees(context, &f.outline, f.grid.points[a], f.grid.points[b],
+                                       SL_CLOSED, &sees));
+            assert_int_equal(has_edge(&f.graph, a, b), sees);
+            if (sees && !has_edge(&f.graph, b, a)) {
+                assert_true(f.grid.points[a].x >= 2 && f.grid.points[b].x < 2);
+                one_way++;
+            }
+        }
+    }
+    assert_true(one_way > 10);
+    sl_vga_graph turned = f.graph;
+    turned.rows = sl_alloc_array(context, turned.count * turned.words, sizeof *turned.rows);
+    memcpy(turned.rows, f.graph.rows, turned.count * turned.words * sizeof *turned.rows);
+    assert_ok(context, sl_vga_graph_turn(context, &turned));
+    for (uint32_t a = 0; a < f.grid.count; a++)
+        for (uint32_t b = 0; b < f.grid.count; b++)
+            assert_int_equal(has_edge(&turned, b, a), has_edge(&f.graph, a, b));
+    sl_vga_graph_destroy(context, &turned);
+    fixture_destroy(context, &f);
+    sl_space_destroy(context, &plain);
+    sl_context_destroy(context);
+}
+
+/// Means of depths from each point are the measures; a link that shortens nothing changes them only
+/// by its one place less.
+static void depths_add_up_to_measures(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    make_plan(context, &f);
+    const uint32_t n = f.grid.count;
+    sl_vga_options options = sl_vga_options_default();
+    options.parts = SL_VGA_GLOBAL | SL_VGA_METRIC | SL_VGA_ANGULAR;
+    sl_vga_measures *measures = test_calloc(n, sizeof *measures);
+    sl_vga_measures *linked = test_calloc(n, sizeof *linked);
+    sl_vga_depths *depths = test_calloc(n, sizeof *depths);
+    assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, measures));
+    const sl_vga_link link = {0, n - 1}, loop = {3, 3}, outside = {0, n};
+    assert_ok(context, sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &link, 1,
+                                             &options, linked));
+    for (uint32_t from = 0; from < n; from += 7) {
+        for (size_t with = 0; with < 2; with++) {
+            const sl_vga_measures *m = with ? &linked[from] : &measures[from];
+            double steps = 0, length = 0, turn = 0, straight = 0, angle = 0;
+            assert_ok(context, sl_vga_depth(context, &f.outline, &f.grid, &f.graph, &link, with,
+                                            options.parts, &from, 1, depths));
+            for (uint32_t p = 0; p < n - with; p++) {
+                steps += depths[p].visual_step_depth;
+                length += depths[p].metric_step_shortest_path_length;
+                turn += depths[p].metric_step_shortest_path_angle;
+                straight += depths[p].metric_straight_line_distance;
+                angle += depths[p].angular_step_depth;
+            }
+            const double count = n - (double)with;
+            assert_true(m->visual_node_count == count && m->metric_node_count == count);
+            assert_true(fabs(steps / (count - 1) - m->visual_mean_depth) < 1e-12);
+            assert_true(fabs(length / count - m->metric_mean_shortest_path_distance) < 1e-9);
+            assert_true(fabs(angle / count - m->angular_mean_depth) < 1e-6);
+            if (with) {
+                assert_true(depths[0].visual_step_depth == depths[n - 1].visual_step_depth);
+                assert_true(depths[0].metric_step_shortest_path_length ==
+                            depths[n - 1].metric_step_shortest_path_length);
+                continue;
+            }
+            assert_true(fabs(turn / count - m->metric_mean_shortest_path_angle) < 1e-6);
+            assert_true(fabs(straight / count - m->metric_mean_straight_line_distance) < 1e-9);
+        }
+    }
+    assert_int_equal(
+        sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &loop, 1, &options, linked),
+        SL_BAD_ARGUMENT);
+    assert_int_equal(sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &outside, 1,
+                                           &options, linked),
+                     SL_BAD_ARGUMENT);
+    test_free(depths);
+    test_free(linked);
+    test_free(measures);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+static void borders_are_kept(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    make_plan(context, &f);
+    const uint32_t before = f.grid.count;
+    uint64_t *border = test_calloc(sl_bits_words(before), sizeof *border);
+    assert_ok(context, sl_vga_grid_border(context, &f.grid, border));
+    sl_vga_grid_keep(&f.grid, border);
+    assert_true(f.grid.count > before / 4 && f.grid.count < before * 3 / 4);
+    for (uint32_t p = 0; p < f.grid.count; p++)
+        assert_int_equal(sl_vga_grid_find(&f.grid, f.grid.points[p]), p);
+    assert_int_equal(sl_vga_grid_find(&f.grid, (sl_point){4.5, 2}), UINT32_MAX); // far from walls
+    assert_int_equal(sl_vga_grid_find(&f.grid, (sl_point){-9, 2}), UINT32_MAX);
+    test_free(border);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
@@ -389,6 +510,9 @@ int main(void) {
         cmocka_unit_test(measures_are_those_of_brute_force),
         cmocka_unit_test(searches_are_those_of_plain_ones),
         cmocka_unit_test(seeds_stay_in_their_room),
+        cmocka_unit_test(glass_is_seen_through_one_way),
+        cmocka_unit_test(depths_add_up_to_measures),
+        cmocka_unit_test(borders_are_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,6 +122,9 @@ typedef struct sl_field {
     /// The ends of the colour scale, so that several pictures can be compared. Values beyond have
     /// the colours of the ends. Equal, as in a zeroed field: the least and the largest value.
     double least, most;
+    /// Values are changes: one colour for gains and one for losses, pale at 0. The scale reaches as
+    /// far on both sides of 0.
+    bool diverging;
 } sl_field;
 
 /// Draws a heat map over the plan with its colour scale, likewise. SL_BAD_ARGUMENT also on a scale
@@ -145,6 +148,20 @@ typedef struct sl_patches {
 SL_API sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
                                       const sl_patches *patches, const char *caption,
                                       const sl_draw_options *options, const char *path);
+
+/// Lines coloured by a value each.
+typedef struct sl_drawn_lines {
+    const char *name; ///< what the values are: "integration"
+    const sl_segment *lines;
+    const double *values; ///< NaN: the line is not drawn
+    uint32_t count;
+    bool alone; ///< without the plan under them
+} sl_drawn_lines;
+
+/// Draws lines over the plan with their colour scale, likewise; lines of high values lie on top.
+SL_API sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
+                                    const sl_drawn_lines *lines, const sl_draw_options *options,
+                                    const char *path);
 
 // --- charts
 

@@ -33,11 +33,20 @@ typedef struct sl_vga_grid {
 /// Fills a grid: all points that free steps to a neighbour, up, down, left or right, lead to from
 /// the seeds. Each seed stands for the grid point nearest to it. Without seeds: all points inside,
 /// which are neither on a wall nor in solid ground. Points lie at multiples of the step, as
-/// depthmapX puts them. SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is
+/// depthmapX puts them. A step through one-way glass is free from where it is seen through.
+/// SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is
 /// not inside the bounds, and for more than 2^31 squares.
 SL_API sl_status sl_vga_grid_fill(sl_context *context, const sl_outline *outline, double step,
                                   const sl_point *seeds, size_t seed_count, sl_vga_grid *out);
 SL_API void sl_vga_grid_destroy(sl_context *context, sl_vga_grid *grid); ///< and zeroes it
+
+/// Keeps the points of a set (bit p % 64 of word p / 64), and drops all others.
+SL_API void sl_vga_grid_keep(sl_vga_grid *grid, const uint64_t *kept);
+/// Adds to a zeroed set the points at the border of a grid: one of the eight squares around them
+/// has no point.
+SL_API sl_status sl_vga_grid_border(sl_context *context, const sl_vga_grid *grid, uint64_t *border);
+/// The grid's point nearest to a place, if the place lies in its square; UINT32_MAX for none.
+SL_API uint32_t sl_vga_grid_find(const sl_vga_grid *grid, sl_point place);
 
 /// Which points see each other: a square matrix of bits, row by row. No point sees itself. Zero it
 /// to start.
@@ -54,7 +63,8 @@ SL_API uint64_t sl_vga_graph_bytes(uint32_t points);
 
 /// Connects the points of a grid that see each other. `range`: no farther than this; 0 for no
 /// limit. `threads`: 0 for one per core; the graph is the same for any number. SL_NO_MEMORY. Cost:
-/// for each point, the rooms that it sees and the points in them.
+/// for each point, the rooms that it sees and the points in them. With one-way glass
+/// (sl_filtered_space.dark_walls) row p has the points that p sees, and measures follow those.
 SL_API sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline,
                                    const sl_vga_grid *grid, double range, unsigned threads,
                                    sl_vga_graph *out);
@@ -117,6 +127,65 @@ typedef struct sl_vga_measures {
 SL_API sl_status sl_vga_measure(sl_context *context, const sl_outline *outline,
                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
                                 const sl_vga_options *options, sl_vga_measures *measures);
+
+/// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
+/// join all of their points.
+typedef struct sl_vga_link {
+    uint32_t a, b;
+} sl_vga_link;
+
+/// As sl_vga_measure, with links, as depthmapX treats merged points. Linked points count as one
+/// place in steps and paths: a link takes no step, no length and no turn. Local measures and
+/// through vision do not change. Paths may turn at linked points. SL_BAD_ARGUMENT for a link of a
+/// point with itself, or to no point. Cost of metric and angular measures: O(pairs that see each
+/// other) for each point.
+SL_API sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *outline,
+                                       const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                       const sl_vga_link *links, size_t link_count,
+                                       const sl_vga_options *options, sl_vga_measures *measures);
+
+/// How far a point is from chosen points, under depthmapX' names. NAN where nothing leads to it, or
+/// for a part that was not asked for.
+typedef struct sl_vga_depths {
+    double visual_step_depth;                ///< steps along the graph
+    double metric_step_shortest_path_length; ///< length of the shortest path
+    double metric_step_shortest_path_angle;  ///< turn along it, in right angles
+    double metric_straight_line_distance;    ///< distance, through walls
+    double angular_step_depth;               ///< turn along the path that turns least
+} sl_vga_depths;
+
+/// The depths of all points from the nearest of some points. `parts`: SL_VGA_GLOBAL for steps,
+/// SL_VGA_METRIC, SL_VGA_ANGULAR, or-ed. Paths and links are those of sl_vga_measure_linked.
+/// `depths` has an entry for each point.
+SL_API sl_status sl_vga_depth(sl_context *context, const sl_outline *outline,
+                              const sl_vga_grid *grid, const sl_vga_graph *graph,
+                              const sl_vga_link *links, size_t link_count, unsigned parts,
+                              const uint32_t *from, size_t from_count, sl_vga_depths *depths);
+
+/// Agents that walk by sight. Start from sl_vga_agents_default().
+typedef struct sl_vga_agents {
+    uint32_t agents, steps; ///< their number, and the steps of each; 1000 by default
+    uint32_t look;          ///< steps until an agent picks its next goal; by default 3
+    double view;            ///< the field of view in degrees, over 0; by default 170
+    uint64_t seed;
+    const uint32_t *starts; ///< the points to start from, by chance; none: all points
+    size_t start_count;
+    unsigned threads; ///< 0: one per core; the result is the same for any number
+} sl_vga_agents;
+
+/// The default options: those of Turner and Penn 2002.
+SL_API sl_vga_agents sl_vga_agents_default(void);
+
+/// Counts how often agents step onto each point ("gate counts" of depthmapX). `counts` has an entry
+/// for each point. An agent picks a point ahead that it sees, walks towards it for some steps, and
+/// picks anew. SL_BAD_ARGUMENT for a start that is no point, for `look` 0, and for a field of view
+/// that is not over 0 and at most 360. Agents walk wherever they see: leave out glass.
+SL_API sl_status sl_vga_walk_agents(sl_context *context, const sl_vga_grid *grid,
+                                    const sl_vga_graph *graph, const sl_vga_agents *options,
+                                    uint64_t *counts);
+
+/// Turns a graph over: row p then has the points that see p. For graphs with one-way glass.
+SL_API sl_status sl_vga_graph_turn(sl_context *context, sl_vga_graph *graph);
 
 /// The number of steps from the nearest of some points to each point; UINT32_MAX for those that no
 /// steps lead to. `depths` has an entry for each point.

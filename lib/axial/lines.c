@@ -1,0 +1,509 @@
+/// The all-line map: all maximal lines through two corners that see each other (Penn, Conroy,
+/// Dalton, Dekker, Mottram and Turner 1997).
+///
+///     +--------------+           A line is pushed against corners until it cannot move. Then it
+///     | .            |           touches two: it grazes a corner, with all walls of the corner on
+///     |    ' .       |           one side of it, and goes on (g); or it ends in the corner of a
+///     |        g=====+           room (e). At other corners it could still be turned.
+///     |        #
+///     +--------+                 So each pair of corners is tried. All signs are exact: which
+///     walls e                          cross the line, which corners it passes, on which side
+///     walls lie.
+///
+/// Invariant: a line counts once, by the first two corners on it. Its ends are corners, or the
+/// rounded places where walls stop it.
+///
+/// Cost: a walk through the buckets of a grid for each pair of corners, most of which end at once,
+/// and one across the map for each pair in sight. Corners are independent, so threads take them one
+/// by one.
+#include "sightline/axial.h"
+
+#include "geometry/orient.h"
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines) {
+    sl_free(context, lines->lines);
+    sl_free(context, lines->probes);
+    *lines = (sl_axial_lines){0};
+}
+
+// --- corners, and walls by place
+
+/// Corners are sorted. Walls are pairs of corners; the walls at corner c lead to the corners
+/// ends[first[c] .. first[c + 1]).
+typedef struct plan {
+    const sl_space *space;
+    sl_point *corners;
+    uint32_t (*walls)[2];
+    uint32_t *first, *ends;
+    uint32_t count, wall_count;
+    // Buckets: columns * rows squares, with the walls that touch them.
+    double side;
+    uint32_t columns, rows;
+    uint32_t *bucket_first, *bucket;
+} plan;
+
+static int compare_corners(const void *left, const void *right) {
+    return sli_compare_points(*(const sl_point *)left, *(const sl_point *)right);
+}
+
+static uint32_t find_corner(const plan *p, sl_point at) {
+    uint32_t low = 0, high = p->count;
+    while (low + 1 < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (sli_compare_points(p->corners[middle], at) <= 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void plan_destroy(sl_context *context, plan *p) {
+    sl_free(context, p->corners);
+    sl_free(context, p->walls);
+    sl_free(context, p->first);
+    sl_free(context, p->ends);
+    sl_free(context, p->bucket_first);
+    sl_free(context, p->bucket);
+}
+
+static sl_status find_corners(sl_context *context, const sl_space *space, plan *p) {
+    const uint32_t n = space->wall_count;
+    p->space = space;
+    p->wall_count = n;
+    p->corners = sl_alloc_array(context, 2 * (size_t)n + 1, sizeof *p->corners);
+    p->walls = sl_alloc_array(context, (size_t)n + 1, sizeof *p->walls);
+    p->ends = sl_alloc_array(context, 2 * (size_t)n + 1, sizeof *p->ends);
+    if (!p->corners || !p->walls || !p->ends) return SL_NO_MEMORY;
+    for (uint32_t w = 0; w < n; w++) {
+        p->corners[2 * w] = space->walls[w].a;
+        p->corners[2 * w + 1] = space->walls[w].b;
+    }
+    qsort(p->corners, 2 * (size_t)n, sizeof *p->corners, compare_corners);
+    for (uint32_t i = 0; i < 2 * n; i++)
+        if (i == 0 || !sli_same_point(p->corners[i], p->corners[p->count - 1]))
+            p->corners[p->count++] = p->corners[i];
+    p->first = sl_alloc_array(context, (size_t)p->count + 2, sizeof *p->first);
+    if (!p->first) return SL_NO_MEMORY;
+    for (uint32_t w = 0; w < n; w++) {
+        p->walls[w][0] = find_corner(p, space->walls[w].a);
+        p->walls[w][1] = find_corner(p, space->walls[w].b);
+        for (int e = 0; e < 2; e++) p->first[p->walls[w][e] + 2]++;
+    }
+    for (uint32_t c = 0; c < p->count; c++) p->first[c + 2] += p->first[c + 1];
+    for (uint32_t w = 0; w < n; w++)
+        for (int e = 0; e < 2; e++) p->ends[p->first[p->walls[w][e] + 1]++] = p->walls[w][1 - e];
+    return SL_OK;
+}
+
+// --- buckets
+
+typedef struct span {
+    uint32_t from, to; ///< rows
+} span;
+
+static double clamp(double value, uint32_t count) {
+    return fmin(fmax(floor(value), 0), (double)count - 1);
+}
+
+/// The rows that a segment touches in a column; a little more, so that rounding loses none.
+static span rows_of(const plan *p, sl_point a, sl_point b, uint32_t column) {
+    const double slack = 1e-6, left = column - slack, right = column + 1 + slack;
+    const double ax = (a.x - p->space->bounds.min.x) / p->side;
+    const double ay = (a.y - p->space->bounds.min.y) / p->side;
+    const double bx = (b.x - p->space->bounds.min.x) / p->side;
+    const double by = (b.y - p->space->bounds.min.y) / p->side;
+    double low = fmin(ay, by), high = fmax(ay, by);
+    if (fabs(bx - ax) > slack) {
+        const double slope = (by - ay) / (bx - ax);
+        const double in = ay + (fmin(fmax(left, fmin(ax, bx)), fmax(ax, bx)) - ax) * slope;
+        const double out = ay + (fmin(fmax(right, fmin(ax, bx)), fmax(ax, bx)) - ax) * slope;
+        low = fmax(low, fmin(in, out));
+        high = fmin(high, fmax(in, out));
+    }
+    return (span){(uint32_t)clamp(low - slack, p->rows), (uint32_t)clamp(high + slack, p->rows)};
+}
+
+static span columns_of(const plan *p, sl_point a, sl_point b) {
+    const double slack = 1e-6, origin = p->space->bounds.min.x;
+    return (span){(uint32_t)clamp((fmin(a.x, b.x) - origin) / p->side - slack, p->columns),
+                  (uint32_t)clamp((fmax(a.x, b.x) - origin) / p->side + slack, p->columns)};
+}
+
+static sl_status fill_buckets(sl_context *context, plan *p) {
+    const sl_box b = p->space->bounds;
+    const double wide = b.max.x - b.min.x, high = b.max.y - b.min.y;
+    p->side = fmax(sqrt(wide * high / (p->wall_count + 1.0)), fmax(wide, high) / 1024);
+    p->columns = (uint32_t)ceil(wide / p->side) + 1;
+    p->rows = (uint32_t)ceil(high / p->side) + 1;
+    const size_t squares = (size_t)p->columns * p->rows;
+    p->bucket_first = sl_alloc_array(context, squares + 2, sizeof *p->bucket_first);
+    if (!p->bucket_first) return SL_NO_MEMORY;
+    for (int fill = 0; fill < 2; fill++) {
+        for (uint32_t w = 0; w < p->wall_count; w++) {
+            const sl_point u = p->corners[p->walls[w][0]], v = p->corners[p->walls[w][1]];
+            const span columns = columns_of(p, u, v);
+            for (uint32_t c = columns.from; c <= columns.to; c++) {
+                const span rows = rows_of(p, u, v, c);
+                for (uint32_t r = rows.from; r <= rows.to; r++) {
+                    const size_t square = (size_t)c * p->rows + r;
+                    if (fill)
+                        p->bucket[p->bucket_first[square + 1]++] = w;
+                    else
+                        p->bucket_first[square + 2]++;
+                }
+            }
+        }
+        if (fill) break;
+        for (size_t s = 0; s < squares; s++) p->bucket_first[s + 2] += p->bucket_first[s + 1];
+        p->bucket =
+            sl_alloc_array(context, (size_t)p->bucket_first[squares + 1] + 1, sizeof *p->bucket);
+        if (!p->bucket) return SL_NO_MEMORY;
+    }
+    return SL_OK;
+}
+
+// --- a line at a corner
+
+enum { LEFT = 1, RIGHT = 2, BOTH = 3 };
+
+/// The sides of the line from a to b on which walls leave a corner.
+static int sides_at(const plan *p, uint32_t corner, sl_point a, sl_point b) {
+    int sides = 0;
+    for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++) {
+        const int sign = sli_orient(a, b, p->corners[p->ends[i]]);
+        sides |= sign > 0 ? LEFT : sign < 0 ? RIGHT : 0;
+    }
+    return sides;
+}
+
+static bool has_wall(const plan *p, uint32_t corner, uint32_t to) {
+    for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++)
+        if (p->ends[i] == to) return true;
+    return false;
+}
+
+/// Whether `other` comes before `best` as one turns left from the direction at -> from.
+static bool is_sooner(sl_point at, sl_point from, sl_point other, sl_point best) {
+    const int to_other = sli_orient(at, from, other), to_best = sli_orient(at, from, best);
+    const int half_other = to_other < 0, half_best = to_best < 0;
+    if (half_other != half_best) return half_other < half_best;
+    return sli_orient(at, other, best) > 0;
+}
+
+/// Whether a line that comes from `from` ends at a corner of a room: the open angle about the line
+/// is less than half a turn.
+static bool ends_in(const plan *p, uint32_t corner, sl_point from) {
+    const sl_point at = p->corners[corner];
+    uint32_t left = UINT32_MAX, right = UINT32_MAX;
+    for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++) {
+        const uint32_t e = p->ends[i];
+        const sl_point end = p->corners[e];
+        if (sli_orient(at, from, end) == 0 && sli_goes_on(end, at, from) == false) {
+            left = right = e; // along the line
+            break;
+        }
+        if (left == UINT32_MAX || is_sooner(at, from, end, p->corners[left])) left = e;
+        if (right == UINT32_MAX || is_sooner(at, from, p->corners[right], end)) right = e;
+    }
+    if (left == UINT32_MAX) return false;
+    if (left != right) return sli_orient(at, p->corners[right], p->corners[left]) > 0;
+    return p->first[corner + 1] - p->first[corner] > 1; // along a wall, into its corner
+}
+
+/// Whether a corner may be one of the two of a line.
+static bool holds_line(const plan *p, uint32_t corner, uint32_t other) {
+    const sl_point at = p->corners[corner], from = p->corners[other];
+    return sides_at(p, corner, from, at) != BOTH || ends_in(p, corner, from);
+}
+
+// --- a pair of corners
+
+static bool is_between(sl_point a, sl_point c, sl_point b) {
+    const bool ab = sli_compare_points(a, b) < 0;
+    return ab ? sli_compare_points(a, c) < 0 && sli_compare_points(c, b) < 0
+              : sli_compare_points(b, c) < 0 && sli_compare_points(c, a) < 0;
+}
+
+/// Whether a wall crosses the segment between two corners, or a corner lies on it between them.
+static bool is_stopped(const plan *p, const uint32_t wall[2], sl_point a, sl_point b) {
+    const sl_point u = p->corners[wall[0]], v = p->corners[wall[1]];
+    const int to_u = sli_orient(a, b, u), to_v = sli_orient(a, b, v);
+    if (to_u == 0 && is_between(a, u, b)) return true;
+    if (to_v == 0 && is_between(a, v, b)) return true;
+    return to_u * to_v < 0 && sli_orient(u, v, a) * sli_orient(u, v, b) < 0;
+}
+
+static bool sees_next(const plan *p, sl_point a, sl_point b) {
+    const span columns = columns_of(p, a, b);
+    const bool back = a.x > b.x;
+    for (uint32_t k = columns.from; k <= columns.to; k++) {
+        const uint32_t c = back ? columns.to - (k - columns.from) : k;
+        const span rows = rows_of(p, a, b, c);
+        for (uint32_t r = rows.from; r <= rows.to; r++) {
+            const size_t square = (size_t)c * p->rows + r;
+            for (uint32_t i = p->bucket_first[square]; i < p->bucket_first[square + 1]; i++)
+                if (is_stopped(p, p->walls[p->bucket[i]], a, b)) return false;
+        }
+    }
+    return true;
+}
+
+static bool is_inside_at(const sl_space *space, sl_point at) {
+    const uint32_t cell = sl_space_locate(space, at);
+    return cell != SL_NO_CELL && space->cells[cell].inside;
+}
+
+/// Whether the open line from a to b is inside. Along a wall: on that side of it.
+static bool is_inside(const plan *p, uint32_t a, uint32_t b, int side) {
+    const sl_point u = p->corners[a], v = p->corners[b];
+    const double aside = side == LEFT ? 1e-6 : side == RIGHT ? -1e-6 : 0; // no question of sight
+    return is_inside_at(p->space, (sl_point){u.x + (v.x - u.x) / 2 - (v.y - u.y) * aside,
+                                             u.y + (v.y - u.y) / 2 + (v.x - u.x) * aside});
+}
+
+// --- as long as it can be
+
+/// Where something is on the line through a and b: `place` 0 at a, 1 at b.
+typedef struct event {
+    double place;
+    uint32_t corner; ///< UINT32_MAX: a wall crosses here
+} event;
+
+typedef struct finder {
+    const plan *plan;
+    SL_ARRAY(event) events;
+} finder;
+
+static int compare_events(const void *left, const void *right) {
+    const event *a = left, *b = right;
+    if (a->place != b->place) return a->place < b->place ? -1 : 1;
+    return (a->corner > b->corner) - (a->corner < b->corner);
+}
+
+static double place_of(sl_point a, sl_point b, sl_point at) {
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    return fabs(dx) >= fabs(dy) ? (at.x - a.x) / dx : (at.y - a.y) / dy;
+}
+
+/// Adds what one wall does to the line.
+static sl_status add_events(sl_context *context, finder *f, uint32_t wall, sl_point a, sl_point b) {
+    const plan *p = f->plan;
+    const uint32_t *ends = p->walls[wall];
+    const sl_point u = p->corners[ends[0]], v = p->corners[ends[1]];
+    const int to_u = sli_orient(a, b, u), to_v = sli_orient(a, b, v);
+    if (to_u * to_v > 0) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &f->events, 2));
+    if (to_u == 0) f->events.items[f->events.count++] = (event){place_of(a, b, u), ends[0]};
+    if (to_v == 0) f->events.items[f->events.count++] = (event){place_of(a, b, v), ends[1]};
+    if (to_u * to_v < 0) {
+        const double far = (u.x - a.x) * (b.y - a.y) - (u.y - a.y) * (b.x - a.x);
+        const double near = (v.x - a.x) * (b.y - a.y) - (v.y - a.y) * (b.x - a.x);
+        double share = far / (far - near);
+        if (!(share >= 0 && share <= 1)) share = 0.5; // nearly in one line: somewhere on the wall
+        const sl_point at = {u.x + (v.x - u.x) * share, u.y + (v.y - u.y) * share};
+        f->events.items[f->events.count++] = (event){place_of(a, b, at), UINT32_MAX};
+    }
+    return SL_OK;
+}
+
+/// The part of the line through a and b that lies within the bounds, or a little more.
+static sl_segment within_bounds(const sl_box *bounds, sl_point a, sl_point b) {
+    const double d[2] = {b.x - a.x, b.y - a.y}, at[2] = {a.x, a.y};
+    const double least[2] = {bounds->min.x, bounds->min.y};
+    const double most[2] = {bounds->max.x, bounds->max.y};
+    double from = -INFINITY, to = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        if (d[k] == 0) continue;
+        const double s = (least[k] - at[k]) / d[k], t = (most[k] - at[k]) / d[k];
+        from = fmax(from, fmin(s, t));
+        to = fmin(to, fmax(s, t));
+    }
+    return (sl_segment){{a.x + d[0] * from, a.y + d[1] * from}, {a.x + d[0] * to, a.y + d[1] * to}};
+}
+
+/// All that the line through two corners meets. A wall may come several times: follow() passes over
+/// what it has met.
+static sl_status find_events(sl_context *context, finder *f, sl_point a, sl_point b) {
+    const plan *p = f->plan;
+    const sl_segment whole = within_bounds(&p->space->bounds, a, b);
+    const span columns = columns_of(p, whole.a, whole.b);
+    f->events.count = 0;
+    for (uint32_t c = columns.from; c <= columns.to; c++) {
+        const span rows = rows_of(p, whole.a, whole.b, c);
+        for (uint32_t r = rows.from; r <= rows.to; r++) {
+            const size_t square = (size_t)c * p->rows + r;
+            for (uint32_t i = p->bucket_first[square]; i < p->bucket_first[square + 1]; i++)
+                SL_TRY(add_events(context, f, p->bucket[i], a, b));
+        }
+    }
+    if (f->events.count)
+        qsort(f->events.items, f->events.count, sizeof *f->events.items, compare_events);
+    return SL_OK;
+}
+
+/// Follows the line from a corner on it, forwards or backwards, to its end. *first is cleared where
+/// it meets another corner that would hold it. `sides`: where walls keep it from being. Walls along
+/// the line add up: it slides along them on one side, and does not cross over. A probe, which has
+/// no `first`, ends where it comes to a wall along it.
+static sl_point follow(const finder *f, uint32_t a, uint32_t b, bool forwards, int sides,
+                       bool *first) {
+    const plan *p = f->plan;
+    const sl_point u = p->corners[a], v = p->corners[b];
+    const uint32_t begin = forwards ? b : a;
+    uint32_t last = begin;
+    sides |= sides_at(p, begin, u, v);
+    if (sides == BOTH) return p->corners[begin];
+    const size_t count = f->events.count;
+    for (size_t k = 0; k < count; k++) {
+        const event *e = &f->events.items[forwards ? k : count - 1 - k];
+        if (forwards ? e->place <= 1 : e->place >= 0) continue;
+        if (e->corner == last || e->corner == begin) continue;
+        if (e->corner == UINT32_MAX)
+            return (sl_point){u.x + (v.x - u.x) * e->place, u.y + (v.y - u.y) * e->place};
+        const int here = sides_at(p, e->corner, u, v);
+        const bool along = has_wall(p, last, e->corner);
+        if (along && !first) break;
+        sides = along ? sides | here : here;
+        last = e->corner;
+        if (first && holds_line(p, last, begin)) *first = false;
+        if (sides == BOTH) return p->corners[last];
+    }
+    return p->corners[last]; // or the border of the map, if it has no wall
+}
+
+// --- all corners
+
+typedef struct found {
+    SL_ARRAY(sl_segment) lines;
+    SL_ARRAY(sl_segment) probes;
+} found;
+
+typedef struct job {
+    plan plan;
+    found *found; ///< by corner
+} job;
+
+static sl_status begin(sl_context *context, void *all, void **state) {
+    finder *f = sl_alloc_array(context, 1, sizeof *f);
+    if (!f) return SL_NO_MEMORY;
+    f->plan = &((job *)all)->plan;
+    *state = f;
+    return SL_OK;
+}
+
+static void end(sl_context *context, void *all, void *state) {
+    (void)all;
+    sl_free(context, ((finder *)state)->events.items);
+    sl_free(context, state);
+}
+
+/// `side`: of a wall between the two corners, on which the line is; 0 for none.
+static sl_status add_line(sl_context *context, finder *f, uint32_t a, uint32_t b, int side,
+                          found *out) {
+    const int other = side ? BOTH ^ side : 0;
+    const size_t count = out->lines.count;
+    bool first = true, any = true;
+    if (!is_inside(f->plan, a, b, side)) return SL_OK;
+    const sl_point from = follow(f, a, b, false, other, &first);
+    const sl_point to = follow(f, a, b, true, other, &any);
+    if (!first) return SL_OK;
+    if (side == RIGHT && count && sli_same_point(out->lines.items[count - 1].a, from) &&
+        sli_same_point(out->lines.items[count - 1].b, to))
+        return SL_OK; // the same on both sides
+    SL_TRY(SL_ARRAY_ROOM(context, &out->lines, 1));
+    out->lines.items[out->lines.count++] = (sl_segment){from, to};
+    return SL_OK;
+}
+
+static sl_status try_pair(sl_context *context, finder *f, uint32_t a, uint32_t b, found *out) {
+    const plan *p = f->plan;
+    if (!holds_line(p, a, b) || !holds_line(p, b, a)) return SL_OK;
+    if (!sees_next(p, p->corners[a], p->corners[b])) return SL_OK;
+    const bool along = has_wall(p, a, b);
+    if (!along && !is_inside(p, a, b, 0)) return SL_OK;
+    SL_TRY(find_events(context, f, p->corners[a], p->corners[b]));
+    if (!along) return add_line(context, f, a, b, 0, out);
+    SL_TRY(add_line(context, f, a, b, LEFT, out));
+    return add_line(context, f, a, b, RIGHT, out);
+}
+
+/// The walls at a corner, extended beyond it.
+static sl_status extend_walls(sl_context *context, finder *f, uint32_t corner, found *out) {
+    const plan *p = f->plan;
+    for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++) {
+        const uint32_t end = p->ends[i];
+        const sl_point u = p->corners[end], v = p->corners[corner];
+        if (sides_at(p, corner, u, v) == BOTH) continue;
+        SL_TRY(find_events(context, f, u, v));
+        const sl_point to = follow(f, end, corner, true, 0, NULL);
+        const sl_point middle = {v.x + (to.x - v.x) / 2, v.y + (to.y - v.y) / 2};
+        if (sli_same_point(v, to) || !is_inside_at(p->space, middle)) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &out->probes, 1));
+        out->probes.items[out->probes.count++] = (sl_segment){v, to};
+    }
+    return SL_OK;
+}
+
+static sl_status look_from(sl_context *context, void *all, void *state, size_t corner) {
+    job *j = all;
+    SL_TRY(sl_check_cancelled(context));
+    for (uint32_t b = (uint32_t)corner + 1; b < j->plan.count; b++)
+        SL_TRY(try_pair(context, state, (uint32_t)corner, b, &j->found[corner]));
+    return extend_walls(context, state, (uint32_t)corner, &j->found[corner]);
+}
+
+static sl_status gather(sl_context *context, const job *j, sl_axial_lines *out) {
+    size_t lines = 0, probes = 0;
+    for (uint32_t c = 0; c < j->plan.count; c++) {
+        lines += j->found[c].lines.count;
+        probes += j->found[c].probes.count;
+    }
+    if (lines > INT32_MAX || probes > INT32_MAX)
+        return sl_fail(context, SL_UNSUPPORTED, "%zu axial lines are too many", lines);
+    out->lines = sl_alloc_array(context, lines + 1, sizeof *out->lines);
+    out->probes = sl_alloc_array(context, probes + 1, sizeof *out->probes);
+    if (!out->lines || !out->probes) return SL_NO_MEMORY;
+    for (uint32_t c = 0; c < j->plan.count; c++) {
+        for (size_t i = 0; i < j->found[c].lines.count; i++)
+            out->lines[out->count++] = j->found[c].lines.items[i];
+        for (size_t i = 0; i < j->found[c].probes.count; i++)
+            out->probes[out->probe_count++] = j->found[c].probes.items[i];
+    }
+    return SL_OK;
+}
+
+sl_status sl_axial_all_lines(sl_context *context, const sl_outline *outline, unsigned threads,
+                             sl_axial_lines *out) {
+    job j = {0};
+    sl_axial_lines lines = {0};
+    sl_status status = find_corners(context, outline->space, &j.plan);
+    if (status == SL_OK) status = fill_buckets(context, &j.plan);
+    if (status == SL_OK) {
+        j.found = sl_alloc_array(context, (size_t)j.plan.count + 1, sizeof *j.found);
+        if (!j.found) status = SL_NO_MEMORY;
+    }
+    const sl_work work = {.job = &j,
+                          .begin = begin,
+                          .unit = look_from,
+                          .end = end,
+                          .stage = "axial lines",
+                          .units = "corners"};
+    if (status == SL_OK) status = sl_work_run(context, &work, j.plan.count, threads);
+    if (status == SL_OK) status = gather(context, &j, &lines);
+    for (uint32_t c = 0; c < j.plan.count && j.found; c++) {
+        sl_free(context, j.found[c].lines.items);
+        sl_free(context, j.found[c].probes.items);
+    }
+    sl_free(context, j.found);
+    plan_destroy(context, &j.plan);
+    if (status == SL_OK)
+        *out = lines;
+    else
+        sl_axial_lines_destroy(context, &lines);
+    return status;
+}

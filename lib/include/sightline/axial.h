@@ -1,0 +1,122 @@
+/// Axial and segment analysis (Hillier and Hanson 1984): the longest lines of sight and access of a
+/// plan, the network that they or drawn lines make, and measures of it under depthmapX' names.
+///
+///     sl_axial_lines lines = {0};
+///     sl_line_graph graph = {0};
+///     sl_axial_options options = {0};
+///     sl_axial_all_lines(context, &outline, 0, &lines);
+///     sl_axial_fewest(context, &lines, true);
+///     sl_line_graph_make(context, lines.lines, lines.count, &graph);
+///     sl_axial_measure(context, lines.lines, &graph, &options, measures);
+///
+/// Who crosses whom is exact for the coordinates of the lines. Counts are exact, measures are
+/// doubles. Results are the same for any number of threads.
+#ifndef SIGHTLINE_AXIAL_H
+#define SIGHTLINE_AXIAL_H
+
+#include "sightline/outline.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Lines of a plan. `probes`: what the lines must cross to cover the plan (sl_axial_fewest). Zero
+/// it to start.
+typedef struct sl_axial_lines {
+    sl_segment *lines;
+    sl_segment *probes;
+    uint32_t count, probe_count;
+} sl_axial_lines;
+
+/// The all-line map (Penn, Conroy, Dalton, Dekker, Mottram and Turner 1997): each line that passes
+/// two corners of walls that see each other, made as long as no wall crosses it. It passes a corner
+/// at which all walls are on one side. It ends at a corner of a room. Which corners it passes is
+/// exact; its ends are rounded where they are not corners. Only lines inside are taken. Probes are
+/// the walls' own lines, extended beyond corners into the open (the s-lines of Peponis, Wineman,
+/// Bafna, Rashid and Kim 1998). `threads`: 0 for one per core. Cost: O(corners^2) tests of sight,
+/// and the walls near the line for each pair in sight.
+SL_API sl_status sl_axial_all_lines(sl_context *context, const sl_outline *outline,
+                                    unsigned threads, sl_axial_lines *out);
+SL_API void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines); ///< and zeroes it
+
+/// Drops lines, shortest first, but keeps two things (after Turner, Penn and Hillier 2005): each
+/// probe that was crossed, from side to side, is crossed by a line that stays, and lines that a
+/// line joins stay joined. First all lines go that cross no probe beside those that one longer line
+/// crosses. With `fewest`, then all that can go alone. Lines keep their order.
+SL_API sl_status sl_axial_fewest(sl_context *context, sl_axial_lines *lines, bool fewest);
+
+/// Which lines have a point in common: others[first[i] .. first[i + 1]), ascending. Zero it to
+/// start.
+typedef struct sl_line_graph {
+    uint32_t count;
+    size_t *first;
+    uint32_t *others;
+} sl_line_graph;
+
+/// Exact: closed segments that touch are joined. SL_UNSUPPORTED for more pairs than fit into half
+/// of the machine's memory. Cost: O(n log n + pairs whose extents in x overlap).
+SL_API sl_status sl_line_graph_make(sl_context *context, const sl_segment *lines, uint32_t count,
+                                    sl_line_graph *out);
+SL_API void sl_line_graph_destroy(sl_context *context, sl_line_graph *graph); ///< and zeroes it
+
+/// Zeroed: no limits, one thread per core.
+typedef struct sl_axial_options {
+    uint32_t radius; ///< steps up to this number
+    unsigned threads;
+} sl_axial_options;
+
+/// Of an axial line. NAN for a measure that is not defined.
+typedef struct sl_axial_measures {
+    double connectivity; ///< lines that it touches
+    double line_length;
+    double control;         ///< sum over these of 1 / their connectivity
+    double controllability; ///< their number, of all lines that they touch together
+    double choice;      ///< shortest paths between two other lines through it: each pair counts 1
+    double choice_norm; ///< choice, of all pairs within reach
+    double node_count;  ///< lines that steps lead to, itself included
+    double total_depth; ///< sum of the steps to them
+    double mean_depth;
+    double integration_hh;     ///< Hillier and Hanson 1984: 1 / real relative asymmetry
+    double integration_pvalue; ///< likewise, relative to a pyramid
+    double integration_tekl;   ///< Teklenburg, Timmermans and van Wagenberg 1993
+    double entropy;            ///< of the numbers of lines by depth, in bits
+} sl_axial_measures;
+
+/// Measures all lines: a step leads to a line that touches. Choice is betweenness (Brandes 2001):
+/// several shortest paths share the 1 of their pair. Cost: O(lines * pairs that touch).
+SL_API sl_status sl_axial_measure(sl_context *context, const sl_segment *lines,
+                                  const sl_line_graph *graph, const sl_axial_options *options,
+                                  sl_axial_measures *measures);
+
+/// Zeroed: no limits, one thread per core.
+typedef struct sl_segment_options {
+    double metric_radius;  ///< segments up to this far along the network, from middle to middle
+    double angular_radius; ///< segments that paths lead to with up to this turn, in right angles
+    unsigned threads;
+} sl_segment_options;
+
+/// Of a segment (Turner 2007, From axial to road-centre lines). Angles are rounded to 1024th parts
+/// of a full turn, as in depthmapX' analyses T1024. NAN for a measure that is not defined.
+typedef struct sl_segment_measures {
+    double connectivity; ///< segments at its two ends
+    double segment_length;
+    double t1024_node_count;  ///< segments that paths lead to, itself included
+    double t1024_total_depth; ///< sum of the turns to them, in right angles
+    double t1024_integration; ///< node count^2 / total depth
+    double t1024_choice;      ///< paths between two others through it: each pair counts 1
+    double nach;              ///< log10(choice + 1) / log10(total depth + 3): Hillier et al. 2012
+    double nain;              ///< node count^1.2 / total depth: likewise
+} sl_segment_measures;
+
+/// Measures segments that meet at common ends only, as walls of a clean map do (sl_map_clean).
+/// Paths turn least. Of those that turn equally, the ones of the fewest segments count, and share
+/// the 1 of their pair. SL_BAD_ARGUMENT for a segment without length.
+SL_API sl_status sl_segment_measure(sl_context *context, const sl_segment *segments, uint32_t count,
+                                    const sl_segment_options *options,
+                                    sl_segment_measures *measures);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,234 @@
+#include "line_table.h"
+
+#include "heat_map.h"
+#include "number_table.h"
+#include "sightline/geojson.h"
+#include "sightline/support.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+void line_table_destroy(sl_context *context, line_table *table) {
+    for (size_t i = 0; i < table->columns.count; i++)
+        sl_free(context, table->columns.items[i].values);
+    sl_free(context, table->columns.items);
+    *table = (line_table){0};
+}
+
+sl_status line_table_add(sl_context *context, line_table *table, const line_measure *kinds,
+                         size_t kind_count, const void *measures, size_t size, const char *radius) {
+    const bool first = table->columns.count == 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &table->columns, kind_count));
+    for (size_t k = 0; k < kind_count; k++) {
+        if (!first && !kinds[k].has_radius) continue;
+        line_column column = {.measure = k};
+        snprintf(column.name, sizeof column.name, "%s%s", kinds[k].name,
+                 kinds[k].has_radius ? radius : "");
+        column.values = sl_alloc_array(context, (size_t)table->count + 1, sizeof *column.values);
+        if (!column.values) return SL_NO_MEMORY;
+        for (uint32_t i = 0; i < table->count; i++) {
+            const char *of_line = (const char *)measures + i * size;
+            const double value = *(const double *)(of_line + kinds[k].offset);
+            column.values[i] = isfinite(value) ? value : NAN;
+        }
+        table->columns.items[table->columns.count++] = column;
+    }
+    return SL_OK;
+}
+
+const line_column *line_table_column(const line_table *table, size_t measure) {
+    size_t k = 0;
+    while (table->columns.items[k].measure != measure) k++;
+    return &table->columns.items[k];
+}
+
+// --- files
+
+static void put(FILE *out, const char *before, double value) {
+    char text[SL_NUMBER_TEXT] = "";
+    if (!isnan(value)) sl_number_write(value, text);
+    fprintf(out, "%s%s", before, text);
+}
+
+static sl_status write_csv(sl_context *context, const line_table *t, FILE *out) {
+    fputs("x1,y1,x2,y2", out);
+    for (size_t k = 0; k < t->columns.count; k++) fprintf(out, ",%s", t->columns.items[k].name);
+    putc('\n', out);
+    for (uint32_t i = 0; i < t->count; i++) {
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
+        put(out, "", t->lines[i].a.x);
+        put(out, ",", t->lines[i].a.y);
+        put(out, ",", t->lines[i].b.x);
+        put(out, ",", t->lines[i].b.y);
+        for (size_t k = 0; k < t->columns.count; k++) put(out, ",", t->columns.items[k].values[i]);
+        putc('\n', out);
+    }
+    return SL_OK;
+}
+
+static sl_status write_geojson(sl_context *context, const line_table *t, FILE *file) {
+    sl_geojson_writer out = sl_geojson_begin(file);
+    for (uint32_t i = 0; i < t->count; i++) {
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
+        sl_geojson_put_line(&out, "line", t->lines[i].a, t->lines[i].b);
+        for (size_t k = 0; k < t->columns.count; k++) {
+            const line_column *c = &t->columns.items[k];
+            if (!isnan(c->values[i])) sl_geojson_add_real(&out, c->name, c->values[i]);
+        }
+        sl_geojson_end_feature(&out);
+    }
+    sl_geojson_end(&out);
+    return SL_OK;
+}
+
+sl_status line_table_write(sl_context *context, const line_table *table, const char *path) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(context, &output,
+                           input_ends_with(path, ".geojson")
+                               ? write_geojson(context, table, output.stream)
+                               : write_csv(context, table, output.stream));
+}
+
+// --- the summary
+
+enum { BEST = 10 };
+
+static void print_mean(const line_table *t, const line_column *c) {
+    double sum = 0, squares = 0, count = 0;
+    for (uint32_t i = 0; i < t->count; i++) {
+        if (isnan(c->values[i])) continue;
+        sum += c->values[i];
+        count++;
+    }
+    if (count == 0) {
+        printf("  %-36s %12s\n", c->name, "not defined");
+        return;
+    }
+    for (uint32_t i = 0; i < t->count; i++)
+        if (!isnan(c->values[i]))
+            squares += (c->values[i] - sum / count) * (c->values[i] - sum / count);
+    printf("  %-36s %12.6g %12.6g\n", c->name, sum / count, sqrt(squares / count));
+}
+
+void line_table_print(const line_table *table, const char *what, const line_column *column) {
+    uint32_t best[BEST];
+    size_t count = 0;
+    for (uint32_t i = 0; i < table->count; i++) {
+        const double value = column->values[i];
+        size_t at = count;
+        if (isnan(value)) continue;
+        while (at && value > column->values[best[at - 1]]) at--;
+        if (at == BEST) continue;
+        if (count < BEST) count++;
+        for (size_t k = count - 1; k > at; k--) best[k] = best[k - 1];
+        best[at] = i;
+    }
+    printf("%" PRIu32 " %s%s\n  %-36s %12s %12s\n", table->count, what,
+           table->count == 1 ? "" : "s", "measure", "mean", "deviation");
+    for (size_t k = 0; k < table->columns.count; k++) print_mean(table, &table->columns.items[k]);
+    if (count)
+        printf("highest %s:\n  %12s %12s %12s %12s %12s\n", column->name, "x1", "y1", "x2", "y2",
+               "value");
+    for (size_t k = 0; k < count; k++) {
+        const sl_segment *s = &table->lines[best[k]];
+        printf("  %12.6g %12.6g %12.6g %12.6g %12.6g\n", s->a.x, s->a.y, s->b.x, s->b.y,
+               column->values[best[k]]);
+    }
+}
+
+// --- the picture
+
+/// A page without a plan: a space as large as the lines.
+static sl_status make_page(sl_context *context, const line_table *table, sl_baked *baked) {
+    sl_box b = {table->lines[0].a, table->lines[0].a};
+    for (uint32_t i = 0; i < table->count; i++) {
+        const sl_segment *s = &table->lines[i];
+        b.min =
+            (sl_point){fmin(b.min.x, fmin(s->a.x, s->b.x)), fmin(b.min.y, fmin(s->a.y, s->b.y))};
+        b.max =
+            (sl_point){fmax(b.max.x, fmax(s->a.x, s->b.x)), fmax(b.max.y, fmax(s->a.y, s->b.y))};
+    }
+    const double pad = fmax(b.max.x - b.min.x, b.max.y - b.min.y) * 0.02;
+    const double x[2] = {b.min.x - pad, b.max.x + pad}, y[2] = {b.min.y - pad, b.max.y + pad};
+    const sl_point corners[4] = {{x[0], y[0]}, {x[1], y[0]}, {x[1], y[1]}, {x[0], y[1]}};
+    sl_map map = {0};
+    sl_bake_options options = sl_bake_options_default();
+    sl_bake_account account = {0};
+    sl_status status = SL_OK;
+    for (int i = 0; i < 4 && status == SL_OK; i++)
+        status = sl_map_add_wall(context, &map, corners[i], corners[(i + 1) % 4], 0);
+    if (status == SL_OK) status = sl_bake_space(context, &map, &options, baked, &account);
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+sl_status line_table_draw(sl_context *context, const line_table *table, const line_column *column,
+                          const sl_baked *baked, const char *input, const char *map,
+                          const sl_draw_options *drawing, const char *path) {
+    sl_baked page = {0};
+    char measure[LINE_COLUMN_NAME], title[512];
+    if (!table->count) return sl_fail(context, SL_BAD_ARGUMENT, "there is no line to draw");
+    if (!baked) SL_TRY(make_page(context, table, &page));
+    sl_draw_options options = *drawing;
+    heat_map_words(column->name, measure, sizeof measure);
+    heat_map_title(input, map, measure, title, sizeof title);
+    if (!options.title) options.title = title;
+    const sl_drawn_lines lines = {.name = measure,
+                                  .lines = table->lines,
+                                  .values = column->values,
+                                  .count = table->count,
+                                  .alone = !baked};
+    const sl_status status =
+        sl_draw_lines_file(context, baked ? baked : &page, &lines, &options, path);
+    sl_baked_destroy(context, &page);
+    return status;
+}
+
+// --- lines as they are drawn
+
+static sl_status read_table(sl_context *context, const char *path, sl_map *map) {
+    number_table table;
+    SL_TRY(number_table_read(context, path, &table));
+    static const char *const names[4] = {"x1", "y1", "x2", "y2"};
+    size_t columns[4];
+    sl_status status = SL_OK;
+    for (size_t k = 0; k < 4; k++)
+        columns[k] = table.names ? number_table_column(&table, names[k]) : k;
+    for (size_t k = 0; k < 4 && status == SL_OK; k++)
+        if (columns[k] >= table.columns)
+            status = sl_fail_at(context, path, 1, "the columns x1,y1,x2,y2 are needed");
+    for (size_t i = 0; i < table.rows && status == SL_OK; i++) {
+        double v[4];
+        for (size_t k = 0; k < 4; k++) v[k] = number_table_at(&table, i, columns[k]);
+        if (sl_coordinate_usable(v[0]) && sl_coordinate_usable(v[1]) &&
+            sl_coordinate_usable(v[2]) && sl_coordinate_usable(v[3]))
+            status = sl_map_add_wall(context, map, (sl_point){v[0], v[1]}, (sl_point){v[2], v[3]},
+                                     table.lines[i]);
+        else
+            status =
+                sl_fail_at(context, path, table.lines[i], "four numbers are needed: x1,y1,x2,y2");
+    }
+    number_table_destroy(context, &table);
+    return status;
+}
+
+sl_status lines_read(sl_context *context, const char *path, const input_options *input,
+                     sl_map *map) {
+    if (!input_ends_with(path, ".csv")) {
+        SL_TRY(input_read_either(context, path, input, map));
+    } else {
+        const sl_status status = read_table(context, path, map);
+        if (status != SL_OK) sl_map_destroy(context, map);
+        SL_TRY(status);
+    }
+    size_t count = 0; // lines without length are none
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (map->walls[i].a.x != map->walls[i].b.x || map->walls[i].a.y != map->walls[i].b.y)
+            map->walls[count++] = map->walls[i];
+    map->wall_count = count;
+    if (count) return SL_OK;
+    sl_map_destroy(context, map);
+    return sl_fail(context, SL_BAD_INPUT, "%s: there is no line in it", path);
+}

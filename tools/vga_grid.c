@@ -1,0 +1,182 @@
+#include "vga_grid.h"
+
+#include "number_table.h"
+
+#include <math.h>
+
+option_table vga_grid_option_table(vga_grid_plan *plan) {
+    const option_spec options[] = {
+        {"points", 0, "CSV", "only the grid points nearest to the points x,y of a table",
+         .text = &plan->points, .is_input = true, .rare = true},
+        {"within", 0, "MAP",
+         "only grid points within the closed outlines of a drawing or map; the file may be the map "
+         "itself",
+         .text = &plan->within, .rare = true},
+        {"within-layers", 0, "LAYER,...", "which layers of the --within drawing to read",
+         .text = &plan->within_layers, .rare = true},
+        {"boundary", 0, NULL, "only grid points at the border of the grid: a boundary graph",
+         .flag = &plan->border, .rare = true},
+        {"links", 0, "CSV",
+         "link pairs of points, as stairs and lifts do: rows x1,y1,x2,y2. Linked points count as "
+         "one place",
+         .text = &plan->links, .is_input = true, .rare = true},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    option_table_topic(&table, "points");
+    return table;
+}
+
+sl_status vga_grid_check(sl_context *context, const vga_grid_plan *plan) {
+    if (!plan->within_layers || plan->within) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--within-layers is for --within MAP");
+}
+
+// --- a part of the grid
+
+/// A table whose first `needed` columns are numbers everywhere.
+static sl_status read_numbers(sl_context *context, const char *path, size_t needed,
+                              const char *what, number_table *table) {
+    SL_TRY(number_table_read(context, path, table));
+    sl_status status = SL_OK;
+    if (!table->rows || table->columns < needed)
+        status = sl_fail_at(context, path, table->rows ? table->lines[0] : 0,
+                            "rows of %s are needed", what);
+    for (size_t i = 0; i < table->rows && status == SL_OK; i++)
+        for (size_t k = 0; k < needed && status == SL_OK; k++)
+            if (isnan(number_table_at(table, i, k)))
+                status = sl_fail_at(context, path, table->lines[i], "%s are needed", what);
+    if (status != SL_OK) number_table_destroy(context, table);
+    return status;
+}
+
+static sl_status find_place(sl_context *context, const sl_vga_grid *grid, const number_table *table,
+                            size_t row, size_t column, uint32_t *point) {
+    const sl_point at = {number_table_at(table, row, column),
+                         number_table_at(table, row, column + 1)};
+    *point = sl_vga_grid_find(grid, at);
+    if (*point != UINT32_MAX) return SL_OK;
+    return sl_fail_at(context, table->path, table->lines[row],
+                      "the grid has no point at %.9g,%.9g; its points are %.9g apart", at.x, at.y,
+                      grid->step);
+}
+
+static sl_status mark_listed(sl_context *context, const char *path, const sl_vga_grid *grid,
+                             sl_bits *kept) {
+    number_table table;
+    SL_TRY(read_numbers(context, path, 2, "x,y", &table));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < table.rows && status == SL_OK; i++) {
+        uint32_t point;
+        status = find_place(context, grid, &table, i, 0, &point);
+        if (status == SL_OK) sl_bits_add(kept, point);
+    }
+    number_table_destroy(context, &table);
+    return status;
+}
+
+/// Whether a ray to the right of a point crosses a wall. The products are exact enough: points on
+/// an outline belong to either side.
+static bool is_crossed(sl_point p, const sl_wall *w) {
+    if ((w->a.y > p.y) == (w->b.y > p.y)) return false;
+    const sl_point low = w->a.y < w->b.y ? w->a : w->b, high = w->a.y < w->b.y ? w->b : w->a;
+    return (high.x - low.x) * (p.y - low.y) > (high.y - low.y) * (p.x - low.x);
+}
+
+/// Within: an odd number of outlines lies on the way out.
+static sl_status mark_within(sl_context *context, const vga_grid_plan *plan,
+                             const input_options *input, const sl_vga_grid *grid, sl_bits *kept) {
+    sl_map map = {0};
+    input_options own = *input;
+    if (plan->within_layers) own.import.layers = plan->within_layers;
+    SL_TRY(input_read_either(context, plan->within, &own, &map));
+    size_t count = 0;
+    for (uint32_t p = 0; p < grid->count; p++) {
+        bool within = false;
+        for (size_t i = 0; i < map.wall_count; i++)
+            within ^= is_crossed(grid->points[p], &map.walls[i]);
+        if (within) sl_bits_add(kept, p);
+        count += within;
+    }
+    sl_map_destroy(context, &map);
+    if (count) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--within %s: no point of the grid is within its outlines", plan->within);
+}
+
+static sl_status drop_others(sl_context *context, const vga_grid_plan *plan,
+                             const input_options *input, sl_vga_grid *grid) {
+    for (int k = 0; k < 3; k++) {
+        const bool asked = k == 0 ? plan->within != NULL : k == 1 ? plan->border : !!plan->points;
+        if (!asked) continue;
+        sl_bits *kept = sl_alloc_array(context, sl_bits_words(grid->count), sizeof *kept);
+        if (!kept) return SL_NO_MEMORY;
+        const sl_status status = k == 0   ? mark_within(context, plan, input, grid, kept)
+                                 : k == 1 ? sl_vga_grid_border(context, grid, kept)
+                                          : mark_listed(context, plan->points, grid, kept);
+        if (status == SL_OK) sl_vga_grid_keep(grid, kept);
+        sl_free(context, kept);
+        SL_TRY(status);
+    }
+    return SL_OK;
+}
+
+sl_status vga_grid_choose(sl_context *context, const vga_grid_plan *plan,
+                          const input_options *input, const sl_outline *outline,
+                          sl_vga_grid *grid) {
+    sl_point *seeds = sl_alloc_array(context, plan->at.count + 1, sizeof *seeds);
+    sl_status status = seeds ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < plan->at.count && status == SL_OK; i++) {
+        status = read_point(context, "--at", plan->at.items[i], &seeds[i]);
+        if (status == SL_OK)
+            status =
+                input_locate(context, "--at", plan->at.items[i], outline->space, seeds[i], NULL);
+    }
+    if (status == SL_OK)
+        status = sl_vga_grid_fill(context, outline, plan->step, seeds, plan->at.count, grid);
+    sl_free(context, seeds);
+    if (status == SL_OK && grid->count == 0)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--grid %.9g: no point of the grid is inside the map; choose a smaller step",
+                       plan->step);
+    return status == SL_OK ? drop_others(context, plan, input, grid) : status;
+}
+
+// --- chosen points and links
+
+sl_status vga_grid_find(sl_context *context, const sl_vga_grid *grid, const char *option,
+                        const option_list *places, uint32_t *from) {
+    for (size_t i = 0; i < places->count; i++) {
+        sl_point at = {0};
+        SL_TRY(read_point(context, option, places->items[i], &at));
+        from[i] = sl_vga_grid_find(grid, at);
+        if (from[i] == UINT32_MAX)
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "%s %s: the grid has no point there; choose a place in a room that the "
+                           "grid fills",
+                           option, places->items[i]);
+    }
+    return SL_OK;
+}
+
+sl_status vga_grid_read_links(sl_context *context, const char *path, const sl_vga_grid *grid,
+                              sl_vga_link **links, size_t *count) {
+    number_table table;
+    SL_TRY(read_numbers(context, path, 4, "x1,y1,x2,y2", &table));
+    sl_vga_link *out = sl_alloc_array(context, table.rows, sizeof *out);
+    sl_status status = out ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < table.rows && status == SL_OK; i++) {
+        status = find_place(context, grid, &table, i, 0, &out[i].a);
+        if (status == SL_OK) status = find_place(context, grid, &table, i, 2, &out[i].b);
+        if (status == SL_OK && out[i].a == out[i].b)
+            status = sl_fail_at(context, path, table.lines[i],
+                                "both ends of the link are one point of the grid");
+    }
+    *count = table.rows;
+    number_table_destroy(context, &table);
+    if (status == SL_OK)
+        *links = out;
+    else
+        sl_free(context, out);
+    return status;
+}
