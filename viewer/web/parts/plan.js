@@ -1,0 +1,164 @@
+/**
+ * Draws a plan: cells, portals, what is seen, walls and marks, one over the other.
+ *
+ * It keeps nothing: the same scene gives the same picture. The surface is a canvas context or an
+ * SvgSurface, so figures elsewhere draw with it too.
+ */
+
+/**
+ * @typedef {Object} Scene
+ * @property {{polygon: number[][], inside: boolean, solid?: boolean}[]} [cells]
+ * @property {{segment: number[]}[]} [portals]
+ * @property {Set<number>} [seen] cells of the visible set
+ * @property {Set<number>} [kept] cells that the eye sees
+ * @property {number} [from] a chosen cell @property {number} [to] a second one
+ * @property {ArrayLike<number>} [region] x, y of the visible region
+ * @property {[number, number]} [eye]
+ * @property {import('../formats/map-text.js').Item[]} [items] walls, doors ... as they are drawn
+ * @property {Set<string>} [shut] names of doors that are shut
+ * @property {import('./why-scene.js').WhyScene} [why]
+ * @property {{cells?: boolean, portals?: boolean, grid?: number}} [show]
+ */
+
+/** @typedef {import('./camera.js').Camera} Camera */
+/** @typedef {import('./tones.js').Tones} Tones */
+
+/** @param {Camera} camera @param {ArrayLike<number>} flat x, y, x, y ... */
+function trace(surface, camera, flat, closed) {
+    for (let i = 0; i + 1 < flat.length; i += 2) {
+        const [x, y] = camera.toScreen(flat[i], flat[i + 1]);
+        if (i) surface.lineTo(x, y);
+        else surface.moveTo(x, y);
+    }
+    if (closed && flat.length > 2) surface.closePath();
+}
+
+/** Strokes polylines of one kind in one go. @param {ArrayLike<number>[]} lines */
+export function strokeLines(surface, camera, lines, colour, width, dash = []) {
+    if (!lines.length) return;
+    surface.beginPath();
+    for (const line of lines) trace(surface, camera, line, false);
+    surface.strokeStyle = colour;
+    surface.lineWidth = width;
+    surface.setLineDash(dash);
+    surface.stroke();
+    surface.setLineDash([]);
+}
+
+/** @param {ArrayLike<number>[]} polygons */
+export function fillPolygons(surface, camera, polygons, colour, alpha = 1) {
+    if (!polygons.length) return;
+    surface.beginPath();
+    for (const polygon of polygons) trace(surface, camera, polygon, true);
+    surface.globalAlpha = alpha;
+    surface.fillStyle = colour;
+    surface.fill();
+    surface.globalAlpha = 1;
+}
+
+/** A filled dot with a rim in the page's colour. */
+export function drawDot(surface, camera, [x, y], radius, colour, rim) {
+    const [px, py] = camera.toScreen(x, y);
+    surface.beginPath();
+    surface.arc(px, py, radius, 0, 2 * Math.PI);
+    surface.fillStyle = colour;
+    surface.fill();
+    surface.strokeStyle = rim;
+    surface.lineWidth = 1.5;
+    surface.stroke();
+}
+
+function drawGrid(surface, camera, step, colour) {
+    const [x0, y0, x1, y1] = camera.box(), lines = [];
+    if ((x1 - x0) / step > 400 || (y1 - y0) / step > 400) return;
+    for (let i = Math.ceil(x0 / step); i * step <= x1; i++) lines.push([i * step, y0, i * step, y1]);
+    for (let i = Math.ceil(y0 / step); i * step <= y1; i++) lines.push([x0, i * step, x1, i * step]);
+    strokeLines(surface, camera, lines, colour, 0.5);
+}
+
+function cellColour(scene, tones, cell, i) {
+    if (cell.solid) return tones.solid;
+    if (!cell.inside) return null;
+    if (i === scene.from || i === scene.to) return null;
+    return scene.seen?.has(i) ? tones.seen[i % 4] : tones.floor[i % 4];
+}
+
+/** Cells of one colour are one path: a thousand of them cost little. */
+function drawCells(surface, camera, scene, tones) {
+    const groups = new Map(), outlines = [];
+    scene.cells.forEach((cell, i) => {
+        const flat = cell.polygon.flat();
+        const colour = cellColour(scene, tones, cell, i);
+        if (colour) groups.set(colour, [...(groups.get(colour) ?? []), flat]);
+        if (cell.inside) outlines.push([...flat, flat[0], flat[1]]);
+    });
+    for (const [colour, polygons] of groups) fillPolygons(surface, camera, polygons, colour);
+    for (const [at, colour] of [[scene.from, tones.from], [scene.to, tones.to]])
+        if (scene.cells[at]) fillPolygons(surface, camera, [scene.cells[at].polygon.flat()], colour, 0.55);
+    strokeLines(surface, camera, outlines, tones.outline, 0.75);
+}
+
+function drawRegion(surface, camera, scene, tones) {
+    if (!scene.region?.length) return;
+    fillPolygons(surface, camera, [scene.region], tones.source, 0.5);
+    const around = [...scene.region, scene.region[0], scene.region[1]];
+    strokeLines(surface, camera, [around], tones.sourceEdge, 1.5);
+}
+
+const isPolygon = { solid: true, open: true, cell: true };
+
+/** @returns {number[]} the item's line, closed where it is an outline */
+export function itemLine(item) {
+    const p = item.points;
+    if (item.kind === 'object') return [p[0], p[1], p[2], p[1], p[2], p[3], p[0], p[3], p[0], p[1]];
+    return isPolygon[item.kind] ? [...p, p[0], p[1]] : p;
+}
+
+function drawItems(surface, camera, scene, tones, wall) {
+    const of = (...kinds) => scene.items.filter((item) => kinds.includes(item.kind));
+    const solid = of('solid').map((item) => item.points);
+    if (!scene.cells) fillPolygons(surface, camera, solid, tones.solid, 0.6);
+    const lines = (...kinds) => of(...kinds).map(itemLine);
+    surface.lineCap = 'round';
+    surface.lineJoin = 'round';
+    strokeLines(surface, camera, lines('seam'), tones.faint, 1, [2, 4]);
+    strokeLines(surface, camera, lines('path'), tones.path, 1.5, [6, 4]);
+    strokeLines(surface, camera, lines('object'), tones.object, 1.5);
+    strokeLines(surface, camera, lines('wall', 'walls', 'solid', 'open'), tones.wall, wall);
+    strokeLines(surface, camera, lines('mirror'), tones.mirrored, wall + 1);
+    strokeLines(surface, camera, lines('oneway'), tones.glass, wall, [6, 4]);
+    const doors = of('door'), isShut = (item) => scene.shut?.has(item.name) ?? item.state === 'shut';
+    strokeLines(surface, camera, doors.filter(isShut).map(itemLine), tones.door, wall + 2);
+    surface.lineCap = 'butt';
+    const open = doors.filter((item) => !isShut(item)).map(itemLine);
+    strokeLines(surface, camera, open, tones.door, 2, [4, 3]);
+    for (const item of of('start')) drawStart(surface, camera, item, tones);
+}
+
+function drawStart(surface, camera, item, tones) {
+    const [x, y] = item.points, angle = ((item.heading ?? 0) * Math.PI) / 180;
+    const r = 14 / camera.scale;
+    const tip = [x, y, x + r * Math.cos(angle), y + r * Math.sin(angle)];
+    strokeLines(surface, camera, [tip], tones.start, 2);
+    drawDot(surface, camera, [x, y], 4, tones.start, tones.page);
+}
+
+/** How thick walls are drawn at this scale, in pixels. */
+export const wallWidth = (camera) => Math.min(3, Math.max(1, camera.scale * 0.12));
+
+/**
+ * @param {CanvasRenderingContext2D | import('./svg-surface.js').SvgSurface} surface
+ * @param {Camera} camera @param {Scene} scene @param {Tones} tones
+ */
+export function drawPlan(surface, camera, scene, tones) {
+    const show = { cells: true, portals: true, ...scene.show };
+    surface.fillStyle = tones.ground;
+    surface.fillRect(0, 0, camera.width, camera.height);
+    if (show.grid) drawGrid(surface, camera, show.grid, tones.hatch);
+    if (scene.cells && show.cells) drawCells(surface, camera, scene, tones);
+    drawRegion(surface, camera, scene, tones);
+    if (scene.portals && show.portals)
+        strokeLines(surface, camera, scene.portals.map((p) => p.segment), tones.portal, 1.25);
+    if (scene.items) drawItems(surface, camera, scene, tones, wallWidth(camera));
+    if (scene.eye) drawDot(surface, camera, scene.eye, 5, tones.sourceEdge, tones.page);
+}
