@@ -19,6 +19,8 @@ export class CoreClient {
         this.worker = null;
         this.waiting = new Map();
         this.next = 1;
+        /** @type {((at: {stage: string, done: number, total: number}) => void) | null} */
+        this.onProgress = null;
     }
 
     start() {
@@ -32,7 +34,8 @@ export class CoreClient {
         };
     }
 
-    receive({ id, result, error }) {
+    receive({ id, result, error, progress }) {
+        if (progress) return this.onProgress?.(progress);
         const call = this.waiting.get(id);
         this.waiting.delete(id);
         if (!error) return call?.resolve(result);

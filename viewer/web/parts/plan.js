@@ -7,17 +7,24 @@
 
 /**
  * @typedef {Object} Scene
- * @property {{polygon: number[][], inside: boolean, solid?: boolean}[]} [cells]
- * @property {{segment: number[]}[]} [portals]
+ * @property {Space} [space] cells and portals
  * @property {Set<number>} [seen] cells of the visible set
- * @property {Set<number>} [kept] cells that the eye sees
  * @property {number} [from] a chosen cell @property {number} [to] a second one
  * @property {ArrayLike<number>} [region] x, y of the visible region
  * @property {[number, number]} [eye]
  * @property {import('../formats/map-text.js').Item[]} [items] walls, doors ... as they are drawn
  * @property {Set<string>} [shut] names of doors that are shut
- * @property {import('./why-scene.js').WhyScene} [why]
  * @property {{cells?: boolean, portals?: boolean, grid?: number}} [show]
+ */
+
+/**
+ * Cells and portals as the package's Scene has them.
+ * @typedef {Object} Space
+ * @property {number} cellCount
+ * @property {Float64Array} vertices x, y ... of all cells
+ * @property {Uint32Array} cellTable six a cell: first vertex, vertices, ..., inside, solid
+ * @property {number} portalCount
+ * @property {Float64Array} portalEnds five a portal, the last four its two ends
  */
 
 /** @typedef {import('./camera.js').Camera} Camera */
@@ -34,10 +41,10 @@ function trace(surface, camera, flat, closed) {
 }
 
 /** Strokes polylines of one kind in one go. @param {ArrayLike<number>[]} lines */
-export function strokeLines(surface, camera, lines, colour, width, dash = []) {
+export function strokeLines(surface, camera, lines, colour, width, dash = [], closed = false) {
     if (!lines.length) return;
     surface.beginPath();
-    for (const line of lines) trace(surface, camera, line, false);
+    for (const line of lines) trace(surface, camera, line, closed);
     surface.strokeStyle = colour;
     surface.lineWidth = width;
     surface.setLineDash(dash);
@@ -76,26 +83,41 @@ function drawGrid(surface, camera, step, colour) {
     strokeLines(surface, camera, lines, colour, 0.5);
 }
 
-function cellColour(scene, tones, cell, i) {
-    if (cell.solid) return tones.solid;
-    if (!cell.inside) return null;
-    if (i === scene.from || i === scene.to) return null;
+/** @param {Space} space @returns {Float64Array} x, y ... of one cell */
+export function cellCorners(space, cell) {
+    const [first, count] = space.cellTable.subarray(6 * cell, 6 * cell + 2);
+    return space.vertices.subarray(2 * first, 2 * (first + count));
+}
+
+/** @param {Space} space */
+export const isInside = (space, cell) => space.cellTable[6 * cell + 4] !== 0;
+
+function cellColour(scene, tones, i) {
+    if (scene.space.cellTable[6 * i + 5]) return tones.solid;
+    if (!isInside(scene.space, i) || i === scene.from || i === scene.to) return null;
     return scene.seen?.has(i) ? tones.seen[i % 4] : tones.floor[i % 4];
 }
 
 /** Cells of one colour are one path: a thousand of them cost little. */
 function drawCells(surface, camera, scene, tones) {
     const groups = new Map(), outlines = [];
-    scene.cells.forEach((cell, i) => {
-        const flat = cell.polygon.flat();
-        const colour = cellColour(scene, tones, cell, i);
-        if (colour) groups.set(colour, [...(groups.get(colour) ?? []), flat]);
-        if (cell.inside) outlines.push([...flat, flat[0], flat[1]]);
-    });
+    for (let i = 0; i < scene.space.cellCount; i++) {
+        const corners = cellCorners(scene.space, i), colour = cellColour(scene, tones, i);
+        if (colour && !groups.has(colour)) groups.set(colour, []);
+        groups.get(colour)?.push(corners);
+        if (isInside(scene.space, i)) outlines.push(corners);
+    }
     for (const [colour, polygons] of groups) fillPolygons(surface, camera, polygons, colour);
     for (const [at, colour] of [[scene.from, tones.from], [scene.to, tones.to]])
-        if (scene.cells[at]) fillPolygons(surface, camera, [scene.cells[at].polygon.flat()], colour, 0.55);
-    strokeLines(surface, camera, outlines, tones.outline, 0.75);
+        if (at >= 0 && at < scene.space.cellCount)
+            fillPolygons(surface, camera, [cellCorners(scene.space, at)], colour, 0.55);
+    strokeLines(surface, camera, outlines, tones.outline, 0.75, [], true);
+}
+
+function drawPortals(surface, camera, space, tones) {
+    const lines = [];
+    for (let i = 0; i < space.portalCount; i++) lines.push(space.portalEnds.subarray(5 * i + 1, 5 * i + 5));
+    strokeLines(surface, camera, lines, tones.portal, 1.25);
 }
 
 function drawRegion(surface, camera, scene, tones) {
@@ -117,7 +139,7 @@ export function itemLine(item) {
 function drawItems(surface, camera, scene, tones, wall) {
     const of = (...kinds) => scene.items.filter((item) => kinds.includes(item.kind));
     const solid = of('solid').map((item) => item.points);
-    if (!scene.cells) fillPolygons(surface, camera, solid, tones.solid, 0.6);
+    if (!scene.space) fillPolygons(surface, camera, solid, tones.solid, 0.6);
     const lines = (...kinds) => of(...kinds).map(itemLine);
     surface.lineCap = 'round';
     surface.lineJoin = 'round';
@@ -155,10 +177,9 @@ export function drawPlan(surface, camera, scene, tones) {
     surface.fillStyle = tones.ground;
     surface.fillRect(0, 0, camera.width, camera.height);
     if (show.grid) drawGrid(surface, camera, show.grid, tones.hatch);
-    if (scene.cells && show.cells) drawCells(surface, camera, scene, tones);
+    if (scene.space && show.cells) drawCells(surface, camera, scene, tones);
     drawRegion(surface, camera, scene, tones);
-    if (scene.portals && show.portals)
-        strokeLines(surface, camera, scene.portals.map((p) => p.segment), tones.portal, 1.25);
+    if (scene.space && show.portals) drawPortals(surface, camera, scene.space, tones);
     if (scene.items) drawItems(surface, camera, scene, tones, wallWidth(camera));
     if (scene.eye) drawDot(surface, camera, scene.eye, 5, tones.sourceEdge, tones.page);
 }

@@ -3,7 +3,7 @@ import { CoreClient, CoreError } from '../core/client.js';
 import { openLevel } from '../core/level.js';
 import { countWalls, parseMap } from '../formats/map-text.js';
 import { roundStep } from '../parts/camera.js';
-import { drawDot, itemLine, strokeLines } from '../parts/plan.js';
+import { cellCorners, drawDot, isInside, itemLine, strokeLines } from '../parts/plan.js';
 import { watchTones } from '../parts/tones.js';
 import { drawWhy, tellWhy } from '../parts/why-scene.js';
 import { MapDocument } from './document.js';
@@ -132,14 +132,19 @@ class Playground {
     firstEye() {
         const start = this.doc.items.find((item) => item.kind === 'start');
         if (start) return [start.points[0], start.points[1]];
-        const size = ({ polygon }) => Math.abs(polygon.reduce((sum, p, i) => {
-            const q = polygon[(i + 1) % polygon.length];
-            return sum + p[0] * q[1] - p[1] * q[0];
-        }, 0));
-        const inside = this.plan.cells.filter((cell) => cell.inside);
-        if (!inside.length) return null;
-        const { polygon } = inside.reduce((a, b) => (size(b) > size(a) ? b : a));
-        return [0, 1].map((k) => polygon.reduce((sum, p) => sum + p[k], 0) / polygon.length);
+        let best = null, most = 0;
+        for (let i = 0; i < this.plan.cellCount; i++) {
+            const p = cellCorners(this.plan, i), n = p.length / 2;
+            let size = 0, x = 0, y = 0;
+            for (let k = 0; k < n; k++) {
+                const next = 2 * ((k + 1) % n);
+                size += p[2 * k] * p[next + 1] - p[next] * p[2 * k + 1];
+                x += p[2 * k] / n;
+                y += p[2 * k + 1] / n;
+            }
+            if (isInside(this.plan, i) && size > most) [most, best] = [size, [x, y]];
+        }
+        return best;
     }
 
     /** @param {import('../formats/map-text.js').Item[]} items */
@@ -199,7 +204,7 @@ class Playground {
         this.seen = null;
         if (!this.level || !this.eye) return this.showFacts();
         const [x, y] = this.eye, cell = this.level.locate(x, y);
-        if (cell >= 0 && this.plan.cells[cell]?.inside !== false) {
+        if (cell >= 0 && isInside(this.plan, cell)) {
             const set = new Set(this.level.row(cell));
             this.seen = { cell, set, kept: this.level.look(x, y).length, region: this.level.visiblePolygon(x, y) };
         }
@@ -218,8 +223,8 @@ class Playground {
         const plan = this.plan, seen = this.seen;
         panel.showFacts([
             ['Walls', countWalls(this.doc.items)],
-            ['Cells', plan?.cells.length],
-            ['Portals', plan?.portals.length],
+            ['Cells', plan?.cellCount],
+            ['Portals', plan?.portalCount],
             ['Pairs that see each other', plan?.pairs],
             ['Baked in', plan && `${this.live.result.bakeTime.toFixed(1)} ms`],
             ['Cell of the eye', seen?.cell],
@@ -254,7 +259,7 @@ class Playground {
             const [a, b] = this.nextPair, of = this.live.result;
             this.nextPair = null;
             try {
-                this.why = await this.client.call('explain', { slv: of.slv, a, b });
+                this.why = await this.client.call('explain', { a, b });
                 this.whyOf = of;
                 panel.showWhy(tellWhy(this.why));
             } catch (error) {
@@ -295,8 +300,7 @@ class Playground {
     scene() {
         const asks = this.tool === 'why' && this.pair;
         return {
-            cells: this.plan?.cells,
-            portals: this.plan?.portals,
+            space: this.plan,
             items: this.doc.items,
             shut: this.known ? this.shut : undefined,
             seen: asks || !isOn('show-set') ? null : this.seen?.set,
