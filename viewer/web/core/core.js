@@ -26,6 +26,16 @@ export function planOf(scene) {
     };
 }
 
+/**
+ * What an eye sees.
+ * @typedef {Object} Seen
+ * @property {number} cell of the eye
+ * @property {Uint32Array} row the cells that this cell sees
+ * @property {number} kept how many of them the eye sees
+ * @property {Float64Array} region x, y ... of what it sees
+ * @property {Float64Array[]} mirrored the same of what it sees in mirrors, where it lies
+ */
+
 /** Bakes maps, and keeps the last one for questions. */
 export class Core {
     /** @param {any} module */
@@ -38,12 +48,22 @@ export class Core {
         return new Core(await load());
     }
 
-    /** @param {string} text @param {BakeOptions} options @returns {{slv: Uint8Array, plan: Plan}} */
+    get open() {
+        if (!this.scene) throw new Error('The map is not computed yet.');
+        return this.scene;
+    }
+
+    /** @param {string} text @param {BakeOptions} options @returns {Plan} */
     bake(text, options) {
         this.scene?.close();
         this.scene = null;
         this.scene = this.module.open(text, options);
-        return { slv: this.scene.slv(), plan: planOf(this.scene) };
+        return planOf(this.scene);
+    }
+
+    /** The .slv file of the last map. @returns {Uint8Array} */
+    slv() {
+        return this.open.slv();
     }
 
     /** @param {Uint8Array} slv @returns {any} the JSON export */
@@ -51,14 +71,30 @@ export class Core {
         return this.module.describe(slv);
     }
 
-    /** Why cell a of the last map sees cell b or not. @param {number} a @param {number} b */
-    explain(a, b) {
-        if (!this.scene) throw new Error('The map is not computed yet.');
-        return this.scene.explain(a, b);
+    /** Opens and shuts doors. @param {Record<string, boolean>} doors names that are not there do nothing */
+    setDoors(doors) {
+        for (const { name, open } of this.open.doors)
+            if (Object.hasOwn(doors, name) && doors[name] !== open) this.scene.setDoor(name, doors[name]);
     }
 
-    /** The lines through portals in the dual plane. @param {number[][]} portals left and right ends */
-    dual(portals) {
-        return this.module.dual(portals);
+    /** @param {number[]} eye @returns {Seen | null} null where nobody stands */
+    look([x, y]) {
+        const scene = this.open, cell = scene.locate(x, y);
+        if (cell < 0 || !scene.cellTable[6 * cell + 4]) return null;
+        const mirrored = scene.mirrors.length ? scene.mirroredParts(x, y).map((part) => part.polygon) : [];
+        return { cell, row: scene.row(cell), kept: scene.look(x, y).length, region: scene.visiblePolygon(x, y), mirrored };
+    }
+
+    /** @param {number[]} place @returns {number} its cell, -1 for none */
+    locate([x, y]) {
+        return this.open.locate(x, y);
+    }
+
+    /** Why one cell sees another or not, with the lines through the portals in the dual plane. */
+    explain(a, b) {
+        const why = this.open.explain(a, b), miss = why.misses?.[0];
+        const passed = why.sequence ?? (miss && [...miss.sequence, miss.stopped_by]);
+        const portals = passed?.map((p) => [...p.left, ...p.right]);
+        return { ...why, dual: portals?.length ? this.module.dual(portals) : null };
     }
 }

@@ -20,16 +20,21 @@ function teller(id) {
 }
 
 const tasks = {
-    bake({ id, text, options }) {
-        const started = performance.now();
-        const result = core.bake(text, { ...options, progress: teller(id) });
-        return { ...result, bakeTime: performance.now() - started };
+    bake({ id, text, options, doors, eye }) {
+        const started = performance.now(), plan = core.bake(text, { ...options, progress: teller(id) });
+        const bakeTime = performance.now() - started;
+        core.setDoors(doors);
+        return { plan, bakeTime, seen: eye && core.look(eye) };
     },
+    look({ eye, doors }) {
+        core.setDoors(doors);
+        return core.look(eye);
+    },
+    slv: () => core.slv(),
     describe: ({ slv }) => core.describe(slv),
-    explain({ a, b }) {
-        const why = core.explain(a, b);
-        const passed = why.sequence ?? (why.misses?.[0] && [...why.misses[0].sequence, why.misses[0].stopped_by]);
-        return { ...why, dual: passed?.length ? core.dual(passed.map((p) => [...p.left, ...p.right])) : null };
+    explain({ from, to }) {
+        const pair = [core.locate(from), core.locate(to)];
+        return { pair, why: pair[0] !== pair[1] && Math.min(...pair) >= 0 ? core.explain(...pair) : null };
     },
 };
 

@@ -11,6 +11,7 @@
  * @property {Set<number>} [seen] cells of the visible set
  * @property {number} [from] a chosen cell @property {number} [to] a second one
  * @property {ArrayLike<number>} [region] x, y of the visible region
+ * @property {ArrayLike<number>[]} [mirrored] parts that are seen in mirrors, where they lie
  * @property {[number, number]} [eye]
  * @property {import('../formats/map-text.js').Item[]} [items] walls, doors ... as they are drawn
  * @property {Set<string>} [shut] names of doors that are shut
@@ -121,10 +122,10 @@ function drawPortals(surface, camera, space, tones) {
 }
 
 function drawRegion(surface, camera, scene, tones) {
+    for (const part of scene.mirrored ?? []) fillPolygons(surface, camera, [part], tones.mirrored, 0.4);
     if (!scene.region?.length) return;
-    fillPolygons(surface, camera, [scene.region], tones.source, 0.5);
-    const around = [...scene.region, scene.region[0], scene.region[1]];
-    strokeLines(surface, camera, [around], tones.sourceEdge, 1.5);
+    fillPolygons(surface, camera, [scene.region], tones.source, 0.65);
+    strokeLines(surface, camera, [scene.region], tones.sourceEdge, 1.5, [], true);
 }
 
 const isPolygon = { solid: true, open: true, cell: true };

@@ -1,15 +1,15 @@
 /** The playground: brings the map, the core, the plan and the panel together. */
 import { CoreClient, CoreError } from '../core/client.js';
-import { openLevel } from '../core/level.js';
+import { Latest } from '../core/latest.js';
 import { countWalls, parseMap } from '../formats/map-text.js';
 import { roundStep } from '../parts/camera.js';
 import { cellCorners, drawDot, isInside, itemLine, strokeLines } from '../parts/plan.js';
 import { watchTones } from '../parts/tones.js';
+import { dualFigure } from '../parts/dual.js';
 import { drawWhy, tellWhy } from '../parts/why-scene.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
 import { Keys } from './keys.js';
-import { LiveBake } from './live.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
@@ -22,20 +22,44 @@ const isOn = (id) => get(id).checked;
 /** Above this many walls the browser is not asked to keep the map. */
 const MOST_KEPT = 20000;
 
+/** The middle of the largest cell inside. @param {import('../parts/plan.js').Space} space */
+function largestCell(space) {
+    let best = null, most = 0;
+    for (let i = 0; i < space.cellCount; i++) {
+        const p = cellCorners(space, i), n = p.length / 2;
+        let size = 0, x = 0, y = 0;
+        for (let k = 0; k < n; k++) {
+            const next = 2 * ((k + 1) % n);
+            size += p[2 * k] * p[next + 1] - p[next] * p[2 * k + 1];
+            x += p[2 * k] / n;
+            y += p[2 * k + 1] / n;
+        }
+        if (isInside(space, i) && size > most) [most, best] = [size, [x, y]];
+    }
+    return best;
+}
+
 class Playground {
     constructor() {
         this.doc = new MapDocument();
         this.client = new CoreClient();
-        this.live = new LiveBake(this.client);
+        this.bakes = new Latest((wanted) => this.runBake(wanted));
+        this.looks = new Latest((eye) => this.runLook(eye));
+        this.questions = new Latest((places) => this.runExplain(places));
         this.tool = 'look';
         this.tools = makeTools(this);
         this.eye = null;
+        /** What the eye sees, its visible set also as a set. */
         this.seen = null;
+        /** The last two places of a question, their cells, and the answer. */
+        this.places = null;
         this.pair = null;
         this.why = null;
-        this.shut = new Set();
-        this.level = null;
+        /** Doors that were opened or shut by hand, by name. @type {Record<string, boolean>} */
+        this.doors = {};
+        /** The last baked map; null where there is none. @type {import('../core/core.js').Plan | null} */
         this.plan = null;
+        this.bakeTime = 0;
         this.view = new View(get('plan'), this);
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
         this.keys = new Keys(get('plan'), this);
@@ -45,10 +69,6 @@ class Playground {
     listen() {
         this.doc.addEventListener('change', () => this.changed());
         this.doc.addEventListener('select', () => this.redraw());
-        this.live.addEventListener('begin', () => panel.showBusy('Computing what is seen'));
-        this.live.addEventListener('end', () => panel.showBusy(''));
-        this.live.addEventListener('baked', () => this.baked(this.live.result));
-        this.live.addEventListener('failed', (e) => this.failed(e.detail));
         this.client.onProgress = (at) => panel.showProgress(at.total ? at.done / at.total : -1, `Computing what is seen: ${at.stage}`);
         for (const button of document.querySelectorAll('[data-do]'))
             button.addEventListener('click', () => this.act(button.dataset.do));
@@ -89,37 +109,36 @@ class Playground {
     }
 
     bake() {
-        this.live.want(() => this.doc.text(), { sight: get('sight').value });
+        this.bakes.want({ sight: get('sight').value });
     }
 
-    async baked(result) {
-        this.plan = result.plan;
-        this.level?.close();
-        this.level = null;
-        const level = await openLevel(result.slv);
-        if (this.live.result !== result) return level.close();
-        this.level = level;
-        this.doorNames = [...new Set(this.plan.doors.map((door) => door.name))];
-        const before = this.shut;
-        this.shut = new Set(this.plan.doors.filter((d) => (this.known?.has(d.name) ? before.has(d.name) : !d.open)).map((d) => d.name));
-        this.known = new Set(this.doorNames);
-        for (const name of this.doorNames) this.level.setDoor(name, !this.shut.has(name));
-        panel.showDoors(this.doorNames, this.shut, (name, open) => this.setDoor(name, open));
+    async runBake(options) {
+        panel.showBusy('Computing what is seen');
+        try {
+            const eye = this.eye ?? this.startPlace();
+            this.baked(await this.client.call('bake', { text: this.doc.text(), options, doors: this.doors, eye }));
+        } catch (error) {
+            this.failed(error);
+        }
+        panel.showBusy('');
+    }
+
+    baked({ plan, bakeTime, seen }) {
+        this.plan = plan;
+        this.bakeTime = bakeTime;
+        this.shut = new Set(plan.doors.filter((door) => !door.open).map((door) => door.name));
+        panel.showDoors([...new Set(plan.doors.map((door) => door.name))], this.shut, (name, open) => this.setDoor(name, open));
         if (this.hasError) panel.showMessage('');
         this.hasError = false;
-        this.eye ??= this.firstEye();
-        this.look();
-        if (this.pairPlaces) this.askWhy(...this.pairPlaces);
+        this.eye ??= this.startPlace();
+        if (this.eye) this.useSeen(seen);
+        else this.setEye(largestCell(plan));
+        if (this.places) this.questions.want(this.places);
         this.redraw();
-        this.view.onPaint = () => {
-            result.shown ??= performance.now() - this.live.since;
-        };
     }
 
     failed(error) {
-        this.plan = this.seen = null;
-        this.level?.close();
-        this.level = null;
+        this.plan = this.seen = this.why = null;
         const item = error.line ? this.doc.items[error.line - 2] : null;
         if (item) this.doc.select(error.line - 2);
         this.hasError = true;
@@ -128,33 +147,18 @@ class Playground {
         this.redraw();
     }
 
-    /** The first start, or the middle of the largest cell. */
-    firstEye() {
-        const start = this.doc.items.find((item) => item.kind === 'start');
-        if (start) return [start.points[0], start.points[1]];
-        let best = null, most = 0;
-        for (let i = 0; i < this.plan.cellCount; i++) {
-            const p = cellCorners(this.plan, i), n = p.length / 2;
-            let size = 0, x = 0, y = 0;
-            for (let k = 0; k < n; k++) {
-                const next = 2 * ((k + 1) % n);
-                size += p[2 * k] * p[next + 1] - p[next] * p[2 * k + 1];
-                x += p[2 * k] / n;
-                y += p[2 * k + 1] / n;
-            }
-            if (isInside(this.plan, i) && size > most) [most, best] = [size, [x, y]];
-        }
-        return best;
+    startPlace() {
+        return this.doc.items.find((item) => item.kind === 'start')?.points ?? null;
     }
 
     /** @param {import('../formats/map-text.js').Item[]} items */
     load(items, message) {
-        this.eye = this.pairPlaces = this.why = this.seen = null;
-        this.known = null;
+        this.eye = this.places = this.pair = this.why = this.seen = null;
+        this.doors = {};
         panel.showWhy('');
         this.tools.look.pinned = false;
-        this.doc.change(items);
         this.doc.select(-1);
+        this.doc.change(items);
         this.act('fit');
         if (message) panel.showMessage(message);
     }
@@ -196,27 +200,29 @@ class Playground {
 
     setEye(place) {
         this.eye = place;
-        this.look();
+        if (this.plan && place) this.looks.want(place);
         this.redraw();
     }
 
-    look() {
-        this.seen = null;
-        if (!this.level || !this.eye) return this.showFacts();
-        const [x, y] = this.eye, cell = this.level.locate(x, y);
-        if (cell >= 0 && isInside(this.plan, cell)) {
-            const set = new Set(this.level.row(cell));
-            this.seen = { cell, set, kept: this.level.look(x, y).length, region: this.level.visiblePolygon(x, y) };
+    async runLook(eye) {
+        try {
+            this.useSeen(await this.client.call('look', { eye, doors: this.doors }));
+        } catch {
+            this.useSeen(null); // The bake that failed or was cancelled has said so.
         }
+        this.redraw();
+    }
+
+    useSeen(seen) {
+        this.seen = seen && { ...seen, set: new Set(seen.row) };
         this.showFacts();
     }
 
     setDoor(name, open) {
+        this.doors[name] = open;
         if (open) this.shut.delete(name);
         else this.shut.add(name);
-        this.level?.setDoor(name, open);
-        this.look();
-        this.redraw();
+        this.setEye(this.eye);
     }
 
     showFacts() {
@@ -226,57 +232,38 @@ class Playground {
             ['Cells', plan?.cellCount],
             ['Portals', plan?.portalCount],
             ['Pairs that see each other', plan?.pairs],
-            ['Baked in', plan && `${this.live.result.bakeTime.toFixed(1)} ms`],
+            ['Baked in', plan && `${this.bakeTime.toFixed(1)} ms`],
             ['Cell of the eye', seen?.cell],
             ['The cell sees', seen && `${seen.set.size} cells`],
             ['The eye sees', seen && `${seen.kept} cells`],
         ]);
         get('where').textContent = this.eye ? `Eye at ${this.eye.map((v) => Math.round(v * 1000) / 1000).join(', ')}` +
-            `${seen ? '' : this.level ? ', not inside' : ''}` : '';
+            `${seen ? '' : this.plan ? ', not inside' : ''}` : '';
     }
 
     /** Asks for a pair of cells by places; null keeps the first one. */
     askWhy(from, to) {
-        this.pairPlaces = [from ?? this.pairPlaces?.[0] ?? to, to];
-        if (!this.level) return;
-        const pair = this.pairPlaces.map(([x, y]) => this.level.locate(x, y));
-        const changed = String(pair) !== String(this.pair);
-        this.pair = pair;
-        if (pair[0] < 0 || pair[1] < 0) return panel.showWhy('Choose two places inside the map.');
-        if (pair[0] === pair[1]) {
+        this.places = { from: from ?? this.places?.from ?? to, to };
+        if (this.plan) this.questions.want(this.places);
+    }
+
+    async runExplain(places) {
+        try {
+            const { pair, why } = await this.client.call('explain', places);
+            if (!this.places) return;
+            [this.pair, this.why] = [pair, why];
+            panel.showWhy(Math.min(...pair) < 0 ? 'Choose two places inside the map.'
+                : why ? tellWhy(why) : `Cell ${pair[0]} is chosen. Choose a second place.`);
+            panel.showDual(why?.dual ? dualFigure(why, this.view.tones) : null);
+        } catch (error) {
             this.why = null;
-            panel.showWhy(`Cell ${pair[0]} is chosen. Choose a second place.`);
-        } else if (changed || this.whyOf !== this.live.result) this.explain(pair);
+            panel.showWhy(error.message);
+        }
         this.redraw();
     }
 
-    /** One question at a time; of those in between the last one counts. */
-    async explain(pair) {
-        this.nextPair = pair;
-        if (this.explaining) return;
-        this.explaining = true;
-        while (this.nextPair) {
-            const [a, b] = this.nextPair, of = this.live.result;
-            this.nextPair = null;
-            try {
-                this.why = await this.client.call('explain', { a, b });
-                this.whyOf = of;
-                panel.showWhy(tellWhy(this.why));
-            } catch (error) {
-                this.why = null;
-                panel.showWhy(error.message);
-            }
-            this.redraw();
-        }
-        this.explaining = false;
-    }
-
-    isOneCell() {
-        return !this.pair || this.pair[0] === this.pair[1];
-    }
-
     forgetWhy() {
-        this.why = this.pair = this.pairPlaces = null;
+        this.why = this.pair = this.places = null;
         panel.showWhy('');
         this.redraw();
     }
@@ -302,9 +289,10 @@ class Playground {
         return {
             space: this.plan,
             items: this.doc.items,
-            shut: this.known ? this.shut : undefined,
+            shut: this.shut,
             seen: asks || !isOn('show-set') ? null : this.seen?.set,
             region: asks || !isOn('show-region') ? null : this.seen?.region,
+            mirrored: asks || !isOn('show-region') ? null : this.seen?.mirrored,
             eye: asks ? null : this.eye,
             from: asks ? this.pair[0] : undefined,
             to: asks ? this.pair[1] : undefined,
@@ -413,10 +401,13 @@ class Playground {
         acts[what]();
     }
 
-    saveSlv() {
-        if (!this.plan || this.live.running)
-            return panel.showMessage('There is no baked map yet. Wait until it is computed, or mend the error.', true);
-        save(new Blob([this.live.result.slv], { type: 'application/octet-stream' }), 'plan.slv');
+    async saveSlv() {
+        if (!this.plan) return panel.showMessage('There is no baked map yet. Wait until it is computed, or mend the error.', true);
+        try {
+            save(new Blob([await this.client.call('slv', {})], { type: 'application/octet-stream' }), 'plan.slv');
+        } catch (error) {
+            panel.showMessage(`The .slv file was not saved: ${error.message}`, true);
+        }
     }
 
     async share() {

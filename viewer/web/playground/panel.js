@@ -66,6 +66,11 @@ export function showWhy(text) {
     if (get('why-text').textContent !== text) get('why-text').textContent = text;
 }
 
+/** @param {SVGElement | null} figure */
+export function showDual(figure) {
+    get('why-dual').replaceChildren(...(figure ? [figure] : []));
+}
+
 let asked = 0;
 
 /** Shows that work goes on, if it takes longer than a moment. @param {string} text '' when it is over */

@@ -132,12 +132,14 @@ class WhyTool {
     press(raw) {
         this.app.askWhy(this.asking ? null : raw, raw);
         this.asking = !this.asking;
+        this.dragged = false;
     }
-    move(raw) {
+    move(raw, held) {
         if (this.asking) this.app.askWhy(null, raw);
+        this.dragged ||= held;
     }
     release() {
-        if (!this.app.isOneCell()) this.asking = false;
+        if (this.dragged) this.asking = false;
     }
     cancel() {
         this.asking = false;
