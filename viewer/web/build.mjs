@@ -1,7 +1,7 @@
 /**
- * Makes the site: node viewer/web/build.mjs SITE PACKAGE
+ * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE
  *
- * SITE is the folder to write, PACKAGE the built npm package. The site is plain files: this folder,
+ * PACKAGE is the built npm package, SITE the folder to write. The site is plain files: this folder,
  * the package, the maps of maps/ and a page from each document for an audience.
  */
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -94,9 +94,10 @@ function writePages(site) {
     }
 }
 
-const [site, library] = process.argv.slice(2);
-if (!site || !library) {
-    console.error('usage: node build.mjs SITE PACKAGE');
+const valueOf = (name) => process.argv[process.argv.indexOf(name) + 1];
+const [site, library] = [valueOf('--out'), valueOf('--package')];
+if (process.argv.length !== 6 || !process.argv.includes('--out') || !process.argv.includes('--package')) {
+    console.error('usage: node build.mjs --package PACKAGE --out SITE');
     process.exit(2);
 }
 if (!existsSync(join(library, 'sightline.js'))) {
@@ -110,4 +111,3 @@ for (const part of parts)
 cpSync(library, join(site, 'package'), { recursive: true });
 writeGallery(site);
 writePages(site);
-console.log(`The site is in ${site}`);

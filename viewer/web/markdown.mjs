@@ -42,7 +42,7 @@ function list(lines, put) {
 function table(lines, put) {
     const [head, , ...rows] = lines.map(cellsOf);
     const row = (cells, tag) => `<tr>${cells.map((c) => `<${tag}>${put(c)}</${tag}>`).join('')}</tr>`;
-    return `<div class="table" role="region" aria-label="Table" tabindex="0"><table>\n<thead>${row(head, 'th')}</thead>\n` +
+    return `<div class="table" role="group" aria-label="Table" tabindex="0"><table>\n<thead>${row(head, 'th')}</thead>\n` +
         `<tbody>\n${rows.map((r) => row(r, 'td')).join('\n')}\n</tbody>\n</table></div>`;
 }
 

@@ -1,6 +1,6 @@
 /** GeoJSON: lines and outlines become walls; features of our own exports become what they were. */
 import { FormatError } from './map-text.js';
-import { oneWord } from './words.js';
+import { oneWord, plural } from './words.js';
 
 const flat = (line) => line.flatMap(([x, y]) => [x, y]);
 
@@ -45,7 +45,7 @@ export function readGeoJson(file) {
     }
     if (!items.length) throw new FormatError('the file has no lines or outlines');
     const notes = [];
-    if (left.cells) notes.push(`${left.cells} cells, portals and regions: they are made anew`);
-    if (left.points) notes.push(`${left.points} points`);
+    if (left.cells) notes.push(`${plural(left.cells, 'cell, portal or region', 'cells, portals and regions')}, made anew here`);
+    if (left.points) notes.push(plural(left.points, 'point'));
     return { items, notes };
 }

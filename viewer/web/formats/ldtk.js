@@ -1,7 +1,7 @@
 /** LDtk projects and levels: solid values of IntGrid layers, doors and starts of entities. */
 import { FormatError } from './map-text.js';
 import { gridWalls } from './plan-text.js';
-import { isDoorName, isSolidName, isStartName } from './words.js';
+import { isDoorName, isSolidName, isStartName, plural } from './words.js';
 
 /** The values of each IntGrid layer that are solid, by the layer's name; null for all but 0. */
 function solidValues(project) {
@@ -51,7 +51,7 @@ export function readLdtk(project) {
                 items.push(...entityItems(entity, layer.__gridSize, x, top, counts));
     }
     if (used.length > 1) notes.push(`${used.length} levels, side by side as in their world; walls stand between them`);
-    if (used.length < levels.length) notes.push(`${levels.length - used.length} levels at another depth or in other files`);
+    if (used.length < levels.length) notes.push(`${plural(levels.length - used.length, 'level')} at another depth or in other files`);
     if (!items.length) throw new FormatError('no IntGrid layer has solid values');
     return { items, notes };
 }

@@ -60,7 +60,7 @@ export async function readMapFile(bytes, describe) {
             throw new FormatError(`this ${format} file is not as it should be (${error.message})`);
         }
     }
-    if (/^<(\?xml[^]*?)?[^]*<svg[\s>]/i.test(start.slice(0, 4000))) return { format: 'SVG', ...readSvg(text) };
+    if (start.startsWith('<') && /<svg[\s>]/i.test(start.slice(0, 4000))) return { format: 'SVG', ...readSvg(text) };
     if (start.startsWith('<'))
         throw new FormatError('XML files but SVG are not read here. In Tiled, save the map as JSON (.tmj)');
     if (isPlan(text)) return { format: 'an ASCII plan', items: parsePlan(text), notes: [] };

@@ -4,7 +4,7 @@
  */
 import { FormatError } from './map-text.js';
 import { apply, ellipse, identity, multiply, numbersOf, parsePath, parseTransform } from './svg-path.js';
-import { oneWord } from './words.js';
+import { oneWord, plural } from './words.js';
 
 const number = (node, name, spare = 0) => parseFloat(node.getAttribute(name) ?? '') || spare;
 
@@ -110,8 +110,8 @@ export function readSvg(text) {
     };
     visit(root, identity, undefined, 0);
     const notes = [];
-    if (counts.left) notes.push(`${counts.left} texts and pictures`);
-    if (counts.hidden) notes.push(`${counts.hidden} hidden elements`);
+    if (counts.left) notes.push(plural(counts.left, 'text or picture', 'texts and pictures'));
+    if (counts.hidden) notes.push(plural(counts.hidden, 'hidden element'));
     const range = Number(root.getAttribute('data-sightline-range'));
     if (range > 0) items.push({ kind: 'range', points: [], value: range });
     if (!items.length) throw new FormatError('the drawing has no lines or outlines');

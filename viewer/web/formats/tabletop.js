@@ -1,5 +1,6 @@
 /** Universal VTT (.dd2vtt, .uvtt): lines of sight are walls, portals are doors. */
 import { FormatError } from './map-text.js';
+import { plural } from './words.js';
 
 /** @param {any} file @returns {{items: import('./map-text.js').Item[], notes: string[]}} */
 export function readTabletop(file) {
@@ -15,7 +16,7 @@ export function readTabletop(file) {
         items.push({ kind: 'door', name: `door${i + 1}`, points: flat(portal.bounds), state });
     });
     const lights = file.lights?.length ?? 0;
-    if (lights) notes.push(`${lights} ${lights === 1 ? 'light' : 'lights'}`);
+    if (lights) notes.push(plural(lights, 'light'));
     if (file.image) notes.push('the picture');
     if (!items.length) throw new FormatError('the file has no walls');
     return { items, notes };

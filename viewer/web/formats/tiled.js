@@ -4,7 +4,7 @@
  */
 import { FormatError } from './map-text.js';
 import { gridWalls } from './plan-text.js';
-import { isDoorName, isSolidName, isStartName, oneWord } from './words.js';
+import { isDoorName, isSolidName, isStartName, oneWord, plural } from './words.js';
 
 const FLAGS = 0x1fffffff;
 
@@ -135,7 +135,7 @@ export async function readTiled(map) {
     for (const { layer, says: whole, x, y } of layers)
         for (const object of layer.objects ?? [])
             items.push(...objectItems({ ...object, x: object.x + x, y: object.y + y }, whole, height, counts));
-    if (counts.ellipses) notes.push(`${counts.ellipses} ellipses became boxes`);
+    if (counts.ellipses) notes.push(`${plural(counts.ellipses, 'ellipse')}, taken as boxes`);
     if (guessed) notes.push('Nothing says what is solid: this is a guess from the lowest layer');
     if (!items.length) throw new FormatError('nothing in this Tiled map is solid');
     return { items, notes };

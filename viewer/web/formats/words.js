@@ -18,5 +18,8 @@ export const isDoorName = (name) => wordsOf(name).some((w) => w === 'door' || w 
 
 export const isStartName = (name) => wordsOf(name).some((w) => /^(player|spawn|start|playerstart|spawnpoint)s?$/.test(w));
 
+/** A number with its noun: 1 light, 2 lights. */
+export const plural = (n, one, many = `${one}s`) => `${n} ${n === 1 ? one : many}`;
+
 /** A name in one word, as map text wants it. */
 export const oneWord = (name, spare) => String(name ?? '').trim().replace(/[\s#,]+/g, '_') || spare;

@@ -122,9 +122,9 @@ function drawPortals(surface, camera, space, tones) {
 }
 
 function drawRegion(surface, camera, scene, tones) {
-    for (const part of scene.mirrored ?? []) fillPolygons(surface, camera, [part], tones.mirrored, 0.4);
+    for (const part of scene.mirrored ?? []) fillPolygons(surface, camera, [part], tones.image);
     if (!scene.region?.length) return;
-    fillPolygons(surface, camera, [scene.region], tones.source, 0.65);
+    fillPolygons(surface, camera, [scene.region], tones.region);
     strokeLines(surface, camera, [scene.region], tones.sourceEdge, 1.5, [], true);
 }
 

@@ -15,6 +15,7 @@
  * @property {string} start @property {string} path @property {string} door
  * @property {string} glass @property {string} object @property {string} mirrored
  * @property {string} ink @property {string} faint @property {string} region
+ * @property {string} image what is seen in a mirror
  * @property {string} from @property {string} to
  */
 
@@ -41,7 +42,6 @@ const light = {
     mirrored: '#b8558c',
     ink: '#252a33',
     faint: '#646971',
-    region: '#b86a00',
     from: '#b86a00',
     to: '#a8487d',
 };
@@ -67,7 +67,6 @@ const dark = {
     mirrored: '#e58fc0',
     ink: '#ece9e2',
     faint: '#9aa1ab',
-    region: '#b7821a',
     from: '#b7821a',
     to: '#e58fc0',
 };
@@ -85,7 +84,8 @@ export function mix(a, b, share) {
 /** @param {boolean} isDark @returns {Tones} */
 export function makeTones(isDark) {
     const base = isDark ? dark : light, strength = isDark ? 0.58 : 0.62;
-    return { ...base, seen: base.floor.map((c, i) => mix(c, SKY, strength - 0.04 * i)) };
+    const region = mix(base.floor[0], base.source, 0.65), image = mix(base.floor[0], base.mirrored, 0.45);
+    return { ...base, region, image, seen: base.floor.map((c, i) => mix(c, SKY, strength - 0.04 * i)) };
 }
 
 /**

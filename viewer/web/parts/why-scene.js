@@ -2,6 +2,7 @@
  * Draws an explanation: the portals that sightlines would pass, and the line that passes them or,
  * of a hidden pair, the ends of portals that leave no line through.
  */
+import { plural } from '../formats/words.js';
 import { drawDot, strokeLines } from './plan.js';
 
 /**
@@ -46,8 +47,6 @@ export function drawWhy(surface, camera, why, tones) {
     const bent = why.by_mirror?.line;
     if (bent?.length) strokeLines(surface, camera, [bent.flat()], tones.mirrored, 3);
 }
-
-const plural = (n, one) => `${n} ${n === 1 ? one : `${one}s`}`;
 
 /** Why, in words. @param {WhyScene} why */
 export function tellWhy(why) {

@@ -87,7 +87,7 @@ class Playground {
         addEventListener('pagehide', () => this.keep());
         watchTones((tones) => {
             this.view.tones = tones;
-            panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.source],
+            panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
                 ['portal', tones.portal], ['door', tones.door]]);
             this.redraw();
         });
@@ -163,22 +163,22 @@ class Playground {
         if (message) panel.showMessage(message);
     }
 
-    async openFile(file) {
+    async openFile(file, quiet = false) {
         try {
             const { items, notes, format } = await readFile(file, (slv) => this.client.call('describe', { slv }));
             const left = notes.length ? ` Left out or guessed: ${notes.join('; ')}.` : '';
-            this.load(items, `${file.name} was read as ${format}.${left}`);
+            this.load(items, quiet ? '' : `${file.name} was read as ${format}.${left}`);
         } catch (error) {
             panel.showMessage(error.message, true);
         }
     }
 
-    async openGallery(name) {
+    async openGallery(name, quiet = false) {
         if (!name) return;
         try {
             const answer = await fetch(`maps/${name}`);
             if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
-            await this.openFile(new File([await answer.blob()], name));
+            await this.openFile(new File([await answer.blob()], name), quiet);
         } catch (error) {
             panel.showMessage(`${name} was not loaded: ${error.message}`, true);
         }
@@ -433,7 +433,7 @@ class Playground {
             }
         }
         const shared = await this.openShared();
-        if (!shared && !this.doc.items.length) await this.openGallery('office.map');
+        if (!shared && !this.doc.items.length) await this.openGallery('office.map', true);
         this.act('fit');
     }
 
