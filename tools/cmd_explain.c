@@ -54,7 +54,7 @@ static sl_status tell(command_console *console, const explain_plan *plan, const 
     sl_status status = plan->output ? draw(context, plan, a) : SL_OK;
     progress_line_clear(&console->line);
     if (status == SL_OK && plan->json)
-        status = explanation_print_json(context, a, scratch);
+        status = explanation_print_json(context, a, scratch, stdout);
     else if (status == SL_OK)
         explanation_print(a, scratch);
     sl_free(context, scratch);

@@ -144,7 +144,8 @@ static void add_bent(json_fields *fields, const answer *a, const char *verdict, 
     json_add_fields(fields, "by_mirror", &inner);
 }
 
-sl_status explanation_print_json(sl_context *context, const answer *a, bool *scratch) {
+sl_status explanation_print_json(sl_context *context, const answer *a, bool *scratch,
+                                 FILE *stream) {
     const sl_baked *baked = a->baked;
     const sl_explanation *e = &a->e.now;
     static const char *const verdicts[] = {
@@ -170,5 +171,5 @@ sl_status explanation_print_json(sl_context *context, const answer *a, bool *scr
     const way w = way_direct(a->e.direct.without ? &a->e.without : e);
     add_effects(&fields, a, &a->e.direct, &w, scratch);
     if (e->bent.asked) add_bent(&fields, a, verdicts[e->bent.verdict], scratch);
-    return json_print(context, &fields);
+    return json_print_to(context, &fields, stream);
 }

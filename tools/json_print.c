@@ -144,15 +144,19 @@ void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_acco
     json_add_fields(fields, key, &cleaning);
 }
 
-sl_status json_print(sl_context *context, json_fields *fields) {
+sl_status json_print_to(sl_context *context, json_fields *fields, FILE *stream) {
     sl_json_put_end(writer_of(fields), '}');
     const bool failed = fields->failed || fields->writer.failed;
-    // A write that fails shows when the program checks its stdout at the end.
-    sl_json_writer out = sl_json_writer_to(stdout, 2);
+    sl_json_writer out = sl_json_writer_to(stream, 2);
     if (!failed) {
         sl_json_put_written(&out, fields->text, fields->size);
-        putchar('\n');
+        putc('\n', stream);
     }
     json_drop(fields);
     return failed ? sl_fail_memory(context) : SL_OK;
+}
+
+sl_status json_print(sl_context *context, json_fields *fields) {
+    // A write that fails shows when the program checks its stdout at the end.
+    return json_print_to(context, fields, stdout);
 }

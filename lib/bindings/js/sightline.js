@@ -1,0 +1,337 @@
+/**
+ * A baked level (.slv) in a game: where is a point, what sees what, what does an eye see.
+ *
+ * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
+ * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
+ */
+import { SightlineError, bytesOf, compile, textAt, viewOf } from './host.js'
+
+export { SightlineError }
+
+const NO_CELL = 0xffffffff
+const PAGE = 65536
+
+/** The direction of an angle in degrees; exact along the axes. */
+function direction(degrees) {
+  const turn = ((degrees % 360) + 360) % 360
+  if (turn % 90 === 0) return [[1, 0], [0, 1], [-1, 0], [0, -1]][turn / 90]
+  const angle = (turn * Math.PI) / 180
+  return [Math.cos(angle), Math.sin(angle)]
+}
+
+export class Level {
+  #core
+  #memory
+  #shut = 0
+  #scratch = 0
+  #list = 0
+  #points = 0
+  #room = 0
+  #cellCount = 0
+  #doors = []
+  #starts = []
+  #bounds
+  #cells
+  #range
+  #unfinished
+
+  /**
+   * Opens a baked file, which is checked wholly.
+   *
+   * @param {ArrayBuffer | Uint8Array} bytes
+   * @returns {Promise<Level>}
+   */
+  static async open(bytes) {
+    const file = bytesOf(bytes)
+    const module = await compile('level', new URL('./level.wasm', import.meta.url))
+    const { exports } = await WebAssembly.instantiate(module, {})
+    return new Level(exports, file)
+  }
+
+  /** Use Level.open(). */
+  constructor(core, file) {
+    this.#core = core
+    this.#memory = core.memory
+    core._initialize()
+    let end = core.__heap_base.value
+    const place = (bytes) => {
+      const at = (end + 15) & ~15
+      end = at + bytes
+      this.#reserve(end)
+      return at
+    }
+    const data = place(file.length)
+    new Uint8Array(this.#memory.buffer).set(file, data)
+    const status = core.open(data, file.length)
+    if (status) {
+      const message = textAt(this.#memory, core.status_text(status))
+      throw new SightlineError(message, { code: 'bad input' })
+    }
+    const { integers, numbers } = this.#ask(() => core.describe())
+    const [cells, , doors, starts, scratch, , unfinished] = integers
+    const [minX, minY, maxX, maxY, range] = numbers
+    this.#cellCount = cells
+    this.#bounds = Object.freeze({ minX, minY, maxX, maxY })
+    this.#range = range
+    this.#unfinished = !!unfinished
+    this.#shut = place(doors)
+    this.#scratch = place(4 * scratch)
+    this.#list = place(4 * cells + cells)
+    this.#points = end = (end + 15) & ~15
+    this.#grow(256)
+    for (let i = 0; i < doors; i++) this.#doors.push(this.#readDoor(i))
+    for (let i = 0; i < starts; i++) this.#starts.push(this.#readStart(i))
+    Object.freeze(this.#starts)
+  }
+
+  #reserve(end) {
+    const missing = end - this.#memory.buffer.byteLength
+    if (missing <= 0) return
+    try {
+      this.#memory.grow(Math.ceil(missing / PAGE))
+    } catch {
+      throw new SightlineError('out of memory', { code: 'out of memory' })
+    }
+  }
+
+  #grow(points) {
+    this.#reserve(this.#points + 16 * points)
+    this.#room = points
+  }
+
+  get #open() {
+    if (!this.#core) throw new SightlineError('the level is closed')
+    return this.#core
+  }
+
+  #ask(call) {
+    call()
+    const { buffer } = this.#memory
+    return {
+      integers: new Uint32Array(buffer, this.#core.integers_place(), 8),
+      numbers: new Float64Array(buffer, this.#core.numbers_place(), 8),
+    }
+  }
+
+  #readDoor(number) {
+    const core = this.#core
+    const count = core.door(number, this.#points, 0)
+    this.#grow(Math.max(this.#room, 2 * count))
+    const { integers } = this.#ask(() => core.door(number, this.#points, count))
+    const [name, length, open] = integers
+    new Uint8Array(this.#memory.buffer)[this.#shut + number] = open ? 0 : 1
+    const ends = new Float64Array(this.#memory.buffer, this.#points, 4 * count)
+    const segments = Array.from({ length: count }, (_, i) => Array.from(ends.subarray(4 * i, 4 * i + 4)))
+    return { name: textAt(this.#memory, name, length), segments }
+  }
+
+  #readStart(number) {
+    const [x, y, heading] = this.#ask(() => this.#core.start(number)).numbers
+    return Object.freeze({ x, y, heading })
+  }
+
+  /** The bounds of the map. */
+  get bounds() {
+    return this.#bounds
+  }
+
+  /** The view range of the map; 0 for no limit. */
+  get range() {
+    return this.#range
+  }
+
+  /** Whether the bake was stopped: cells that were not decided count as seen. */
+  get unfinished() {
+    return this.#unfinished
+  }
+
+  get cellCount() {
+    return this.#cellCount
+  }
+
+  /** The starts of the map: x, y and heading in degrees. */
+  get starts() {
+    return this.#starts
+  }
+
+  /** The doors as they stand: name, open, and segments [x0, y0, x1, y1]. */
+  get doors() {
+    this.#open
+    const shut = new Uint8Array(this.#memory.buffer, this.#shut, this.#doors.length)
+    return this.#doors.map((door, i) => ({ ...door, open: !shut[i] }))
+  }
+
+  /**
+   * Opens or shuts all doors of a name.
+   *
+   * @param {string} name
+   * @param {boolean} open
+   */
+  setDoor(name, open) {
+    this.#open
+    const shut = new Uint8Array(this.#memory.buffer, this.#shut, this.#doors.length)
+    let found = false
+    this.#doors.forEach((door, i) => {
+      if (door.name !== name) return
+      shut[i] = open ? 0 : 1
+      found = true
+    })
+    if (!found) throw new SightlineError(`there is no door '${name}'`)
+  }
+
+  /** All cells: corners counter-clockwise, portals, inside, solid, and whether they have a row. */
+  get cells() {
+    const core = this.#open
+    if (this.#cells) return this.#cells
+    this.#cells = Object.freeze(Array.from({ length: this.#cellCount }, (_, cell) => {
+      const [first, count, firstPortal, portals, inside, solid, hasRow] =
+        [...this.#ask(() => core.cell(cell)).integers]
+      const corners = new Float64Array(2 * count)
+      for (let i = 0; i < count; i++)
+        corners.set(this.#ask(() => core.vertex(first + i)).numbers.subarray(0, 2), 2 * i)
+      return Object.freeze({
+        corners,
+        portals: Array.from({ length: portals }, (_, i) => this.#readPortal(firstPortal + i)),
+        inside: !!inside,
+        solid: !!solid,
+        hasRow: !!hasRow,
+      })
+    }))
+    return this.#cells
+  }
+
+  #readPortal(directed) {
+    const { integers, numbers } = this.#ask(() => this.#core.directed_portal(directed))
+    const [portal, cell] = integers
+    return { portal, cell, left: [numbers[0], numbers[1]], right: [numbers[2], numbers[3]] }
+  }
+
+  /** The cell that holds a point; -1 outside the bounds. */
+  locate(x, y) {
+    const cell = this.#open.locate(x, y) >>> 0
+    return cell === NO_CELL ? -1 : cell
+  }
+
+  /**
+   * Of two cells: whether something in one can be seen from somewhere in the other. Of two points:
+   * whether one sees the other. With the doors as they stand.
+   *
+   * @param {number | {x: number, y: number}} a
+   * @param {number | {x: number, y: number}} b
+   */
+  canSee(a, b) {
+    const core = this.#open
+    if (typeof a === 'number' && typeof b === 'number') return !!core.can_see(a, b, this.#shut)
+    if (typeof a !== 'object' || typeof b !== 'object')
+      throw new SightlineError('canSee: two cells or two points are needed')
+    return this.#pointsSee(a, b)
+  }
+
+  #pointsSee(a, b) {
+    const core = this.#open
+    const { minX, minY, maxX, maxY } = this.#bounds
+    if (!(b.x >= minX && b.x <= maxX && b.y >= minY && b.y <= maxY)) return false
+    if (this.#range > 0 && Math.hypot(b.x - a.x, b.y - a.y) > this.#range) return false
+    if (a.x === b.x && a.y === b.y) return this.look(a.x, a.y).length > 0
+    this.#setView(a.x, a.y, 0, 0)
+    const count = core.look_along(b.x, b.y, this.#shut, 0, this.#scratch, this.#list) >>> 0
+    const seen = this.#listed(count)
+    const touched = this.#cellsOfBox(b.x, b.y, b.x, b.y)
+    return touched.some((cell) => seen.includes(cell))
+  }
+
+  /** The cells that a box lies in or touches. */
+  boxCells(minX, minY, maxX, maxY) {
+    this.#open
+    return this.#cellsOfBox(minX, minY, maxX, maxY)
+  }
+
+  #cellsOfBox(minX, minY, maxX, maxY) {
+    return this.#listed(this.#core.box_cells(minX, minY, maxX, maxY, this.#list, this.#cellCount) >>> 0)
+  }
+
+  #listed(count) {
+    return new Uint32Array(this.#memory.buffer, this.#list, count).slice()
+  }
+
+  #setView(x, y, heading, fieldOfView) {
+    const at = this.#core.view_place()
+    const { buffer } = this.#memory
+    const numbers = new Float64Array(buffer, at, 7)
+    numbers[0] = x
+    numbers[1] = y
+    new Uint8Array(buffer)[at + 16] = fieldOfView >= 360 ? 1 : 0
+    numbers.set(direction(heading - fieldOfView / 2), 3)
+    numbers.set(direction(heading + fieldOfView / 2), 5)
+  }
+
+  /**
+   * The cells that an eye sees: its own first. `direction` and `fieldOfView` are in degrees.
+   *
+   * @param {number} x
+   * @param {number} y
+   * @param {{direction?: number, fieldOfView?: number, range?: number}} [options]
+   */
+  look(x, y, options) {
+    const core = this.#open
+    const view = viewOf(options)
+    this.#setView(x, y, view.direction, view.fieldOfView)
+    return this.#listed(core.look(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0)
+  }
+
+  /**
+   * The polygon that an eye sees: x, y, x, y ... counter-clockwise.
+   *
+   * @param {number} x
+   * @param {number} y
+   * @param {{direction?: number, fieldOfView?: number, range?: number}} [options]
+   */
+  visiblePolygon(x, y, options) {
+    const core = this.#open
+    const view = viewOf(options)
+    this.#setView(x, y, view.direction, view.fieldOfView)
+    for (;;) {
+      const count =
+        core.polygon(this.#shut, view.range ?? 0, this.#scratch, this.#points, this.#room) >>> 0
+      if (count <= this.#room) return new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice()
+      this.#grow(2 * count)
+    }
+  }
+
+  /** The cells seen from anywhere in a cell, with the doors as they stand. */
+  row(cell) {
+    return this.seenFrom([cell])
+  }
+
+  /**
+   * The cells seen from anywhere in some cells, with the doors as they stand: what to wake up.
+   *
+   * @param {ArrayLike<number>} cells
+   */
+  seenFrom(cells) {
+    const core = this.#open
+    const own = Array.from(cells).filter((cell) => cell >= 0 && cell < this.#cellCount)
+    new Uint32Array(this.#memory.buffer, this.#list, own.length).set(own)
+    const bits = this.#scratch
+    core.seen_from(this.#list, own.length, this.#shut, bits)
+    const bytes = new Uint8Array(this.#memory.buffer)
+    let count = 0
+    const seen = new Uint32Array(this.#cellCount)
+    for (let cell = 0; cell < this.#cellCount; cell++)
+      if ((bytes[bits + (cell >> 3)] >> (cell & 7)) & 1) seen[count++] = cell
+    return seen.slice(0, count)
+  }
+
+  /** The view cell of a cell; -1 for none. */
+  viewCell(cell) {
+    const view = this.#open.view_cell(cell) >>> 0
+    return view === NO_CELL ? -1 : view
+  }
+
+  /** Gives back the memory. */
+  close() {
+    this.#core = undefined
+    this.#memory = undefined
+    this.#cells = undefined
+  }
+}

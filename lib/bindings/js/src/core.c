@@ -1,0 +1,689 @@
+/// The core library for JavaScript: each question of core.js is one function here, and each of these
+/// asks the public headers. Nothing is decided here.
+///
+/// A scene is a baked map with what questions about it need. Functions that can fail return the
+/// status (0: done) or, where they return a place, NULL. message() then says why. Arrays that a
+/// function gives stay in the memory of the module, as views for JavaScript, until the next call
+/// about the same scene. One instance of the module serves one thread, so its state is global here.
+#include "bindings/js/src/bindings.h"
+#include "sightline/sightline.h"
+#include "sightline/json_write.h"
+#include "tools/explain_answer.h"
+#include "tools/names.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct scene {
+    sl_baked baked;
+    sl_bake_account account;
+    sl_query *query;
+    bool *shut;      ///< by door of the map
+    double range;    ///< as the query has it
+    uint64_t *cells; ///< the last set of cells, as bits
+    uint32_t *list;  ///< and as numbers
+    sl_region region;
+    sl_mirrored_region mirrored;
+    sl_point *flat;
+    size_t flat_room;
+    sl_steps steps;
+} scene;
+
+static struct {
+    sl_context *context;
+    sl_status status; ///< of the last call
+    sl_bake_options options;
+    bool watched; ///< JavaScript wants to hear of progress
+    uint32_t integers[40];
+    double numbers[32];
+} core;
+
+// --- the module
+
+__attribute__((import_module("host"), import_name("progress"))) int
+host_progress(const char *stage, double done, double total);
+__attribute__((import_module("host"), import_name("cancelled"))) int host_cancelled(void);
+
+static void progress(void *user, const sl_progress *at) {
+    (void)user;
+    if (core.watched) host_progress(at->stage, (double)at->done, (double)at->total);
+}
+
+static bool cancelled(void *user) {
+    (void)user;
+    return core.watched && host_cancelled();
+}
+
+static bool done(sl_status status) {
+    core.status = status;
+    return status == SL_OK;
+}
+
+/// Makes the context; false where there is no memory even for that.
+SLI_EXPORT(int, begin, void) {
+    const sl_hooks hooks = {.progress = progress, .cancelled = cancelled};
+    if (!core.context) core.context = sl_context_create(&hooks);
+    return core.context != NULL;
+}
+
+SLI_EXPORT(void *, take, size_t bytes) {
+    return malloc(bytes ? bytes : 1);
+}
+
+SLI_EXPORT(void, give, void *block) {
+    free(block);
+}
+
+SLI_EXPORT(const char *, message, void) {
+    return sl_context_message(core.context);
+}
+
+SLI_EXPORT(int, status, void) {
+    return (int)core.status;
+}
+
+SLI_EXPORT(const char *, version, void) {
+    return sl_version();
+}
+
+SLI_EXPORT(void, watch, int on) {
+    core.watched = on;
+}
+
+SLI_EXPORT(const uint32_t *, integers_place, void) {
+    return core.integers;
+}
+
+SLI_EXPORT(const double *, numbers_place, void) {
+    return core.numbers;
+}
+
+/// The bytes of what was written last; their number is integers[0].
+SLI_EXPORT(const char *, written, void) {
+    size_t size;
+    const char *bytes = sli_written(&size);
+    core.integers[0] = (uint32_t)size;
+    return bytes;
+}
+
+// --- options
+
+static bool is(const char *a, const char *b) {
+    return strcmp(a, b) == 0;
+}
+
+static sl_status find_method(const char *name, const sl_see_method **out) {
+    *out = name[0] ? sl_see_method_named(name) : NULL;
+    if (*out || !name[0]) return SL_OK;
+    return sl_fail(core.context, SL_BAD_ARGUMENT, "method: there is no method '%s'", name);
+}
+
+static sl_status find_subdivision(const char *name, const sl_subdivision **out) {
+    size_t count;
+    const sl_subdivision *all = sl_subdivisions(&count);
+    *out = NULL;
+    if (!name[0]) return SL_OK;
+    for (size_t i = 0; i < count; i++)
+        if (is(all[i].name, name)) *out = &all[i];
+    if (*out) return SL_OK;
+    return sl_fail(core.context, SL_BAD_ARGUMENT, "subdivide: there is no way '%s'", name);
+}
+
+/// Options of the next bake. An empty name, and a number below 0, stand for the default.
+SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sight, int inside,
+           int trees, int check, double weld, double mirror_depth, double door_limit,
+           double samples, double seed) {
+    sl_bake_options *o = &core.options;
+    *o = sl_bake_options_default();
+    o->see.threads = 1;
+    if (!done(find_method(method, &o->method))) return (int)core.status;
+    if (!done(find_subdivision(subdivide, &o->subdivision))) return (int)core.status;
+    o->see.sight = open_sight ? SL_OPEN : SL_CLOSED;
+    o->see.inside_only = inside;
+    o->see.trees = trees;
+    o->check = check;
+    o->clean.weld = weld >= 0 ? weld : o->clean.weld;
+    if (mirror_depth >= 0) o->mirror_depth = (uint32_t)mirror_depth;
+    if (door_limit >= 0) o->door_limit = (uint32_t)door_limit;
+    if (samples >= 0) o->see.samples = (uint32_t)samples;
+    if (seed >= 0) o->see.seed = (uint64_t)seed;
+    return SL_OK;
+}
+
+// --- maps
+
+/// `name` is for messages, and its ending says what the text is.
+static sl_status read_map(const char *name, const char *text, size_t size, sl_map *map) {
+    const sl_subdivision *way = core.options.subdivision;
+    const sl_import_options import = {.cells = way && way->takes_cells};
+    SL_TRY(sl_map_parse(core.context, name, text, size, &import, map));
+    if (way && !way->takes_cells) sl_map_drop_cells(core.context, map);
+    return SL_OK;
+}
+
+/// A map in the format of that name ("text", "plan"): see written().
+SLI_EXPORT(int, map_write, const char *name, const char *text, size_t size, const char *format) {
+    sl_map map = {0};
+    const sl_map_format *to = NULL;
+    sl_status status = read_map(name, text, size, &map);
+    if (status == SL_OK)
+        status = sl_map_format_to_write(core.context, "format", "-", format, &to);
+    if (status == SL_OK) status = sl_map_write(core.context, &map, to, "");
+    sl_map_destroy(core.context, &map);
+    return (int)(core.status = status);
+}
+
+static void put_point(sl_json_writer *json, sl_point point) {
+    sl_json_put_real(json, point.x);
+    sl_json_put_real(json, point.y);
+}
+
+static void put_count(sl_json_writer *json, const char *key, uint32_t value) {
+    sl_json_put_key(json, key);
+    if (value == UINT32_MAX)
+        sl_json_put_null(json);
+    else
+        sl_json_put_integer(json, value);
+}
+
+static void put_fault(sl_json_writer *json, const sl_map *map, const sl_faults *faults,
+                      const sl_fault *fault) {
+    sl_json_put_object(json);
+    sl_json_put_key(json, "kind");
+    sl_json_put_text(json, sl_fault_name(fault->kind));
+    sl_json_put_key(json, "at");
+    sl_json_put_list(json);
+    put_point(json, fault->at.a);
+    put_point(json, fault->at.b);
+    sl_json_put_end(json, ']');
+    sl_json_put_key(json, "size");
+    sl_json_put_real(json, fault->size);
+    sl_json_put_key(json, "lines");
+    sl_json_put_list(json);
+    for (int i = 0; i < 2; i++)
+        if (fault->walls[i] != UINT32_MAX)
+            sl_json_put_integer(json, map->walls[fault->walls[i]].line);
+    sl_json_put_end(json, ']');
+    put_count(json, "cell", fault->cell);
+    put_count(json, "cells", fault->cells);
+    sl_json_put_key(json, "needsDecision");
+    sl_json_put_flag(json, fault->stays);
+    sl_json_put_key(json, "way");
+    sl_json_put_list(json);
+    for (uint32_t i = 0; i < fault->point_count; i++)
+        put_point(json, faults->points[fault->first_point + i]);
+    sl_json_put_end(json, ']');
+    sl_json_put_end(json, '}');
+}
+
+static sl_status print_faults(const sl_map *map, const sl_space *space, const sl_faults *faults,
+                              sl_inside inside) {
+    static const char *const doubts[] = {"sure", "leaks", "small", "few", "none"};
+    const sl_ground_shares shares = sl_space_ground(space);
+    const double parts[] = {shares.inside, shares.outside, shares.solid};
+    static const char *const names[] = {"inside", "outside", "solid"};
+    sl_output output;
+    SL_TRY(sl_output_open(core.context, "", &output));
+    sl_json_writer json = sl_json_writer_to(output.stream, 0);
+    sl_json_put_object(&json);
+    sl_json_put_key(&json, "doubt");
+    sl_json_put_text(&json, doubts[inside]);
+    for (int i = 0; i < 3; i++) {
+        sl_json_put_key(&json, names[i]);
+        sl_json_put_real(&json, parts[i]);
+    }
+    sl_json_put_key(&json, "welded");
+    sl_json_put_integer(&json, faults->welded);
+    sl_json_put_key(&json, "faults");
+    sl_json_put_list(&json);
+    for (uint32_t i = 0; i < faults->count; i++) put_fault(&json, map, faults, &faults->items[i]);
+    sl_json_put_end(&json, ']');
+    sl_json_put_end(&json, '}');
+    return sl_output_close(core.context, &output, SL_OK);
+}
+
+static sl_status check_map(const sl_map *map, sl_baked *baked, sl_map *copy, sl_faults *faults,
+                           double gap, double thin) {
+    const sl_faults_options options = {.gap = gap, .thin = thin, .clean = &core.options.clean};
+    sl_bake_account account = {0};
+    sl_inside inside;
+    SL_TRY(sl_map_copy(core.context, map, copy));
+    SL_TRY(sl_bake_space(core.context, copy, &core.options, baked, &account));
+    SL_TRY(sl_find_faults(core.context, map, &baked->space, &options, faults));
+    SL_TRY(sl_doubt_inside(core.context, map, &baked->space, &inside));
+    return print_faults(map, &baked->space, faults, inside);
+}
+
+/// Faults of a map as JSON: see written().
+SLI_EXPORT(int, map_check, const char *name, const char *text, size_t size, double gap,
+           double thin) {
+    sl_map map = {0}, copy = {0};
+    sl_baked baked = {0};
+    sl_faults faults = {0};
+    sl_status status = read_map(name, text, size, &map);
+    if (status == SL_OK) status = check_map(&map, &baked, &copy, &faults, gap, thin);
+    sl_faults_destroy(core.context, &faults);
+    sl_baked_destroy(core.context, &baked);
+    sl_map_destroy(core.context, &copy);
+    sl_map_destroy(core.context, &map);
+    return (int)(core.status = status);
+}
+
+// --- scenes
+
+SLI_EXPORT(void, scene_close, scene *s) {
+    if (!s) return;
+    sl_query_destroy(core.context, s->query);
+    sl_region_destroy(core.context, &s->region);
+    sl_mirrored_region_destroy(core.context, &s->mirrored);
+    sl_steps_destroy(core.context, &s->steps);
+    sl_free(core.context, s->flat);
+    sl_free(core.context, s->shut);
+    sl_free(core.context, s->cells);
+    sl_free(core.context, s->list);
+    sl_baked_destroy(core.context, &s->baked);
+    sl_free(core.context, s);
+}
+
+/// What questions need, once the map is baked.
+static sl_status equip(scene *s) {
+    const sl_map *map = &s->baked.map;
+    s->shut = sl_alloc_array(core.context, map->door_count, sizeof *s->shut);
+    s->cells = sl_alloc_array(core.context, sl_eye_words(&s->baked.space), sizeof *s->cells);
+    s->list = sl_alloc_array(core.context, s->baked.space.cell_count, sizeof *s->list);
+    if (!s->shut || !s->cells || !s->list) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->door_count; i++) s->shut[i] = !map->doors[i].open;
+    s->range = map->range;
+    return sl_query_create(core.context, &s->baked, &s->query);
+}
+
+static sl_status bake_text(scene *s, const char *name, const char *text, size_t size) {
+    sl_map map = {0};
+    sl_status status = read_map(name, text, size, &map);
+    if (status == SL_OK)
+        status = sl_bake(core.context, &map, &core.options, &s->baked, &s->account);
+    sl_map_destroy(core.context, &map);
+    return status;
+}
+
+/// Closes a scene that could not be made; keeps the message.
+static scene *finish(scene *s, sl_status status) {
+    if (status == SL_OK) status = equip(s);
+    if (done(status)) return s;
+    scene_close(s);
+    return NULL;
+}
+
+/// Bakes a map by the options.
+SLI_EXPORT(scene *, scene_bake, const char *name, const char *text, size_t size) {
+    scene *s = sl_alloc_array(core.context, 1, sizeof *s);
+    if (!s) return finish(s, SL_NO_MEMORY);
+    return finish(s, bake_text(s, name, text, size));
+}
+
+/// Opens the bytes of a baked file.
+SLI_EXPORT(scene *, scene_open, const char *name, const char *bytes, size_t size) {
+    scene *s = sl_alloc_array(core.context, 1, sizeof *s);
+    if (!s) return finish(s, SL_NO_MEMORY);
+    return finish(s, sl_baked_parse(core.context, name, bytes, size, &s->baked));
+}
+
+/// The baked file: see written().
+SLI_EXPORT(int, scene_write, scene *s) {
+    return (int)(core.status = sl_baked_write(core.context, &s->baked, ""));
+}
+
+/// An export by its name: see written().
+SLI_EXPORT(int, scene_export, scene *s, const char *format, double version) {
+    const sl_export_options options = {.json_version = (uint32_t)version};
+    size_t count;
+    const sl_export_format *all = sl_export_formats(core.context, &count);
+    for (size_t i = 0; i < count; i++)
+        if (is(all[i].name, format))
+            return (int)(core.status = all[i].write(core.context, &s->baked, &options, ""));
+    return (int)(core.status = sl_fail(core.context, SL_BAD_ARGUMENT,
+                                       "format: there is no export '%s'", format));
+}
+
+/// integers: counts and places of the arrays, as core.js names them; numbers: bounds, range.
+SLI_EXPORT(void, scene_describe, const scene *s) {
+    const sl_space *space = &s->baked.space;
+    const sl_map *map = &s->baked.map;
+    const uint32_t table[] = {space->cell_count,
+                              (uint32_t)(uintptr_t)space->cells,
+                              space->vertex_count,
+                              (uint32_t)(uintptr_t)space->vertices,
+                              space->portal_count,
+                              (uint32_t)(uintptr_t)space->portals,
+                              space->directed_count,
+                              (uint32_t)(uintptr_t)space->directed,
+                              space->wall_count,
+                              (uint32_t)(uintptr_t)space->walls,
+                              space->node_count,
+                              (uint32_t)(uintptr_t)space->nodes,
+                              space->seam_count,
+                              (uint32_t)(uintptr_t)space->seams,
+                              space->seam_portal_count,
+                              (uint32_t)(uintptr_t)space->seam_portals,
+                              (uint32_t)(uintptr_t)space->neighbour,
+                              (uint32_t)space->root,
+                              space->inside_count,
+                              (uint32_t)map->door_count,
+                              (uint32_t)map->mirror_count,
+                              (uint32_t)map->oneway_count,
+                              (uint32_t)map->start_count,
+                              (uint32_t)(uintptr_t)map->starts,
+                              (uint32_t)(uintptr_t)s->shut,
+                              (uint32_t)s->baked.visibility.sight,
+                              (uint32_t)s->baked.visibility.guarantee,
+                              (uint32_t)(uintptr_t)s->baked.method};
+    memcpy(core.integers, table, sizeof table);
+    const double numbers[] = {space->bounds.min.x, space->bounds.min.y, space->bounds.max.x,
+                              space->bounds.max.y, map->range};
+    memcpy(core.numbers, numbers, sizeof numbers);
+}
+
+/// numbers: what cleaning and the stages did.
+SLI_EXPORT(void, scene_account, const scene *s) {
+    const sl_bake_account *a = &s->account;
+    const sl_see_account *see = &s->baked.visibility.account;
+    const double numbers[] = {(double)a->cleaning.before,
+                              (double)a->cleaning.after,
+                              (double)a->cleaning.welded,
+                              (double)a->cleaning.split,
+                              (double)a->cleaning.crossings,
+                              a->cleaning.largest_move,
+                              a->cleaning.tolerance,
+                              a->seconds.clean,
+                              a->seconds.subdivide,
+                              a->seconds.check,
+                              a->seconds.see,
+                              (double)see->pairs,
+                              (double)see->tests,
+                              (double)see->nodes,
+                              (double)see->pieces,
+                              (double)see->deepest};
+    memcpy(core.numbers, numbers, sizeof numbers);
+}
+
+/// integers: the places of a door's name and of its segments (its parts), their number, shut.
+SLI_EXPORT(void, scene_door, const scene *s, uint32_t number) {
+    const sl_door *door = &s->baked.map.doors[number];
+    core.integers[0] = (uint32_t)(uintptr_t)door->name;
+    core.integers[1] = (uint32_t)(uintptr_t)(door->parts ? door->parts : &door->segment);
+    core.integers[2] = door->parts ? (uint32_t)door->part_count : 1;
+    core.integers[3] = s->shut[number];
+}
+
+/// integers: the place of a mirror's (kind 0) or a one-way glass' (kind 1) segment, one-sided.
+SLI_EXPORT(void, scene_glass, const scene *s, int kind, uint32_t number) {
+    const sl_map *map = &s->baked.map;
+    const sl_glass *glass = kind ? &map->oneways[number] : &map->mirrors[number];
+    core.integers[0] = (uint32_t)(uintptr_t)&glass->segment;
+    core.integers[1] = glass->one_sided;
+}
+
+SLI_EXPORT(int, scene_set_door, scene *s, const char *name, int open) {
+    const sl_map *map = &s->baked.map;
+    if (!done(sl_query_set_door(core.context, s->query, name, open))) return (int)core.status;
+    for (size_t i = 0; i < map->door_count; i++)
+        if (is(map->doors[i].name, name)) s->shut[i] = !open;
+    return SL_OK;
+}
+
+SLI_EXPORT(uint32_t, scene_locate, const scene *s, double x, double y) {
+    return sl_query_locate(s->query, (sl_point){x, y});
+}
+
+// --- what sees what
+
+static sl_status check_cell(const scene *s, uint32_t cell) {
+    if (cell < s->baked.space.cell_count) return SL_OK;
+    return sl_fail(core.context, SL_BAD_ARGUMENT, "cell %u: there are %u cells", (unsigned)cell,
+                   (unsigned)s->baked.space.cell_count);
+}
+
+/// Takes the cells that shut doors hide out of the set.
+static void leave_out_shut(scene *s, const sl_door_sets *sets, uint32_t cell) {
+    if (!sets->cell_count) return;
+    sl_door_pairs pairs = sl_door_pairs_begin(sets, cell);
+    while (sl_door_pairs_next(&pairs, s->shut))
+        if (!pairs.open && sl_bits_has(s->cells, pairs.cell)) sl_bits_flip(s->cells, pairs.cell);
+}
+
+/// Puts the set of cells into the list; integers: their number and place.
+static void list_cells(scene *s) {
+    uint32_t count = 0;
+    for (size_t word = 0; word < sl_eye_words(&s->baked.space); word++)
+        for (uint64_t rest = s->cells[word]; rest; rest &= rest - 1)
+            s->list[count++] = (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(rest);
+    core.integers[0] = count;
+    core.integers[1] = (uint32_t)(uintptr_t)s->list;
+}
+
+/// The row of a cell: of the visible sets (which 0), of what is seen by mirror (1), or of the pairs
+/// that rounding decided (2). integers: number and place.
+SLI_EXPORT(int, scene_row, scene *s, int which, uint32_t cell) {
+    const sl_visibility *v = &s->baked.visibility;
+    const sl_pvs *sets[] = {&v->pvs, &v->mirrored, &v->doubtful};
+    if (!done(check_cell(s, cell))) return (int)core.status;
+    memset(s->cells, 0, sl_eye_words(&s->baked.space) * sizeof *s->cells);
+    if (sets[which]->cell_count)
+        for (sl_pvs_run run = sl_pvs_begin(sets[which], cell); sl_pvs_next(&run);)
+            for (uint32_t to = run.first; to < run.end; to++) sl_bits_add(s->cells, to);
+    if (which == 0) leave_out_shut(s, &v->doors, cell);
+    if (which == 1) leave_out_shut(s, &v->mirrored_doors, cell);
+    list_cells(s);
+    return SL_OK;
+}
+
+/// integers[0]: whether cell `from` sees cell `to` directly.
+SLI_EXPORT(int, scene_cell_sees, scene *s, uint32_t from, uint32_t to) {
+    bool sees = false;
+    if (!done(check_cell(s, from)) || !done(check_cell(s, to))) return (int)core.status;
+    done(sl_query_cell_sees(core.context, s->query, from, to, &sees));
+    core.integers[0] = sees;
+    return (int)core.status;
+}
+
+static sl_status set_range(scene *s, double range) {
+    const double wanted = range < 0 ? s->baked.map.range : range;
+    if (wanted == s->range) return SL_OK;
+    SL_TRY(sl_query_set_range(core.context, s->query, wanted));
+    s->range = wanted;
+    return SL_OK;
+}
+
+/// integers[0]: whether an eye sees a point. A range below 0 is the map's own, here and below.
+SLI_EXPORT(int, scene_can_see, scene *s, double x, double y, double to_x, double to_y,
+           double range) {
+    bool sees = false;
+    if (done(set_range(s, range)))
+        done(sl_query_can_see(core.context, s->query, (sl_point){x, y}, (sl_point){to_x, to_y},
+                              &sees));
+    core.integers[0] = sees;
+    return (int)core.status;
+}
+
+static sl_status find_culling(const char *name, const sl_eye_method **out) {
+    size_t count;
+    const sl_eye_method *all = sl_eye_methods(&count);
+    *out = NULL;
+    if (!name[0]) return SL_OK;
+    for (size_t i = 0; i < count; i++)
+        if (is(all[i].name, name)) *out = &all[i];
+    if (*out) return SL_OK;
+    return sl_fail(core.context, SL_BAD_ARGUMENT, "method: there is no culling method '%s'", name);
+}
+
+static sl_status look(scene *s, const sl_view *view, double range, const char *method,
+                      int by_mirror) {
+    const sl_eye_method *culling;
+    SL_TRY(find_culling(method, &culling));
+    SL_TRY(set_range(s, range));
+    if (by_mirror)
+        return sl_query_look_mirrored(core.context, s->query, view, culling, s->cells, NULL);
+    return sl_query_look(core.context, s->query, view, culling, s->cells, NULL);
+}
+
+/// The cells that a view sees. integers: number and place.
+SLI_EXPORT(int, scene_look, scene *s, double x, double y, double heading, double fov, double range,
+           const char *method, int by_mirror) {
+    const sl_view view = sl_query_view(s->query, (sl_point){x, y}, heading, fov);
+    if (done(look(s, &view, range, method, by_mirror))) list_cells(s);
+    return (int)core.status;
+}
+
+// --- regions
+
+/// integers: count, places of points and edges, the eye's cell; then the same as chords.
+static sl_status show_region(scene *s, const sl_region *region, double tolerance) {
+    core.integers[0] = (uint32_t)region->count;
+    core.integers[1] = (uint32_t)(uintptr_t)region->points;
+    core.integers[2] = (uint32_t)(uintptr_t)region->edges;
+    core.integers[3] = region->cell;
+    core.integers[4] = core.integers[0];
+    core.integers[5] = core.integers[1];
+    if (!(region->range > 0)) return SL_OK;
+    size_t count = sl_region_flatten(region, tolerance, s->flat, s->flat_room);
+    if (count > s->flat_room) {
+        SL_TRY(sl_reserve(core.context, &s->flat, &s->flat_room, count, sizeof *s->flat));
+        count = sl_region_flatten(region, tolerance, s->flat, s->flat_room);
+    }
+    core.integers[4] = (uint32_t)count;
+    core.integers[5] = (uint32_t)(uintptr_t)s->flat;
+    return SL_OK;
+}
+
+static sl_status make_region(scene *s, const sl_view *view, double range) {
+    SL_TRY(set_range(s, range));
+    return sl_query_region(core.context, s->query, view, &s->region);
+}
+
+/// The visible region of a view. Arcs become chords that lie within `tolerance` of them.
+SLI_EXPORT(int, scene_region, scene *s, double x, double y, double heading, double fov,
+           double range, double tolerance) {
+    const sl_view view = sl_query_view(s->query, (sl_point){x, y}, heading, fov);
+    if (done(make_region(s, &view, range))) done(show_region(s, &s->region, tolerance));
+    return (int)core.status;
+}
+
+/// numbers: the measures of the last region, in the order of sl_region_measures.
+SLI_EXPORT(void, scene_measures, const scene *s) {
+    const sl_region_measures m = sl_region_measure(&s->region);
+    memcpy(core.numbers, &m, sizeof m);
+}
+
+/// What is seen directly and by mirror; integers[0]: the number of parts seen by mirror.
+SLI_EXPORT(int, scene_mirrored_region, scene *s, double x, double y, double heading, double fov,
+           double range, uint32_t depth) {
+    const sl_view view = sl_query_view(s->query, (sl_point){x, y}, heading, fov);
+    sl_status status = set_range(s, range);
+    if (status == SL_OK) status = sl_query_set_mirror_depth(core.context, s->query, depth);
+    if (status == SL_OK)
+        status = sl_query_mirrored_region(core.context, s->query, &view, &s->mirrored);
+    core.integers[0] = status == SL_OK ? (uint32_t)s->mirrored.part_count : 0;
+    return (int)(core.status = status);
+}
+
+/// A part of the last mirrored region. integers: as scene_region(), then mirror, parent, depth, and
+/// the place of its points in mirrored space.
+SLI_EXPORT(int, scene_mirror_part, scene *s, uint32_t number, double tolerance) {
+    const sl_mirror_part *part = &s->mirrored.parts[number];
+    if (!done(show_region(s, &part->region, tolerance))) return (int)core.status;
+    core.integers[6] = part->mirror;
+    core.integers[7] = part->parent;
+    core.integers[8] = part->depth;
+    core.integers[9] = (uint32_t)(uintptr_t)part->image;
+    return SL_OK;
+}
+
+// --- why
+
+static sl_status explain(scene *s, uint32_t from, uint32_t to, uint32_t misses, double tests,
+                         uint32_t mirror_depth) {
+    sl_explain_options options = sl_explain_options_default();
+    answer a = {.baked = &s->baked, .shut = s->shut};
+    const sl_explain_state state = {s->shut, mirror_depth};
+    options.sight = s->baked.visibility.sight;
+    options.most_misses = misses;
+    options.most_tests = (uint64_t)tests;
+    SL_TRY(check_cell(s, from));
+    SL_TRY(check_cell(s, to));
+    bool *scratch = sl_alloc_array(core.context, s->baked.map.door_count, sizeof *scratch);
+    if (!scratch) return SL_NO_MEMORY;
+    sl_status status = sl_explain_effects(core.context, &s->baked.space, &s->baked.map, &state,
+                                          &options, from, to, &a.e);
+    sl_output output;
+    if (status == SL_OK && (status = sl_output_open(core.context, "", &output)) == SL_OK)
+        status = sl_output_close(core.context, &output,
+                                 explanation_print_json(core.context, &a, scratch, output.stream));
+    sl_effect_explanation_destroy(core.context, &a.e);
+    sl_free(core.context, scratch);
+    return status;
+}
+
+/// Why a pair of cells is seen or hidden, as the JSON of `sightline explain`: see written().
+SLI_EXPORT(int, scene_explain, scene *s, uint32_t from, uint32_t to, uint32_t misses, double tests,
+           uint32_t mirror_depth) {
+    return (int)(core.status = explain(s, from, to, misses, tests, mirror_depth));
+}
+
+/// The depth-first search from a cell. integers: number of steps, their place, whether complete.
+SLI_EXPORT(int, scene_steps, scene *s, uint32_t cell, double most) {
+    sl_steps_options options = sl_steps_options_default();
+    options.sight = s->baked.visibility.sight;
+    if (most >= 0) options.most = (size_t)most;
+    sl_steps_destroy(core.context, &s->steps);
+    if (!done(check_cell(s, cell))) return (int)core.status;
+    done(sl_steps_record(core.context, &s->baked.space, &options, cell, &s->steps));
+    core.integers[0] = (uint32_t)s->steps.count;
+    core.integers[1] = (uint32_t)(uintptr_t)s->steps.steps;
+    core.integers[2] = s->steps.complete;
+    return (int)core.status;
+}
+
+/// The kept stab tree of a cell. integers: number of nodes and their place.
+SLI_EXPORT(int, scene_kept_tree, const scene *s, uint32_t cell) {
+    const sl_stab_trees *trees = &s->baked.visibility.trees;
+    if (!done(check_cell(s, cell))) return (int)core.status;
+    const uint64_t first = trees->cell_count ? trees->offsets[cell] : 0;
+    core.integers[0] = trees->cell_count ? (uint32_t)(trees->offsets[cell + 1] - first) : 0;
+    core.integers[1] = (uint32_t)(uintptr_t)(trees->nodes + first);
+    return SL_OK;
+}
+
+// --- portal sequences on their own, for lessons
+
+/// The dual of `count` portals, each left x, y, right x, y. integers: corners of the polygon and
+/// their place; numbers: origin, along, scale, best slope and height, margin.
+SLI_EXPORT(void, dual, const sl_portal_ends *portals, uint32_t count, uint32_t cutting) {
+    static sl_dual made;
+    sl_dual_make(portals, count, cutting, &made);
+    core.integers[0] = made.corner_count;
+    core.integers[1] = (uint32_t)(uintptr_t)made.corners;
+    const double numbers[] = {made.origin.x, made.origin.y,   made.along.x,     made.along.y,
+                              made.scale,    made.best.slope, made.best.height, made.margin};
+    memcpy(core.numbers, numbers, sizeof numbers);
+}
+
+/// What keeps lines from a portal sequence. integers: verdict, turns, number of ends, then portal
+/// and side of each (1: left).
+SLI_EXPORT(int, conflict, const sl_portal_ends *portals, uint32_t count) {
+    sl_conflict found = {0};
+    if (!done(sl_conflict_find(core.context, portals, count, &found))) return (int)core.status;
+    core.integers[0] = found.verdict;
+    core.integers[1] = found.turns;
+    core.integers[2] = found.end_count;
+    for (uint32_t i = 0; i < found.end_count; i++) {
+        core.integers[3 + 2 * i] = found.ends[i].portal;
+        core.integers[4 + 2 * i] = found.ends[i].left;
+    }
+    return SL_OK;
+}
+
+/// The command's name of a sight, for the JSON of an explanation.
+const char *sight_name(sl_sight sight) {
+    return sight == SL_OPEN ? "open" : "closed";
+}

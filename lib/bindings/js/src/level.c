@@ -1,0 +1,162 @@
+/// The runtime header for JavaScript. One WebAssembly instance holds one level. JavaScript puts the
+/// file and all scratch memory behind `__heap_base`, so this module needs no allocator.
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime/sightline_runtime.h"
+
+#define EXPORT(type, name, ...)                                                                    \
+    type level_##name(__VA_ARGS__);                                                                \
+    __attribute__((export_name(#name))) type level_##name(__VA_ARGS__)
+
+/// What JavaScript reads and writes directly.
+static sl_runtime level;
+static sl_runtime_view view;
+static double numbers[8];
+static uint32_t integers[8];
+
+EXPORT(sl_runtime_view *, view_place, void) {
+    return &view;
+}
+
+EXPORT(double *, numbers_place, void) {
+    return numbers;
+}
+
+EXPORT(uint32_t *, integers_place, void) {
+    return integers;
+}
+
+EXPORT(int, open, const void *bytes, size_t size) {
+    return (int)sl_runtime_open(bytes, size, &level);
+}
+
+EXPORT(const char *, status_text, int status) {
+    return sl_runtime_status_text((sl_runtime_status)status);
+}
+
+/// numbers: bounds and range; integers: counts and flags.
+EXPORT(void, describe, void) {
+    numbers[0] = level.min_x;
+    numbers[1] = level.min_y;
+    numbers[2] = level.max_x;
+    numbers[3] = level.max_y;
+    numbers[4] = level.range;
+    integers[0] = level.cell_count;
+    integers[1] = level.portal_count;
+    integers[2] = level.door_count;
+    integers[3] = sl_runtime_start_count(&level);
+    integers[4] = (uint32_t)sl_runtime_scratch_count(&level);
+    integers[5] = level.view_cell_count;
+    integers[6] = level.unfinished;
+    integers[7] = level.loose;
+}
+
+EXPORT(uint32_t, locate, double x, double y) {
+    return sl_runtime_locate(&level, x, y);
+}
+
+EXPORT(int, can_see, uint32_t from, uint32_t to, const unsigned char *shut) {
+    return sl_runtime_can_see_past(&level, from, to, shut);
+}
+
+EXPORT(void, row_bits, uint32_t cell, unsigned char *bits) {
+    sl_runtime_row_bits(&level, cell, bits);
+}
+
+EXPORT(void, seen_from, const uint32_t *cells, uint32_t count, const unsigned char *shut,
+       unsigned char *bits) {
+    sl_runtime_seen_from(&level, cells, count, shut, bits);
+}
+
+EXPORT(uint32_t, view_cell, uint32_t cell) {
+    return sl_runtime_view_cell(&level, cell);
+}
+
+EXPORT(uint32_t, box_cells, double min_x, double min_y, double max_x, double max_y, uint32_t *cells,
+       uint32_t room) {
+    return sl_runtime_box_cells(&level, min_x, min_y, max_x, max_y, cells, room);
+}
+
+EXPORT(uint32_t, look, const unsigned char *shut, double range, uint32_t *scratch, uint32_t *cells) {
+    return sl_runtime_look_past(&level, &view, shut, range, scratch, cells, level.cell_count);
+}
+
+EXPORT(uint32_t, polygon, const unsigned char *shut, double range, uint32_t *scratch,
+       double *points, uint32_t room) {
+    return sl_runtime_visible_polygon(&level, &view, shut, range, scratch, points, room);
+}
+
+/// The cells that the ray from the view's eye through a point reaches: sl_runtime_look_past() with a
+/// cone of one direction. The direction is given by two points, so it is not rounded.
+EXPORT(uint32_t, look_along, double to_x, double to_y, const unsigned char *shut, double range,
+       uint32_t *scratch, uint32_t *cells) {
+    const size_t count = level.cell_count;
+    const double x = slrt_no_dust(view.x), y = slrt_no_dust(view.y);
+    const uint32_t cell = sl_runtime_locate(&level, x, y);
+    if (cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(&level, cell)) return 0;
+    slrt_search s = {.rt = &level,
+                     .view = &view,
+                     .shut = shut,
+                     .range = slrt_range(&level, range),
+                     .x = x,
+                     .y = y,
+                     .eye_cell = cell,
+                     .path = scratch,
+                     .sectors = scratch + 4 * count,
+                     .marks = (unsigned char *)(scratch + 6 * count),
+                     .cells = cells,
+                     .room = (uint32_t)count,
+                     .patience = SLRT_PATIENCE * ((uint64_t)level.directed_count + 16)};
+    memset(s.marks, 0, count);
+    s.cone[0] = s.cone[3] = slrt_make_arm(x, y, slrt_no_dust(to_x), slrt_no_dust(to_y));
+    slrt_search_from(&s, cell, SLRT_ARM, SLRT_ARM + 3);
+    return s.count;
+}
+
+/// integers: vertices, directed portals, inside, solid, has a row.
+EXPORT(void, cell, uint32_t cell) {
+    const sl_runtime_cell c = sl_runtime_get_cell(&level, cell);
+    integers[0] = c.first_vertex;
+    integers[1] = c.vertex_count;
+    integers[2] = c.first_directed;
+    integers[3] = c.directed_count;
+    integers[4] = sl_runtime_is_inside(&level, cell);
+    integers[5] = sl_runtime_is_solid(&level, cell);
+    integers[6] = sl_runtime_has_row(&level, cell);
+}
+
+EXPORT(void, vertex, uint32_t vertex) {
+    sl_runtime_get_vertex(&level, vertex, &numbers[0], &numbers[1]);
+}
+
+/// integers: portal, cell behind it; numbers: its left and right end.
+EXPORT(void, directed_portal, uint32_t directed) {
+    const sl_runtime_directed_portal d = sl_runtime_get_directed_portal(&level, directed);
+    integers[0] = d.portal;
+    integers[1] = d.cell;
+    numbers[0] = d.left[0];
+    numbers[1] = d.left[1];
+    numbers[2] = d.right[0];
+    numbers[3] = d.right[1];
+}
+
+/// integers: where its name is, its length, whether it is open at first; returns its segments.
+EXPORT(uint32_t, door, uint32_t door, sl_runtime_segment *segments, uint32_t room) {
+    const sl_runtime_name name = sl_runtime_door_name(&level, door);
+    integers[0] = (uint32_t)(uintptr_t)name.text;
+    integers[1] = name.length;
+    integers[2] = sl_runtime_door_open(&level, door);
+    return sl_runtime_door_segments(&level, door, segments, room);
+}
+
+EXPORT(void, start, uint32_t number) {
+    sl_runtime_viewpoint start = {0, 0, 0};
+    sl_runtime_start(&level, number, &start);
+    numbers[0] = start.x;
+    numbers[1] = start.y;
+    numbers[2] = start.heading;
+}

@@ -1,0 +1,54 @@
+/// Files where there are none: what the library writes goes to memory, and no file can be read.
+/// It stands in the place of base/file.c in WebAssembly.
+///
+/// One file is written at a time. sl_output_commit() keeps its bytes until the next one is written;
+/// `path` is not looked at. bindings.h says how to take them.
+#include "bindings/js/src/bindings.h"
+
+#include <stdlib.h>
+
+static char *written;
+static size_t written_size;
+
+const char *sli_written(size_t *size) {
+    *size = written_size;
+    return written;
+}
+
+static sl_status fail(sl_context *context, const char *path) {
+    return sl_fail(context, SL_IO, "%s: there are no files here", path);
+}
+
+sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out) {
+    (void)out;
+    return fail(context, path);
+}
+
+sl_status sl_output_open(sl_context *context, const char *path, sl_output *out) {
+    (void)path;
+    free(written);
+    written = NULL;
+    written_size = 0;
+    *out = (sl_output){.stream = open_memstream(&written, &written_size)};
+    return out->stream ? SL_OK : sl_fail_memory(context);
+}
+
+sl_status sl_output_try(sl_context *context, const char *path) {
+    (void)context;
+    (void)path;
+    return SL_OK;
+}
+
+sl_status sl_output_commit(sl_context *context, sl_output *output) {
+    const int failed = ferror(output->stream);
+    const int lost = fclose(output->stream);
+    output->stream = NULL;
+    return failed || lost ? sl_fail_memory(context) : SL_OK;
+}
+
+sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status) {
+    if (status == SL_OK) return sl_output_commit(context, output);
+    fclose(output->stream);
+    output->stream = NULL;
+    return status;
+}

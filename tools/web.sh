@@ -1,0 +1,61 @@
+#!/bin/sh
+# The npm package and the site, in a folder: sh tools/web.sh --build DIR
+# gives DIR/package (the package `sightline`) and, where viewer/web is there, DIR/site.
+# Without --build it serves the site of build/web, which it builds first.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=$root/build/web
+serve=yes
+while [ $# -gt 0 ]; do
+    case $1 in
+    --build)
+        [ $# -gt 1 ] || { echo "web: --build needs a folder" >&2; exit 2; }
+        folder=$2
+        serve=no
+        shift
+        ;;
+    *)
+        echo "web: unknown: $1; usage: sh tools/web.sh [--build DIR]" >&2
+        exit 2
+        ;;
+    esac
+    shift
+done
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+
+# Says what is missing, with status 77: no fault of the sources.
+cannot() {
+    echo "web: $1; 'sh tools/setup.sh --web' installs it" >&2
+    exit 77
+}
+for program in clang wasm-ld cmake ninja node; do
+    command -v $program >/dev/null || cannot "$program is missing"
+done
+echo '#include <stdio.h>' >"$folder/try.c"
+clang --target=wasm32-wasi -c -o "$folder/try.o" "$folder/try.c" 2>/dev/null || {
+    rm -f "$folder/try.c"
+    cannot "wasi-libc is missing"
+}
+rm -f "$folder/try.c" "$folder/try.o"
+
+# ---- The package ----
+cmake -S "$root" -B "$folder/wasm" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-DNDEBUG \
+    -DCMAKE_TOOLCHAIN_FILE="$root/lib/cmake/wasi.cmake" -DSIGHTLINE_WASM=ON \
+    ${CMAKE_C_COMPILER_LAUNCHER:+-DCMAKE_C_COMPILER_LAUNCHER="$CMAKE_C_COMPILER_LAUNCHER"} >/dev/null
+cmake --build "$folder/wasm" -j2
+rm -rf "$folder/package"
+cp -R "$folder/wasm/package" "$folder/package"
+echo "web: $folder/package"
+
+# ---- The site ----
+if [ -f "$root/viewer/web/build.mjs" ]; then
+    node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site"
+    echo "web: $folder/site"
+fi
+
+if [ $serve = yes ]; then
+    [ -d "$folder/site" ] || { echo "web: there is no site to serve" >&2; exit 1; }
+    echo "web: http://127.0.0.1:${PORT:-8000}/"
+    exec python3 -m http.server --bind 127.0.0.1 --directory "$folder/site" "${PORT:-8000}"
+fi
