@@ -28,8 +28,14 @@ const programs = { chromium: ['/usr/bin/chromium'], firefox: ['/usr/bin/firefox-
 /** @param {'chromium' | 'firefox'} name @returns {string | undefined} the program of the system */
 export const programOf = (name) => programs[name].find(existsSync);
 
-/** @param {'chromium' | 'firefox'} name */
+/**
+ * Firefox as Debian has it speaks WebDriver BiDi, not the protocol of a patched one. Versions of
+ * playwright-core up to 1.56 do so under the name below; later ones want commands that it lacks.
+ * @param {'chromium' | 'firefox'} name
+ */
 export function launch(name) {
     const args = name === 'chromium' ? ['--no-sandbox', '--disable-gpu'] : [];
-    return tool('playwright-core')[name].launch({ executablePath: programOf(name), args });
+    const playwright = tool('playwright-core');
+    const kind = name === 'firefox' ? playwright._bidiFirefox : playwright.chromium;
+    return kind.launch({ executablePath: programOf(name), args });
 }
