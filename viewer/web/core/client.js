@@ -14,7 +14,9 @@ export class CoreError extends Error {
 }
 
 export class CoreClient {
-    constructor() {
+    /** @param {number} [memory] the most bytes that the core may take */
+    constructor(memory) {
+        this.memory = memory;
         /** @type {Worker | null} */
         this.worker = null;
         this.waiting = new Map();
@@ -49,7 +51,7 @@ export class CoreClient {
             if (!this.worker) this.start();
             const id = this.next++;
             this.waiting.set(id, { resolve, reject });
-            this.worker.postMessage({ id, task, ...data });
+            this.worker.postMessage({ id, task, memory: this.memory, ...data });
         });
     }
 

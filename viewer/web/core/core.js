@@ -44,8 +44,9 @@ export class Core {
         this.scene = null;
     }
 
-    static async load() {
-        return new Core(await load());
+    /** @param {number} [memory] the most bytes that it may take */
+    static async load(memory = 2 ** 31) {
+        return new Core(await load({ memory }));
     }
 
     get open() {

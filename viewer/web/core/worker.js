@@ -40,7 +40,7 @@ const tasks = {
 
 onmessage = async ({ data }) => {
     try {
-        core ??= await Core.load();
+        core ??= await Core.load(data.memory);
         postMessage({ id: data.id, result: tasks[data.task](data) });
     } catch (error) {
         postMessage({ id: data.id, error: { message: error.message, line: error.line, broken: !core } });

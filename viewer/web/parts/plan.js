@@ -41,11 +41,43 @@ function trace(surface, camera, flat, closed) {
     if (closed && flat.length > 2) surface.closePath();
 }
 
+/** From so many lines on, lines that would lie on one another are left out. */
+const MANY = 20000;
+
+/** A line that is shorter than this, in pixels, may be left out. */
+const SHORT = 3;
+
+/**
+ * Of very many lines those that show: in the view, and of short ones one for each square of pixels.
+ * @param {ArrayLike<number>[]} lines
+ */
+function thinOut(camera, lines) {
+    if (lines.length <= MANY) return lines;
+    const columns = Math.ceil(camera.width / SHORT) + 1, rows = Math.ceil(camera.height / SHORT) + 1;
+    const used = new Uint8Array(columns * rows), [x0, y0, x1, y1] = camera.box();
+    return lines.filter((line) => {
+        let [a, b, c, d] = [Infinity, Infinity, -Infinity, -Infinity];
+        for (let i = 0; i + 1 < line.length; i += 2) {
+            a = Math.min(a, line[i]);
+            b = Math.min(b, line[i + 1]);
+            c = Math.max(c, line[i]);
+            d = Math.max(d, line[i + 1]);
+        }
+        if (c < x0 || a > x1 || d < y0 || b > y1) return false;
+        if (Math.max(c - a, d - b) * camera.scale > SHORT) return true;
+        const [px, py] = camera.toScreen(Math.max(a, x0), Math.min(d, y1));
+        const at = Math.floor(py / SHORT) * columns + Math.floor(px / SHORT);
+        if (used[at]) return false;
+        used[at] = 1;
+        return true;
+    });
+}
+
 /** Strokes polylines of one kind in one go. @param {ArrayLike<number>[]} lines */
 export function strokeLines(surface, camera, lines, colour, width, dash = [], closed = false) {
     if (!lines.length) return;
     surface.beginPath();
-    for (const line of lines) trace(surface, camera, line, closed);
+    for (const line of thinOut(camera, lines)) trace(surface, camera, line, closed);
     surface.strokeStyle = colour;
     surface.lineWidth = width;
     surface.setLineDash(dash);
@@ -57,7 +89,7 @@ export function strokeLines(surface, camera, lines, colour, width, dash = [], cl
 export function fillPolygons(surface, camera, polygons, colour, alpha = 1) {
     if (!polygons.length) return;
     surface.beginPath();
-    for (const polygon of polygons) trace(surface, camera, polygon, true);
+    for (const polygon of thinOut(camera, polygons)) trace(surface, camera, polygon, true);
     surface.globalAlpha = alpha;
     surface.fillStyle = colour;
     surface.fill();
@@ -137,8 +169,20 @@ export function itemLine(item) {
     return isPolygon[item.kind] ? [...p, p[0], p[1]] : p;
 }
 
+const grouped = new WeakMap();
+
+/** Items by kind; lists of items are never changed in place, so this is kept with the list. */
+function byKind(items) {
+    let groups = grouped.get(items);
+    if (groups) return groups;
+    groups = {};
+    for (const item of items) (groups[item.kind] ??= []).push(item);
+    grouped.set(items, groups);
+    return groups;
+}
+
 function drawItems(surface, camera, scene, tones, wall) {
-    const of = (...kinds) => scene.items.filter((item) => kinds.includes(item.kind));
+    const groups = byKind(scene.items), of = (...kinds) => kinds.flatMap((kind) => groups[kind] ?? []);
     const solid = of('solid').map((item) => item.points);
     if (!scene.space) fillPolygons(surface, camera, solid, tones.solid, 0.6);
     const lines = (...kinds) => of(...kinds).map(itemLine);

@@ -42,7 +42,9 @@ function largestCell(space) {
 class Playground {
     constructor() {
         this.doc = new MapDocument();
-        this.client = new CoreClient();
+        // ?memory=MB in the address, for small devices and for tests.
+        const memory = Number(new URLSearchParams(location.search).get('memory'));
+        this.client = new CoreClient(memory > 0 ? memory * 2 ** 20 : undefined);
         this.bakes = new Latest((wanted) => this.runBake(wanted));
         this.looks = new Latest((eye) => this.runLook(eye));
         this.questions = new Latest((places) => this.runExplain(places));
@@ -113,6 +115,7 @@ class Playground {
     }
 
     async runBake(options) {
+        if (!countWalls(this.doc.items)) return this.begun();
         panel.showBusy('Computing what is seen');
         try {
             const eye = this.eye ?? this.startPlace();
@@ -121,6 +124,16 @@ class Playground {
             this.failed(error);
         }
         panel.showBusy('');
+    }
+
+    /** A map without walls: nothing to compute yet. */
+    begun() {
+        this.plan = this.seen = this.why = null;
+        this.hasError = false;
+        panel.showDoors([], new Set(), () => {});
+        panel.showMessage('Draw a wall, or open a file. Undo brings back the last map.');
+        this.showFacts();
+        this.redraw();
     }
 
     baked({ plan, bakeTime, seen }) {
@@ -389,7 +402,7 @@ class Playground {
             zoomIn: () => this.view.zoom(1.4),
             zoomOut: () => this.view.zoom(1 / 1.4),
             fit: () => (this.view.fitTo(), this.redraw()),
-            clear: () => this.load([], 'A new map. Undo brings back the old one.'),
+            clear: () => this.load([]),
             open: () => get('file').click(),
             share: () => this.share(),
             saveMap: () => save(new Blob([this.doc.text()], { type: 'text/plain' }), 'plan.map'),
