@@ -2,6 +2,7 @@
  * Tiled maps as JSON (.tmj): orthogonal maps, fixed or in chunks. A simpler reader than that of the
  * `sightline` command; the rules for what is solid are the same in order, and it says what it left.
  */
+import { doorItems } from './grid-doors.js';
 import { FormatError } from './map-text.js';
 import { gridWalls } from './plan-text.js';
 import { isDoorName, isSolidName, isStartName, oneWord, plural } from './words.js';
@@ -65,8 +66,8 @@ function tilesSay(map, notes) {
     return says;
 }
 
-/** One object as items: its outline, a door or a start. */
-function objectItems(object, says, height, counts) {
+/** One object as items: its outline or a start. A door goes to the doors, but for one that is a line. */
+function objectItems(object, says, height, counts, doors) {
     const { x, y, width = 0, height: h = 0 } = object, up = (py) => height - py;
     const kind = object.type || object.class;
     if (isStartName(object.name) || isStartName(kind))
@@ -78,9 +79,12 @@ function objectItems(object, says, height, counts) {
     const points = line.flatMap((p) => place(p.x, p.y));
     if (isDoorName(object.name) || isDoorName(kind)) {
         const state = (object.properties ?? []).find((p) => p.name === 'open')?.value === false ? 'shut' : 'open';
-        const ends = object.polyline ? points.slice(0, 4) : width >= h
-            ? [...place(0, h / 2), ...place(width, h / 2)] : [...place(width / 2, 0), ...place(width / 2, h)];
-        return [{ kind: 'door', name: oneWord(object.name, `door${++counts.doors}`), points: ends, state }];
+        const xs = points.filter((_, i) => i % 2 === 0), ys = points.filter((_, i) => i % 2);
+        const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+        const name = oneWord(object.name || kind, 'door');
+        if (object.polyline && points.length === 4) return [{ kind: 'door', name, points, state }];
+        doors.push({ name, box, state });
+        return [];
     }
     const own = flag(object.properties) ?? (isSolidName(kind) ? true : says);
     if (!own || object.point || object.text) return [];
@@ -104,11 +108,11 @@ export async function readTiled(map) {
     const notes = [], says = tilesSay(map, notes), layers = [...flatten(map.layers)];
     const { tilewidth: tw, tileheight: th } = map;
     if (tw !== th) throw new FormatError('tiles that are not square are not read here');
-    const height = map.height * th, counts = { doors: 0, ellipses: 0 };
+    const height = map.height * th, counts = { ellipses: 0 }, doors = [];
     const cells = new Map(), boxes = [0, 0, map.width, map.height], items = [];
     const tileLayers = layers.filter(({ layer }) => layer.type === 'tilelayer');
     const spoken = says.size || layers.some((l) => l.says);
-    let guessed = false;
+    let guessed = false, grid = null;
     for (const { layer, says: whole, x, y } of tileLayers) {
         if (x || y) notes.push(`the offset of the layer ${layer.name}`);
         for (const chunk of await chunksOf(layer)) {
@@ -130,11 +134,14 @@ export async function readTiled(map) {
         const solid = [];
         for (let cy = boxes[3] - 1; cy >= boxes[1]; cy--)
             solid.push(Array.from({ length: boxes[2] - boxes[0] }, (_, i) => cells.has(`${boxes[0] + i},${cy}`)));
-        items.push(...gridWalls(solid, tw, boxes[0] * tw, height - boxes[3] * th));
+        grid = { solid, size: tw, x0: boxes[0] * tw, y0: height - boxes[3] * th };
     }
     for (const { layer, says: whole, x, y } of layers)
         for (const object of layer.objects ?? [])
-            items.push(...objectItems({ ...object, x: object.x + x, y: object.y + y }, whole, height, counts));
+            items.push(...objectItems({ ...object, x: object.x + x, y: object.y + y }, whole, height, counts, doors));
+    const placed = doorItems(grid, doors, notes);
+    if (grid) items.unshift(...gridWalls(grid.solid, grid.size, grid.x0, grid.y0));
+    items.push(...placed);
     if (counts.ellipses) notes.push(`${plural(counts.ellipses, 'ellipse')}, taken as boxes`);
     if (guessed) notes.push('Nothing says what is solid: this is a guess from the lowest layer');
     if (!items.length) throw new FormatError('nothing in this Tiled map is solid');

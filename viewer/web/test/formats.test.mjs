@@ -30,10 +30,10 @@ const maps = ['maps', 'maps/effects', 'maps/oblique'].flatMap((folder) =>
 function bakeNative(files) {
     const folder = mkdtempSync(join(tmpdir(), 'sightline-web-'));
     try {
-        return files.map(([name, content]) => {
+        return files.map(([name, content, ...options]) => {
             writeFileSync(join(folder, name), content);
             const out = join(folder, 'x.json'), slv = join(folder, 'x.slv');
-            execFileSync(native, ['bake', join(folder, name), '-o', slv, '--quiet'], { stdio: 'pipe' });
+            execFileSync(native, ['bake', join(folder, name), '-o', slv, '--quiet', ...options], { stdio: 'pipe' });
             execFileSync(native, ['export', slv, '--format', 'json', '-o', out], { stdio: 'pipe' });
             return JSON.parse(readFileSync(out, 'utf8'));
         });
@@ -74,6 +74,41 @@ test('the JSON export becomes the map that it was made of', needsNative, async (
     }
 });
 
+/** Levels of editors, as small as they can be. */
+const tiled = {
+    orientation: 'orthogonal', width: 5, height: 3, tilewidth: 16, tileheight: 16, tilesets: [],
+    layers: [{ type: 'tilelayer', name: 'floor', width: 5, height: 3, data: Array(15).fill(9) },
+        { type: 'tilelayer', name: 'Walls', width: 5, height: 3, data: [1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1, 1] },
+        { type: 'objectgroup', name: 'things', objects: [
+            { id: 1, name: 'Player', type: '', x: 20, y: 20, width: 8, height: 8, rotation: 0, visible: true },
+            { id: 2, name: 'back_door', type: '', x: 32, y: 16, width: 16, height: 16, rotation: 0, visible: true,
+                properties: [{ name: 'open', type: 'bool', value: false }] }] }],
+};
+const ldtk = {
+    jsonVersion: '1.5.3', defs: { layers: [{ uid: 7, identifier: 'Grid', type: 'IntGrid', intGridValues: [{ value: 2, identifier: 'wall' }] }] },
+    levels: [0, 1].map((i) => ({ identifier: `L${i}`, worldX: 32 * i, worldY: 0, worldDepth: 0, pxWid: 32, pxHei: 24, layerInstances: [{
+        __identifier: 'Grid', layerDefUid: 7, __type: 'IntGrid', __cWid: 4, __cHei: 3, __gridSize: 8, __pxTotalOffsetX: 0, __pxTotalOffsetY: 0,
+        intGridCsv: [2, 2, 2, 2, 1, 1, 1, 1, 2, 2, 2, 2],
+        entityInstances: i ? [{ __identifier: 'IronDoor', px: [8, 8], width: 8, height: 8, __pivot: [0, 0], fieldInstances: [] }]
+            : [{ __identifier: 'Player', px: [4, 12], width: 8, height: 8, __pivot: [0.5, 0.5], fieldInstances: [] }] }] })),
+};
+const vtt = {
+    format: 0.3, resolution: { map_origin: { x: 0, y: 0 }, map_size: { x: 8, y: 6 }, pixels_per_grid: 70 }, image: 'abc', lights: [],
+    line_of_sight: [[[0, 0], [8, 0], [8, 6], [0, 6], [0, 0]], [[4, 0], [4, 2]], [[4, 3], [4, 6]]].map((l) => l.map(([x, y]) => ({ x, y }))),
+    portals: [{ position: { x: 4, y: 2.5 }, bounds: [{ x: 4, y: 2 }, { x: 4, y: 3 }], rotation: 0, closed: true, freestanding: false }],
+};
+
+test('levels of Tiled, LDtk and Universal VTT become the same cells as in the program', needsNative, async () => {
+    for (const [name, file, ...options] of [['a.tmj', tiled, '--doors'], ['a.ldtk', ldtk, '--map', 'all', '--doors'], ['a.dd2vtt', vtt, '--doors']]) {
+        const text = JSON.stringify(file), { items } = await read(text);
+        const [a, b] = bakeNative([[name, text, ...options], ['b.map', writeMap(items)]]);
+        assert.deepEqual(shapes(b), shapes(a), name);
+        assert.equal(a.doors.length, 1, name);
+        assert.deepEqual([b.doors[0].segments, b.doors[0].open], [a.doors[0].segments, a.doors[0].open], name);
+        assert.deepEqual(b.starts, a.starts, name);
+    }
+});
+
 test('wrong map text names its line', () => {
     const wrong = [['wall 0 0 1 1', 1], ['sightline 2', 1], ['sightline 1\n\nWall 0 0 1 1', 3],
         ['sightline 1\nwall 0 0 1', 2], ['sightline 1\nwall 0 0 1 0x10', 2], ['sightline 1\nstart 1 2', 2],
@@ -89,17 +124,11 @@ test('comments and notes of a map text stay', () => {
 });
 
 test('a Tiled map: solid layers, doors, starts', async () => {
-    const layer = (name, data) => ({ type: 'tilelayer', name, width: 3, height: 3, data });
-    const map = { orientation: 'orthogonal', width: 3, height: 3, tilewidth: 16, tileheight: 16, tilesets: [],
-        layers: [layer('floor', [9, 9, 9, 9, 9, 9, 9, 9, 9]), layer('Walls', [1, 1, 1, 1, 0, 0, 1, 1, 1]),
-            { type: 'objectgroup', name: 'things', objects: [
-                { name: 'Player', x: 20, y: 20, width: 8, height: 8 },
-                { name: 'back_door', x: 32, y: 16, width: 4, height: 16, properties: [{ name: 'open', value: false }] }] }] };
-    const { items, format } = await read(JSON.stringify(map));
+    const { items, format } = await read(JSON.stringify(tiled));
     assert.equal(format, 'Tiled');
     const text = items.map((item) => `${item.kind} ${item.points}`);
     assert.ok(text.includes('start 24,24'), text.join('; '));
-    assert.ok(text.includes('door 34,32,34,16'), text.join('; '));
+    assert.ok(text.includes('door 40,16,40,32'), text.join('; '));
     assert.equal(items.filter((item) => item.kind === 'wall').length, 4, text.join('; '));
     assert.equal(items.find((item) => item.kind === 'door').state, 'shut');
 });
@@ -112,17 +141,11 @@ test('a Tiled map that says nothing is guessed, and the page says so', async () 
 });
 
 test('LDtk, Universal VTT and GeoJSON', async () => {
-    const ldtk = { jsonVersion: '1.5', defs: { layers: [{ identifier: 'Grid', intGridValues: [{ value: 2, identifier: 'wall' }] }] },
-        levels: [{ worldX: 0, worldY: 0, pxHei: 16, layerInstances: [{ __identifier: 'Grid', __type: 'IntGrid',
-            __cWid: 2, __cHei: 2, __gridSize: 8, intGridCsv: [1, 2, 1, 2], entityInstances: [{ __identifier: 'Player',
-                px: [4, 4], width: 8, height: 8, __pivot: [0.5, 0.5] }] }] }] };
     const level = await read(JSON.stringify(ldtk));
     assert.equal(level.format, 'LDtk');
     assert.ok(level.items.some((item) => item.kind === 'start' && String(item.points) === '4,12'));
-    const vtt = { resolution: { map_size: { x: 4, y: 3 }, map_origin: { x: 0, y: 0 } }, image: 'abc',
-        line_of_sight: [[{ x: 0, y: 0 }, { x: 4, y: 0 }]], portals: [{ bounds: [{ x: 1, y: 1 }, { x: 2, y: 1 }], closed: false }] };
     const table = await read(JSON.stringify(vtt));
-    assert.deepEqual(table.items.map((item) => item.points), [[0, 3, 4, 3], [1, 2, 2, 2]]);
+    assert.deepEqual(table.items.slice(1).map((item) => item.points), [[4, 6, 4, 4], [4, 3, 4, 0], [4, 4, 4, 3]]);
     assert.match(table.notes.join(), /picture/);
     const geo = readGeoJson({ type: 'FeatureCollection', features: [
         { type: 'Feature', properties: { kind: 'door', name: 'front', open: false }, geometry: { type: 'LineString', coordinates: [[0, 0], [1, 0]] } },
