@@ -54,7 +54,6 @@ const sl_seam *seam_of(const sl_space *space, uint32_t directed, sl_seam_kind ki
 // --- telling; `scratch` has a place for each door
 
 void explanation_print(const answer *a, bool *scratch);
-sl_status explanation_print_json(sl_context *context, const answer *a, bool *scratch,
-                                 FILE *stream);
+sl_status explanation_print_json(sl_context *context, const answer *a, bool *scratch, FILE *stream);
 
 #endif

@@ -375,7 +375,7 @@ export class Scene {
     return JSON.parse(this.export('json'))
   }
 
-  /** An export as text: 'json', 'geojson', 'csv' or 'c'. */
+  /** An export as text: 'json', 'geojson' or 'csv'. */
   export(format, { version = 0 } = {}) {
     this.#core.withBytes([format], (name) => this.#ask((core, at) => core.scene_export(at, name, version)))
     return this.#core.writtenText()

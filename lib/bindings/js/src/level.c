@@ -81,7 +81,8 @@ EXPORT(uint32_t, box_cells, double min_x, double min_y, double max_x, double max
     return sl_runtime_box_cells(&level, min_x, min_y, max_x, max_y, cells, room);
 }
 
-EXPORT(uint32_t, look, const unsigned char *shut, double range, uint32_t *scratch, uint32_t *cells) {
+EXPORT(uint32_t, look, const unsigned char *shut, double range, uint32_t *scratch,
+       uint32_t *cells) {
     return sl_runtime_look_past(&level, &view, shut, range, scratch, cells, level.cell_count);
 }
 
@@ -90,8 +91,8 @@ EXPORT(uint32_t, polygon, const unsigned char *shut, double range, uint32_t *scr
     return sl_runtime_visible_polygon(&level, &view, shut, range, scratch, points, room);
 }
 
-/// The cells that the ray from the view's eye through a point reaches: sl_runtime_look_past() with a
-/// cone of one direction. The direction is given by two points, so it is not rounded.
+/// The cells that the ray from the view's eye through a point reaches: sl_runtime_look_past() with
+/// a cone of one direction. The direction is given by two points, so it is not rounded.
 EXPORT(uint32_t, look_along, double to_x, double to_y, const unsigned char *shut, double range,
        uint32_t *scratch, uint32_t *cells) {
     const size_t count = level.cell_count;
