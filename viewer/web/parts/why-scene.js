@@ -7,8 +7,11 @@ import { drawDot, strokeLines } from './plan.js';
 
 /**
  * @typedef {Object} WhyScene what `sightline explain --json` says, or the part of it that is drawn
- * @property {boolean} seen
- * @property {PassedPortal[]} [sequence] @property {number[]} [shown] the sightline
+ * @property {number} from @property {number} to the two cells
+ * @property {boolean} seen @property {boolean} [complete] @property {boolean} [touches]
+ * @property {PassedPortal[]} [sequence] @property {number[]} [line] @property {number[]} [shown] the sightline
+ * @property {{decides: string[]}} [effects]
+ * @property {{verdict: string, line?: number[][]}} [by_mirror]
  * @property {{sequence: PassedPortal[], stopped_by: PassedPortal, reason: string,
  *   ends: {portal: number, side: string, point: number[]}[]}[]} misses
  */
@@ -52,7 +55,9 @@ export function drawWhy(surface, camera, why, tones) {
 export function tellWhy(why) {
     const pair = `Cell ${why.from} and cell ${why.to}`;
     if (why.from === why.to) return 'A cell sees itself.';
-    const effects = why.effects?.decides?.length ? ` ${why.effects.decides.join(', ')} decides.` : '';
+    let effects = why.effects?.decides?.length ? ` What decides: ${why.effects.decides.join(', ')}.` : '';
+    if (why.by_mirror?.verdict === 'stabbed') effects += ' They see each other in a mirror.';
+    if (why.complete === false) effects += ' The search was stopped early, so this is not certain.';
     if (why.seen && why.sequence?.length)
         return `${pair} see each other: the line passes ${plural(why.sequence.length, 'portal')}` +
             `${why.touches ? ', and touches ends of walls' : ''}.${effects}`;

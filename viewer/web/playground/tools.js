@@ -56,7 +56,7 @@ class MoveTool {
         this.held = null;
     }
     press(raw) {
-        if (this.held) return this.release(raw);
+        if (this.held) return this.release();
         const { doc } = this.app, found = pick(doc.items, ...raw, this.app.reach());
         doc.select(found ? found.index : -1);
         if (!found) return;

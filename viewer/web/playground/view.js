@@ -11,7 +11,7 @@ const CLICK = 4;
 export class View {
     /**
      * @param {HTMLCanvasElement} canvas
-     * @param {{scene: () => import('../parts/plan.js').Scene, over: (surface: any, camera: Camera) => void,
+     * @param {{scene: () => import('../parts/plan.js').Scene, over: (surface: any, camera: Camera, tones: any) => void,
      *   press: Function, move: Function, release: Function}} app
      */
     constructor(canvas, app) {
@@ -20,7 +20,10 @@ export class View {
         this.camera = new Camera();
         this.pointers = new Map();
         this.asked = false;
+        /** @type {import('../parts/tones.js').Tones | null} */
         this.tones = null;
+        /** Makes the camera show all. @type {(() => void) | null} */
+        this.fitTo = null;
         new ResizeObserver(() => this.resize()).observe(canvas);
         canvas.addEventListener('pointerdown', (e) => this.down(e));
         canvas.addEventListener('pointermove', (e) => this.moved(e));
@@ -59,7 +62,6 @@ export class View {
         surface.setTransform(ratio, 0, 0, ratio, 0, 0);
         drawPlan(surface, this.camera, this.app.scene(), this.tones);
         this.app.over(surface, this.camera, this.tones);
-        this.onPaint?.();
     }
 
     place(event) {

@@ -2,6 +2,7 @@
 # Tests of the playground: sh viewer/web/test/run.sh WHAT FOLDER [PROGRAM]
 #   formats     what needs no browser, in node
 #   playground  the built site in Chromium and Firefox, as far as they are installed
+#   quick       the same in one browser, without axe-core
 # FOLDER is for the built site and for tools; PROGRAM is the native `sightline`.
 # BROWSERS=chromium chooses one. SHOTS=DIR keeps pictures of the page. SITE=DIR takes a built site.
 set -eu
@@ -15,7 +16,7 @@ skip() {
 }
 command -v node >/dev/null || skip "node is missing"
 [ "$(node -p 'parseInt(process.versions.node)')" -ge 18 ] || skip "node is older than 18"
-[ "$what" = playground ] || exec node --test "$here/formats.test.mjs"
+[ "$what" != formats ] || exec node --test "$here/formats.test.mjs"
 
 command -v chromium >/dev/null || command -v firefox-esr >/dev/null || command -v firefox >/dev/null ||
     skip "there is neither Chromium nor Firefox"
@@ -37,4 +38,8 @@ if [ -z "${SITE:-}" ]; then
     SITE=$folder/site
 fi
 export SITE
+if [ "$what" = quick ]; then
+    if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
+    export BROWSERS QUICK=1
+fi
 exec node --test "$here/playground.test.mjs"
