@@ -1,19 +1,22 @@
 #!/bin/sh
-# Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
+# Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci] [--web]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
-# groff, and the Python package jsonschema.
+# groff, and the Python package jsonschema. --web adds what tools/web.sh needs: clang, lld, wasi-libc,
+# compiler-rt for WebAssembly, binaryen and node.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
 
 ci=no
+web=no
 for argument in "$@"; do
     case $argument in
     --ci) ci=yes ;;
-    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) echo "setup: unknown argument $argument (there is --ci)" >&2; exit 2 ;;
+    --web) web=yes ;;
+    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) echo "setup: unknown argument $argument (there are --ci and --web)" >&2; exit 2 ;;
     esac
 done
 
@@ -60,6 +63,13 @@ clang_sanitizes() {
     clang -fsanitize=address,undefined -o "$scratch/try" "$scratch/try.c" 2>/dev/null
 }
 
+wasm_compiles() {
+    has clang && has wasm-ld || return 1
+    printf '#include <stdio.h>\nint main(void) { long double x = 1; return puts("") * (int)(x * x); }\n' \
+        >"$scratch/try.c"
+    clang --target=wasm32-wasi -o "$scratch/try.wasm" "$scratch/try.c" 2>/dev/null
+}
+
 is_there() {
     case $1 in
     c) compiler >/dev/null ;;
@@ -87,6 +97,8 @@ is_there() {
     font) font ;;
     clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
+    wasm) wasm_compiles ;;
+    binaryen) has wasm-opt ;;
     jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
 }
@@ -112,6 +124,7 @@ package() { # system thing
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
+    apt:wasm) echo lld wasi-libc libclang-rt-dev-wasm32 ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
     apt:node | dnf:node | pacman:node) echo nodejs ;;
@@ -124,6 +137,7 @@ package() { # system thing
     dnf:font) echo dejavu-sans-fonts ;;
     dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
     dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
+    dnf:wasm) echo lld wasi-libc-static compiler-rt-wasm32 ;;
     dnf:glpk | dnf:gmp | dnf:cairo | dnf:pango | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
     dnf:zstd) echo libzstd-devel ;;
     dnf:sdl2) echo SDL2-devel ;;
@@ -139,6 +153,7 @@ package() { # system thing
     pacman:jsonschema | brew:jsonschema) echo python-jsonschema ;;
     pacman:font) echo ttf-dejavu ;;
     pacman:clang-format | pacman:clang-tidy) echo clang ;;
+    pacman:wasm) echo lld wasi-libc wasi-compiler-rt ;;
     pacman:xvfb) echo xorg-server-xvfb ;;
     pacman:x11) echo libx11 ;;
     pacman:clang-sanitizers) echo compiler-rt ;;
@@ -148,6 +163,7 @@ package() { # system thing
     brew:python3) echo python ;;
     brew:font) echo --cask font-dejavu ;;
     brew:clang | brew:clang-sanitizers | brew:clang-tidy) echo llvm ;;
+    brew:wasm) echo lld wasi-libc wasi-runtimes ;;
     brew:xvfb) echo --cask xquartz ;;
 
     pacman:mpi | brew:mpi) echo openmpi ;;
@@ -195,6 +211,7 @@ install_packages() { # system package...
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
 [ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff"
+[ $web = yes ] && things="$things clang wasm binaryen node"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

@@ -1,21 +1,23 @@
 #!/bin/sh
 # The npm package and the site, in a folder: sh tools/web.sh --build DIR
 # gives DIR/package (the package `sightline`) and, where viewer/web is there, DIR/site.
-# Without --build it serves the site of build/web, which it builds first.
+# --package DIR stops after the package. Without either it serves the site of build/web, which it builds first.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=$root/build/web
 serve=yes
+site=yes
 while [ $# -gt 0 ]; do
     case $1 in
-    --build)
-        [ $# -gt 1 ] || { echo "web: --build needs a folder" >&2; exit 2; }
+    --build | --package)
+        [ $# -gt 1 ] || { echo "web: $1 needs a folder" >&2; exit 2; }
+        [ "$1" = --build ] || site=no
         folder=$2
         serve=no
         shift
         ;;
     *)
-        echo "web: unknown: $1; usage: sh tools/web.sh [--build DIR]" >&2
+        echo "web: unknown: $1; usage: sh tools/web.sh [--build DIR | --package DIR]" >&2
         exit 2
         ;;
     esac
@@ -43,13 +45,13 @@ rm -f "$folder/try.c" "$folder/try.o"
 cmake -S "$root" -B "$folder/wasm" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-DNDEBUG \
     -DCMAKE_TOOLCHAIN_FILE="$root/lib/cmake/wasi.cmake" -DSIGHTLINE_WASM=ON \
     ${CMAKE_C_COMPILER_LAUNCHER:+-DCMAKE_C_COMPILER_LAUNCHER="$CMAKE_C_COMPILER_LAUNCHER"} >/dev/null
-cmake --build "$folder/wasm" -j2
+cmake --build "$folder/wasm" -j2 >/dev/null
 rm -rf "$folder/package"
 cp -R "$folder/wasm/package" "$folder/package"
 echo "web: $folder/package"
 
 # ---- The site ----
-if [ -f "$root/viewer/web/build.mjs" ]; then
+if [ $site = yes ] && [ -f "$root/viewer/web/build.mjs" ]; then
     node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site"
     echo "web: $folder/site"
 fi

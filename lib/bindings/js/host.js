@@ -88,3 +88,16 @@ export function viewOf({ direction, fieldOfView = direction === undefined ? 360 
   if (range !== undefined && range < 0) throw new SightlineError('range: 0 or more is needed')
   return { direction: direction ?? 0, fieldOfView, range }
 }
+
+/**
+ * The unit vector of an angle in degrees; exact along the axes.
+ *
+ * @param {number} degrees
+ * @returns {[number, number]}
+ */
+export function direction(degrees) {
+  const turn = ((degrees % 360) + 360) % 360
+  if (turn % 90 === 0) return [[1, 0], [0, 1], [-1, 0], [0, -1]][turn / 90]
+  const angle = (turn * Math.PI) / 180
+  return [Math.cos(angle), Math.sin(angle)]
+}

@@ -4,20 +4,12 @@
  * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
  * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
  */
-import { SightlineError, bytesOf, compile, textAt, viewOf } from './host.js'
+import { SightlineError, bytesOf, compile, direction, textAt, viewOf } from './host.js'
 
 export { SightlineError }
 
 const NO_CELL = 0xffffffff
 const PAGE = 65536
-
-/** The direction of an angle in degrees; exact along the axes. */
-function direction(degrees) {
-  const turn = ((degrees % 360) + 360) % 360
-  if (turn % 90 === 0) return [[1, 0], [0, 1], [-1, 0], [0, -1]][turn / 90]
-  const angle = (turn * Math.PI) / 180
-  return [Math.cos(angle), Math.sin(angle)]
-}
 
 export class Level {
   #core

@@ -19,6 +19,7 @@ export function planOf(scene) {
         cellTable: scene.cellTable.slice(),
         portalCount: scene.portalCount,
         portalEnds: scene.portalEnds.slice(),
+        portalCells: scene.portalCells.slice(),
         doors: scene.doors,
         pairs: scene.account.pairs,
         guarantee: scene.guarantee,
@@ -80,15 +81,16 @@ export class Core {
 
     /** @param {number[]} eye @returns {Seen | null} null where nobody stands */
     look([x, y]) {
-        const scene = this.open, cell = scene.locate(x, y);
-        if (cell < 0 || !scene.cellTable[6 * cell + 4]) return null;
+        const scene = this.open, cell = this.locate([x, y]);
+        if (cell < 0) return null;
         const mirrored = scene.mirrors.length ? scene.mirroredParts(x, y).map((part) => part.polygon) : [];
         return { cell, row: scene.row(cell), kept: scene.look(x, y).length, region: scene.visiblePolygon(x, y), mirrored };
     }
 
-    /** @param {number[]} place @returns {number} its cell, -1 for none */
+    /** @param {number[]} place @returns {number} its cell, -1 where nobody stands */
     locate([x, y]) {
-        return this.open.locate(x, y);
+        const cell = this.open.locate(x, y);
+        return cell >= 0 && this.scene.cellTable[6 * cell + 4] ? cell : -1;
     }
 
     /** Why one cell sees another or not, with the lines through the portals in the dual plane. */

@@ -26,6 +26,7 @@
  * @property {Uint32Array} cellTable six a cell: first vertex, vertices, ..., inside, solid
  * @property {number} portalCount
  * @property {Float64Array} portalEnds five a portal, the last four its two ends
+ * @property {Uint32Array} portalCells ten a portal, the first two its cells
  */
 
 /** @typedef {import('./camera.js').Camera} Camera */
@@ -149,7 +150,8 @@ function drawCells(surface, camera, scene, tones) {
 
 function drawPortals(surface, camera, space, tones) {
     const lines = [];
-    for (let i = 0; i < space.portalCount; i++) lines.push(space.portalEnds.subarray(5 * i + 1, 5 * i + 5));
+    for (let i = 0; i < space.portalCount; i++)
+        if (isInside(space, space.portalCells[10 * i])) lines.push(space.portalEnds.subarray(5 * i + 1, 5 * i + 5));
     strokeLines(surface, camera, lines, tones.portal, 1.25);
 }
 

@@ -90,6 +90,7 @@ class Playground {
         watchTones((tones) => {
             this.view.tones = tones;
             panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
+                ['seen in mirrors', tones.image],
                 ['portal', tones.portal], ['door', tones.door]]);
             this.redraw();
         });

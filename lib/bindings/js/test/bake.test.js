@@ -1,0 +1,92 @@
+/** Bakes and exports are those of the native command, byte for byte. */
+import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
+import { basename } from 'node:path'
+import test from 'node:test'
+import { command, load, maps, nativeBake, place } from './help.js'
+
+const { bake, check, describe, explain, isovist, query, load: loadCore, mapText } = await load('bake.js')
+const core = await loadCore()
+
+test('every map of the project has the native bytes', () => {
+  assert.ok(maps.length > 15)
+  for (const path of maps) {
+    const got = core.bake(readFileSync(path), { name: basename(path) })
+    assert.ok(nativeBake(path).bytes.equals(got), path)
+  }
+})
+
+test('200 generated maps have the native bytes', () => {
+  const path = place('generated.map')
+  for (let i = 0; i < 200; i++) {
+    const kind = ['maze', 'office', 'city', 'pillars', 'tunnels'][i % 5]
+    const size = { maze: 5, office: 1, city: 2, pillars: 3, tunnels: 0 }[kind] + (i % 2)
+    const small = kind === 'tunnels' ? ['--walls', '100'] : ['--size', String(size)]
+    const turned = i % 7 === 3 ? ['--turned', String(i)] : []
+    command('generate', kind, ...small, '--seed', String(i), '-o', path, ...turned)
+    const options = [[], ['--inside'], ['--method', 'dfs'], ['--sight', 'open']][i % 4]
+    const own = [{}, { boundary: 'inside' }, { method: 'dfs' }, { sight: 'open' }][i % 4]
+    const got = core.bake(readFileSync(path), own)
+    assert.ok(nativeBake(path, ...options).bytes.equals(got), `${kind} ${i}`)
+  }
+})
+
+test('describe() is the JSON export, explain() the command', () => {
+  for (const path of maps) {
+    const { path: slv, bytes } = nativeBake(path)
+    const json = place('native.json')
+    command('export', slv, '--format', 'json', '-o', json)
+    assert.deepEqual(core.describe(bytes), JSON.parse(readFileSync(json, 'utf8')), path)
+    const scene = core.open(bytes)
+    const cells = Array.from({ length: scene.cellCount }, (_, i) => i).filter((i) => !scene.cell(i).solid)
+    for (let i = 0; i < 4; i++) {
+      const a = cells[(7 * i) % cells.length], b = cells[(13 * i + cells.length - 1) % cells.length]
+      const want = JSON.parse(command('explain', slv, String(a), String(b), '--json'))
+      assert.deepEqual(scene.explain(a, b), want, `${path} ${a} ${b}`)
+    }
+    assert.ok(Buffer.from(bytes).equals(scene.slv()), path)
+    scene.close()
+  }
+})
+
+test('an object is its map text', async () => {
+  const map = {
+    walls: [[0, 0, 20, 0], [20, 0, 20, 10], [20, 10, 0, 10], [0, 10, 0, 0], [10, 0, 10, 4], [10, 6, 10, 10]],
+    doors: [{ name: 'middle', segment: [10, 4, 10, 6], open: false }],
+    mirrors: [[19.5, 0.1, 19.5, 9.9]], starts: [{ x: 5, y: 5, heading: 90 }], range: 30,
+  }
+  const slv = await bake(map)
+  assert.deepEqual(slv, await bake(mapText(map)))
+  assert.deepEqual((await describe(slv)).doors, [{ name: 'middle', segments: [[10, 4, 10, 6]], open: false }])
+  assert.equal((await explain(map, { x: 5, y: 5 }, { x: 15, y: 5 })).seen, false)
+  const { area, edges } = await isovist(map, 5, 5)
+  assert.equal(area, 100)
+  assert.ok(edges.every((edge) => edge === 'wall'))
+  const scene = await query(map)
+  assert.equal(scene.canSee({ x: 5, y: 5 }, { x: 15, y: 5 }), false)
+  scene.setDoor('middle', true)
+  assert.equal(scene.canSee({ x: 5, y: 5 }, { x: 15, y: 5 }), true)
+  assert.ok(scene.isovist(5, 5).area > 100)
+  assert.ok(scene.mirroredParts(15, 5).length > 0)
+  assert.equal(scene.wall(0).item.startsWith('walls['), true)
+  scene.close()
+})
+
+test('check() finds a leak and names its walls', async () => {
+  const found = await check({ walls: [[0, 0, 20, 0], [20, 0, 20, 10], [20, 10, 0, 10], [0, 10, 0, 0.25]], starts: [[5, 5]] })
+  assert.equal(found.doubt, 'leaks')
+  const leak = found.faults.find((fault) => fault.kind === 'leak')
+  assert.deepEqual(leak.at, [0, 0, 0, 0.25])
+  assert.deepEqual(leak.items, ['walls[0]', 'walls[3]'])
+})
+
+test('a stab tree has the cells of the visible set', () => {
+  const scene = core.open(readFileSync(maps.find((path) => path.endsWith('office.map'))))
+  for (let cell = 0; cell < scene.cellCount; cell += 9) {
+    const { nodes, complete } = scene.stabTree(cell)
+    assert.ok(complete)
+    assert.deepEqual([...new Set(nodes.map((node) => node.cell))].sort((a, b) => a - b), [...scene.row(cell)])
+    nodes.forEach((node, i) => assert.ok(i === 0 ? node.parent === -1 : node.parent < i))
+  }
+  scene.close()
+})

@@ -1,0 +1,30 @@
+/** What a page loads stays small: gzip of all files that an import brings. */
+import assert from 'node:assert/strict'
+import { readFileSync, readdirSync } from 'node:fs'
+import { join } from 'node:path'
+import test from 'node:test'
+import { gzipSync } from 'node:zlib'
+import { folder } from './help.js'
+
+const size = (...names) =>
+  names.reduce((sum, name) => sum + gzipSync(readFileSync(join(folder, name)), { level: 9 }).length, 0)
+
+test('the runtime is at most 20 kB', () => {
+  const bytes = size('sightline.js', 'host.js', 'level.wasm')
+  assert.ok(bytes <= 20000, `${bytes} bytes`)
+})
+
+test('the whole library is at most 200 kB', () => {
+  const bytes = size('bake.js', 'maptext.js', 'scene.js', 'host.js', 'core.wasm')
+  assert.ok(bytes <= 200000, `${bytes} bytes`)
+})
+
+test('the package needs no other, and has what it says', () => {
+  const about = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'))
+  assert.equal(about.license, 'MIT')
+  assert.equal(about.dependencies, undefined)
+  const there = readdirSync(folder)
+  for (const entry of Object.values(about.exports).flatMap((each) => Object.values(typeof each === 'string' ? [each] : each)))
+    assert.ok(there.includes(entry.slice(2)), entry)
+  assert.ok(there.includes('LICENSE'))
+})
