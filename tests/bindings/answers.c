@@ -7,12 +7,15 @@
 ///     k x y full rx ry lx ly range     cells that an eye sees
 ///     v x y full rx ry lx ly range     the polygon that it sees
 ///     d number shut                    shuts or opens a door; no answer
+///     tk x y ..., tv ..., tr ...       microseconds that cells, polygons or (library) regions of
+///                                      these eyes take together: the least of several times
 #include "sightline/query.h"
 #include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +27,7 @@ typedef struct answerer {
     uint32_t *scratch, *cells;
     double *points;
     uint32_t room;
+    sl_region region;
 } answerer;
 
 /// A number of the question that is being read.
@@ -74,6 +78,35 @@ static void points_see(const answerer *a) {
     printf("%d\n", sees);
 }
 
+/// What an eye all round sees, by the kind of question.
+static void ask(answerer *a, char kind, sl_point eye) {
+    const sl_runtime_view v = sl_runtime_view_all_round(eye.x, eye.y);
+    const sl_view view = sl_query_view(a->query, eye, 0, 360);
+    if (kind == 'k')
+        sl_runtime_look_past(&a->level, &v, a->shut, 0, a->scratch, a->cells, a->level.cell_count);
+    else if (kind == 'v')
+        sl_runtime_visible_polygon(&a->level, &v, a->shut, 0, a->scratch, a->points, a->room);
+    else if (sl_query_region(a->context, a->query, &view, &a->region) != SL_OK)
+        abort();
+}
+
+static void take_time(answerer *a, char kind) {
+    enum { RUNS = 9, MOST = 10000 };
+    static sl_point eyes[MOST];
+    size_t count = 0;
+    double least = INFINITY;
+    for (char *word; count < MOST && (word = strtok(NULL, " \n")); count++) {
+        eyes[count].x = strtod(word, NULL);
+        eyes[count].y = number();
+    }
+    for (int run = 0; run < RUNS; run++) {
+        const double from = sl_seconds();
+        for (size_t i = 0; i < count; i++) ask(a, kind, eyes[i]);
+        least = fmin(least, sl_seconds() - from);
+    }
+    printf("%.17g\n", 1e6 * least);
+}
+
 static void answer(answerer *a, const char *kind) {
     if (*kind == 'l') {
         const double x = number(), y = number();
@@ -84,6 +117,8 @@ static void answer(answerer *a, const char *kind) {
         printf("%d\n", sl_runtime_can_see_past(&a->level, from, to, a->shut));
     } else if (*kind == 'p')
         points_see(a);
+    else if (*kind == 't')
+        take_time(a, kind[1]);
     else if (*kind == 'k')
         look(a);
     else if (*kind == 'v')
@@ -95,17 +130,20 @@ static void answer(answerer *a, const char *kind) {
 int main(int argc, char **argv) {
     answerer a = {.context = sl_context_create(NULL)};
     sl_bytes file = {0};
-    char line[1024];
+    static char line[1 << 20];
     if (argc != 2 || !a.context || sl_file_read(a.context, argv[1], &file) != SL_OK) return 2;
     if (sl_query_open(a.context, argv[1], &a.query) != SL_OK) return 2;
     if (sl_runtime_open(file.data, file.size, &a.level) != SL_RUNTIME_OK) return 2;
     a.shut = calloc(a.level.door_count + 1, 1);
     a.scratch = calloc(sl_runtime_scratch_count(&a.level), sizeof *a.scratch);
     a.cells = calloc(a.level.cell_count, sizeof *a.cells);
-    if (!a.shut || !a.scratch || !a.cells) return 2;
+    a.room = 4096;
+    a.points = calloc(a.room, 2 * sizeof *a.points);
+    if (!a.shut || !a.scratch || !a.cells || !a.points) return 2;
     for (uint32_t i = 0; i < a.level.door_count; i++)
         a.shut[i] = !sl_runtime_door_open(&a.level, i);
     while (fgets(line, sizeof line, stdin)) answer(&a, strtok(line, " \n"));
+    sl_region_destroy(a.context, &a.region);
     free(a.points);
     free(a.cells);
     free(a.scratch);

@@ -1,0 +1,97 @@
+/** A baked level (.slv) in a game. Angles are in degrees, counter-clockwise from +x; y grows upwards. */
+
+/** What the package throws. */
+export class SightlineError extends Error {
+  /** The line of the map text; 0 for none. */
+  line: number
+  /** The item of a map that was an object, such as `walls[3]`; '' for none. */
+  item: string
+  code: 'bad argument' | 'bad input' | 'unsupported' | 'out of memory' | 'interrupted' | 'input/output error' | 'internal'
+}
+
+export interface Point {
+  x: number
+  y: number
+}
+
+export interface Bounds {
+  readonly minX: number
+  readonly minY: number
+  readonly maxX: number
+  readonly maxY: number
+}
+
+/** [x0, y0, x1, y1] */
+export type Segment = [number, number, number, number]
+
+/** Parts of one name open and shut together. */
+export interface Door {
+  name: string
+  open: boolean
+  segments: Segment[]
+}
+
+export interface Start extends Point {
+  heading: number
+}
+
+/** A portal as a cell crosses it on the way out; `cell` is the one behind it. */
+export interface DirectedPortal {
+  portal: number
+  cell: number
+  left: [number, number]
+  right: [number, number]
+}
+
+export interface Cell {
+  /** x, y, x, y ... counter-clockwise. */
+  corners: Float64Array
+  portals: DirectedPortal[]
+  inside: boolean
+  solid: boolean
+}
+
+export interface View {
+  /** Without it the view is all round. */
+  direction?: number
+  /** 90 by default. */
+  fieldOfView?: number
+  /** The map's own by default; 0 likewise. */
+  range?: number
+}
+
+export class Level {
+  private constructor()
+  /** Opens a baked file, which is checked wholly. */
+  static open(bytes: ArrayBuffer | ArrayBufferView): Promise<Level>
+  readonly bounds: Bounds
+  /** The view range of the map; 0 for no limit. */
+  readonly range: number
+  /** The bake was stopped: cells that were not decided count as seen. */
+  readonly unfinished: boolean
+  readonly cellCount: number
+  readonly cells: readonly (Cell & { hasRow: boolean })[]
+  readonly starts: readonly Start[]
+  /** As they stand. */
+  readonly doors: Door[]
+  setDoor(name: string, open: boolean): void
+  /** The cell that holds a point; -1 outside the bounds. */
+  locate(x: number, y: number): number
+  /** Whether something in cell b can be seen from somewhere in cell a. */
+  canSee(a: number, b: number): boolean
+  /** Whether two points see each other. */
+  canSee(a: Point, b: Point): boolean
+  /** The cells that an eye sees, its own first. */
+  look(x: number, y: number, view?: View): Uint32Array
+  /** x, y, x, y ... counter-clockwise about the eye. */
+  visiblePolygon(x: number, y: number, view?: View): Float64Array
+  /** The cells seen from anywhere in a cell. */
+  row(cell: number): Uint32Array
+  /** The cells seen from anywhere in some cells. */
+  seenFrom(cells: ArrayLike<number>): Uint32Array
+  /** The cells that a box lies in or touches. */
+  boxCells(minX: number, minY: number, maxX: number, maxY: number): Uint32Array
+  /** The view cell of a cell; -1 for none. */
+  viewCell(cell: number): number
+  close(): void
+}
