@@ -189,6 +189,7 @@ class Playground {
 
     async openGallery(name, quiet = false) {
         if (!name) return;
+        if (name === 'own') return this.openFile(new File([loadWork('own')], 'your map'));
         try {
             const answer = await fetch(`maps/${name}`);
             if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
@@ -202,7 +203,10 @@ class Playground {
         try {
             const text = await unpackMap(location.hash);
             if (text === null || text === this.doc.text()) return false;
-            this.load(parseMap(text), this.doc.items.length ? 'This is a shared map. Undo brings back your own.' : '');
+            const items = parseMap(text), own = this.doc.items.length > 0;
+            if (own) keepWork(this.doc.text(), 'own');
+            this.load(items, own ? 'This is a shared map. Undo brings back your own; it is in the list of maps too.' : '');
+            this.offerOwn();
             return true;
         } catch (error) {
             panel.showMessage(error.message, true);
@@ -451,7 +455,14 @@ class Playground {
         this.act('fit');
     }
 
+    /** The map from before a shared one was opened, in the list of maps. */
+    offerOwn() {
+        const list = get('gallery');
+        if (loadWork('own') && !list.querySelector('[value=own]')) list.add(new Option('your own map from before', 'own'), 1);
+    }
+
     async loadGallery() {
+        this.offerOwn();
         try {
             for (const { file, title } of await (await fetch('maps/index.json')).json())
                 get('gallery').append(new Option(title, file));

@@ -51,21 +51,22 @@ export async function unpackMap(fragment) {
     }
 }
 
-const KEY = 'sightline-playground-map';
+/** What the browser keeps: the last map, and the one before a shared map was opened. */
+const KEYS = { last: 'sightline-playground-map', own: 'sightline-playground-own' };
 
-/** @returns {string | null} */
-export function loadWork() {
+/** @param {'last' | 'own'} which @returns {string | null} */
+export function loadWork(which = 'last') {
     try {
-        return localStorage.getItem(KEY);
+        return localStorage.getItem(KEYS[which]);
     } catch {
         return null;
     }
 }
 
-/** @returns {boolean} whether the browser kept it */
-export function keepWork(text) {
+/** @param {'last' | 'own'} which @returns {boolean} whether the browser kept it */
+export function keepWork(text, which = 'last') {
     try {
-        localStorage.setItem(KEY, text);
+        localStorage.setItem(KEYS[which], text);
         return true;
     } catch {
         return false;
