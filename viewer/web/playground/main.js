@@ -1,18 +1,17 @@
-/** The playground: brings the map, the core, the plan and the panel together. */
+/** The playground: brings the map, what is seen of it, the tools, files and the panel together. */
 import { CoreClient, CoreError } from '../core/client.js';
-import { Latest } from '../core/latest.js';
 import { countWalls, parseMap } from '../formats/map-text.js';
 import { roundStep } from '../parts/camera.js';
-import { cellCorners, drawDot, isInside, itemLine, strokeLines } from '../parts/plan.js';
+import { drawDot, itemLine, strokeLines } from '../parts/plan.js';
 import { watchTones } from '../parts/tones.js';
-import { dualFigure } from '../parts/dual.js';
-import { drawWhy, tellWhy } from '../parts/why-scene.js';
+import { drawWhy } from '../parts/why-scene.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
 import { Keys } from './keys.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
+import { Sight } from './sight.js';
 import { makeTools } from './tools.js';
 import { View } from './view.js';
 
@@ -22,46 +21,13 @@ const isOn = (id) => get(id).checked;
 /** Above this many walls the browser is not asked to keep the map. */
 const MOST_KEPT = 20000;
 
-/** The middle of the largest cell inside. @param {import('../parts/plan.js').Space} space */
-function largestCell(space) {
-    let best = null, most = 0;
-    for (let i = 0; i < space.cellCount; i++) {
-        const p = cellCorners(space, i), n = p.length / 2;
-        let size = 0, x = 0, y = 0;
-        for (let k = 0; k < n; k++) {
-            const next = 2 * ((k + 1) % n);
-            size += p[2 * k] * p[next + 1] - p[next] * p[2 * k + 1];
-            x += p[2 * k] / n;
-            y += p[2 * k + 1] / n;
-        }
-        if (isInside(space, i) && size > most) [most, best] = [size, [x, y]];
-    }
-    return best;
-}
-
-class Playground {
+class Playground extends Sight {
     constructor() {
-        this.doc = new MapDocument();
         // ?memory=MB in the address, for small devices and for tests.
         const memory = Number(new URLSearchParams(location.search).get('memory'));
-        this.client = new CoreClient(memory > 0 ? memory * 2 ** 20 : undefined);
-        this.bakes = new Latest((wanted) => this.runBake(wanted));
-        this.looks = new Latest((eye) => this.runLook(eye));
-        this.questions = new Latest((places) => this.runExplain(places));
+        super(new MapDocument(), new CoreClient(memory > 0 ? memory * 2 ** 20 : undefined));
         this.tool = 'look';
         this.tools = makeTools(this);
-        this.eye = null;
-        /** What the eye sees, its visible set also as a set. */
-        this.seen = null;
-        /** The last two places of a question, their cells, and the answer. */
-        this.places = null;
-        this.pair = null;
-        this.why = null;
-        /** Doors that were opened or shut by hand, by name. @type {Record<string, boolean>} */
-        this.doors = {};
-        /** The last baked map; null where there is none. @type {import('../core/core.js').Plan | null} */
-        this.plan = null;
-        this.bakeTime = 0;
         this.view = new View(get('plan'), this);
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
         this.keys = new Keys(get('plan'), this);
@@ -88,7 +54,7 @@ class Playground {
         addEventListener('hashchange', () => this.openShared());
         addEventListener('pagehide', () => this.keep());
         watchTones((tones) => {
-            this.view.tones = tones;
+            this.tones = this.view.tones = tones;
             panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
                 ['seen in mirrors', tones.image],
                 ['portal', tones.portal], ['door', tones.door]]);
@@ -109,60 +75,6 @@ class Playground {
         if (countWalls(this.doc.items) <= MOST_KEPT && keepWork(this.doc.text())) return;
         if (!this.saidUnkept) panel.showMessage('The browser cannot keep a map of this size. Save it as a file.');
         this.saidUnkept = true;
-    }
-
-    bake() {
-        this.bakes.want({ sight: get('sight').value });
-    }
-
-    async runBake(options) {
-        if (!countWalls(this.doc.items)) return this.begun();
-        panel.showBusy('Computing what is seen');
-        try {
-            const eye = this.eye ?? this.startPlace();
-            this.baked(await this.client.call('bake', { text: this.doc.text(), options, doors: this.doors, eye }));
-        } catch (error) {
-            this.failed(error);
-        }
-        panel.showBusy('');
-    }
-
-    /** A map without walls: nothing to compute yet. */
-    begun() {
-        this.plan = this.seen = this.why = null;
-        this.hasError = false;
-        panel.showDoors([], new Set(), () => {});
-        panel.showMessage('Draw a wall, or open a file. Undo brings back the last map.');
-        this.showFacts();
-        this.redraw();
-    }
-
-    baked({ plan, bakeTime, seen }) {
-        this.plan = plan;
-        this.bakeTime = bakeTime;
-        this.shut = new Set(plan.doors.filter((door) => !door.open).map((door) => door.name));
-        panel.showDoors([...new Set(plan.doors.map((door) => door.name))], this.shut, (name, open) => this.setDoor(name, open));
-        if (this.hasError) panel.showMessage('');
-        this.hasError = false;
-        this.eye ??= this.startPlace();
-        if (this.eye) this.useSeen(seen);
-        else this.setEye(largestCell(plan));
-        if (this.places) this.questions.want(this.places);
-        this.redraw();
-    }
-
-    failed(error) {
-        this.plan = this.seen = this.why = null;
-        const item = error.line ? this.doc.items[error.line - 2] : null;
-        if (item) this.doc.select(error.line - 2);
-        this.hasError = true;
-        panel.showMessage(item ? `${error.message}\nThe ${item.kind} that is meant is chosen.` : error.message, true);
-        this.showFacts();
-        this.redraw();
-    }
-
-    startPlace() {
-        return this.doc.items.find((item) => item.kind === 'start')?.points ?? null;
     }
 
     /** @param {import('../formats/map-text.js').Item[]} items */
@@ -212,78 +124,6 @@ class Playground {
             panel.showMessage(error.message, true);
             return false;
         }
-    }
-
-    // --- what is seen
-
-    setEye(place) {
-        this.eye = place;
-        if (this.plan && place) this.looks.want(place);
-        this.redraw();
-    }
-
-    async runLook(eye) {
-        try {
-            this.useSeen(await this.client.call('look', { eye, doors: this.doors }));
-        } catch {
-            this.useSeen(null); // The bake that failed or was cancelled has said so.
-        }
-        this.redraw();
-    }
-
-    useSeen(seen) {
-        this.seen = seen && { ...seen, set: new Set(seen.row) };
-        this.showFacts();
-    }
-
-    setDoor(name, open) {
-        this.doors[name] = open;
-        if (open) this.shut.delete(name);
-        else this.shut.add(name);
-        this.setEye(this.eye);
-    }
-
-    showFacts() {
-        const plan = this.plan, seen = this.seen;
-        panel.showFacts([
-            ['Walls', countWalls(this.doc.items)],
-            ['Cells', plan?.cellCount],
-            ['Portals', plan?.portalCount],
-            ['Pairs that see each other', plan?.pairs],
-            ['Baked in', plan && `${this.bakeTime.toFixed(1)} ms`],
-            ['Cell of the eye', seen?.cell],
-            ['The cell sees', seen && `${seen.set.size} cells`],
-            ['The eye sees', seen && `${seen.kept} cells`],
-        ]);
-        get('where').textContent = this.eye ? `Eye at ${this.eye.map((v) => Math.round(v * 1000) / 1000).join(', ')}` +
-            `${seen ? '' : this.plan ? ', not inside' : ''}` : '';
-    }
-
-    /** Asks for a pair of cells by places; null keeps the first one. */
-    askWhy(from, to) {
-        this.places = { from: from ?? this.places?.from ?? to, to };
-        if (this.plan) this.questions.want(this.places);
-    }
-
-    async runExplain(places) {
-        try {
-            const { pair, why } = await this.client.call('explain', places);
-            if (!this.places) return;
-            [this.pair, this.why] = [pair, why];
-            panel.showWhy(Math.min(...pair) < 0 ? 'Choose two places inside the map.'
-                : why ? tellWhy(why) : `Cell ${pair[0]} is chosen. Choose a second place.`);
-            panel.showDual(why?.dual ? dualFigure(why, this.view.tones) : null);
-        } catch (error) {
-            this.why = null;
-            panel.showWhy(error.message);
-        }
-        this.redraw();
-    }
-
-    forgetWhy() {
-        this.why = this.pair = this.places = null;
-        panel.showWhy('');
-        this.redraw();
     }
 
     // --- drawing
