@@ -16,6 +16,16 @@ const PAGE = 65536
 const CODES = ['ok', 'bad argument', 'bad input', 'unsupported', 'out of memory', 'interrupted',
   'input/output error']
 
+/** Memory up to a number of pages, or to what the browser grants of them. */
+function memoryOf(maximum) {
+  try {
+    return new WebAssembly.Memory({ initial: 64, maximum })
+  } catch {
+    if (maximum > 64) return memoryOf(Math.max(64, maximum >> 1))
+    throw new SightlineError('out of memory', { code: 'out of memory' })
+  }
+}
+
 /** A loaded module. All calls are synchronous; scenes stay until they are closed. */
 export class Core {
   /** @internal */
@@ -28,7 +38,7 @@ export class Core {
   }
 
   #start() {
-    this.memory = new WebAssembly.Memory({ initial: 64, maximum: this.maximum })
+    this.memory = memoryOf(this.maximum)
     const instance = new WebAssembly.Instance(this.module, {
       env: { memory: this.memory },
       host: {

@@ -36,13 +36,13 @@ const stages = (seconds) => 1000 * (seconds.clean + seconds.subdivide + seconds.
 
 function bakeTimes(path, slv) {
   const text = readFileSync(path)
-  const wasm = least(9, () => {
+  const wasm = least(25, () => {
     const scene = core.open(text, { name: basename(path) })
     const time = stages(scene.account.seconds)
     scene.close()
     return time
   })
-  const own = least(9, () => {
+  const own = least(25, () => {
     const { seconds } = JSON.parse(native('bake', path, '--threads', '1', '--json', '-o', slv))
     return 1000 * (seconds.read + seconds.subdivide + (seconds.check ?? 0) + seconds.cell_to_cell)
   })
@@ -54,7 +54,7 @@ function lookTimes(level, slv, kind, ask) {
   const { minX, minY, maxX, maxY } = level.bounds
   const eyes = Array.from({ length: 2000 }, (_, i) => [
     minX + ((i * 0.618034) % 1) * (maxX - minX), minY + ((i * 0.414214) % 1) * (maxY - minY)])
-  const wasm = least(9, () => {
+  const wasm = least(25, () => {
     const from = performance.now()
     for (const [x, y] of eyes) ask(x, y)
     return performance.now() - from

@@ -81,12 +81,18 @@ export function bytesOf(bytes) {
  *
  * @param {{direction?: number, fieldOfView?: number, range?: number}} [options]
  */
-export function viewOf({ direction, fieldOfView = direction === undefined ? 360 : 90, range } = {}) {
-  for (const [name, value] of Object.entries({ direction, fieldOfView, range }))
-    if (value !== undefined && !Number.isFinite(value)) throw new SightlineError(`${name}: a number is needed`)
-  if (fieldOfView < 0) throw new SightlineError('fieldOfView: a number of degrees is needed')
-  if (range !== undefined && range < 0) throw new SightlineError('range: 0 or more is needed')
+export function viewOf(options = {}) {
+  const { direction, range } = options
+  const fieldOfView = options.fieldOfView ?? (direction === undefined ? 360 : 90)
+  checkNumber('direction', direction ?? 0)
+  checkNumber('range', range ?? 0, 0)
+  checkNumber('fieldOfView', fieldOfView, 0)
   return { direction: direction ?? 0, fieldOfView, range }
+}
+
+function checkNumber(name, value, least = -Infinity) {
+  if (Number.isFinite(value) && value >= least) return
+  throw new SightlineError(`${name}: a number${least === 0 ? ', 0 or more,' : ''} is needed`)
 }
 
 /**

@@ -18,6 +18,8 @@ export class Level {
   #scratch = 0
   #list = 0
   #points = 0
+  #view = new Float64Array(0)
+  #allRound
   #room = 0
   #cellCount = 0
   #doors = []
@@ -246,15 +248,20 @@ export class Level {
     return new Uint32Array(this.#memory.buffer, this.#list, count).slice()
   }
 
+  /** Puts the view into memory, as an sl_runtime_view. */
   #setView(x, y, heading, fieldOfView) {
-    const at = this.#core.view_place()
     const { buffer } = this.#memory
-    const numbers = new Float64Array(buffer, at, 7)
-    numbers[0] = x
-    numbers[1] = y
-    new Uint8Array(buffer)[at + 16] = fieldOfView >= 360 ? 1 : 0
-    numbers.set(direction(heading - fieldOfView / 2), 3)
-    numbers.set(direction(heading + fieldOfView / 2), 5)
+    if (this.#view.buffer !== buffer) {
+      this.#view = new Float64Array(buffer, this.#core.view_place(), 7)
+      this.#allRound = new Uint8Array(buffer, this.#view.byteOffset + 16, 1)
+    }
+    const view = this.#view
+    view[0] = x
+    view[1] = y
+    this.#allRound[0] = fieldOfView >= 360 ? 1 : 0
+    if (fieldOfView >= 360) return
+    view.set(direction(heading - fieldOfView / 2), 3)
+    view.set(direction(heading + fieldOfView / 2), 5)
   }
 
   /**
@@ -285,7 +292,9 @@ export class Level {
     for (;;) {
       const count =
         core.polygon(this.#shut, view.range ?? 0, this.#scratch, this.#points, this.#room) >>> 0
-      if (count <= this.#room) return new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice()
+      if (count <= this.#room) {
+        return new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice()
+      }
       this.#grow(2 * count)
     }
   }

@@ -7,8 +7,8 @@
 /// wrong; but one map should give one file. The error is below one unit in the last place.
 #include <math.h>
 
-/// For 0 < small <= large, whose squares neither overflow nor underflow. The square root is right up
-/// to rounding; one Newton step corrects it by what h^2 has too much.
+/// For 0 < small <= large, whose squares neither overflow nor underflow. The square root is right
+/// up to rounding; one Newton step corrects it by what h^2 has too much.
 static double length_of(double large, double small) {
     const double h = sqrt(large * large + small * small);
     double first, second;
