@@ -69,6 +69,5 @@ export function tellWhy(why) {
         ? `No line passes ${ends} on their right sides.`
         : 'A line would have to turn back.';
     return `${pair} are hidden from each other. ${what} L marks ends that a line must have at its left, ` +
-        `R those at its right. ${plural(why.misses.length, 'sequence')} of portals ` +
-        `${why.misses.length === 1 ? 'was' : 'were'} looked at last.${effects}`;
+        `R those at its right. The picture shows one sequence of portals that leads there.${effects}`;
 }
