@@ -1,0 +1,113 @@
+/**
+ * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE
+ *
+ * PACKAGE is the built npm package, SITE the folder to write. The site is plain files: this folder,
+ * the package, the maps of maps/ and a page from each document for an audience.
+ */
+import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join, posix, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { titleOf, toHtml } from './markdown.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url)), root = join(here, '../..');
+
+/** Documents that become pages. */
+const documents = {
+    'maps/FLOOR-PLANS.md': 'floor-plans',
+    'maps/GAME-MAPS.md': 'game-maps',
+    'viewer/TEACHING.md': 'teaching',
+    'lib/EMBEDDING.md': 'embedding',
+    'maps/FORMAT.md': 'map-text',
+    'lib/io/FORMATS.md': 'formats',
+    'lib/bake/EXPORT.md': 'export',
+    'lib/GLOSSARY.md': 'glossary',
+};
+
+const parts = ['index.html', 'style.css', 'icon.svg', 'core', 'formats', 'parts', 'playground', 'course'];
+
+/** Names in the gallery: the first comment of a map says what it shows. */
+function titleOfMap(path, text) {
+    const said = /#\s*(.*)/.exec(text.split('\n')[0])?.[1];
+    const name = basename(path).replace(/\.\w+$/, '');
+    const plan = { cellar: 'a few rooms', dungeon: 'rooms and corridors in rock' }[name];
+    const about = path.endsWith('.map') ? said?.split(/[:;,.]/)[0] : plan;
+    return about && about.toLowerCase() !== name ? `${name}: ${about.trim()}` : name;
+}
+
+function mapFiles(folder) {
+    return readdirSync(folder, { withFileTypes: true }).flatMap((entry) => entry.isDirectory()
+        ? mapFiles(join(folder, entry.name)) : /\.(map|txt)$/.test(entry.name) ? [join(folder, entry.name)] : []);
+}
+
+function writeGallery(site) {
+    const list = mapFiles(join(root, 'maps')).map((path) => {
+        const text = readFileSync(path, 'utf8'), file = relative(join(root, 'maps'), path).replaceAll('\\', '/');
+        mkdirSync(dirname(join(site, 'maps', file)), { recursive: true });
+        writeFileSync(join(site, 'maps', file), text);
+        return { file, title: titleOfMap(path, text) };
+    });
+    list.sort((a, b) => a.file.split('/').length - b.file.split('/').length || a.file.localeCompare(b.file));
+    writeFileSync(join(site, 'maps/index.json'), `${JSON.stringify(list, null, 1)}\n`);
+}
+
+const page = (title, body) => `<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'self'">
+<title>${title} - Sightline</title>
+<link rel="icon" href="../icon.svg">
+<link rel="stylesheet" href="../style.css">
+</head>
+<body>
+<header><nav aria-label="Pages">
+<a href="../index.html">Playground</a>
+<a href="floor-plans.html">Floor plans</a>
+<a href="game-maps.html">Game maps</a>
+<a href="teaching.html">Teaching</a>
+<a href="embedding.html">Embedding</a>
+</nav></header>
+<main class="page">
+${body}
+</main>
+</body>
+</html>
+`;
+
+/** Links lead to pages of the site; those to sources stay words. Pictures are copied. */
+function writePages(site) {
+    mkdirSync(join(site, 'pages'), { recursive: true });
+    for (const [path, name] of Object.entries(documents)) {
+        const text = readFileSync(join(root, path), 'utf8');
+        const link = (target, picture) => {
+            if (/^(https?:|mailto:|#)/.test(target)) return target;
+            const [file, anchor] = posix.join(posix.dirname(path), target).split('#');
+            if (!existsSync(join(root, file))) throw new Error(`${path}: the link ${target} leads nowhere`);
+            if (documents[file]) return `${documents[file]}.html${anchor ? `#${anchor}` : ''}`;
+            if (!picture) return null;
+            const copy = file.replaceAll('/', '-');
+            cpSync(join(root, file), join(site, 'pages', copy));
+            return copy;
+        };
+        writeFileSync(join(site, 'pages', `${name}.html`), page(titleOf(text), toHtml(text, link)));
+    }
+}
+
+const valueOf = (name) => process.argv[process.argv.indexOf(name) + 1];
+const [site, library] = [valueOf('--out'), valueOf('--package')];
+if (process.argv.length !== 6 || !process.argv.includes('--out') || !process.argv.includes('--package')) {
+    console.error('usage: node build.mjs --package PACKAGE --out SITE');
+    process.exit(2);
+}
+if (!existsSync(join(library, 'sightline.js'))) {
+    console.error(`build.mjs: there is no built package in ${library}`);
+    process.exit(2);
+}
+for (const part of [...parts, 'package', 'maps', 'pages']) rmSync(join(site, part), { recursive: true, force: true });
+mkdirSync(site, { recursive: true });
+for (const part of parts)
+    if (existsSync(join(here, part))) cpSync(join(here, part), join(site, part), { recursive: true });
+cpSync(library, join(site, 'package'), { recursive: true });
+writeGallery(site);
+writePages(site);

@@ -1,0 +1,68 @@
+/**
+ * Reads a file of any format that the page knows. The content decides, not the ending of the name.
+ */
+import { readBaked } from './baked.js';
+import { readGeoJson } from './geojson.js';
+import { readLdtk } from './ldtk.js';
+import { FormatError, parseMap } from './map-text.js';
+import { isPlan, parsePlan } from './plan-text.js';
+import { readSvg } from './svg.js';
+import { readTabletop } from './tabletop.js';
+import { readTiled } from './tiled.js';
+
+/**
+ * @typedef {Object} Reading
+ * @property {import('./map-text.js').Item[]} items
+ * @property {string[]} notes what was left out or guessed
+ * @property {string} format
+ */
+
+const isSlv = (bytes) => String.fromCharCode(...bytes.subarray(0, 16)).toLowerCase().includes('slv');
+
+/** @returns {[string, (file: any) => any]} */
+function jsonReader(file) {
+    if (file?.format === 'sightline') return ['the JSON export', readBaked];
+    if (file?.layers && file.tilewidth) return ['Tiled', readTiled];
+    if (file?.jsonVersion || file?.__header__ || file?.layerInstances) return ['LDtk', readLdtk];
+    if (file?.line_of_sight || file?.resolution) return ['Universal VTT', readTabletop];
+    if (/^(Feature|FeatureCollection|GeometryCollection|(Multi)?(Point|LineString|Polygon))$/.test(file?.type))
+        return ['GeoJSON', readGeoJson];
+    throw new FormatError('this JSON is none of Tiled, LDtk, Universal VTT, GeoJSON or the JSON export');
+}
+
+/**
+ * @param {Uint8Array} bytes
+ * @param {(bytes: Uint8Array) => Promise<any>} describe the core's JSON of a .slv file
+ * @returns {Promise<Reading>}
+ */
+export async function readMapFile(bytes, describe) {
+    if (isSlv(bytes)) return { format: 'a .slv file', ...readBaked(await describe(bytes)) };
+    let text;
+    try {
+        text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+    } catch {
+        throw new FormatError('this file is not text. The page reads map text, ASCII plans, .slv, Tiled ' +
+            'JSON, LDtk, Universal VTT, SVG and GeoJSON; the sightline command reads more');
+    }
+    const start = text.trimStart();
+    if (start.startsWith('{') || start.startsWith('[')) {
+        let file;
+        try {
+            file = JSON.parse(text);
+        } catch (error) {
+            throw new FormatError(`this is not JSON that can be read: ${error.message}`);
+        }
+        const [format, read] = jsonReader(file);
+        try {
+            return { format, ...(await read(file)) };
+        } catch (error) {
+            if (error instanceof FormatError) throw error;
+            throw new FormatError(`this ${format} file is not as it should be (${error.message})`);
+        }
+    }
+    if (start.startsWith('<') && /<svg[\s>]/i.test(start.slice(0, 4000))) return { format: 'SVG', ...readSvg(text) };
+    if (start.startsWith('<'))
+        throw new FormatError('XML files but SVG are not read here. In Tiled, save the map as JSON (.tmj)');
+    if (isPlan(text)) return { format: 'an ASCII plan', items: parsePlan(text), notes: [] };
+    return { format: 'map text', items: parseMap(text), notes: [] };
+}

@@ -1,0 +1,119 @@
+/**
+ * SVG drawings: outlines and lines become walls, through groups, uses and transforms. Groups named
+ * sightline-door and so on (lib/io/FORMATS.md, "Layers of our own") become what they say.
+ */
+import { FormatError } from './map-text.js';
+import { apply, ellipse, identity, multiply, numbersOf, parsePath, parseTransform } from './svg-path.js';
+import { oneWord, plural } from './words.js';
+
+const number = (node, name, spare = 0) => parseFloat(node.getAttribute(name) ?? '') || spare;
+
+const pairs = (values) => values.flatMap((v, i) => (i % 2 || i + 1 >= values.length ? [] : [[v, values[i + 1]]]));
+
+const close = (points) => (points.length ? [...points, points[0]] : points);
+
+/** The polylines of one shape, before its transform; null for other elements. */
+function shape(node) {
+    const n = (name) => number(node, name);
+    switch (node.localName) {
+    case 'line': return [[[n('x1'), n('y1')], [n('x2'), n('y2')]]];
+    case 'polyline': return [pairs(numbersOf(node.getAttribute('points')))];
+    case 'polygon': return [close(pairs(numbersOf(node.getAttribute('points'))))];
+    case 'rect': {
+        const [x, y, w, h] = ['x', 'y', 'width', 'height'].map(n);
+        return w && h ? [close([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])] : [];
+    }
+    case 'circle': return n('r') ? [ellipse(n('cx'), n('cy'), n('r'), n('r'))] : [];
+    case 'ellipse': return n('rx') && n('ry') ? [ellipse(n('cx'), n('cy'), n('rx'), n('ry'))] : [];
+    case 'path': return parsePath(node.getAttribute('d') ?? '');
+    default: return null;
+    }
+}
+
+const skipped = new Set(['defs', 'symbol', 'clipPath', 'mask', 'pattern', 'marker', 'metadata', 'title',
+    'desc', 'style', 'script', 'linearGradient', 'radialGradient', 'filter']);
+
+function isHidden(node) {
+    const style = node.getAttribute('style') ?? '';
+    return node.getAttribute('display') === 'none' || node.getAttribute('visibility') === 'hidden' ||
+        /display\s*:\s*none|visibility\s*:\s*hidden/.test(style);
+}
+
+const layerName = (node) => {
+    const label = [...node.attributes].find((a) => a.localName === 'label')?.value ?? '';
+    const found = [label, node.id].find((text) => /^sightline-/i.test(text));
+    return found?.toLowerCase().slice('sightline-'.length);
+};
+
+/** Items of a polyline in a layer. */
+function itemsOf(layer, node, points, counts) {
+    const flat = points.flat(), name = (spare) => oneWord(node.getAttribute('data-name') ?? '', spare);
+    const ends = () => points.slice(1).map((p, i) => [...points[i], ...p]);
+    switch (layer) {
+    case 'solid': case 'open': case 'cell': return [{ kind: layer, points: flat.slice(0, -2) }];
+    case 'wall-solid': return ends().map((p) => ({ kind: 'wall', points: p, state: 'solid' }));
+    case 'door': {
+        const door = name(`door${++counts.doors}`), shut = node.getAttribute('data-open') === 'false';
+        return ends().map((p) => ({ kind: 'door', name: door, points: p, state: shut ? 'shut' : 'open' }));
+    }
+    case 'mirror': return ends().map((p) => ({ kind: 'mirror', points: p }));
+    case 'mirror-one': return ends().map((p) => ({ kind: 'mirror', points: p, state: 'one' }));
+    case 'oneway': case 'seam': return ends().map((p) => ({ kind: layer, points: p }));
+    case 'path': return [{ kind: 'path', name: name('path'), points: flat }];
+    case 'object': case 'start': {
+        const xs = points.map((p) => p[0]), ys = points.map((p) => p[1]);
+        const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+        if (layer === 'object') return [{ kind: 'object', name: name('object'), points: box }];
+        const heading = Number(node.getAttribute('data-heading')) || 0;
+        return [{ kind: 'start', points: [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2], heading }];
+    }
+    default: return [{ kind: 'walls', points: flat }];
+    }
+}
+
+/** @param {string} text @returns {{items: import('./map-text.js').Item[], notes: string[]}} */
+export function readSvg(text) {
+    const page = new DOMParser().parseFromString(text, 'image/svg+xml');
+    if (page.querySelector('parsererror') || page.documentElement.localName !== 'svg')
+        throw new FormatError('this is not an SVG file that can be read');
+    const root = page.documentElement, items = [], counts = { doors: 0, left: 0, hidden: 0 };
+    const box = numbersOf(root.getAttribute('viewBox'));
+    const own = root.getAttribute('data-sightline-y0');
+    const top = own !== null ? Number(own) : box.length === 4 ? 2 * box[1] + box[3] : number(root, 'height');
+    const visit = (node, matrix, layer, depth) => {
+        if (skipped.has(node.localName)) return;
+        if (isHidden(node)) {
+            counts.hidden++;
+            return;
+        }
+        if (depth > 64) throw new FormatError('groups and uses are nested too deeply');
+        const here = multiply(matrix, parseTransform(node.getAttribute('transform')));
+        const inLayer = layerName(node) ?? layer;
+        const lines = shape(node);
+        if (lines) {
+            for (const line of lines) {
+                const points = line.map((p) => apply(here, p)).map(([x, y]) => [x, top - y]);
+                if (points.length > 1) items.push(...itemsOf(inLayer, node, points, counts));
+            }
+            return;
+        }
+        if (node.localName === 'text' || node.localName === 'image') counts.left++;
+        if (node.localName === 'use') {
+            const reference = node.getAttribute('href') ?? node.getAttributeNS('http://www.w3.org/1999/xlink', 'href');
+            const target = reference?.startsWith('#') && page.getElementById(reference.slice(1));
+            const moved = multiply(here, [1, 0, 0, 1, number(node, 'x'), number(node, 'y')]);
+            if (target?.localName === 'symbol')
+                for (const child of target.children) visit(child, moved, inLayer, depth + 1);
+            else if (target) visit(target, moved, inLayer, depth + 1);
+        }
+        for (const child of node.children) visit(child, here, inLayer, depth + 1);
+    };
+    visit(root, identity, undefined, 0);
+    const notes = [];
+    if (counts.left) notes.push(plural(counts.left, 'text or picture', 'texts and pictures'));
+    if (counts.hidden) notes.push(plural(counts.hidden, 'hidden element'));
+    const range = Number(root.getAttribute('data-sightline-range'));
+    if (range > 0) items.push({ kind: 'range', points: [], value: range });
+    if (!items.length) throw new FormatError('the drawing has no lines or outlines');
+    return { items, notes };
+}

@@ -1,0 +1,149 @@
+/**
+ * Tiled maps as JSON (.tmj): orthogonal maps, fixed or in chunks. A simpler reader than that of the
+ * `sightline` command; the rules for what is solid are the same in order, and it says what it left.
+ */
+import { doorItems } from './grid-doors.js';
+import { FormatError } from './map-text.js';
+import { gridWalls } from './plan-text.js';
+import { isDoorName, isSolidName, isStartName, oneWord, plural } from './words.js';
+
+const FLAGS = 0x1fffffff;
+
+const flag = (properties) => {
+    const found = (properties ?? []).find((p) => typeof p.value === 'boolean' && isSolidName(p.name));
+    return found?.value;
+};
+
+/** Whether a layer says that it is solid; undefined where it says nothing. */
+const layerSays = (layer) => flag(layer.properties) ??
+    (isSolidName(layer.class ?? layer.type) || isSolidName(layer.name) ? true : undefined);
+
+async function decode(data, compression, encoding) {
+    if (Array.isArray(data)) return data;
+    if (encoding !== 'base64') throw new FormatError(`tile data in '${encoding}' are not read here`);
+    let bytes = Uint8Array.from(atob(data.trim()), (c) => c.charCodeAt(0));
+    if (compression) {
+        const method = { gzip: 'gzip', zlib: 'deflate' }[compression];
+        if (!method) throw new FormatError(`tiles packed by ${compression} are not read here: choose CSV in Tiled`);
+        const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(method));
+        bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+    }
+    return new Uint32Array(bytes.buffer, 0, bytes.length >> 2);
+}
+
+/** The chunks of a layer: { x, y, width, height, tiles }. */
+async function chunksOf(layer) {
+    const raw = layer.chunks ?? [{ ...layer, x: 0, y: 0 }], chunks = [];
+    for (const chunk of raw)
+        chunks.push({ ...chunk, tiles: await decode(chunk.data, layer.compression, layer.encoding) });
+    return chunks;
+}
+
+function* flatten(layers, says, dx = 0, dy = 0) {
+    for (const layer of layers ?? []) {
+        const own = layerSays(layer) ?? says;
+        const x = dx + (layer.offsetx ?? 0), y = dy + (layer.offsety ?? 0);
+        if (layer.type === 'group') yield* flatten(layer.layers, own, x, y);
+        else yield { layer, says: own, x, y };
+    }
+}
+
+/** What the tilesets say of each tile: a map from number to true or false. */
+function tilesSay(map, notes) {
+    const says = new Map();
+    for (const set of map.tilesets ?? []) {
+        if (set.source) notes.push(`the tileset ${set.source} in a file of its own`);
+        const whole = flag(set.properties) ?? (isSolidName(set.name) ? true : undefined);
+        if (whole !== undefined)
+            for (let i = 0; i < (set.tilecount ?? 0); i++) says.set(set.firstgid + i, whole);
+        for (const tile of set.tiles ?? []) {
+            const said = flag(tile.properties) ??
+                (isSolidName(tile.type ?? tile.class) ? true : undefined) ??
+                (tile.objectgroup?.objects?.length ? true : undefined);
+            if (said !== undefined) says.set(set.firstgid + tile.id, said);
+        }
+    }
+    return says;
+}
+
+/** One object as items: its outline or a start. A door goes to the doors, but for one that is a line. */
+function objectItems(object, says, height, counts, doors) {
+    const { x, y, width = 0, height: h = 0 } = object, up = (py) => height - py;
+    const kind = object.type || object.class;
+    if (isStartName(object.name) || isStartName(kind))
+        return [{ kind: 'start', points: [x + width / 2, up(y + h / 2)], heading: -(object.rotation ?? 0) || 0 }];
+    const turn = ((object.rotation ?? 0) * Math.PI) / 180, c = Math.cos(turn), s = Math.sin(turn);
+    const place = (px, py) => (turn ? [x + c * px - s * py, up(y + s * px + c * py)] : [x + px, up(y + py)]);
+    const line = object.polygon ?? object.polyline ??
+        [[0, 0], [width, 0], [width, h], [0, h]].map(([a, b]) => ({ x: a, y: b }));
+    const points = line.flatMap((p) => place(p.x, p.y));
+    if (isDoorName(object.name) || isDoorName(kind)) {
+        const state = (object.properties ?? []).find((p) => p.name === 'open')?.value === false ? 'shut' : 'open';
+        const xs = points.filter((_, i) => i % 2 === 0), ys = points.filter((_, i) => i % 2);
+        const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+        const name = oneWord(object.name || kind, 'door');
+        if (object.polyline && points.length === 4) return [{ kind: 'door', name, points, state }];
+        doors.push({ name, box, state });
+        return [];
+    }
+    const own = flag(object.properties) ?? (isSolidName(kind) ? true : says);
+    if (!own || object.point || object.text) return [];
+    if (object.ellipse) counts.ellipses++;
+    if (object.polyline) return [{ kind: 'walls', points }];
+    return width || h || object.polygon ? [{ kind: 'solid', points }] : [];
+}
+
+/** The tiles that are solid where nobody says so: empty ones, or else the most frequent one. */
+function guess(tiles) {
+    const counts = new Map();
+    for (const t of tiles) counts.set(t & FLAGS, (counts.get(t & FLAGS) ?? 0) + 1);
+    if (counts.has(0)) return 0;
+    return [...counts].reduce((a, b) => (b[1] > a[1] ? b : a))[0];
+}
+
+/** @param {any} map @returns {Promise<{items: import('./map-text.js').Item[], notes: string[]}>} */
+export async function readTiled(map) {
+    if ((map.orientation ?? 'orthogonal') !== 'orthogonal')
+        throw new FormatError(`${map.orientation} Tiled maps are not read here. The sightline command reads them.`);
+    const notes = [], says = tilesSay(map, notes), layers = [...flatten(map.layers)];
+    const { tilewidth: tw, tileheight: th } = map;
+    if (tw !== th) throw new FormatError('tiles that are not square are not read here');
+    const height = map.height * th, counts = { ellipses: 0 }, doors = [];
+    const cells = new Map(), boxes = [0, 0, map.width, map.height], items = [];
+    const tileLayers = layers.filter(({ layer }) => layer.type === 'tilelayer');
+    const spoken = says.size || layers.some((l) => l.says);
+    let guessed = false, grid = null;
+    for (const { layer, says: whole, x, y } of tileLayers) {
+        if (x || y) notes.push(`the offset of the layer ${layer.name}`);
+        for (const chunk of await chunksOf(layer)) {
+            const lowest = !spoken && layer === tileLayers[0].layer;
+            const solidTile = lowest ? guess(chunk.tiles) : -1;
+            guessed ||= lowest;
+            chunk.tiles.forEach((raw, i) => {
+                const tile = raw & FLAGS, cx = chunk.x + (i % chunk.width), cy = chunk.y + Math.floor(i / chunk.width);
+                boxes[0] = Math.min(boxes[0], cx);
+                boxes[1] = Math.min(boxes[1], cy);
+                boxes[2] = Math.max(boxes[2], cx + 1);
+                boxes[3] = Math.max(boxes[3], cy + 1);
+                const isSolid = lowest ? tile === solidTile : tile && (says.get(tile) ?? whole);
+                if (isSolid) cells.set(`${cx},${cy}`, true);
+            });
+        }
+    }
+    if (tileLayers.length && cells.size) {
+        const solid = [];
+        for (let cy = boxes[3] - 1; cy >= boxes[1]; cy--)
+            solid.push(Array.from({ length: boxes[2] - boxes[0] }, (_, i) => cells.has(`${boxes[0] + i},${cy}`)));
+        grid = { solid, size: tw, x0: boxes[0] * tw, y0: height - boxes[3] * th };
+    }
+    for (const { layer, says: whole, x, y } of layers)
+        for (const object of layer.objects ?? [])
+            items.push(...objectItems({ ...object, x: object.x + x, y: object.y + y }, whole, height, counts, doors));
+    const placed = doorItems(grid, doors, notes);
+    if (grid) items.unshift(...gridWalls(grid.solid, grid.size, grid.x0, grid.y0));
+    items.push(...placed);
+    if (counts.ellipses) notes.push(`${plural(counts.ellipses, 'ellipse')}, taken as boxes`);
+    if (guessed) notes.push('Nothing says what is solid: this is a guess from the lowest layer');
+    if (!items.length) throw new FormatError('nothing in this Tiled map is solid');
+    return { items, notes };
+}

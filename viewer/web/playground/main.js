@@ -1,0 +1,318 @@
+/** The playground: brings the map, what is seen of it, the tools, files and the panel together. */
+import { CoreClient, CoreError } from '../core/client.js';
+import { countWalls, parseMap } from '../formats/map-text.js';
+import { roundStep } from '../parts/camera.js';
+import { drawDot, itemLine, strokeLines } from '../parts/plan.js';
+import { watchTones } from '../parts/tones.js';
+import { drawWhy } from '../parts/why-scene.js';
+import { MapDocument } from './document.js';
+import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
+import { Keys } from './keys.js';
+import * as panel from './panel.js';
+import { snapTo } from './pick.js';
+import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
+import { Sight } from './sight.js';
+import { makeTools } from './tools.js';
+import { View } from './view.js';
+
+const get = (id) => /** @type {any} */ (document.getElementById(id));
+const isOn = (id) => get(id).checked;
+
+/** Above this many walls the browser is not asked to keep the map. */
+const MOST_KEPT = 20000;
+
+class Playground extends Sight {
+    constructor() {
+        // ?memory=MB in the address, for small devices and for tests.
+        const memory = Number(new URLSearchParams(location.search).get('memory'));
+        super(new MapDocument(), new CoreClient(memory > 0 ? memory * 2 ** 20 : undefined));
+        this.tool = 'look';
+        this.tools = makeTools(this);
+        this.view = new View(get('plan'), this);
+        this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
+        this.keys = new Keys(get('plan'), this);
+        this.listen();
+    }
+
+    listen() {
+        this.doc.addEventListener('change', () => this.changed());
+        this.doc.addEventListener('select', () => this.redraw());
+        this.client.onProgress = (at) => panel.showProgress(at.total ? at.done / at.total : -1, `Computing what is seen: ${at.stage}`);
+        for (const button of document.querySelectorAll('[data-do]'))
+            button.addEventListener('click', () => this.act(button.dataset.do));
+        for (const radio of document.querySelectorAll('input[name=tool]'))
+            radio.addEventListener('change', () => this.chooseTool(radio.value));
+        for (const id of ['show-cells', 'show-portals', 'show-set', 'show-region', 'snap'])
+            get(id).addEventListener('change', () => this.redraw());
+        get('sight').addEventListener('change', () => this.bake());
+        get('file').addEventListener('change', () => {
+            if (get('file').files[0]) this.openFile(get('file').files[0]);
+            get('file').value = '';
+        });
+        get('gallery').addEventListener('change', () => this.openGallery(get('gallery').value));
+        acceptDrops((file) => this.openFile(file));
+        addEventListener('hashchange', () => this.openShared());
+        addEventListener('pagehide', () => this.keep());
+        watchTones((tones) => {
+            this.tones = this.view.tones = tones;
+            panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
+                ['seen in mirrors', tones.image],
+                ['portal', tones.portal], ['door', tones.door]]);
+            this.redraw();
+        });
+    }
+
+    // --- the map
+
+    changed() {
+        this.bake();
+        clearTimeout(this.keeping);
+        this.keeping = setTimeout(() => this.keep(), 400);
+        this.redraw();
+    }
+
+    keep() {
+        if (countWalls(this.doc.items) <= MOST_KEPT && keepWork(this.doc.text())) return;
+        if (!this.saidUnkept) panel.showMessage('The browser cannot keep a map of this size. Save it as a file.');
+        this.saidUnkept = true;
+    }
+
+    /** @param {import('../formats/map-text.js').Item[]} items */
+    load(items, message) {
+        this.eye = this.places = this.pair = this.why = this.seen = null;
+        this.doors = {};
+        panel.showWhy('');
+        this.tools.look.pinned = false;
+        this.doc.select(-1);
+        this.doc.change(items);
+        this.act('fit');
+        if (message) panel.showMessage(message);
+    }
+
+    async openFile(file, quiet = false) {
+        try {
+            const { items, notes, format } = await readFile(file, (slv) => this.client.call('describe', { slv }));
+            const left = notes.length ? ` Left out or guessed: ${notes.join('; ')}.` : '';
+            this.load(items, quiet ? '' : `${file.name} was read as ${format}.${left}`);
+        } catch (error) {
+            panel.showMessage(error.message, true);
+        }
+    }
+
+    async openGallery(name, quiet = false) {
+        if (!name) return;
+        if (name === 'own') return this.openFile(new File([loadWork('own')], 'your map'));
+        try {
+            const answer = await fetch(`maps/${name}`);
+            if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
+            await this.openFile(new File([await answer.blob()], name), quiet);
+        } catch (error) {
+            panel.showMessage(`${name} was not loaded: ${error.message}`, true);
+        }
+    }
+
+    async openShared() {
+        try {
+            const text = await unpackMap(location.hash);
+            if (text === null || text === this.doc.text()) return false;
+            const items = parseMap(text), own = this.doc.items.length > 0;
+            if (own) keepWork(this.doc.text(), 'own');
+            this.load(items, own ? 'This is a shared map. Undo brings back your own; it is in the list of maps too.' : '');
+            this.offerOwn();
+            return true;
+        } catch (error) {
+            panel.showMessage(error.message, true);
+            return false;
+        }
+    }
+
+    // --- drawing
+
+    step() {
+        return roundStep(this.view.camera.scale, 9);
+    }
+    reach() {
+        return 10 / this.view.camera.scale;
+    }
+    snap(place, except = null) {
+        if (!isOn('snap') || this.free) return place;
+        return snapTo(this.doc.items, ...place, this.step(), this.reach(), except);
+    }
+    middle() {
+        return [this.view.camera.x, this.view.camera.y];
+    }
+
+    scene() {
+        const asks = this.tool === 'why' && this.pair;
+        return {
+            space: this.plan,
+            items: this.doc.items,
+            shut: this.shut,
+            seen: asks || !isOn('show-set') ? null : this.seen?.set,
+            region: asks || !isOn('show-region') ? null : this.seen?.region,
+            mirrored: asks || !isOn('show-region') ? null : this.seen?.mirrored,
+            eye: asks ? null : this.eye,
+            from: asks ? this.pair[0] : undefined,
+            to: asks ? this.pair[1] : undefined,
+            show: { cells: isOn('show-cells'), portals: isOn('show-portals'), grid: isOn('snap') ? roundStep(this.view.camera.scale, 40) : 0 },
+        };
+    }
+
+    /** Marks over the plan: the explanation, what is chosen, what is being drawn, the cross. */
+    over(surface, camera, tones) {
+        this.overPicture(surface, camera, tones);
+        const chosen = this.doc.items[this.doc.selected];
+        if (chosen?.points.length) {
+            strokeLines(surface, camera, [itemLine(chosen)], tones.start, 3);
+            for (let i = 0; i + 1 < chosen.points.length; i += 2)
+                drawDot(surface, camera, [chosen.points[i], chosen.points[i + 1]], 5, tones.start, tones.page);
+        }
+        const drawn = this.tools[this.tool].preview?.();
+        if (drawn) {
+            strokeLines(surface, camera, [drawn], tones.start, 2, [5, 3]);
+            drawDot(surface, camera, drawn, 4, tones.start, tones.page);
+        }
+        if (!this.keys.cross) return;
+        const [x, y] = this.keys.cross, r = 12 / camera.scale;
+        for (const [colour, width] of [[tones.page, 5], [tones.ink, 2]])
+            strokeLines(surface, camera, [[x - r, y, x + r, y], [x, y - r, x, y + r]], colour, width);
+    }
+
+    overPicture(surface, camera, tones) {
+        if (this.tool === 'why' && this.why) drawWhy(surface, camera, this.why, tones);
+    }
+
+    redraw() {
+        for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.doc.selected >= 0]])
+            document.querySelector(`[data-do=${name}]`).disabled = !able;
+        this.view.draw();
+    }
+
+    // --- tools and commands
+
+    press(place, event) {
+        this.free = event?.altKey;
+        this.tools[this.tool].press(place);
+        this.redraw();
+    }
+    move(place, held, event) {
+        this.free = event?.altKey;
+        this.tools[this.tool].move?.(place, held);
+        if (this.keys.cross || this.tool !== 'look') this.showAt(place);
+        this.redraw();
+    }
+    release(place, cancelled = false) {
+        const tool = this.tools[this.tool];
+        if (cancelled) tool.cancel?.();
+        else tool.release?.(place);
+        this.redraw();
+    }
+    showAt(place) {
+        const snapped = this.tool === 'look' || this.tool === 'why' ? place : this.snap(place);
+        get('where').textContent = `At ${snapped.map((v) => Math.round(v * 1000) / 1000).join(', ')}`;
+    }
+    showPlace([x, y]) {
+        this.view.camera.show(x, y);
+    }
+    chooseTool(name) {
+        this.tools[this.tool].cancel?.();
+        this.tool = name;
+        document.querySelector(`input[name=tool][value=${name}]`).checked = true;
+        this.redraw();
+    }
+    cancelTool() {
+        this.tools[this.tool].cancel?.();
+        this.doc.select(-1);
+    }
+    selectNext(way) {
+        const count = this.doc.items.length, able = (i) => this.doc.items[i].points.length;
+        if (!this.doc.items.some((item) => item.points.length)) return;
+        let i = this.doc.selected;
+        do i = (i + way + count) % count; while (!able(i));
+        this.doc.select(i);
+        const item = this.doc.items[i];
+        get('where').textContent = `${item.kind} ${item.name ?? ''} ${item.points.join(' ')}`;
+    }
+    freeName(stem) {
+        const used = new Set(this.doc.items.map((item) => item.name));
+        for (let i = 1; ; i++) if (!used.has(`${stem}${i}`)) return `${stem}${i}`;
+    }
+
+    act(what) {
+        const picture = () => [this.scene(), this.doc.bounds(), this.view.tones, (s, c) => this.overPicture(s, c, this.view.tones)];
+        const acts = {
+            undo: () => this.doc.undo(),
+            redo: () => this.doc.redo(),
+            remove: () => this.doc.selected >= 0 && this.doc.remove(this.doc.selected),
+            zoomIn: () => this.view.zoom(1.4),
+            zoomOut: () => this.view.zoom(1 / 1.4),
+            fit: () => (this.view.fitTo(), this.redraw()),
+            clear: () => this.load([]),
+            open: () => get('file').click(),
+            share: () => this.share(),
+            saveMap: () => save(new Blob([this.doc.text()], { type: 'text/plain' }), 'plan.map'),
+            saveSlv: () => this.saveSlv(),
+            savePng: () => savePng(...picture()),
+            saveSvg: () => saveSvg(...picture()),
+            cancel: () => this.client.stop(new CoreError('The work was cancelled. The map is still here; the next change computes again.')),
+        };
+        acts[what]();
+    }
+
+    async saveSlv() {
+        if (!this.plan) return panel.showMessage('There is no baked map yet. Wait until it is computed, or mend the error.', true);
+        try {
+            save(new Blob([await this.client.call('slv', {})], { type: 'application/octet-stream' }), 'plan.slv');
+        } catch (error) {
+            panel.showMessage(`The .slv file was not saved: ${error.message}`, true);
+        }
+    }
+
+    async share() {
+        const fragment = await packMap(this.doc.text());
+        history.replaceState(null, '', `#${fragment}`);
+        const long = fragment.length > LONG_ADDRESS ? ' It is long: some programs may cut it off.' : '';
+        try {
+            await navigator.clipboard.writeText(location.href);
+            panel.showMessage(`The address was copied. It holds the whole map.${long}`);
+        } catch {
+            panel.showMessage(`The address of this page now holds the whole map. Copy it from the address bar.${long}`);
+        }
+    }
+
+    async begin() {
+        this.loadGallery();
+        const kept = loadWork();
+        if (kept) {
+            try {
+                this.doc.replace(parseMap(kept));
+            } catch {
+                panel.showMessage('The kept map could not be read.', true);
+            }
+        }
+        const shared = await this.openShared();
+        if (!shared && !this.doc.items.length) await this.openGallery('office.map', true);
+        this.act('fit');
+    }
+
+    /** The map from before a shared one was opened, in the list of maps. */
+    offerOwn() {
+        const list = get('gallery');
+        if (loadWork('own') && !list.querySelector('[value=own]')) list.add(new Option('your own map from before', 'own'), 1);
+    }
+
+    async loadGallery() {
+        this.offerOwn();
+        try {
+            for (const { file, title } of await (await fetch('maps/index.json')).json())
+                get('gallery').append(new Option(title, file));
+        } catch {
+            get('gallery').disabled = true;
+        }
+    }
+}
+
+const playground = new Playground();
+// For tests and for the curious.
+Object.assign(window, { playground });
+playground.begin();

@@ -1,0 +1,92 @@
+/** The panel beside the plan: numbers, doors, colours. It is told what to show, and asks for nothing. */
+
+const get = (id) => document.getElementById(id);
+
+const number = (v, digits = 0) => v.toLocaleString('en', { maximumFractionDigits: digits });
+
+/** @param {[string, string | number | null | undefined][]} rows those without a value are left out */
+export function showFacts(rows) {
+    const list = get('facts'), parts = [];
+    for (const [name, value] of rows) {
+        if (value === null || value === undefined) continue;
+        const term = document.createElement('dt'), text = document.createElement('dd');
+        term.textContent = name;
+        text.textContent = typeof value === 'number' ? number(value, 2) : value;
+        parts.push(term, text);
+    }
+    list.replaceChildren(...parts);
+}
+
+/** @param {string[]} names @param {Set<string>} shut @param {(name: string, open: boolean) => void} set */
+export function showDoors(names, shut, set) {
+    get('doors').hidden = !names.length;
+    const list = get('door-list');
+    if (list.dataset.names === names.join(' ')) {
+        for (const box of list.querySelectorAll('input')) box.checked = !shut.has(box.value);
+        return;
+    }
+    list.dataset.names = names.join(' ');
+    list.replaceChildren(...names.map((name) => {
+        const item = document.createElement('li'), label = document.createElement('label');
+        const box = document.createElement('input');
+        box.type = 'checkbox';
+        box.value = name;
+        box.checked = !shut.has(name);
+        box.addEventListener('change', () => set(name, box.checked));
+        label.append(box, ` ${name}`);
+        item.append(label);
+        return item;
+    }));
+}
+
+/** @param {[string, string][]} entries name and colour */
+export function showKey(entries) {
+    const ns = 'http://www.w3.org/2000/svg';
+    get('key').replaceChildren(...entries.map(([name, colour]) => {
+        const item = document.createElement('li'), swatch = document.createElementNS(ns, 'svg');
+        const box = document.createElementNS(ns, 'rect');
+        for (const [k, v] of [['width', '100%'], ['height', '100%'], ['fill', colour]]) box.setAttribute(k, v);
+        swatch.setAttribute('aria-hidden', 'true');
+        swatch.append(box);
+        item.append(swatch, name);
+        return item;
+    }));
+}
+
+/** @param {string} text @param {boolean} [isError] */
+export function showMessage(text, isError = false) {
+    const message = get('message');
+    message.textContent = text;
+    message.classList.toggle('error', isError);
+}
+
+/** @param {string} text '' to hide */
+export function showWhy(text) {
+    get('why').hidden = !text;
+    if (get('why-text').textContent !== text) get('why-text').textContent = text;
+}
+
+/** @param {SVGElement | null} figure */
+export function showDual(figure) {
+    get('why-dual').replaceChildren(...(figure ? [figure] : []));
+}
+
+let asked = 0;
+
+/** Shows that work goes on, if it takes longer than a moment. @param {string} text '' when it is over */
+export function showBusy(text) {
+    clearTimeout(asked);
+    if (!text) get('busy').hidden = true;
+    else
+        asked = setTimeout(() => {
+            get('busy-text').textContent = text;
+            get('progress').removeAttribute('value');
+            get('busy').hidden = false;
+        }, 400);
+}
+
+/** @param {number} share from 0 to 1 */
+export function showProgress(share, text) {
+    if (share >= 0) get('progress').value = share;
+    get('busy-text').textContent = text;
+}

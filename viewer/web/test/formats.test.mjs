@@ -1,0 +1,248 @@
+/** The readers and small parts that need no browser. */
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { readGeoJson } from '../formats/geojson.js';
+import { FormatError, parseMap, writeMap } from '../formats/map-text.js';
+import { parsePlan } from '../formats/plan-text.js';
+import { readMapFile } from '../formats/read.js';
+import { parsePath, parseTransform } from '../formats/svg-path.js';
+import { toHtml } from '../markdown.mjs';
+import { Camera, roundStep } from '../parts/camera.js';
+import { makeTones } from '../parts/tones.js';
+import { MapDocument } from '../playground/document.js';
+import { moveEnds, pick, snapTo } from '../playground/pick.js';
+import { packMap, unpackMap } from '../playground/share.js';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
+const native = process.env.SIGHTLINE;
+const needsNative = { skip: native ? false : 'SIGHTLINE does not name the program' };
+const read = (text) => readMapFile(new TextEncoder().encode(text), () => assert.fail('not a .slv file'));
+
+const maps = ['maps', 'maps/effects', 'maps/oblique'].flatMap((folder) =>
+    readdirSync(join(root, folder)).filter((f) => /\.(map|txt)$/.test(f)).map((f) => join(root, folder, f)));
+
+/** What the program makes of a map in a folder of its own. */
+function bakeNative(files) {
+    const folder = mkdtempSync(join(tmpdir(), 'sightline-web-'));
+    try {
+        return files.map(([name, content, ...options]) => {
+            writeFileSync(join(folder, name), content);
+            const out = join(folder, 'x.json'), slv = join(folder, 'x.slv');
+            execFileSync(native, ['bake', join(folder, name), '-o', slv, '--quiet', ...options], { stdio: 'pipe' });
+            execFileSync(native, ['export', slv, '--format', 'json', '-o', out], { stdio: 'pipe' });
+            return JSON.parse(readFileSync(out, 'utf8'));
+        });
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
+}
+
+/** Cells as sets of corners, so that their order does not matter. */
+const shapes = (plan) => plan.cells.filter((c) => c.inside).map((c) => c.polygon.map(String).sort().join(' ')).sort();
+
+test('a map text that is read and written again bakes to the same', needsNative, () => {
+    for (const path of maps.filter((p) => p.endsWith('.map'))) {
+        const text = readFileSync(path, 'utf8'), again = writeMap(parseMap(text));
+        assert.equal(writeMap(parseMap(again)), again);
+        const [a, b] = bakeNative([['a.map', text], ['b.map', again]]);
+        assert.deepEqual(b, a, path);
+    }
+});
+
+test('an ASCII plan becomes the same cells as in the program', needsNative, () => {
+    for (const path of maps.filter((p) => p.endsWith('.txt'))) {
+        const text = readFileSync(path, 'utf8');
+        const [a, b] = bakeNative([['a.txt', text], ['b.map', writeMap(parsePlan(text))]]);
+        assert.deepEqual(shapes(b), shapes(a), path);
+        assert.deepEqual(b.doors, a.doors);
+        assert.deepEqual(b.starts, a.starts);
+    }
+});
+
+test('the JSON export becomes the map that it was made of', needsNative, async () => {
+    for (const path of maps.filter((p) => p.endsWith('.map'))) {
+        const [a] = bakeNative([['a.map', readFileSync(path, 'utf8')]]);
+        const { items } = await read(JSON.stringify(a));
+        const [b] = bakeNative([['b.map', writeMap(items)]]);
+        assert.deepEqual(shapes(b), shapes(a), path);
+        assert.equal(b.pvs.flat().length, a.pvs.flat().length, path);
+    }
+});
+
+/** Levels of editors, as small as they can be. */
+const tiled = {
+    orientation: 'orthogonal', width: 5, height: 3, tilewidth: 16, tileheight: 16, tilesets: [],
+    layers: [{ type: 'tilelayer', name: 'floor', width: 5, height: 3, data: Array(15).fill(9) },
+        { type: 'tilelayer', name: 'Walls', width: 5, height: 3, data: [1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1, 1] },
+        { type: 'objectgroup', name: 'things', objects: [
+            { id: 1, name: 'Player', type: '', x: 20, y: 20, width: 8, height: 8, rotation: 0, visible: true },
+            { id: 2, name: 'back_door', type: '', x: 32, y: 16, width: 16, height: 16, rotation: 0, visible: true,
+                properties: [{ name: 'open', type: 'bool', value: false }] }] }],
+};
+const ldtk = {
+    jsonVersion: '1.5.3', defs: { layers: [{ uid: 7, identifier: 'Grid', type: 'IntGrid', intGridValues: [{ value: 2, identifier: 'wall' }] }] },
+    levels: [0, 1].map((i) => ({ identifier: `L${i}`, worldX: 32 * i, worldY: 0, worldDepth: 0, pxWid: 32, pxHei: 24, layerInstances: [{
+        __identifier: 'Grid', layerDefUid: 7, __type: 'IntGrid', __cWid: 4, __cHei: 3, __gridSize: 8, __pxTotalOffsetX: 0, __pxTotalOffsetY: 0,
+        intGridCsv: [2, 2, 2, 2, 1, 1, 1, 1, 2, 2, 2, 2],
+        entityInstances: i ? [{ __identifier: 'IronDoor', px: [8, 8], width: 8, height: 8, __pivot: [0, 0], fieldInstances: [] }]
+            : [{ __identifier: 'Player', px: [4, 12], width: 8, height: 8, __pivot: [0.5, 0.5], fieldInstances: [] }] }] })),
+};
+const vtt = {
+    format: 0.3, resolution: { map_origin: { x: 0, y: 0 }, map_size: { x: 8, y: 6 }, pixels_per_grid: 70 }, image: 'abc', lights: [],
+    line_of_sight: [[[0, 0], [8, 0], [8, 6], [0, 6], [0, 0]], [[4, 0], [4, 2]], [[4, 3], [4, 6]]].map((l) => l.map(([x, y]) => ({ x, y }))),
+    portals: [{ position: { x: 4, y: 2.5 }, bounds: [{ x: 4, y: 2 }, { x: 4, y: 3 }], rotation: 0, closed: true, freestanding: false }],
+};
+
+test('levels of Tiled, LDtk and Universal VTT become the same cells as in the program', needsNative, async () => {
+    for (const [name, file, ...options] of [['a.tmj', tiled, '--doors'], ['a.ldtk', ldtk, '--map', 'all', '--doors'], ['a.dd2vtt', vtt, '--doors']]) {
+        const text = JSON.stringify(file), { items } = await read(text);
+        const [a, b] = bakeNative([[name, text, ...options], ['b.map', writeMap(items)]]);
+        assert.deepEqual(shapes(b), shapes(a), name);
+        assert.equal(a.doors.length, 1, name);
+        assert.deepEqual([b.doors[0].segments, b.doors[0].open], [a.doors[0].segments, a.doors[0].open], name);
+        assert.deepEqual(b.starts, a.starts, name);
+    }
+});
+
+test('wrong map text names its line', () => {
+    const wrong = [['wall 0 0 1 1', 1], ['sightline 2', 1], ['sightline 1\n\nWall 0 0 1 1', 3],
+        ['sightline 1\nwall 0 0 1', 2], ['sightline 1\nwall 0 0 1 0x10', 2], ['sightline 1\nstart 1 2', 2],
+        ['sightline 1\ndoor a 0 0', 2], ['sightline 1\nrange', 2]];
+    for (const [text, line] of wrong)
+        assert.throws(() => parseMap(text), (error) => error instanceof FormatError && error.line === line, text);
+    assert.throws(() => parseMap('# nothing'), FormatError);
+});
+
+test('comments and notes of a map text stay', () => {
+    const text = 'sightline 1\n#! By me.\n# outer walls\nwall 0 0 1.5 -2e-7 solid\n';
+    assert.equal(writeMap(parseMap(text)), text);
+});
+
+test('a Tiled map: solid layers, doors, starts', async () => {
+    const { items, format } = await read(JSON.stringify(tiled));
+    assert.equal(format, 'Tiled');
+    const text = items.map((item) => `${item.kind} ${item.points}`);
+    assert.ok(text.includes('start 24,24'), text.join('; '));
+    assert.ok(text.includes('door 40,16,40,32'), text.join('; '));
+    assert.equal(items.filter((item) => item.kind === 'wall').length, 4, text.join('; '));
+    assert.equal(items.find((item) => item.kind === 'door').state, 'shut');
+});
+
+test('a Tiled map that says nothing is guessed, and the page says so', async () => {
+    const map = { orientation: 'orthogonal', width: 2, height: 2, tilewidth: 8, tileheight: 8,
+        layers: [{ type: 'tilelayer', name: 'a', width: 2, height: 2, data: [1, 0, 1, 1] }] };
+    const { notes } = await read(JSON.stringify(map));
+    assert.match(notes.join(), /guess/);
+});
+
+test('LDtk, Universal VTT and GeoJSON', async () => {
+    const level = await read(JSON.stringify(ldtk));
+    assert.equal(level.format, 'LDtk');
+    assert.ok(level.items.some((item) => item.kind === 'start' && String(item.points) === '4,12'));
+    const table = await read(JSON.stringify(vtt));
+    assert.deepEqual(table.items.slice(1).map((item) => item.points), [[4, 6, 4, 4], [4, 3, 4, 0], [4, 4, 4, 3]]);
+    assert.match(table.notes.join(), /picture/);
+    const geo = readGeoJson({ type: 'FeatureCollection', features: [
+        { type: 'Feature', properties: { kind: 'door', name: 'front', open: false }, geometry: { type: 'LineString', coordinates: [[0, 0], [1, 0]] } },
+        { type: 'Feature', properties: null, geometry: { type: 'Polygon', coordinates: [[[0, 0], [2, 0], [2, 2], [0, 0]]] } },
+        { type: 'Feature', properties: { kind: 'cell' }, geometry: { type: 'Polygon', coordinates: [] } }] });
+    assert.deepEqual(geo.items.map((item) => item.kind), ['door', 'walls']);
+    assert.match(geo.notes.join(), /1 cell, portal or region/);
+});
+
+test('files that are wrong are refused with words', async () => {
+    const wrong = ['', 'hello', '{"a": 1}', '{', '<map/>', '#x#', '[]', 'null', '{"type": "Feature"}',
+        '{"layers": 5, "tilewidth": 1}', '{"resolution": {}}', '{"jsonVersion": "1", "levels": [{}]}',
+        '{"format": "sightline", "walls": 7}'];
+    for (const text of wrong)
+        await assert.rejects(read(text), (error) => error instanceof FormatError && error.message.length > 10, text);
+    await assert.rejects(readMapFile(Uint8Array.of(255, 254, 0, 7), () => null), FormatError);
+});
+
+test('paths of SVG', () => {
+    assert.deepEqual(parsePath('M0 0h4v3H0z'), [[[0, 0], [4, 0], [4, 3], [0, 3], [0, 0]]]);
+    assert.deepEqual(parsePath('m1 1 2 0m1 1l0 2'), [[[1, 1], [3, 1]], [[4, 2], [4, 4]]]);
+    const [arc] = parsePath('M1 0A1 1 0 01-1 0');
+    for (const [x, y] of arc) assert.ok(Math.abs(Math.hypot(x, y) - 1) < 1e-9);
+    assert.ok(arc.some(([, y]) => y > 0.99));
+    const [curve] = parsePath('M0 0C0 1 1 1 1 0S2-1 2 0');
+    assert.deepEqual(curve[curve.length - 1], [2, 0]);
+    assert.deepEqual(parseTransform('translate(1,2) rotate(90)'), [0, 1, -1, 0, 1, 2]);
+});
+
+test('a map goes into an address and back', async () => {
+    const text = readFileSync(maps.find((p) => p.endsWith('office.map')), 'utf8');
+    const fragment = await packMap(text);
+    assert.ok(fragment.length < text.length);
+    assert.equal(await unpackMap(`#${fragment}`), text);
+    assert.equal(await unpackMap('#top'), null);
+    await assert.rejects(unpackMap(`#${fragment.slice(0, 60)}`), /cannot be read/);
+});
+
+test('undo brings back each step, and a drag is one step', () => {
+    const doc = new MapDocument(), wall = (x) => ({ kind: 'wall', points: [x, 0, x, 1] });
+    doc.add(wall(0));
+    const drag = {};
+    for (const x of [1, 2, 3]) doc.change([wall(x)], drag);
+    doc.add(wall(9));
+    doc.undo();
+    assert.deepEqual(doc.items, [wall(3)]);
+    doc.undo();
+    assert.deepEqual(doc.items, [wall(0)]);
+    doc.redo();
+    assert.deepEqual(doc.items, [wall(3)]);
+    doc.undo();
+    doc.undo();
+    assert.deepEqual(doc.items, []);
+    assert.equal(doc.canUndo, false);
+});
+
+test('joined ends move together; the nearest end is picked and snapped to', () => {
+    const items = [{ kind: 'wall', points: [0, 0, 4, 0] }, { kind: 'walls', points: [4, 0, 4, 4, 8, 4] }];
+    const moved = moveEnds(items, [4, 0], [5, 1]);
+    assert.deepEqual(moved.map((i) => i.points), [[0, 0, 5, 1], [5, 1, 4, 4, 8, 4]]);
+    assert.deepEqual(pick(items, 2, 0.1, 0.5), { index: 0, end: -1 });
+    assert.deepEqual(pick(items, 7.9, 4, 0.5), { index: 1, end: 4 });
+    assert.equal(pick(items, 20, 20, 1), null);
+    assert.deepEqual(snapTo(items, 3.8, 0.1, 1, 0.5), [4, 0]);
+    assert.deepEqual(snapTo(items, 1.26, 2.2, 0.1, 0.5), [1.3, 2.2]);
+});
+
+test('a camera goes to the screen and back', () => {
+    const camera = new Camera(800, 600);
+    camera.fit([0, 0, 100, 10]);
+    camera.zoomAt(100, 100, 3);
+    const [x, y] = camera.toMap(...camera.toScreen(12, 7));
+    assert.ok(Math.abs(x - 12) < 1e-9 && Math.abs(y - 7) < 1e-9);
+    assert.equal(roundStep(10, 9), 1);
+    assert.equal(roundStep(100, 9), 0.1);
+    assert.equal(roundStep(1, 30), 50);
+});
+
+test('colours are those of the pictures of the project', () => {
+    const source = readFileSync(join(root, 'lib/draw/marks.c'), 'utf8');
+    const named = Object.fromEntries([...source.matchAll(/(\w+) = (0x[0-9a-f]{6}),/g)].map((m) => [m[1], m[2]]));
+    for (const dark of [false, true]) {
+        const tones = makeTones(dark), body = source.split(`static sl_palette ${dark ? 'dark' : 'light'}(void)`)[1].split('\n}\n')[0];
+        let compared = 0;
+        for (const [, name, value] of body.matchAll(/\.(\w+) = rgb\((\w+)\)/g)) {
+            const key = name.replace(/_(\w)/g, (_, c) => c.toUpperCase());
+            if (tones[key] === undefined) continue;
+            assert.equal(tones[key], (named[value] ?? value).replace('0x', '#'), name);
+            compared++;
+        }
+        assert.ok(compared > 15);
+    }
+});
+
+test('Markdown as HTML', () => {
+    const html = toHtml('# A `b`\n\nOne *two* [x](y.md) <i>\nmore\n\n- a\n  b\n- c\n\n| a | b |\n| - | - |\n| 1 | `x` |\n\n```sh\n$ <a>\n```', (t) => (t === 'y.md' ? 'y.html' : null));
+    for (const part of ['<h1 id="a-b">A <code>b</code></h1>', '<em>two</em> <a href="y.html">x</a> &lt;i&gt;\nmore', '<li>a b</li>',
+        '<td><code>x</code></td>', '$ &lt;a&gt;'])
+        assert.ok(html.includes(part), `${part} in ${html}`);
+});

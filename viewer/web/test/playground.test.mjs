@@ -1,0 +1,319 @@
+/**
+ * The built site in real browsers. SITE names its folder, TOOLS a folder with playwright-core and
+ * axe-core, SIGHTLINE the native program, SHOTS (if given) a folder for pictures of the page.
+ */
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, afterEach, before, describe, test } from 'node:test';
+import { launch, programOf, serve, tool } from './site.mjs';
+
+const { SITE, SIGHTLINE, SHOTS } = process.env;
+/** Those of BROWSERS that are installed. */
+const wanted = (process.env.BROWSERS ?? 'chromium,firefox').split(',').filter(programOf);
+let site;
+
+before(async () => (site = await serve(SITE)));
+after(() => site.close());
+
+const shot = (page, name) => SHOTS && page.screenshot({ path: join(SHOTS, `${name}.png`) });
+
+/** A file that is dropped on the page. */
+const drop = (page, name, content) => page.evaluate(([fileName, text]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([text], fileName));
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+}, [name, content]);
+
+const fact = (page, name) => page.locator(`dt:text-is("${name}") + dd`).textContent();
+const message = (page) => page.locator('#message').textContent();
+
+/** Waits until the last change is baked. */
+const settled = (page) => page.waitForFunction(() => {
+    const p = window.playground;
+    return p.doc.revision > 0 && !p.bakes.running && !p.looks.running && !p.questions.running && (p.plan || p.hasError);
+});
+
+/** Places of the map on the screen. */
+const screen = (page, x, y) => page.evaluate(([mx, my]) => {
+    const box = document.getElementById('plan').getBoundingClientRect();
+    const [px, py] = window.playground.view.camera.toScreen(mx, my);
+    return [box.left + px, box.top + py];
+}, [x, y]);
+
+/** What a button saves. Firefox does not tell of downloads here, so the page keeps a copy. */
+async function saved(page, button) {
+    await page.evaluate(() => {
+        const make = URL.createObjectURL;
+        window.lastSaved = null;
+        URL.createObjectURL = (blob) => make.call(URL, (window.lastSaved = blob));
+    });
+    const comes = page.waitForEvent('download', { timeout: 5000 }).catch(() => null);
+    await page.click(`[data-do=${button}]`);
+    await page.waitForFunction(() => window.lastSaved);
+    const copy = await page.evaluate(async () => [...new Uint8Array(await window.lastSaved.arrayBuffer())]);
+    if (page.context().browser().browserType().name() !== 'chromium') return Buffer.from(copy);
+    const file = readFileSync(await (await comes).path());
+    assert.ok(file.equals(Buffer.from(copy)));
+    return file;
+}
+
+const room = 'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\nstart 5 5 0\n';
+
+for (const name of wanted)
+    describe(name, () => {
+        let browser, context, errors = [];
+        afterEach(() => assert.deepEqual(errors.splice(0), []));
+        before(async () => (browser = await launch(name)));
+        after(() => browser.close());
+
+        /** A page with a map on it. */
+        async function open(options = {}, address = '', map = room) {
+            context = await browser.newContext({ viewport: { width: 1200, height: 800 }, acceptDownloads: true, ...options });
+            const page = await context.newPage();
+            page.setDefaultTimeout(20000);
+            // Taking a picture puts a style on the page, which the page's own policy forbids.
+            const isOurs = (text) => SHOTS && /blocked an inline style/.test(text);
+            page.on('pageerror', (error) => isOurs(error.message) || errors.push(error.message));
+            await page.goto(`${site.address}/${address}`);
+            await settled(page);
+            if (!map) return page;
+            await drop(page, 'room.map', map);
+            await page.waitForFunction((text) => window.playground.doc.text() === text, map);
+            await settled(page);
+            return page;
+        }
+
+        test('begins with a map, and shows what is seen', async () => {
+            const page = await open({}, '', null);
+            assert.equal(await fact(page, 'Walls'), '139');
+            assert.ok(parseInt(await fact(page, 'The eye sees'), 10) > 5);
+            await page.mouse.move(...(await screen(page, 5, 5)));
+            await page.waitForFunction(() => /Eye at 5/.test(document.getElementById('where').textContent));
+            await shot(page, `${name}-begin`);
+            await context.close();
+        });
+
+        test('draws, undoes, moves and deletes by mouse', async () => {
+            const page = await open(), count = () => page.evaluate(() => window.playground.doc.items.length);
+            const cells = await fact(page, 'Cells');
+            await page.check('input[value=wall]');
+            await page.mouse.move(...(await screen(page, 14, 0)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 14, 5)), { steps: 4 });
+            await page.mouse.move(...(await screen(page, 14, 7)), { steps: 4 });
+            await page.mouse.up();
+            await settled(page);
+            assert.match(await page.evaluate(() => window.playground.doc.text()), /\nwall 14 0 14 7\n$/);
+            assert.notEqual(await fact(page, 'Cells'), cells);
+            await page.check('input[value=move]');
+            await page.mouse.move(...(await screen(page, 14, 7)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 16, 8)), { steps: 5 });
+            await page.mouse.up();
+            await settled(page);
+            assert.match(await page.evaluate(() => window.playground.doc.text()), /\nwall 14 0 16 8\n$/);
+            await page.click('[data-do=undo]');
+            assert.match(await page.evaluate(() => window.playground.doc.text()), /\nwall 14 0 14 7\n$/);
+            await page.mouse.click(...(await screen(page, 14, 3)));
+            await page.click('[data-do=remove]');
+            assert.equal(await count(), 4);
+            await page.click('[data-do=undo]');
+            assert.equal(await count(), 5);
+            await context.close();
+        });
+
+        test('does the same by keyboard', async () => {
+            const page = await open();
+            await page.focus('#plan');
+            await page.keyboard.press('w');
+            const start = await page.evaluate(() => window.playground.snap(window.playground.middle()));
+            const step = await page.evaluate(() => window.playground.step());
+            await page.keyboard.press('ArrowRight');
+            await page.keyboard.press('Enter');
+            await page.keyboard.press('Shift+ArrowUp');
+            await page.keyboard.press('Enter');
+            await page.keyboard.press('Escape');
+            const points = await page.evaluate(() => window.playground.doc.items.at(-1).points);
+            assert.deepEqual(points.map((v) => +v.toFixed(6)), [start[0] + step, start[1], start[0] + step, start[1] + 10 * step].map((v) => +v.toFixed(6)));
+            await page.keyboard.press('m');
+            await page.keyboard.press('Enter');
+            await page.keyboard.press('ArrowLeft');
+            await page.keyboard.press('Enter');
+            const moved = await page.evaluate(() => window.playground.doc.items.at(-1).points);
+            assert.equal(+(points[2] - moved[2]).toFixed(6), +step.toFixed(6));
+            await page.keyboard.press('Delete');
+            assert.equal(await page.evaluate(() => window.playground.doc.items.length), 4);
+            await page.keyboard.press('Control+z');
+            assert.equal(await page.evaluate(() => window.playground.doc.items.length), 5);
+            await context.close();
+        });
+
+        test('opens and shuts doors without a bake', async () => {
+            const page = await open({}, '', room.replace('wall 10 6', 'door front 10 4 10 6\nwall 10 6'));
+            assert.equal(await fact(page, 'The eye sees'), '2 cells');
+            await page.uncheck('#door-list input');
+            await page.waitForFunction(() => /^1 cell/.test(document.querySelector('#facts dd:last-child').textContent));
+            await context.close();
+        });
+
+        test('says why', async () => {
+            const page = await open({}, '', `${room}wall 10 4.5 12 4.5\nwall 10 5.5 12 5.5\nwall 14 0 14 7\n`);
+            await page.check('input[value=why]');
+            await page.mouse.click(...(await screen(page, 2, 9)));
+            await page.mouse.click(...(await screen(page, 18, 9)));
+            await settled(page);
+            assert.match(await page.locator('#why-text').textContent(), /see each other|hidden/);
+            await shot(page, `${name}-why`);
+            await context.close();
+        });
+
+        test('saves what the program would write', { skip: SIGHTLINE ? false : 'SIGHTLINE does not name the program' }, async () => {
+            const page = await open(), folder = mkdtempSync(join(tmpdir(), 'sightline-web-'));
+            const { file, text } = await page.evaluate(async () => ({ file: 'x.map', text: window.playground.doc.text() }));
+            assert.equal((await saved(page, 'saveMap')).toString(), text);
+            const slv = await saved(page, 'saveSlv');
+            execFileSync('sh', ['-c', `printf %s "$TEXT" >"${folder}/${file}"; printf '\\n' >>"${folder}/${file}"`], { env: { ...process.env, TEXT: text.trimEnd() } });
+            execFileSync(SIGHTLINE, ['bake', join(folder, file), '-o', join(folder, 'x.slv'), '--quiet']);
+            assert.ok(slv.equals(readFileSync(join(folder, 'x.slv'))), 'the bytes differ');
+            rmSync(folder, { recursive: true });
+            assert.equal((await saved(page, 'savePng')).subarray(1, 4).toString(), 'PNG');
+            const svg = (await saved(page, 'saveSvg')).toString();
+            assert.match(svg, /^<svg [^]*<path [^]*<\/svg>\n$/);
+            // The saved files come back: a .slv as the same walls.
+            await page.setInputFiles('#file', { name: 'x.slv', mimeType: '', buffer: slv });
+            await page.waitForFunction(() => /x\.slv was read/.test(document.getElementById('message').textContent));
+            await settled(page);
+            assert.equal(await fact(page, 'Cells'), '2');
+            await context.close();
+        });
+
+        test('shares a map by its address, and keeps work', async () => {
+            const page = await open();
+            await page.click('[data-do=share]');
+            await page.waitForFunction(() => location.hash.length > 5);
+            const address = new URL(page.url()).hash, again = await context.newPage();
+            await page.waitForTimeout(600);
+            await again.goto(site.address);
+            await again.waitForFunction((text) => window.playground?.doc.text() === text, room);
+            await context.close();
+            const other = await open({}, address, null);
+            assert.equal(await other.evaluate(() => window.playground.doc.text()), room);
+            await context.close();
+            const mine = await open(), own = room.replace('20 10', '20 11');
+            await drop(mine, 'own.map', own);
+            await mine.waitForTimeout(600);
+            await mine.goto('about:blank');
+            await mine.goto(`${site.address}/${address}`);
+            await mine.waitForFunction((text) => window.playground?.doc.text() === text, room);
+            await mine.reload();
+            await mine.selectOption('#gallery', 'own');
+            await mine.waitForFunction((text) => window.playground.doc.text() === text, own);
+            await context.close();
+            const cut = await open({}, address.slice(0, 30), null);
+            assert.match(await message(cut), /cannot be read/);
+            await context.close();
+        });
+
+        test('reads drawings', async () => {
+            const page = await open();
+            await drop(page, 'a.svg', '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><g transform="translate(1 1)">' +
+                '<rect width="8" height="8"/><path d="M4 0V3M4 5v3"/></g><text>hall</text></svg>');
+            await page.waitForFunction(() => /a\.svg was read as SVG.*1 text or picture/.test(document.getElementById('message').textContent));
+            await settled(page);
+            const bounds = await page.evaluate(() => window.playground.doc.bounds());
+            assert.deepEqual(bounds, [1, 1, 9, 9]);
+            await context.close();
+        });
+
+        test('a wrong file leaves the map as it was', async () => {
+            const page = await open();
+            for (const [file, content] of [['a.map', 'sightline 1\nwall 0 0 1'], ['b.json', '{"a": 1}'], ['c.png', '\x89PNG\0\xff'], ['d.svg', '<svg'], ['e.tmx', '<map></map>']]) {
+                await drop(page, file, content);
+                await page.waitForFunction((f) => document.getElementById('message').textContent.startsWith(`${f} was not opened`), file);
+                assert.equal(await page.evaluate(() => window.playground.doc.text()), room, file);
+            }
+            // What is text but no map: the page says which item is meant, and goes on after undo.
+            await drop(page, 'f.map', `${room}solid 1 1 3 3 3 1 1 3\n`);
+            await page.waitForFunction(() => /cross/.test(document.getElementById('message').textContent));
+            assert.match(await message(page), /solid/);
+            await page.click('[data-do=undo]');
+            await settled(page);
+            assert.equal(await fact(page, 'Cells'), '2');
+            assert.equal(await message(page), '');
+            await context.close();
+        });
+
+        test('long work shows itself and can be cancelled', async () => {
+            const page = await open();
+            let walls = 'sightline 1\n';
+            for (let i = 0; i < 1500; i++) walls += `wall ${(i * 7919) % 1000} ${(i * 104729) % 997} ${(i * 1299709) % 991} ${(i * 15485863) % 983}\n`;
+            await drop(page, 'long.map', walls);
+            await page.waitForSelector('#busy:not([hidden])');
+            await page.click('[data-do=cancel]');
+            await page.waitForFunction(() => /cancelled/.test(document.getElementById('message').textContent));
+            assert.equal(await page.evaluate(() => window.playground.doc.items.length), 1500);
+            await page.click('[data-do=undo]');
+            await settled(page);
+            assert.equal(await fact(page, 'Cells'), '2');
+            await context.close();
+        });
+
+        test('memory that runs out is said, and the page goes on', async () => {
+            const page = await open({}, '?memory=12');
+            let walls = 'sightline 1\n';
+            for (let i = 0; i < 60000; i++) walls += `wall ${i % 300} ${Math.floor(i / 300)} ${(i % 300) + 0.5} ${Math.floor(i / 300) + 0.25}\n`;
+            await drop(page, 'large.map', walls);
+            await page.waitForFunction(() => /memory/.test(document.getElementById('message').textContent));
+            await page.click('[data-do=undo]');
+            await settled(page);
+            assert.equal(await fact(page, 'Cells'), '2');
+            await context.close();
+        });
+
+        test('a browser without WebAssembly can still draw and save', async () => {
+            context = await browser.newContext({ acceptDownloads: true });
+            await context.addInitScript(() => delete window.WebAssembly);
+            const page = await context.newPage();
+            await page.goto(site.address);
+            await page.waitForFunction(() => /no WebAssembly/.test(document.getElementById('message').textContent));
+            assert.match((await saved(page, 'saveMap')).toString(), /^sightline 1\n/);
+            await context.close();
+        });
+
+        test('a phone: all tools are there, and a finger draws', async () => {
+            const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, ...(name === 'chromium' ? { isMobile: true } : {}) };
+            const page = await open(phone);
+            assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
+            // Fingers come through in Chromium alone.
+            const tap = async (x, y) => page[name === 'chromium' ? 'touchscreen' : 'mouse'][name === 'chromium' ? 'tap' : 'click'](...(await screen(page, x, y)));
+            await tap(15, 5);
+            await page.waitForFunction(() => /Eye at 15|Eye at 14\.9/.test(document.getElementById('where').textContent));
+            await page.check('input[value=wall]');
+            await tap(2, 2);
+            await tap(2, 8);
+            await settled(page);
+            assert.equal(await page.evaluate(() => window.playground.doc.items.length), 5);
+            await shot(page, `${name}-phone`);
+            await context.close();
+        });
+
+        test('axe-core finds nothing', { skip: Boolean(process.env.QUICK) }, async () => {
+            const axe = readFileSync(tool('axe-core/package.json') && join(process.env.TOOLS, 'node_modules/axe-core/axe.min.js'), 'utf8');
+            for (const colorScheme of ['light', 'dark'])
+                for (const [address, width] of [['', 1200], ['', 390], ['pages/floor-plans.html', 1200], ['pages/game-maps.html', 390],
+                    ['pages/teaching.html', 1200], ['pages/embedding.html', 390]]) {
+                    context = await browser.newContext({ colorScheme, viewport: { width, height: 844 }, bypassCSP: true, reducedMotion: 'reduce' });
+                    const page = await context.newPage();
+                    await page.goto(`${site.address}/${address}`);
+                    if (!address) await settled(page);
+                    await page.evaluate(axe);
+                    const { violations } = await page.evaluate(() => window.axe.run());
+                    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(' ')}`), [], `${address} ${width} ${colorScheme}`);
+                    if (colorScheme === 'dark') await shot(page, `${name}-dark-${width}-${address.replace(/\W/g, '-')}`);
+                    await context.close();
+                }
+        });
+    });

@@ -1,0 +1,45 @@
+#!/bin/sh
+# Tests of the playground: sh viewer/web/test/run.sh WHAT FOLDER [PROGRAM]
+#   formats     what needs no browser, in node
+#   playground  the built site in Chromium and Firefox, as far as they are installed
+#   quick       the same in one browser, without axe-core
+# FOLDER is for the built site and for tools; PROGRAM is the native `sightline`.
+# BROWSERS=chromium chooses one. SHOTS=DIR keeps pictures of the page. SITE=DIR takes a built site.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+what=$1
+folder=$2
+[ -z "${3:-}" ] || export SIGHTLINE="$3"
+skip() {
+    echo "playground: skipped, $1" >&2
+    exit 77
+}
+command -v node >/dev/null || skip "node is missing"
+[ "$(node -p 'parseInt(process.versions.node)')" -ge 18 ] || skip "node is older than 18"
+[ "$what" != formats ] || exec node --test "$here/formats.test.mjs"
+
+command -v chromium >/dev/null || command -v firefox-esr >/dev/null || command -v firefox >/dev/null ||
+    skip "there is neither Chromium nor Firefox"
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+export TOOLS="$folder/tools"
+if [ ! -d "$TOOLS/node_modules/axe-core" ]; then
+    command -v npm >/dev/null || skip "npm is missing"
+    mkdir -p "$TOOLS"
+    (cd "$TOOLS" && npm install --silent --no-save --prefix . playwright-core@1.56.1 axe-core@4) >/dev/null 2>&1 ||
+        skip "npm could not install playwright-core and axe-core"
+fi
+if [ -z "${SITE:-}" ]; then
+    sh "$here/../../../tools/web.sh" --build "$folder" >"$folder/build.log" 2>&1 || {
+        status=$?
+        tail -n 20 "$folder/build.log" >&2
+        exit $status
+    }
+    SITE=$folder/site
+fi
+export SITE
+if [ "$what" = quick ]; then
+    if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
+    export BROWSERS QUICK=1
+fi
+exec node --test "$here/playground.test.mjs"
