@@ -378,8 +378,7 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
          .flag = &see->inside_only},
         {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
         {"method", 0, "NAME",
-         "how to find what a cell sees (default: sweep; dfs for stab trees and solvers; prune for "
-         "mirrors)",
+         "how to find what a cell sees (default: sweep; dfs for stab trees and solvers)",
          .choice = &plan.method, .names = method_table(), .given = &plan.method_given},
         {"solver", 0, "NAME",
          "what decides if a line passes a sequence of portals (default: funnel)",

@@ -234,7 +234,7 @@ static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work 
 static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", SL_EFFECT_RANGE | SL_EFFECT_DOOR,
-                               &w->baked));
+                               "its graph joins points both ways, by straight lines", &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));

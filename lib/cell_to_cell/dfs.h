@@ -39,7 +39,7 @@ typedef struct sli_dfs_step {
     bool grazing;  ///< the sequence is no more than grazed
 } sli_dfs_step;
 
-/// What is known before a search with effects begins, without mirrors. Both have each cell with
+/// What is known of direct sight before a search with effects begins. Both have each cell with
 /// itself.
 typedef struct sli_dfs_known {
     const sl_pvs *possible; ///< no other pairs are seen
@@ -75,8 +75,8 @@ typedef struct sli_dfs_thread {
     struct sl_dfs_effects_thread *effects;
 } sli_dfs_thread;
 
-/// The depth-first search with effects, but mirrors, for the pairs that are possible and not
-/// certain.
+/// The depth-first search with effects, for the pairs that are possible and not certain, and for
+/// what is seen by mirror.
 sl_status sli_dfs_see_rest(sl_context *context, const sl_space *space,
                            const sl_see_options *options, const sli_dfs_known *known,
                            sl_visibility *out);

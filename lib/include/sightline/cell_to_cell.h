@@ -147,6 +147,7 @@ typedef struct sl_see_method {
     bool keeps_rows; ///< of bits, as options->rows and row_bytes say
     sl_guarantee guarantee;
     unsigned knows; ///< the effects that it takes account of where options ask for them: bits
+    const char *lacks; ///< why it does not know the others, but doors; NULL where it knows all
     sl_status (*see)(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out);
     const char *units; ///< what its units are, plural; NULL, as the functions below, where it is
@@ -175,7 +176,7 @@ SL_API const sl_see_method *sl_see_method_named(const char *name);
 
 /// The method that is taken where none is asked for: the fastest exact one that can do what the
 /// options ask for and that knows the effects of the map. "sweep" in most cases; "dfs" where the
-/// options ask for stab trees or name a solver; "prune" where the map has mirrors.
+/// options ask for stab trees or name a solver.
 SL_API const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options);
 
 /// SL_UNSUPPORTED, by name, where a method with a solver (NULL for methods that do not stab) does
