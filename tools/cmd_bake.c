@@ -324,6 +324,7 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     double time = sl_seconds();
     SL_TRY(pipeline_read(context, &plan->pipeline, map));
     report->seconds.read = lap(&time);
+    bake_parts_choose(&plan->parts, map, options);
     SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
     if (crew_rank() == 0)
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));

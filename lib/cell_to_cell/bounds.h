@@ -97,7 +97,8 @@ sl_status sli_prune_step(sl_context *context, const sli_prune_bounds *bounds,
 /// Makes the set of a step that no bound before it holds for: all cells from the first one on.
 sl_status sli_prune_step_anew(sl_context *context, sli_prune_wanted *wanted, size_t step);
 
-/// As sli_prune_step(), within a row, which bounds nothing where it is empty; after sli_prune_start_among only.
+/// As sli_prune_step(), within a row, which bounds nothing where it is empty; after
+/// sli_prune_start_among only.
 sl_status sli_prune_step_within(sl_context *context, const sli_sparse_row *row,
                                 sli_prune_wanted *wanted, size_t step);
 

@@ -5,6 +5,7 @@
 
 #include "cell_to_cell/bounds.h"
 #include "cell_to_cell/directions.h"
+#include "cell_to_cell/methods.h"
 #include "cell_to_cell/portal_search.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/cell_to_cell.h"
@@ -101,5 +102,16 @@ void sli_dfs_effects_end(sl_context *context, sli_dfs_thread *me);
 sl_status sli_dfs_effects_search(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
                                  uint32_t source);
 sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out);
+/// The same into partial results, for sli_dfs_effects_settle().
+sl_status sli_dfs_effects_hand_over(sl_context *context, sli_dfs *all, sl_partial *found);
+/// Adds to a visibility copies of what partial results have of effects.
+sl_status sli_dfs_effects_settle(sl_context *context, const sl_plan *plan,
+                                 const sl_partial *partial, sl_visibility *out);
+
+/// SL_CANCELLED if the search is to stop. It asks from time to time.
+static inline sl_status sli_dfs_check_going_on(sl_context *context, const sli_dfs *all) {
+    SL_TRY(sl_check_cancelled(context));
+    return all->before && sli_is_enough(all->options) ? SL_CANCELLED : SL_OK;
+}
 
 #endif

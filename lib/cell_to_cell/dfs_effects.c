@@ -169,7 +169,7 @@ static sl_status enter(sl_context *context, const sli_dfs_job *job, const step *
     sli_dfs_thread *me = job->me;
     thread *e = me->effects;
     const uint32_t cell = to->dfs.at.cell;
-    if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    if (++me->account.tests % 64 == 0) SL_TRY(sli_dfs_check_going_on(context, all));
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
                                   &verdict));
@@ -453,4 +453,52 @@ sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibilit
         out->account.mirrored_pairs += sl_pvs_count(&out->mirrored, i);
     if (!e->doors) return SL_OK;
     return join_doors(context, e->mirrored_door_rows, cells, &out->mirrored_doors);
+}
+
+// --- in parts
+
+sl_status sli_dfs_effects_hand_over(sl_context *context, sli_dfs *all, sl_partial *found) {
+    effects *e = all->effects;
+    const uint32_t cells = all->space->cell_count;
+    if (!e) return SL_OK;
+    found->effects = e->plan->effects;
+    found->mirror_depth = e->plan->mirror_depth;
+    found->door_limit = e->plan->door_limit;
+    found->rounded = e->rounded_places > 0;
+    if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &found->doors));
+    if (e->mirrors) SL_TRY(sli_pvs_join(context, e->mirrored_rows, cells, &found->mirrored));
+    if (!e->doors || !e->mirrors) return SL_OK;
+    return join_doors(context, e->mirrored_door_rows, cells, &found->mirrored_doors);
+}
+
+static sl_status copy_rows(sl_context *context, const sl_pvs *rows, sl_pvs *out) {
+    const uint32_t count = rows->cell_count;
+    if (!count) return SL_OK;
+    out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
+    out->bytes = sl_alloc(context, rows->offsets[count] + 1);
+    if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
+    memcpy(out->offsets, rows->offsets, ((size_t)count + 1) * sizeof *out->offsets);
+    if (rows->offsets[count]) memcpy(out->bytes, rows->bytes, rows->offsets[count]);
+    out->cell_count = count;
+    return SL_OK;
+}
+
+static sl_status copy_doors(sl_context *context, const sl_door_sets *sets, sl_door_sets *out) {
+    const sl_pvs rows = {sets->cell_count, sets->offsets, sets->bytes};
+    sl_pvs copy = {0};
+    const sl_status status = copy_rows(context, &rows, &copy);
+    *out = (sl_door_sets){copy.cell_count, copy.offsets, copy.bytes};
+    return status;
+}
+
+sl_status sli_dfs_effects_settle(sl_context *context, const sl_plan *plan,
+                                 const sl_partial *partial, sl_visibility *out) {
+    SL_TRY(copy_rows(context, &partial->mirrored, &out->mirrored));
+    SL_TRY(copy_doors(context, &partial->doors, &out->doors));
+    SL_TRY(copy_doors(context, &partial->mirrored_doors, &out->mirrored_doors));
+    // As of a search that is done in one go.
+    const bool has_doors = plan->effects & SL_EFFECT_DOOR;
+    if (partial->rounded && plan->mutual && !has_doors && out->mirrored.cell_count)
+        SL_TRY(add_ways_back(context, &out->mirrored));
+    return SL_OK;
 }

@@ -257,7 +257,7 @@ sl_status sli_run_sweep(sl_context *context, const sl_space *space, const sl_see
     if (options->plan && options->plan->effects)
         return sl_fail(
             context, SL_UNSUPPORTED,
-            "the sweep knows no effects when it works in parts: bake the map as a whole");
+            "the sweep knows no effects when it works in parts: take the method 'prune'");
     sli_sweep all = {.space = space, .options = options};
     pthread_mutex_init(&all.lock, NULL);
     const sl_status status = sweep_some(context, &all, partial);
