@@ -175,9 +175,11 @@ static void assert_misses_nothing(const sl_visibility *part, const sl_visibility
     assert_true(part->account.pairs >= plain->account.pairs);
 }
 
-/// Stops again and again, each time a little later; gives how often it was stopped short.
+/// Stops again and again, each time a little later, by up to `step` questions; gives how often it
+/// was stopped short.
 static int check_stops(sl_context *context, const sl_see_method *method, const sl_space *space,
-                       sl_see_options options, const sl_visibility *plain, sl_random *random) {
+                       sl_see_options options, const sl_visibility *plain, sl_random *random,
+                       uint64_t step) {
     sl_partial partial = {0};
     patience p = {0};
     options.enough = is_over;
@@ -188,7 +190,7 @@ static int check_stops(sl_context *context, const sl_see_method *method, const s
         const uint32_t before = partial.done_count;
         atomic_store(&p.asked, 0);
         p.most = most;
-        most += 1 + (long)sl_random_below(random, 40) + most / 2;
+        most += 1 + (long)sl_random_below(random, step) + most / 2;
         assert_ok(context, method->run(context, space, &options, &partial));
         assert_true(partial.done_count >= before);
         sl_visibility now;
@@ -218,7 +220,7 @@ static int check_space(sl_context *context, const sl_space *space, sl_random *ra
                 sl_visibility plain;
                 assert_ok(context, method->see(context, space, &options, &plain));
                 check_shards(context, method, space, options, &plain);
-                stops += check_stops(context, method, space, options, &plain, random);
+                stops += check_stops(context, method, space, options, &plain, random, 40);
                 sl_visibility_destroy(context, &plain);
             }
     return stops;
@@ -258,11 +260,11 @@ static void effects_come_to_the_whole(void **state) {
         sl_visibility plain;
         assert_ok(context, method->see(context, &p.space, &options, &plain));
         check_shards(context, method, &p.space, options, &plain);
-        stops += check_stops(context, method, &p.space, options, &plain, &random);
+        stops += check_stops(context, method, &p.space, options, &plain, &random, 3);
         sl_visibility_destroy(context, &plain);
         destroy(context, &p);
     }
-    assert_true((uint64_t)stops > seeds);
+    assert_true((uint64_t)stops >= seeds + seeds / 4);
     sl_context_destroy(context);
 }
 
@@ -552,6 +554,55 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
     }
 }
 
+/// All methods on a map with all effects: in one go, and those that can in parts, joined with
+/// themselves.
+static sl_status see_effects(sl_context *context, const place *p, const sl_plan *plan,
+                             const sl_see_method *method, sl_visibility *out, sl_partial *partial) {
+    patience few = {.most = 4};
+    sl_see_options options = options_for(method, SL_CLOSED, false, 1), stopped;
+    options.plan = plan;
+    sl_status status = method->see(context, &p->space, &options, &out[0]);
+    if (!method->stabs || !method->run) return status;
+    stopped = options;
+    stopped.enough = is_over;
+    stopped.enough_user = &few;
+    if (status == SL_OK) status = method->run(context, &p->space, &stopped, partial);
+    if (status == SL_OK) status = method->finish(context, &p->space, &options, partial, &out[1]);
+    return status == SL_OK ? sl_partial_merge(context, partial, partial) : status;
+}
+
+static void lack_of_memory_for_effects_leaves_nothing(void **state) {
+    (void)state;
+    const char *const all[] = {"sweep", "prune", "flood", "sampling"};
+    for (size_t m = 0; m < sizeof all / sizeof *all; m++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        const sl_see_method *method = testing_method(all[m]);
+        sl_random random = {3};
+        place p = {0};
+        random_effects_map(context, &random, 15, 1, &p.map);
+        subdivide(context, false, &p);
+        sl_plan plan = sl_plan_make(&p.map);
+        plan.effects &= method->knows;
+        const long live = memory.live;
+        sl_status status = SL_NO_MEMORY;
+        for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++) {
+            sl_visibility seen[2] = {0};
+            sl_partial partial = {0};
+            memory.calls = 0;
+            memory.fail_at = fail_at;
+            status = see_effects(context, &p, &plan, method, seen, &partial);
+            memory.fail_at = 0;
+            for (int i = 0; i < 2; i++) sl_visibility_destroy(context, &seen[i]);
+            sl_partial_destroy(context, &partial);
+            assert_int_equal(memory.live, live);
+        }
+        assert_ok(context, status);
+        destroy(context, &p);
+        sl_context_destroy(context);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_come_to_the_whole),
@@ -565,6 +616,7 @@ int main(void) {
         cmocka_unit_test(other_questions_take_nothing_over),
         cmocka_unit_test(what_does_not_belong_together_is_refused),
         cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
+        cmocka_unit_test(lack_of_memory_for_effects_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
