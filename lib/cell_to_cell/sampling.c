@@ -36,8 +36,8 @@ typedef struct sampling {
 /// it is surely entered, and that before which it is surely not left.
 typedef struct stretch {
     uint32_t cell;
-    bool back;      ///< before the cell in which `a` is
-    uint32_t depth; ///< reflections up to here
+    bool back;     ///< before the cell in which `a` is
+    uint8_t depth; ///< reflections up to here
     double entered, left;
 } stretch;
 
@@ -174,7 +174,7 @@ static sl_status walk_mirrors(sl_context *context, const sampling *all, sampler 
     while (leave(all, me->way.items[me->way.count - 1].cell, &frame, line, &out)) {
         SL_TRY(SL_ARRAY_ROOM(context, &me->way, 1));
         stretch *from = &me->way.items[me->way.count - 1];
-        stretch next = {.cell = out.ends.cell, .depth = frame.depth};
+        stretch next = {.cell = out.ends.cell, .depth = (uint8_t)frame.depth};
         if (all->range > 0) {
             double error;
             const double place = place_on(line, &out.ends, &error);
@@ -185,7 +185,7 @@ static sl_status walk_mirrors(sl_context *context, const sampling *all, sampler 
             const sl_segment at = all->mirrors->map->mirrors[out.mirror].segment;
             frame = sli_mirror_frame_reflect(&frame, at);
             if (frame.rounded) return SL_OK;
-            next.depth = frame.depth;
+            next.depth = (uint8_t)frame.depth;
         }
         me->way.items[me->way.count++] = next;
     }
@@ -201,6 +201,22 @@ static bool is_in_range(const sampling *all, sl_line line, const stretch *a, con
     return between * length * (1 + 0x1p-50) <= all->range;
 }
 
+/// Notes what a line finds that goes on in mirrors. Cells with as many reflections before them see
+/// each other straight on.
+static sl_status sample_mirrors(sl_context *context, const sampling *all, sampler *me,
+                                sl_line line) {
+    SL_TRY(walk_mirrors(context, all, me, line));
+    if (!all->one_way) SL_TRY(walk(context, all, me, line, true));
+    const stretch *way = me->way.items;
+    for (size_t i = 0; i < me->way.count; i++)
+        for (size_t k = i; k < me->way.count; k++) {
+            if (!is_in_range(all, line, &way[i], &way[k])) continue;
+            sli_bit_rows *rows = way[i].depth == way[k].depth ? &me->rows : &me->mirrored;
+            SL_TRY(sli_bit_rows_add_one(context, rows, way[i].cell, way[k].cell));
+        }
+    return SL_OK;
+}
+
 static sl_status sample(sl_context *context, const sampling *all, sampler *me, uint32_t cell,
                         sl_random *random) {
     const sl_cell *c = &all->space->cells[cell];
@@ -212,18 +228,14 @@ static sl_status sample(sl_context *context, const sampling *all, sampler *me, u
     me->way.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &me->way, 1));
     me->way.items[me->way.count++] = (stretch){.cell = cell};
-    if (all->mirrors)
-        SL_TRY(walk_mirrors(context, all, me, (sl_line){a, b}));
-    else
-        SL_TRY(walk(context, all, me, (sl_line){a, b}, false));
+    if (all->mirrors) return sample_mirrors(context, all, me, (sl_line){a, b});
+    SL_TRY(walk(context, all, me, (sl_line){a, b}, false));
     if (!all->one_way) SL_TRY(walk(context, all, me, (sl_line){a, b}, true));
     const stretch *way = me->way.items;
     for (size_t i = 0; i < me->way.count; i++)
         for (size_t k = i; k < me->way.count; k++)
             if (is_in_range(all, (sl_line){a, b}, &way[i], &way[k]))
-                SL_TRY(sli_bit_rows_add_one(
-                    context, way[i].depth == way[k].depth ? &me->rows : &me->mirrored, way[i].cell,
-                    way[k].cell));
+                SL_TRY(sli_bit_rows_add_one(context, &me->rows, way[i].cell, way[k].cell));
     return SL_OK;
 }
 

@@ -1,6 +1,6 @@
 """What cells see by oblique mirrors with open sight, held against sequences of portals in rationals.
 
-test_mirrored.py PROGRAM [--count N]    by default 12 maps
+test_mirrored.py PROGRAM [--count N]    by default 5 random maps
 
 The program places portals behind oblique mirrors in floating point. The reflection of a rational point in a
 mirror with rational ends is rational, so this test decides all signs without rounding. It takes the
@@ -146,7 +146,7 @@ def check(box, text):
 def main():
     program = sandbox.program_argument()
     parser = argparse.ArgumentParser()
-    parser.add_argument("--count", type=int, default=12)
+    parser.add_argument("--count", type=int, default=5)
     count = parser.parse_args().count
     pairs = 0
     with sandbox.Sandbox(program) as box:
