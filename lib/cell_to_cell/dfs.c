@@ -308,6 +308,9 @@ static sl_status allocate(sl_context *context, sli_dfs *all) {
 }
 
 static sl_status prepare(sl_context *context, sli_dfs *all) {
+    // Portals that may lead to a mirror stay open: bounds of portals prune too little then to pay.
+    const sl_plan *plan = all->options->plan;
+    if (!all->known && plan && plan->effects & SL_EFFECT_MIRROR) all->prunes = false;
     all->words = sl_bits_words(all->space->cell_count);
     pthread_mutex_init(&all->lock, NULL);
     const sl_pvs *possible = all->known ? all->known->possible : NULL;

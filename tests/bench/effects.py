@@ -57,14 +57,22 @@ def put(at):
     return " ".join(f"{value:g}" for value in at)
 
 
-def measure(program, method, plan, repeat):
-    """The least seconds of some bakes, and the report of the last one."""
-    least = float("inf")
-    for _ in range(repeat):
-        report = json.loads(run(program, "bake", plan, "-o", plan.with_suffix(".slv"), "--threads",
-                                1, "--json", *(["--method", method] if method else [])))
-        least = min(least, report["seconds"]["cell_to_cell"])
-    return least, report
+def write_maps(plan, lines):
+    """A map for each combination of effects, the one without any first."""
+    maps = {}
+    for count in range(len(EFFECTS) + 1):
+        for chosen in itertools.combinations(EFFECTS, count):
+            label = "+".join(chosen) or "none"
+            maps[label] = plan.with_name(f"{label}.map")
+            added = sum((lines[effect] for effect in chosen), [])
+            maps[label].write_text("\n".join([plan.read_text(), *added, ""]))
+    return maps
+
+
+def bake(program, method, plan):
+    chosen = ["--method", method] if method else []
+    return json.loads(run(program, "bake", plan, "-o", plan.with_suffix(".slv"), "--threads", 1,
+                          "--json", *chosen))
 
 
 def main():
@@ -72,31 +80,30 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--method")
     parser.add_argument("--size", type=int, default=3)
-    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--repeat", type=int, default=15)
     parser.add_argument("--pictures", type=pathlib.Path)
     options = parser.parse_args()
-    print("machine,method,effects,seconds,times_none,pairs,mirrored_pairs,door_bytes,file_bytes")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         plan = folder / "office.map"
         run(options.program, "generate", "office", "--size", options.size, "-o", plan)
-        lines = statements(options.program, plan, folder)
-        none = 0
-        for count in range(len(EFFECTS) + 1):
-            for chosen in itertools.combinations(EFFECTS, count):
-                label = "+".join(chosen) or "none"
-                file = folder / f"{label}.map"
-                file.write_text("\n".join([plan.read_text()] + sum((lines[c] for c in chosen), [])))
-                seconds, report = measure(options.program, options.method, file, options.repeat)
-                none = none or seconds
-                work = report["effect_work"]
-                print(f"{platform.machine()},{report['method']},{label},{seconds:.5f},"
-                      f"{seconds / none:.2f},{report['pairs']},{work['mirrored_pairs']},"
-                      f"{work['door_bytes']},{report['file_bytes']}", flush=True)
-                if options.pictures:
-                    options.pictures.mkdir(parents=True, exist_ok=True)
-                    run(options.program, "draw", file.with_suffix(".slv"), "-o",
-                        options.pictures / f"{label}.png")
+        maps = write_maps(plan, statements(options.program, plan, folder))
+        least = dict.fromkeys(maps, float("inf"))
+        reports = {}
+        for _ in range(options.repeat):  # all maps by turns, so that all meet the same load
+            for label, file in maps.items():
+                reports[label] = bake(options.program, options.method, file)
+                least[label] = min(least[label], reports[label]["seconds"]["cell_to_cell"])
+        print("machine,method,effects,seconds,times_none,pairs,mirrored_pairs,door_bytes,file_bytes")
+        for label, report in reports.items():
+            work = report["effect_work"]
+            print(f"{platform.machine()},{report['method']},{label},{least[label]:.5f},"
+                  f"{least[label] / least['none']:.2f},{report['pairs']},{work['mirrored_pairs']},"
+                  f"{work['door_bytes']},{report['file_bytes']}")
+        for label, file in maps.items() if options.pictures else ():
+            options.pictures.mkdir(parents=True, exist_ok=True)
+            run(options.program, "draw", file.with_suffix(".slv"), "-o",
+                options.pictures / f"{label}.png")
 
 
 if __name__ == "__main__":
