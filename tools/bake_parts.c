@@ -12,6 +12,13 @@ static bool in_parts(const bake_parts *parts) {
            parts->previous || crew_size() > 1;
 }
 
+/// Whether units of the work are told apart: with --previous alone they are only if it is of use.
+static bool by_units(const bake_parts *parts) {
+    bake_parts others = *parts;
+    others.previous = NULL;
+    return in_parts(&others);
+}
+
 /// "3/8"
 static sl_status plan_shard(sl_context *context, bake_parts *parts) {
     const char *text = parts->shard_text;
@@ -106,6 +113,9 @@ const char *bake_difference(const sl_baked *a, const sl_baked *b) {
     if (a->visibility.sight != b->visibility.sight) return "with other sight";
     if (a->partial.inside_only != b->partial.inside_only)
         return a->partial.inside_only ? "with --inside" : "without --inside";
+    if (a->partial.mirror_depth != b->partial.mirror_depth) return "with another --mirror-depth";
+    if (a->partial.door_limit != b->partial.door_limit) return "with another --door-sets";
+    if (!sl_effects_same(&a->map, &b->map)) return "with other effects";
     if (!sl_baked_same_space(&a->space, &b->space))
         return "from another map, or cut into other cells,";
     return NULL;
@@ -130,6 +140,10 @@ static sl_status take_begun(sl_context *context, const char *path, const sl_see_
     sl_baked asked = *baked;
     asked.visibility.sight = see->sight;
     asked.partial.inside_only = see->inside_only;
+    if (see->plan->effects) {
+        asked.partial.mirror_depth = see->plan->mirror_depth;
+        asked.partial.door_limit = see->plan->door_limit;
+    }
     const char *other = bake_difference(before, &asked);
     if (other) return fail_other(context, path, other, before);
     if (before->partial.shard != see->shard || before->partial.shard_count != see->shard_count)
@@ -158,6 +172,15 @@ static sl_status take_over(sl_context *context, const char *path, const sl_see_m
     return SL_OK;
 }
 
+/// An older bake that is of no use, as the map has effects. It has to be one.
+static sl_status pass_over(sl_context *context, const char *path) {
+    sl_baked before = {0};
+    SL_TRY(sl_baked_read(context, path, &before));
+    sl_baked_destroy(context, &before);
+    sl_note(context, "nothing is taken over from %s: the map has effects", path);
+    return SL_OK;
+}
+
 static sl_status take_known(sl_context *context, const bake_parts *parts,
                             const sl_see_method *method, const sl_see_options *see,
                             const sl_baked *baked, sl_partial *partial) {
@@ -165,7 +188,7 @@ static sl_status take_known(sl_context *context, const bake_parts *parts,
     sl_status status = SL_OK;
     if (parts->resume)
         status = take_begun(context, parts->resume, see, baked, &before, partial);
-    else if (parts->previous)
+    else if (parts->previous && !see->plan->effects)
         status = take_over(context, parts->previous, method, see, baked, &before, partial);
     sl_baked_destroy(context, &before);
     return status;
@@ -208,15 +231,28 @@ static sl_status see_parts(sl_context *context, const bake_parts *parts,
     return method->finish(context, &baked->space, &see, partial, &baked->visibility);
 }
 
+void bake_parts_choose(const bake_parts *parts, const sl_map *map, sl_bake_options *options) {
+    if (by_units(parts) && !options->method && !options->see.solver && sl_plan_make(map).effects)
+        options->method = sl_see_method_named("prune");
+}
+
 sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
                          const sl_bake_options *options, sl_baked *baked,
                          bake_parts_account *account) {
-    if (!in_parts(parts)) return sl_bake_see(context, options, baked, NULL);
+    const bool has_effects = sl_plan_make(&baked->map).effects;
+    if (parts->previous && has_effects && crew_rank() == 0)
+        SL_TRY(pass_over(context, parts->previous));
+    if (has_effects ? !by_units(parts) : !in_parts(parts))
+        return sl_bake_see(context, options, baked, NULL);
     if (parts->keep_partial) console_ask_first();
     const sl_see_method *method = options->method;
     const sl_plan plan = sl_bake_plan(options, baked);
     sl_see_options see = options->see;
     see.plan = &plan;
+    if (crew_size() > 1 && plan.effects)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "processes of mpirun do not exchange what is found of effects: bake shards "
+                       "(--shard), and merge them");
     sl_partial partial = {0};
     sl_status status = see_parts(context, parts, method, &see, baked, &partial, account);
     if (status == SL_OK && (parts->shard_count || !sl_partial_complete(&partial))) {

@@ -24,6 +24,10 @@ option_table bake_parts_option_table(bake_parts *parts);
 sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
                           const sl_see_options *see, bake_parts *parts);
 
+/// Call it with the map, before sl_bake_space(). Chooses a method that knows the effects of the map
+/// where none is asked for and the work is done in parts.
+void bake_parts_choose(const bake_parts *parts, const sl_map *map, sl_bake_options *options);
+
 /// How the bakes of two files differ, as words that follow "was baked". NULL: they are alike.
 const char *bake_difference(const sl_baked *a, const sl_baked *b);
 

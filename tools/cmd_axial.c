@@ -69,9 +69,8 @@ static sl_status take_drawn(sl_context *context, const axial_plan *plan, axial_w
 }
 
 static sl_status find_lines(sl_context *context, const axial_plan *plan, axial_work *w) {
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "axial", ~0u, &w->baked));
-    SL_TRY(sl_effects_check_because(context, &w->baked.map, "axial", SL_EFFECT_DOOR,
-                                    "axial lines end at walls alone"));
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, "axial", SL_EFFECT_DOOR,
+                               "axial lines end at walls alone", &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));

@@ -325,6 +325,7 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     double time = sl_seconds();
     SL_TRY(pipeline_read(context, &plan->pipeline, map));
     report->seconds.read = lap(&time);
+    bake_parts_choose(&plan->parts, map, options);
     SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
     if (crew_rank() == 0)
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
@@ -379,8 +380,7 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
          .flag = &see->inside_only},
         {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
         {"method", 0, "NAME",
-         "how to find what a cell sees (default: sweep; dfs for stab trees and solvers; prune for "
-         "mirrors)",
+         "how to find what a cell sees (default: sweep; dfs for stab trees and solvers)",
          .choice = &plan.method, .names = method_table(), .given = &plan.method_given},
         {"solver", 0, "NAME",
          "what decides if a line passes a sequence of portals (default: funnel)",

@@ -221,7 +221,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(
         context, &plan->pipeline, "isovist",
-        SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, &w->baked));
+        SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, NULL, &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));

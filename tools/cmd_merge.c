@@ -98,6 +98,10 @@ static sl_status settle(sl_context *context, const merge_plan *plan, sl_baked *a
     see.sight = all->visibility.sight;
     see.inside_only = all->partial.inside_only;
     see.solver = find_solver(all->solver);
+    sl_plan effects = sl_plan_make(&all->map);
+    effects.mirror_depth = all->partial.mirror_depth;
+    effects.door_limit = all->partial.door_limit;
+    see.plan = &effects;
     if (!method || !method->finish || (method->stabs && !see.solver))
         return sl_fail_at(context, plan->first, 0,
                           "was baked by a method or a solver that this program has not");

@@ -305,10 +305,9 @@ static sl_status check_direction(sl_context *context, const vga_plan *plan, cons
 
 /// From the map to its measures.
 static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~0u, &w->baked));
-    SL_TRY(
-        sl_effects_check_because(context, &w->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
-                                 "steps and paths lead straight to points, not to mirror images"));
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~(unsigned)SL_EFFECT_MIRROR,
+                               "steps and paths lead straight to points, not to mirror images",
+                               &w->baked));
     SL_TRY(check_direction(context, plan, w));
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));

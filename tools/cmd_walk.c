@@ -484,7 +484,7 @@ static sl_status make_dark(sl_context *context, walk_work *w) {
 
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
     const unsigned all = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE;
-    SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, &w->baked));
+    SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, NULL, &w->baked));
     note_effects(console->context, &w->baked.map);
     if (!input_ends_with(plan->pipeline.path, ".slv"))
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,

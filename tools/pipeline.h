@@ -47,9 +47,10 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
                              sl_space *space);
 
 /// The space of a map, or of a baked file (by its name or its first bytes). Fails where the map has
-/// effects other than `effects`, those that the command `user` supports.
+/// effects other than `effects`, those that the command `user` supports; `reason`: why no others,
+/// NULL for no need to say.
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
-                              unsigned effects, sl_baked *baked);
+                              unsigned effects, const char *reason, sl_baked *baked);
 
 /// Notes how much is inside if that is in doubt, and what to run next.
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,

@@ -33,6 +33,12 @@ static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) 
     *map = (sl_map){0};
 }
 
+/// Takes doors as they stand where a method is asked for that knows no doors.
+static sl_status settle_doors(sl_context *context, sl_map *map, const sl_bake_options *options) {
+    const bool knows = !options->method || options->method->knows & SL_EFFECT_DOOR;
+    return knows || !map->door_count ? SL_OK : sl_effects_settle_doors(context, map);
+}
+
 static sl_status choose(sl_context *context, const sl_map *map, sl_bake_options *options) {
     if (options->mirror_depth > MIRROR_DEPTH_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "the mirror depth must be 0 to %d",
@@ -57,6 +63,7 @@ static sl_status make_space(sl_context *context, const sl_map *map, const sl_bak
 sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options, sl_baked *out,
                         sl_bake_account *account) {
     double time = sl_seconds();
+    SL_TRY(settle_doors(context, map, options));
     SL_TRY(sl_map_clean(context, map, &options->clean, &account->cleaning));
     SL_TRY(choose(context, map, options));
     account->seconds.clean = lap(&time);

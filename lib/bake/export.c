@@ -482,6 +482,33 @@ sl_status sl_export_json(sl_context *context, const sl_baked *baked,
 
 // --- CSV: a line for each ordered pair of cells of which the first sees the second
 
+/// Whether a row holds a cell: cells are asked for in ascending order.
+static bool run_holds(sl_pvs_run *run, bool *more, uint32_t cell) {
+    while (*more && run->end <= cell) *more = sl_pvs_next(run);
+    return *more && run->first <= cell;
+}
+
+/// With mirrors two columns more: whether the pair is seen directly, and whether by mirror.
+static sl_status print_pairs_with_mirrors(sl_context *context, const sl_visibility *seen,
+                                          FILE *stream) {
+    const uint32_t count = seen->pvs.cell_count;
+    fputs("from,to,direct,mirrored\n", stream);
+    for (uint32_t cell = 0; cell < count && !ferror(stream); cell++) {
+        sl_pvs_run direct = sl_pvs_begin(&seen->pvs, cell);
+        sl_pvs_run mirrored = sl_pvs_begin(&seen->mirrored, cell);
+        bool any_direct = sl_pvs_next(&direct), any_mirrored = sl_pvs_next(&mirrored);
+        SL_TRY(sl_check_cancelled(context));
+        for (uint32_t i = 0; i < count; i++) {
+            const bool straight = run_holds(&direct, &any_direct, i);
+            const bool reflected = run_holds(&mirrored, &any_mirrored, i);
+            if (straight || reflected)
+                fprintf(stream, "%" PRIu32 ",%" PRIu32 ",%d,%d\n", cell, i, straight, reflected);
+        }
+        sl_report(context, "export", "cells", cell + 1, count);
+    }
+    return SL_OK;
+}
+
 static sl_status print_pairs(sl_context *context, const sl_pvs *pvs, FILE *stream) {
     fputs("from,to\n", stream);
     for (uint32_t cell = 0; cell < pvs->cell_count && !ferror(stream); cell++) {
@@ -497,10 +524,13 @@ static sl_status print_pairs(sl_context *context, const sl_pvs *pvs, FILE *strea
 sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
                         const sl_export_options *options, const char *path) {
     (void)options;
+    const sl_visibility *seen = &baked->visibility;
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output,
-                           print_pairs(context, &baked->visibility.pvs, output.stream));
+                           seen->mirrored.cell_count
+                               ? print_pairs_with_mirrors(context, seen, output.stream)
+                               : print_pairs(context, &seen->pvs, output.stream));
 }
 
 // --- the table
@@ -514,9 +544,13 @@ static const sl_export_format formats[] = {
      .what = "cells, portals, walls, doors and starts for maps in a GIS",
      .shows_mirrors = true,
      .write = sl_export_geojson},
-    {.name = "csv", .what = "a line for each ordered pair seen", .write = sl_export_csv},
+    {.name = "csv",
+     .what = "a line for each ordered pair seen",
+     .shows_mirrors = true,
+     .write = sl_export_csv},
     {.name = "c",
      .what = "a C header: cells, portals, doors, starts, and a bit for each pair",
+     .shows_mirrors = true,
      .write = sl_export_c},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };

@@ -251,11 +251,11 @@ static void fill_row(const sl_pvs *pvs, uint32_t cell, uint8_t *row, size_t byte
         for (uint32_t i = run.first; i < run.end; i++) row[i / 8] |= (uint8_t)(1u << i % 8);
 }
 
-static sl_status put_rows(const printer *out, uint8_t *row, size_t bytes) {
-    const sl_pvs *pvs = &out->baked->visibility.pvs;
+static sl_status put_rows(const printer *out, const sl_pvs *pvs, const char *name, uint8_t *row,
+                          size_t bytes) {
     char width[32];
     snprintf(width, sizeof width, "[%zu]", bytes);
-    begin_table(out, NULL, "unsigned char", "seen", pvs->cell_count, width);
+    begin_table(out, NULL, "unsigned char", name, pvs->cell_count, width);
     for (uint32_t cell = 0; cell < pvs->cell_count && !ferror(out->stream); cell++) {
         SL_TRY(sl_check_cancelled(out->context));
         fill_row(pvs, cell, row, bytes);
@@ -268,13 +268,47 @@ static sl_status put_rows(const printer *out, uint8_t *row, size_t bytes) {
     return SL_OK;
 }
 
+static bool has_mirrors(const printer *out) {
+    return out->baked->visibility.mirrored.cell_count > 0;
+}
+
 static sl_status put_seen(const printer *out) {
-    const size_t bytes = ((size_t)out->baked->visibility.pvs.cell_count + 7) / 8;
+    const sl_visibility *seen = &out->baked->visibility;
+    const size_t bytes = ((size_t)seen->pvs.cell_count + 7) / 8;
     uint8_t *row = sl_alloc_array(out->context, bytes, 1);
     if (!row) return SL_NO_MEMORY;
-    const sl_status status = put_rows(out, row, bytes);
+    sl_status status = put_rows(out, &seen->pvs, "seen", row, bytes);
+    if (status == SL_OK && has_mirrors(out))
+        status = put_rows(out, &seen->mirrored, "mirrored", row, bytes);
     sl_free(out->context, row);
     return status;
+}
+
+/// Only for maps with mirrors: where they stand, and what they show.
+static void put_mirrors(const printer *out) {
+    const sl_map *map = &out->baked->map;
+    const char *p = out->name, *u = out->upper;
+    fprintf(
+        out->stream,
+        "\n/* %s_mirrors[i]: a mirror; whether it reflects on its left only, from its first end\n"
+        " * to its second. Cell b is seen from cell a by mirror where %s_SEES_MIRRORED is not 0:\n"
+        " * a bit of %s_mirrored[a][]. */\n"
+        "#define %s_MIRRORS %zu\n"
+        "#define %s_SEES_MIRRORED(a, b) (%s_mirrored[a][(b) / 8] >> (b) %% 8 & 1)\n"
+        "struct %s_mirror {\n"
+        "    double from[2], to[2];\n"
+        "    int one_sided;\n"
+        "};\n",
+        p, u, p, u, map->mirror_count, u, p, p);
+    begin_table(out, "mirror", NULL, "mirrors", map->mirror_count, "");
+    for (size_t i = 0; i < map->mirror_count; i++) {
+        fputs("    {", out->stream);
+        put_pair(out, map->mirrors[i].segment.a);
+        fputs(", ", out->stream);
+        put_pair(out, map->mirrors[i].segment.b);
+        fprintf(out->stream, ", %d},\n", map->mirrors[i].one_sided);
+    }
+    end_table(out, map->mirror_count, "    {{0.0, 0.0}, {0.0, 0.0}, 0}\n");
 }
 
 static sl_status put_all(const printer *out) {
@@ -307,6 +341,7 @@ static sl_status put_all(const printer *out) {
     put_portals(out);
     put_doors(out);
     put_starts(out);
+    if (has_mirrors(out)) put_mirrors(out);
     SL_TRY(put_seen(out));
     fputs("\n#endif\n", out->stream);
     return SL_OK;

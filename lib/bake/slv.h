@@ -56,6 +56,14 @@ typedef struct sli_slv_part {
     uint32_t inside_only; ///< 0 or 1
 } sli_slv_part;
 
+/// Section PAEF, one item, where such a bake is of a map with effects: under which they were looked
+/// for. What was found: FNMO and FNMB by mirror, FNEO and FNEB the sets of doors, FNXO and FNXB
+/// those of pairs seen by mirror.
+typedef struct sli_slv_part_effects {
+    uint32_t effects, mirror_depth, door_limit;
+    uint32_t rounded; ///< 0 or 1
+} sli_slv_part_effects;
+
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
 /// its walls as segments. Files of meshes alone have BEYO, what is beyond the cells' sides, and
 /// GRIO and GRIC, the offsets and cells of the grid's buckets; their NODE is empty. SEAM has the
@@ -81,7 +89,8 @@ typedef struct sli_slv_views {
 } sli_slv_views;
 
 _Static_assert(sizeof(sli_slv_header) == 32 && sizeof(sli_slv_section) == 24 &&
-                   sizeof(sli_slv_info) == 128 && sizeof(sli_slv_part) == 16,
+                   sizeof(sli_slv_info) == 128 && sizeof(sli_slv_part) == 16 &&
+                   sizeof(sli_slv_part_effects) == 16,
                "no padding in the file");
 _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point) == 16 &&
                    sizeof(sl_portal) == 40 && sizeof(sl_directed_portal) == 40 &&

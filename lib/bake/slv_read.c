@@ -415,6 +415,39 @@ static sl_status load_done(const reader *r, sl_partial *partial) {
     return SL_OK;
 }
 
+/// What was found of effects. The map that it must fit comes later.
+static sl_status load_partial_effects(const reader *r) {
+    sl_partial *partial = &r->out->partial;
+    sli_slv_section s;
+    sli_slv_part_effects told;
+    bool found;
+    SL_TRY(find_section(r, "PAEF", sizeof told, &s, &found));
+    if (!found) return SL_OK;
+    if (s.count != 1) return fail_file(r, "damaged: section PAEF makes no sense");
+    memcpy(&told, r->bytes + s.offset, sizeof told);
+    if (told.rounded > 1) return fail_file(r, "damaged: section PAEF makes no sense");
+    partial->effects = told.effects;
+    partial->mirror_depth = told.mirror_depth;
+    partial->door_limit = told.door_limit;
+    partial->rounded = told.rounded;
+    SL_TRY(load_pvs(r, "FNMO", "FNMB", true, &partial->mirrored));
+    SL_TRY(load_doors(r, "FNEO", "FNEB", &partial->doors));
+    return load_doors(r, "FNXO", "FNXB", &partial->mirrored_doors);
+}
+
+static sl_status check_partial_effects(const reader *r) {
+    const sl_partial *partial = &r->out->partial;
+    const sl_map *map = &r->out->map;
+    if (!sl_partial_begun(partial)) return SL_OK;
+    const bool doors = map->door_count > 0, mirrors = map->mirror_count > 0;
+    if (partial->effects != sl_plan_make(map).effects || (partial->doors.cell_count > 0) != doors ||
+        (partial->mirrored.cell_count > 0) != mirrors ||
+        (partial->mirrored_doors.cell_count > 0) != (doors && mirrors))
+        return fail_file(r, "damaged: what was found so far does not fit the effects of the map");
+    SL_TRY(in_file(r, sl_door_sets_check(r->context, &partial->doors, map->door_count)));
+    return in_file(r, sl_door_sets_check(r->context, &partial->mirrored_doors, map->door_count));
+}
+
 static sl_status load_partial(const reader *r) {
     sl_partial *partial = &r->out->partial;
     sli_slv_section s;
@@ -432,7 +465,8 @@ static sl_status load_partial(const reader *r) {
     partial->inside_only = part.inside_only;
     SL_TRY(load_done(r, partial));
     SL_TRY(load_pvs(r, "FNDO", "FNDB", false, &partial->sure));
-    return load_pvs(r, "FNRO", "FNRB", false, &partial->doubtful);
+    SL_TRY(load_pvs(r, "FNRO", "FNRB", false, &partial->doubtful));
+    return load_partial_effects(r);
 }
 
 /// The visible sets of cells from those of their view cells, where the file has only these.
@@ -479,6 +513,7 @@ static sl_status load_all(reader *r) {
     const size_t doors = r->out->map.door_count;
     SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->doors, doors)));
     SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->mirrored_doors, doors)));
+    SL_TRY(check_partial_effects(r));
     return check_seams(r);
 }
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SECTIONS = 40 };
+enum { MOST_SECTIONS = 48 };
 
 /// A file made ready: what goes into each section, still where it lies.
 typedef struct plan {
@@ -18,6 +18,7 @@ typedef struct plan {
     char *map_text;
     sli_slv_views views;
     sli_slv_part part;
+    sli_slv_part_effects part_effects;
     uint32_t version;
 } plan;
 
@@ -89,6 +90,25 @@ static void add_pvs(plan *p, const char *offsets_tag, const char *bytes_tag, con
     add_section(p, bytes_tag, pvs->bytes, 1, pvs->offsets[pvs->cell_count]);
 }
 
+static void add_doors(plan *p, const char *offsets_tag, const char *bytes_tag,
+                      const sl_door_sets *sets) {
+    if (!sets->cell_count) return;
+    add_section(p, offsets_tag, sets->offsets, sizeof *sets->offsets,
+                (uint64_t)sets->cell_count + 1);
+    add_section(p, bytes_tag, sets->bytes, 1, sl_door_sets_bytes(sets));
+}
+
+static void add_partial_effects(plan *p, const sl_partial *partial) {
+    p->part_effects = (sli_slv_part_effects){.effects = partial->effects,
+                                             .mirror_depth = partial->mirror_depth,
+                                             .door_limit = partial->door_limit,
+                                             .rounded = partial->rounded};
+    add_section(p, "PAEF", &p->part_effects, sizeof p->part_effects, 1);
+    if (partial->mirrored.cell_count) add_pvs(p, "FNMO", "FNMB", &partial->mirrored);
+    add_doors(p, "FNEO", "FNEB", &partial->doors);
+    add_doors(p, "FNXO", "FNXB", &partial->mirrored_doors);
+}
+
 static void add_partial(plan *p, const sl_partial *partial) {
     p->part = (sli_slv_part){.shard = partial->shard,
                              .shard_count = partial->shard_count,
@@ -99,14 +119,7 @@ static void add_partial(plan *p, const sl_partial *partial) {
                 sl_bits_words(partial->unit_count));
     add_pvs(p, "FNDO", "FNDB", &partial->sure);
     add_pvs(p, "FNRO", "FNRB", &partial->doubtful);
-}
-
-static void add_doors(plan *p, const char *offsets_tag, const char *bytes_tag,
-                      const sl_door_sets *sets) {
-    if (!sets->cell_count) return;
-    add_section(p, offsets_tag, sets->offsets, sizeof *sets->offsets,
-                (uint64_t)sets->cell_count + 1);
-    add_section(p, bytes_tag, sets->bytes, 1, sl_door_sets_bytes(sets));
+    if (partial->effects) add_partial_effects(p, partial);
 }
 
 static void add_effects(plan *p, const sl_visibility *visibility) {

@@ -20,6 +20,11 @@ uint32_t sli_flood_through(const sl_space *space, const sl_see_options *options,
 sl_status sli_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
                           sl_pvs *out, bool *bounded);
 
+/// The bound on what all cells see by mirror, up to the plan's depth: what cells see from which a
+/// line may come back. `direct` bounds what they see directly. Lengths are not asked for.
+sl_status sli_mirrored_bound(sl_context *context, const sl_space *space,
+                             const sl_see_options *options, const sl_pvs *direct, sl_pvs *out);
+
 // --- by the view range
 
 /// Whether lines between two cells, from where they leave the one to where they enter the other,
@@ -89,7 +94,11 @@ sl_status sli_prune_start_among(sl_context *context, sli_prune_wanted *wanted,
 sl_status sli_prune_step(sl_context *context, const sli_prune_bounds *bounds,
                          sli_prune_wanted *wanted, size_t step, uint32_t directed);
 
-/// Likewise within a row, which bounds nothing where it is empty; after sli_prune_start_among only.
+/// Makes the set of a step that no bound before it holds for: all cells from the first one on.
+sl_status sli_prune_step_anew(sl_context *context, sli_prune_wanted *wanted, size_t step);
+
+/// As sli_prune_step(), within a row, which bounds nothing where it is empty; after
+/// sli_prune_start_among only.
 sl_status sli_prune_step_within(sl_context *context, const sli_sparse_row *row,
                                 sli_prune_wanted *wanted, size_t step);
 

@@ -141,12 +141,6 @@ static sl_status want(sl_context *context, const sli_dfs *all, sli_dfs_thread *m
     return SL_OK;
 }
 
-/// SL_CANCELLED if the search is to stop. It asks from time to time.
-static sl_status check_going_on(sl_context *context, const sli_dfs *all) {
-    SL_TRY(sl_check_cancelled(context));
-    return all->before && sli_is_enough(all->options) ? SL_CANCELLED : SL_OK;
-}
-
 /// Tests the sequence with one more directed portal, and enters the cell behind.
 SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
                           uint32_t number) {
@@ -161,7 +155,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void
     bool something;
     SL_TRY(want(context, all, me, number, &something));
     if (!something) return SL_OK;
-    if (++me->account.tests % 64 == 0) SL_TRY(check_going_on(context, all));
+    if (++me->account.tests % 64 == 0) SL_TRY(sli_dfs_check_going_on(context, all));
 
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &me->search, directed->left, directed->right, &verdict));
@@ -314,6 +308,9 @@ static sl_status allocate(sl_context *context, sli_dfs *all) {
 }
 
 static sl_status prepare(sl_context *context, sli_dfs *all) {
+    // Portals that may lead to a mirror stay open: bounds of portals prune too little then to pay.
+    const sl_plan *plan = all->options->plan;
+    if (!all->known && plan && plan->effects & SL_EFFECT_MIRROR) all->prunes = false;
     all->words = sl_bits_words(all->space->cell_count);
     pthread_mutex_init(&all->lock, NULL);
     const sl_pvs *possible = all->known ? all->known->possible : NULL;
@@ -360,6 +357,7 @@ static sl_status hand_over(sl_context *context, sli_dfs *all, sl_partial *partia
     sl_status status = found.done ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = sli_pvs_join(context, all->sure, count, &found.sure);
     if (status == SL_OK) status = sli_pvs_join(context, all->doubtful, count, &found.doubtful);
+    if (status == SL_OK) status = sli_dfs_effects_hand_over(context, all, &found);
     if (status == SL_OK) {
         sli_partial_note_bytes(&found, all->done);
         status = sl_partial_merge(context, partial, &found);
@@ -382,8 +380,6 @@ static sl_status search_some(sl_context *context, sli_dfs *all, sl_partial *part
 static sl_status look(sl_context *context, sli_dfs *all, sl_partial *partial) {
     if (all->options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "a search done in parts makes no stab trees");
-    if (all->options->plan && all->options->plan->effects)
-        return sl_fail(context, SL_UNSUPPORTED, "a search done in parts knows no effects");
     const sl_status status = search_some(context, all, partial);
     tidy_up(context, all);
     return status;

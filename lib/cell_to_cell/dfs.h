@@ -5,6 +5,7 @@
 
 #include "cell_to_cell/bounds.h"
 #include "cell_to_cell/directions.h"
+#include "cell_to_cell/methods.h"
 #include "cell_to_cell/portal_search.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/cell_to_cell.h"
@@ -39,7 +40,7 @@ typedef struct sli_dfs_step {
     bool grazing;  ///< the sequence is no more than grazed
 } sli_dfs_step;
 
-/// What is known before a search with effects begins, without mirrors. Both have each cell with
+/// What is known of direct sight before a search with effects begins. Both have each cell with
 /// itself.
 typedef struct sli_dfs_known {
     const sl_pvs *possible; ///< no other pairs are seen
@@ -75,8 +76,8 @@ typedef struct sli_dfs_thread {
     struct sl_dfs_effects_thread *effects;
 } sli_dfs_thread;
 
-/// The depth-first search with effects, but mirrors, for the pairs that are possible and not
-/// certain.
+/// The depth-first search with effects, for the pairs that are possible and not certain, and for
+/// what is seen by mirror.
 sl_status sli_dfs_see_rest(sl_context *context, const sl_space *space,
                            const sl_see_options *options, const sli_dfs_known *known,
                            sl_visibility *out);
@@ -101,5 +102,16 @@ void sli_dfs_effects_end(sl_context *context, sli_dfs_thread *me);
 sl_status sli_dfs_effects_search(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
                                  uint32_t source);
 sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out);
+/// The same into partial results, for sli_dfs_effects_settle().
+sl_status sli_dfs_effects_hand_over(sl_context *context, sli_dfs *all, sl_partial *found);
+/// Adds to a visibility copies of what partial results have of effects.
+sl_status sli_dfs_effects_settle(sl_context *context, const sl_plan *plan,
+                                 const sl_partial *partial, sl_visibility *out);
+
+/// SL_CANCELLED if the search is to stop. It asks from time to time.
+static inline sl_status sli_dfs_check_going_on(sl_context *context, const sli_dfs *all) {
+    SL_TRY(sl_check_cancelled(context));
+    return all->before && sli_is_enough(all->options) ? SL_CANCELLED : SL_OK;
+}
 
 #endif

@@ -33,6 +33,7 @@ struct sl_dfs_effects {
     bool doors, mirrors, oneway;
     size_t door_words;
     sli_mirror_sides sides;
+    sl_bits *mirror_cells;                                         ///< cells with such sides
     sli_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
     pthread_mutex_t *lock; ///< the search's, over the sums below
     uint64_t fallbacks, door_steps, mirror_steps, glass_tests;
@@ -100,31 +101,49 @@ static bool is_in_range(const effects *all, thread *me, const void *solver) {
     return shortest <= range + error;
 }
 
-/// Whether anything is left to be found beyond a directed portal. That is a cell that the bounds of
-/// all directed portals on the way leave possible, and that no subset of the doors passed is known
-/// to join to the source.
-static sl_status want(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+/// Whether a set of wanted cells holds one of these.
+static bool wants_one_of(const sli_dfs_thread *me, const sli_prune_set *set, const sl_bits *cells) {
+    for (size_t i = set->begin; i < set->end; i++)
+        if (me->wanted.words.items[i].bits & cells[me->wanted.words.items[i].word]) return true;
+    return false;
+}
+
+/// Whether a set of wanted cells holds one that no subset of these doors is known to join to the
+/// source.
+static bool wants_unproved(const sli_dfs_thread *me, const sli_prune_set *set,
+                           const sli_door_table *table, const sl_bits *doors) {
+    for (size_t i = set->begin; i < set->end; i++) {
+        const sli_prune_word *at = &me->wanted.words.items[i];
+        if (at->bits & ~table->seen[at->word]) return true;
+    }
+    for (size_t i = set->begin; i < set->end; i++) {
+        const sli_prune_word *at = &me->wanted.words.items[i];
+        for (sl_bits open = at->bits & ~table->free[at->word]; open; open &= open - 1) {
+            const uint32_t cell = 64 * at->word + (uint32_t)__builtin_ctzll(open);
+            if (!sli_door_table_proves(table, cell, doors)) return true;
+        }
+    }
+    return false;
+}
+
+/// Whether anything is left to be found beyond a directed portal of a step. That is a cell that the
+/// bounds of all directed portals since the last mirror leave possible, and that is not known to be
+/// seen through the doors passed. Where sight may go on in one more mirror, a cell with a mirror is
+/// such a cell too.
+static sl_status want(sl_context *context, const sli_dfs *all, sli_dfs_thread *me, const step *from,
                       uint32_t directed, bool *something) {
     *something = true;
-    if (!all->prunes || all->effects->mirrors) return SL_OK;
+    if (!all->prunes) return SL_OK;
+    const effects *e = all->effects;
     const size_t depth = me->search.count;
     SL_TRY(sli_prune_step(context, &all->bounds, &me->wanted, depth, directed));
     const sli_prune_set *set = &me->wanted.sets.items[depth];
-    const sl_bits *doors = doors_at(all->effects, me->effects, depth);
-    const sli_door_table *table = &me->effects->direct;
-    *something = set->all;
-    for (size_t i = set->begin; i < set->end && !*something; i++) {
-        const sli_prune_word *at = &me->wanted.words.items[i];
-        *something = (at->bits & ~table->seen[at->word]) != 0;
-    }
-    for (size_t i = set->begin; i < set->end && !*something; i++) {
-        const sli_prune_word *at = &me->wanted.words.items[i];
-        for (sl_bits open = at->bits & ~table->free[at->word]; open && !*something;
-             open &= open - 1) {
-            const uint32_t cell = 64 * at->word + (uint32_t)__builtin_ctzll(open);
-            *something = !sli_door_table_proves(table, cell, doors);
-        }
-    }
+    if (set->all) return SL_OK;
+    const uint32_t reflections = from->place.frame.depth;
+    if (e->mirrors && reflections < e->plan->mirror_depth && wants_one_of(me, set, e->mirror_cells))
+        return SL_OK;
+    const sli_door_table *table = reflections ? &me->effects->mirrored : &me->effects->direct;
+    *something = wants_unproved(me, set, table, doors_at(e, me->effects, depth));
     return SL_OK;
 }
 
@@ -150,7 +169,7 @@ static sl_status enter(sl_context *context, const sli_dfs_job *job, const step *
     sli_dfs_thread *me = job->me;
     thread *e = me->effects;
     const uint32_t cell = to->dfs.at.cell;
-    if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    if (++me->account.tests % 64 == 0) SL_TRY(sli_dfs_check_going_on(context, all));
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
                                   &verdict));
@@ -204,7 +223,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, vo
     if (!may_cross(me, from, &to->place)) return SL_OK;
     SL_TRY(pass_doors(context, all->space, all->effects, e, directed->portal, me->search.count));
     bool something;
-    SL_TRY(want(context, all, me, number, &something));
+    SL_TRY(want(context, all, me, from, number, &something));
     return something ? enter(context, job, from, to, number) : SL_OK;
 }
 
@@ -227,14 +246,18 @@ static sl_status reflect(sl_context *context, void *visit, const void *last, voi
                            .mirror = side->mirror}};
     if (!may_cross(job->me, from, &to->place)) return SL_OK;
     SL_TRY(pass_doors(context, job->all->space, shared, e, UINT32_MAX, job->me->search.count));
+    // Behind the mirror another line goes on: bounds before it no longer hold.
+    if (job->all->prunes)
+        SL_TRY(sli_prune_step_anew(context, &job->me->wanted, job->me->search.count));
     return enter(context, job, from, to, SL_STAB_MIRROR + side->mirror);
 }
 
 // --- one source
 
-/// Whether pairs are found from the lower of their cells alone.
+/// Whether pairs are found from the lower of their cells alone. What is seen by mirror is found
+/// from both.
 static bool is_halved(const sli_dfs *all) {
-    return all->known && all->effects->plan->mutual;
+    return all->known && all->effects->plan->mutual && !all->effects->mirrors;
 }
 
 /// Sets what is wanted of a source: all cells, or those that it may see. Notes the cells that it
@@ -325,6 +348,15 @@ void sli_dfs_effects_end(sl_context *context, sli_dfs_thread *me) {
     me->effects = NULL;
 }
 
+static sl_status find_mirrors(sl_context *context, const sl_space *space, effects *e) {
+    SL_TRY(sli_mirror_sides_find(context, space, e->plan->map, &e->sides));
+    e->mirror_cells = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof(sl_bits));
+    if (!e->mirror_cells) return SL_NO_MEMORY;
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (e->sides.first[c] < e->sides.first[c + 1]) sl_bits_add(e->mirror_cells, c);
+    return SL_OK;
+}
+
 sl_status sli_dfs_effects_create(sl_context *context, sli_dfs *all) {
     const sl_plan *plan = all->options->plan;
     const uint32_t cells = all->space->cell_count;
@@ -341,7 +373,7 @@ sl_status sli_dfs_effects_create(sl_context *context, sli_dfs *all) {
     e->mirrored_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_rows);
     e->mirrored_door_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_door_rows);
     if (!e->door_rows || !e->mirrored_rows || !e->mirrored_door_rows) return SL_NO_MEMORY;
-    return e->mirrors ? sli_mirror_sides_find(context, all->space, plan->map, &e->sides) : SL_OK;
+    return e->mirrors ? find_mirrors(context, all->space, e) : SL_OK;
 }
 
 void sli_dfs_effects_destroy(sl_context *context, sli_dfs *all) {
@@ -354,6 +386,7 @@ void sli_dfs_effects_destroy(sl_context *context, sli_dfs *all) {
         sl_free(context, rows[i]);
     }
     sli_mirror_sides_destroy(context, &e->sides);
+    sl_free(context, e->mirror_cells);
     sl_free(context, e);
     all->effects = NULL;
 }
@@ -420,4 +453,52 @@ sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibilit
         out->account.mirrored_pairs += sl_pvs_count(&out->mirrored, i);
     if (!e->doors) return SL_OK;
     return join_doors(context, e->mirrored_door_rows, cells, &out->mirrored_doors);
+}
+
+// --- in parts
+
+sl_status sli_dfs_effects_hand_over(sl_context *context, sli_dfs *all, sl_partial *found) {
+    effects *e = all->effects;
+    const uint32_t cells = all->space->cell_count;
+    if (!e) return SL_OK;
+    found->effects = e->plan->effects;
+    found->mirror_depth = e->plan->mirror_depth;
+    found->door_limit = e->plan->door_limit;
+    found->rounded = e->rounded_places > 0;
+    if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &found->doors));
+    if (e->mirrors) SL_TRY(sli_pvs_join(context, e->mirrored_rows, cells, &found->mirrored));
+    if (!e->doors || !e->mirrors) return SL_OK;
+    return join_doors(context, e->mirrored_door_rows, cells, &found->mirrored_doors);
+}
+
+static sl_status copy_rows(sl_context *context, const sl_pvs *rows, sl_pvs *out) {
+    const uint32_t count = rows->cell_count;
+    if (!count) return SL_OK;
+    out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
+    out->bytes = sl_alloc(context, rows->offsets[count] + 1);
+    if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
+    memcpy(out->offsets, rows->offsets, ((size_t)count + 1) * sizeof *out->offsets);
+    if (rows->offsets[count]) memcpy(out->bytes, rows->bytes, rows->offsets[count]);
+    out->cell_count = count;
+    return SL_OK;
+}
+
+static sl_status copy_doors(sl_context *context, const sl_door_sets *sets, sl_door_sets *out) {
+    const sl_pvs rows = {sets->cell_count, sets->offsets, sets->bytes};
+    sl_pvs copy = {0};
+    const sl_status status = copy_rows(context, &rows, &copy);
+    *out = (sl_door_sets){copy.cell_count, copy.offsets, copy.bytes};
+    return status;
+}
+
+sl_status sli_dfs_effects_settle(sl_context *context, const sl_plan *plan,
+                                 const sl_partial *partial, sl_visibility *out) {
+    SL_TRY(copy_rows(context, &partial->mirrored, &out->mirrored));
+    SL_TRY(copy_doors(context, &partial->doors, &out->doors));
+    SL_TRY(copy_doors(context, &partial->mirrored_doors, &out->mirrored_doors));
+    // As of a search that is done in one go.
+    const bool has_doors = plan->effects & SL_EFFECT_DOOR;
+    if (partial->rounded && plan->mutual && !has_doors && out->mirrored.cell_count)
+        SL_TRY(add_ways_back(context, &out->mirrored));
+    return SL_OK;
 }

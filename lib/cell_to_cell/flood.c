@@ -1,8 +1,12 @@
-/// Two upper bounds on what is seen: by portals in pairs, and by the view range.
+/// Upper bounds on what is seen: by portals in pairs, by mirrors, and by the view range.
 ///
 /// Portals in pairs: from each directed portal on, through all portals that lie ahead of it, at
 /// least in part, and have some of it behind them, as Quake's vis does before it looks closer.
 /// Signs are exact, so that nothing is missed. Cost: cells times directed portals, at most.
+///
+/// Mirrors: a line is reflected in a cell with a mirror on its side, and is straight before and
+/// after. So a cell sees by mirror no more than what such cells see that it may see itself; with
+/// more reflections, what such cells see that these may see, and so on.
 ///
 /// The range: the nearest points of two convex cells that have none in common are a corner of one
 /// and a place on a side of the other. The farthest points are corners of both. Boxes are compared
@@ -13,6 +17,7 @@
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "effects/effects.h"
+#include "effects/mirrors.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 
@@ -149,6 +154,10 @@ sl_status sli_see_flood(sl_context *context, const sl_space *space, const sl_see
     all.one_way = all.space != space;
     sl_status status = flood_all(context, &all, &visibility);
     if (status == SL_OK) status = hold_against_range(context, &all, &visibility);
+    if (status == SL_OK && options->plan && options->plan->effects & SL_EFFECT_MIRROR) {
+        status = sli_mirrored_bound(context, space, options, &visibility.pvs, &visibility.mirrored);
+        visibility.account.mirrored_pairs = sl_pvs_pairs(&visibility.mirrored);
+    }
     sl_space_destroy(context, &open);
     sli_bit_rows_destroy(context, &all.rows);
     if (status == SL_OK)
@@ -253,6 +262,73 @@ sl_status sli_flood_bound(sl_context *context, const sl_space *space, const sl_s
         return pair_components(context, space, options, out);
     }
     if (status == SL_OK) *out = visibility.pvs;
+    return status;
+}
+
+// --- by mirrors
+
+typedef struct mirrored_bound {
+    const sl_pvs *direct;
+    sl_bits *mirrors; ///< cells with a mirror on a side
+    sl_bits *found;   ///< seen by mirror, or directly before the first reflection
+    sl_bits *before;  ///< those before the last reflection
+} mirrored_bound;
+
+/// Makes `found` the cells that are seen after one more reflection; adds them to the row. False if
+/// they are no other ones than before.
+static bool reflect(mirrored_bound *b, bool first, sli_word_set *row) {
+    const size_t words = sl_bits_words(b->direct->cell_count);
+    memcpy(b->before, b->found, words * sizeof *b->found);
+    if (first) memset(b->found, 0, words * sizeof *b->found);
+    for (size_t i = 0; i < words; i++)
+        for (sl_bits open = b->before[i] & b->mirrors[i]; open; open &= open - 1) {
+            const uint32_t cell = (uint32_t)(64 * i) + (uint32_t)__builtin_ctzll(open);
+            sli_row_add_to(b->direct, cell, b->found);
+            sli_word_set_add_row(row, b->direct, cell);
+        }
+    return memcmp(b->before, b->found, words * sizeof *b->found) != 0;
+}
+
+static sl_status make_mirrored_rows(sl_context *context, mirrored_bound *b, uint32_t depth,
+                                    sli_pvs_maker *maker, sl_pvs *out) {
+    const uint32_t count = b->direct->cell_count;
+    SL_TRY(sli_pvs_maker_create(context, count, count, maker));
+    for (uint32_t cell = 0; cell < count; cell++) {
+        memset(b->found, 0, sl_bits_words(count) * sizeof *b->found);
+        sli_row_add_to(b->direct, cell, b->found);
+        for (uint32_t i = 0; i < depth && reflect(b, i == 0, &maker->row); i++) {
+        }
+        SL_TRY(sli_pvs_maker_end_row(context, maker));
+        SL_TRY(sl_check_cancelled(context));
+    }
+    return sli_pvs_maker_finish(context, maker, out);
+}
+
+static sl_status bound_mirrored(sl_context *context, const sl_space *space, const sl_plan *plan,
+                                mirrored_bound *b, sl_pvs *out) {
+    const size_t words = sl_bits_words(space->cell_count);
+    sli_mirror_sides sides;
+    sli_pvs_maker maker = {0};
+    b->mirrors = sl_alloc_array(context, words, sizeof *b->mirrors);
+    b->found = sl_alloc_array(context, words, sizeof *b->found);
+    b->before = sl_alloc_array(context, words, sizeof *b->before);
+    if (!b->mirrors || !b->found || !b->before) return SL_NO_MEMORY;
+    SL_TRY(sli_mirror_sides_find(context, space, plan->map, &sides));
+    for (uint32_t cell = 0; cell < space->cell_count; cell++)
+        if (sides.first[cell] < sides.first[cell + 1]) sl_bits_add(b->mirrors, cell);
+    sli_mirror_sides_destroy(context, &sides);
+    const sl_status status = make_mirrored_rows(context, b, plan->mirror_depth, &maker, out);
+    sli_pvs_maker_destroy(context, &maker);
+    return status;
+}
+
+sl_status sli_mirrored_bound(sl_context *context, const sl_space *space,
+                             const sl_see_options *options, const sl_pvs *direct, sl_pvs *out) {
+    mirrored_bound b = {.direct = direct};
+    const sl_status status = bound_mirrored(context, space, options->plan, &b, out);
+    sl_free(context, b.mirrors);
+    sl_free(context, b.found);
+    sl_free(context, b.before);
     return status;
 }
 

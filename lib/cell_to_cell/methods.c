@@ -42,7 +42,7 @@ sl_status sli_plan_check_solver(sl_context *context, const sl_plan *plan, const 
 
 sl_status sl_see_check(sl_context *context, const sl_see_method *method, const sl_solver *solver,
                        const sl_map *map) {
-    SL_TRY(sl_effects_check(context, map, method->name, method->knows));
+    SL_TRY(sl_effects_check_because(context, map, method->name, method->knows, method->lacks));
     const sl_plan plan = sl_plan_make(map);
     return method->stabs ? sli_plan_check_solver(context, &plan, solver) : SL_OK;
 }
@@ -63,7 +63,7 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "a line turned about every corner of walls, by exact predicates: the fastest",
          .keeps_rows = true,
          .guarantee = SL_EXACT,
-         .knows = SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
+         .knows = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sli_see_sweep,
          .units = "corners",
          .run = sli_run_sweep,
@@ -84,18 +84,20 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .stabs = true,
          .guarantee = SL_EXACT,
          .keeps_rows = true,
+         .lacks = "in each sector of directions it takes pairs both ways, straight on and however "
+                  "far apart",
          .see = sli_see_multipass},
         {.name = "flood",
          .what = "all that portals in pairs leave possible",
          .keeps_rows = true,
          .guarantee = SL_CONSERVATIVE,
-         .knows = SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
+         .knows = SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sli_see_flood},
         {.name = "sampling",
          .what = "random lines from each cell",
          .keeps_rows = true,
          .guarantee = SL_AGGRESSIVE,
-         .knows = SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
+         .knows = SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sli_see_sampling},
     };
     *count = sizeof methods / sizeof *methods;
@@ -111,7 +113,6 @@ const sl_see_method *sl_see_method_named(const char *name) {
 }
 
 const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options) {
-    if (options->trees || options->solver) return sl_see_method_named("dfs");
-    const sl_see_method *sweep = sl_see_method_named("sweep");
-    return sl_plan_make(map).effects & ~sweep->knows ? sl_see_method_named("prune") : sweep;
+    (void)map; // the sweep knows all effects
+    return sl_see_method_named(options->trees || options->solver ? "dfs" : "sweep");
 }

@@ -6,16 +6,23 @@
 /// A partial result can be finished before all units are done. Pairs that a missing unit could add
 /// then count as seen if an upper bound (flood.c) leaves them possible. So the result is
 /// conservative. An exact search finds a pair from either of its cells, "prune" from the lower one.
-/// A rounded search may find it from one and not from the other, so that it needs both.
+/// A rounded search may find it from one and not from the other, so that it needs both. With
+/// effects each source has rows of its own: what it sees, by mirror too, and through which doors.
 #include "cell_to_cell/methods.h"
 
 #include "cell_to_cell/bounds.h"
+#include "cell_to_cell/dfs.h"
 #include "cell_to_cell/pvs_rows.h"
+
+#include <string.h>
 
 void sl_partial_destroy(sl_context *context, sl_partial *partial) {
     sl_free(context, partial->done);
     sl_pvs_destroy(context, &partial->sure);
     sl_pvs_destroy(context, &partial->doubtful);
+    sl_pvs_destroy(context, &partial->mirrored);
+    sl_door_sets_destroy(context, &partial->doors);
+    sl_door_sets_destroy(context, &partial->mirrored_doors);
     *partial = (sl_partial){0};
 }
 
@@ -41,9 +48,30 @@ static sl_status make_empty_rows(sl_context *context, uint32_t count, sl_pvs *pv
     return pvs->offsets && pvs->bytes ? SL_OK : SL_NO_MEMORY;
 }
 
+static sl_status make_empty_doors(sl_context *context, uint32_t count, sl_door_sets *sets) {
+    sl_pvs rows = {0};
+    const sl_status status = make_empty_rows(context, count, &rows);
+    *sets = (sl_door_sets){rows.cell_count, rows.offsets, rows.bytes};
+    return status;
+}
+
+static sl_status make_empty_effects(sl_context *context, uint32_t count, sl_partial *partial) {
+    const bool doors = partial->effects & SL_EFFECT_DOOR;
+    const bool mirrors = partial->effects & SL_EFFECT_MIRROR;
+    if (doors) SL_TRY(make_empty_doors(context, count, &partial->doors));
+    if (mirrors) SL_TRY(make_empty_rows(context, count, &partial->mirrored));
+    return doors && mirrors ? make_empty_doors(context, count, &partial->mirrored_doors) : SL_OK;
+}
+
+static bool same_options(const sl_partial *a, const sl_partial *b) {
+    return a->inside_only == b->inside_only && a->effects == b->effects &&
+           a->mirror_depth == b->mirror_depth && a->door_limit == b->door_limit;
+}
+
 static sl_status make_empty(sl_context *context, uint32_t cell_count, sl_partial *partial) {
     SL_TRY(make_empty_rows(context, cell_count, &partial->sure));
     SL_TRY(make_empty_rows(context, cell_count, &partial->doubtful));
+    SL_TRY(make_empty_effects(context, cell_count, partial));
     partial->done =
         sl_alloc_array(context, sl_bits_words(partial->unit_count), sizeof *partial->done);
     return partial->done ? SL_OK : SL_NO_MEMORY;
@@ -56,18 +84,18 @@ sl_status sli_partial_begin(sl_context *context, const sl_space *space,
                              : options->shard)
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no shard %u of %u", options->shard,
                        options->shard_count);
-    if (options->plan && options->plan->effects)
-        return sl_fail(
-            context, SL_UNSUPPORTED,
-            "a map with effects cannot be baked in parts: ignore the effects (--without), or "
-            "bake it as a whole");
+    sl_partial empty = {.unit_count = unit_count, .inside_only = options->inside_only};
+    if (options->plan && options->plan->effects) {
+        empty.effects = options->plan->effects;
+        empty.mirror_depth = options->plan->mirror_depth;
+        empty.door_limit = options->plan->door_limit;
+    }
     if (sl_partial_begun(partial)) {
         if (partial->sure.cell_count != space->cell_count || partial->unit_count != unit_count ||
-            partial->inside_only != options->inside_only)
+            !same_options(partial, &empty))
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "partial results of another space or other options");
     } else {
-        sl_partial empty = {.unit_count = unit_count, .inside_only = options->inside_only};
         const sl_status status = make_empty(context, space->cell_count, &empty);
         if (status != SL_OK) {
             sl_partial_destroy(context, &empty);
@@ -118,24 +146,62 @@ static sl_status join_rows(sl_context *context, const sl_pvs *a, const sl_pvs *b
     return status;
 }
 
+/// A row that one of the two has is the row of both.
+static sl_status join_doors(sl_context *context, const sl_door_sets *a, const sl_door_sets *b,
+                            sl_door_sets *out) {
+    const uint32_t count = a->cell_count;
+    if (!count) return SL_OK;
+    out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
+    out->bytes = sl_alloc(context, sl_door_sets_bytes(a) + sl_door_sets_bytes(b) + 1);
+    if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
+    out->cell_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_door_sets *from = a->offsets[i] < a->offsets[i + 1] ? a : b;
+        const uint64_t bytes = from->offsets[i + 1] - from->offsets[i];
+        if (bytes) memcpy(out->bytes + out->offsets[i], from->bytes + from->offsets[i], bytes);
+        out->offsets[i + 1] = out->offsets[i] + bytes;
+    }
+    return SL_OK;
+}
+
+/// Joins the rows of both into `out`, which has none.
+static sl_status join_all(sl_context *context, const sl_partial *a, const sl_partial *b,
+                          sl_partial *out) {
+    SL_TRY(join_rows(context, &a->sure, &b->sure, &out->sure));
+    SL_TRY(join_rows(context, &a->doubtful, &b->doubtful, &out->doubtful));
+    if (a->mirrored.cell_count)
+        SL_TRY(join_rows(context, &a->mirrored, &b->mirrored, &out->mirrored));
+    SL_TRY(join_doors(context, &a->doors, &b->doors, &out->doors));
+    return join_doors(context, &a->mirrored_doors, &b->mirrored_doors, &out->mirrored_doors);
+}
+
 sl_status sl_partial_merge(sl_context *context, sl_partial *partial, const sl_partial *other) {
     if (partial->sure.cell_count != other->sure.cell_count ||
-        partial->unit_count != other->unit_count || partial->inside_only != other->inside_only)
+        partial->unit_count != other->unit_count || !same_options(partial, other))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "partial results of another space or other options");
-    sl_pvs sure = {0}, doubtful = {0};
-    sl_status status = join_rows(context, &partial->sure, &other->sure, &sure);
-    if (status == SL_OK)
-        status = join_rows(context, &partial->doubtful, &other->doubtful, &doubtful);
+    sl_partial joined = {0};
+    const sl_status status = join_all(context, partial, other, &joined);
     if (status != SL_OK) {
-        sl_pvs_destroy(context, &sure);
+        sl_partial_destroy(context, &joined);
         return status;
     }
-    sl_pvs_destroy(context, &partial->sure);
-    sl_pvs_destroy(context, &partial->doubtful);
-    partial->sure = sure;
-    partial->doubtful = doubtful;
     note_done(partial, other->done);
+    const sl_partial before = *partial;
+    *partial = joined;
+    partial->unit_count = before.unit_count;
+    partial->done_count = before.done_count;
+    partial->done = before.done;
+    partial->inside_only = before.inside_only;
+    partial->shard = before.shard;
+    partial->shard_count = before.shard_count;
+    partial->effects = before.effects;
+    partial->mirror_depth = before.mirror_depth;
+    partial->door_limit = before.door_limit;
+    partial->rounded = before.rounded || other->rounded;
+    sl_partial rows = before;
+    rows.done = NULL;
+    sl_partial_destroy(context, &rows);
     return SL_OK;
 }
 
@@ -156,7 +222,7 @@ sl_status sli_bit_rows_add_pvs(sl_context *context, sli_bit_rows *rows, const sl
 // --- what a search found becomes a result
 
 /// From which of its cells a pair is decided.
-typedef enum deciding { FROM_EITHER, FROM_LOWER, FROM_BOTH } deciding;
+typedef enum deciding { FROM_EITHER, FROM_LOWER, FROM_FIRST, FROM_BOTH } deciding;
 
 typedef struct missing {
     const sl_partial *partial;
@@ -170,6 +236,8 @@ static bool is_open(const missing *m, uint32_t a, uint32_t b) {
         return !has_a && !has_b;
     case FROM_LOWER:
         return a < b ? !has_a : !has_b;
+    case FROM_FIRST:
+        return !has_a;
     case FROM_BOTH:
         break;
     }
@@ -191,41 +259,77 @@ static sl_status make_open_rows(sl_context *context, const missing *m, const sl_
 }
 
 /// Adds the open pairs that the bound leaves possible.
-static sl_status add_open(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          const missing *m, sl_visibility *out) {
-    sl_pvs bound = {0}, rows = {0};
+static sl_status add_open(sl_context *context, const missing *m, const sl_pvs *bound,
+                          sl_visibility *out) {
+    sl_pvs rows = {0};
     sli_pvs_maker maker = {0};
-    bool bounded;
-    sl_status status = sli_flood_bound(context, space, options, &bound, &bounded);
-    if (status == SL_OK) status = make_open_rows(context, m, &out->pvs, &bound, &maker, &rows);
+    const sl_status status = make_open_rows(context, m, &out->pvs, bound, &maker, &rows);
     if (status == SL_OK) {
         sl_pvs_destroy(context, &out->pvs);
         out->pvs = rows;
         out->account.pairs = maker.pairs;
     }
     sli_pvs_maker_destroy(context, &maker);
+    return status;
+}
+
+/// Adds to what is seen by mirror what the bound leaves possible for cells that are not done.
+static sl_status add_open_mirrored(sl_context *context, const sl_space *space,
+                                   const sl_see_options *options, const missing *m,
+                                   const sl_pvs *bound, sl_visibility *out) {
+    sl_pvs mirrored = {0}, rows = {0};
+    sli_pvs_maker maker = {0};
+    missing by_mirror = *m;
+    by_mirror.deciding = FROM_FIRST;
+    if (!out->mirrored.cell_count) return SL_OK;
+    sl_status status = sli_mirrored_bound(context, space, options, bound, &mirrored);
+    if (status == SL_OK)
+        status = make_open_rows(context, &by_mirror, &out->mirrored, &mirrored, &maker, &rows);
+    if (status == SL_OK) {
+        sl_pvs_destroy(context, &out->mirrored);
+        out->mirrored = rows;
+    }
+    sli_pvs_maker_destroy(context, &maker);
+    sl_pvs_destroy(context, &mirrored);
+    return status;
+}
+
+static sl_status finish_open(sl_context *context, const sl_space *space,
+                             const sl_see_options *options, const missing *m, sl_visibility *out) {
+    sl_pvs bound = {0};
+    bool bounded;
+    if (out->guarantee == SL_EXACT) out->guarantee = SL_CONSERVATIVE;
+    SL_TRY(sli_flood_bound(context, space, options, &bound, &bounded));
+    sl_status status = add_open(context, m, &bound, out);
+    if (status == SL_OK) status = add_open_mirrored(context, space, options, m, &bound, out);
     sl_pvs_destroy(context, &bound);
     return status;
+}
+
+static deciding deciding_of(const sl_see_options *options, bool prunes) {
+    const sl_plan *plan = options->plan;
+    if (options->solver->guarantee != SL_EXACT) return FROM_BOTH;
+    if (plan && plan->effects) return plan->mutual ? FROM_EITHER : FROM_FIRST;
+    return prunes ? FROM_LOWER : FROM_EITHER;
 }
 
 static sl_status finish(sl_context *context, const sl_space *space, const sl_see_options *options,
                         const sl_partial *partial, bool prunes, sl_visibility *out) {
     if (!options->solver) return sl_fail(context, SL_BAD_ARGUMENT, "the searches need a solver");
-    const sl_guarantee guarantee = options->solver->guarantee;
-    if (partial->unit_count != space->cell_count || partial->sure.cell_count != space->cell_count)
+    const sl_plan *plan = options->plan;
+    if (partial->unit_count != space->cell_count || partial->sure.cell_count != space->cell_count ||
+        partial->effects != (plan ? plan->effects : 0))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "partial results of another space or other options");
-    sl_visibility visibility = {.sight = options->sight, .guarantee = guarantee};
-    const missing m = {.partial = partial,
-                       .deciding = guarantee != SL_EXACT ? FROM_BOTH
-                                   : prunes              ? FROM_LOWER
-                                                         : FROM_EITHER};
-    sl_status status =
-        sli_visibility_finish(context, &partial->sure, &partial->doubtful, true, &visibility);
-    if (status == SL_OK && !sl_partial_complete(partial)) {
-        if (guarantee == SL_EXACT) visibility.guarantee = SL_CONSERVATIVE;
-        status = add_open(context, space, options, &m, &visibility);
-    }
+    sl_visibility visibility = {.sight = options->sight, .guarantee = options->solver->guarantee};
+    const missing m = {.partial = partial, .deciding = deciding_of(options, prunes)};
+    sl_status status = sli_visibility_finish(context, &partial->sure, &partial->doubtful,
+                                             !plan || plan->mutual, &visibility);
+    if (status == SL_OK && partial->effects)
+        status = sli_dfs_effects_settle(context, plan, partial, &visibility);
+    if (status == SL_OK && !sl_partial_complete(partial))
+        status = finish_open(context, space, options, &m, &visibility);
+    visibility.account.mirrored_pairs = sl_pvs_pairs(&visibility.mirrored);
     if (status == SL_OK)
         *out = visibility;
     else

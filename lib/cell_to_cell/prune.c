@@ -183,6 +183,15 @@ sl_status sli_prune_step(sl_context *context, const sli_prune_bounds *bounds,
     return SL_OK;
 }
 
+sl_status sli_prune_step_anew(sl_context *context, sli_prune_wanted *wanted, size_t step) {
+    wanted->sets.count = step;
+    SL_TRY(SL_ARRAY_ROOM(context, &wanted->sets, 1));
+    const size_t top = wanted->sets.items[step - 1].top;
+    wanted->sets.items[wanted->sets.count++] =
+        (sli_prune_set){.begin = top, .end = top, .top = top, .all = true};
+    return SL_OK;
+}
+
 /// Takes the words of the set before that the row has too.
 static void take_from_row(const sli_sparse_row *row, const sli_prune_set *before,
                           sli_prune_wanted *wanted, sli_prune_set *set) {

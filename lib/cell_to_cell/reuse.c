@@ -193,6 +193,8 @@ static sl_status check_same_question(sl_context *context, const sl_space *before
     if (!method->reuse || wanted != SL_EXACT)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "only what an exact method looks for can be taken over");
+    if (options->plan && options->plan->effects)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the map has effects");
     if (seen->guarantee != SL_EXACT)
         return sl_fail(context, SL_BAD_ARGUMENT, "it is not exact, but %s",
                        sl_guarantee_name(seen->guarantee));

@@ -224,7 +224,7 @@ static sl_status check_options(sl_context *context, const sl_see_options *option
 sl_status sli_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                         sl_visibility *out) {
     SL_TRY(check_options(context, options));
-    if (options->plan && options->plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE))
+    if (options->plan && options->plan->effects & ~(unsigned)SL_EFFECT_ONEWAY)
         return sli_see_sweep_finished(context, space, options, out);
     if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
         return sli_see_sweep_one_way(context, space, options, out);
@@ -257,7 +257,7 @@ sl_status sli_run_sweep(sl_context *context, const sl_space *space, const sl_see
     if (options->plan && options->plan->effects)
         return sl_fail(
             context, SL_UNSUPPORTED,
-            "the sweep knows no effects when it works in parts: bake the map as a whole");
+            "the sweep knows no effects when it works in parts: take the method 'prune'");
     sli_sweep all = {.space = space, .options = options};
     pthread_mutex_init(&all.lock, NULL);
     const sl_status status = sweep_some(context, &all, partial);

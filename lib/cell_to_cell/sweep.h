@@ -89,7 +89,7 @@ sl_status sli_sweep_see(sl_context *context, const sl_space *space, const sl_see
 sl_status sli_see_sweep_one_way(sl_context *context, const sl_space *space,
                                 const sl_see_options *options, sl_visibility *out);
 
-/// The sweep where the map has doors or a view range (sweep_effects.c).
+/// The sweep where the map has doors, mirrors or a view range (sweep_effects.c).
 sl_status sli_see_sweep_finished(sl_context *context, const sl_space *space,
                                  const sl_see_options *options, sl_visibility *out);
 

@@ -1,10 +1,16 @@
-/// The sweep for maps with doors or a view range: it decides most pairs, and a search the rest.
+/// The sweep for maps with doors, mirrors or a view range: it decides most pairs, a search the
+/// rest.
 ///
 /// With all doors open the sweep sees every pair that can be seen at all. With all doors shut it
 /// sees the pairs that need no door. Cells whose nearest points are beyond the range do not see
 /// each other. Cells whose farthest points are within it need no test of the range. The depth-first
 /// search is left the pairs that are possible and not certain. It goes only where such a pair is
 /// left.
+///
+/// What is seen by mirror is left to the search too. From a cell it goes only where the sweep has
+/// seen a cell with a mirror on its side. Behind the mirror a line is straight again. So each cell
+/// that it enters has seen, by the sweep, all cells that it still comes to: the search goes only
+/// where such a cell is not known yet.
 #include "cell_to_cell/sweep.h"
 
 #include "cell_to_cell/dfs.h"
@@ -29,12 +35,23 @@ static sl_status see_shut(sl_context *context, const sl_space *space, const sl_s
 }
 
 static sl_status narrow(sl_context *context, const sl_space *space, double range, sli_apart most,
-                        sl_visibility *visibility) {
+                        sl_pvs *pvs) {
     sl_pvs within;
-    SL_TRY(sli_pvs_within(context, space, &visibility->pvs, range, most, &within));
-    sl_pvs_destroy(context, &visibility->pvs);
-    visibility->pvs = within;
+    SL_TRY(sli_pvs_within(context, space, pvs, range, most, &within));
+    sl_pvs_destroy(context, pvs);
+    *pvs = within;
     return SL_OK;
+}
+
+/// The pairs that are seen whatever doors are shut: into `shut`, from those with all doors open.
+static sl_status find_certain(sl_context *context, const sl_space *space,
+                              const sl_see_options *options, const sl_plan *plan,
+                              const sl_visibility *open, sl_visibility *shut) {
+    const double range = plan->range;
+    if (!(plan->effects & SL_EFFECT_DOOR))
+        return sli_pvs_within(context, space, &open->pvs, range, SLI_ALL_WITHIN, &shut->pvs);
+    SL_TRY(see_shut(context, space, options, plan->map->door_count, shut));
+    return range > 0 ? narrow(context, space, range, SLI_ALL_WITHIN, &shut->pvs) : SL_OK;
 }
 
 static sl_status see_all(sl_context *context, const sl_space *space, const sl_see_options *options,
@@ -46,14 +63,13 @@ static sl_status see_all(sl_context *context, const sl_space *space, const sl_se
     sl_see_options swept = *options, searched = *options;
     swept.plan = &ways;
     searched.solver = sl_funnel();
-    const size_t doors = plan->effects & SL_EFFECT_DOOR ? plan->map->door_count : 0;
     SL_TRY(sli_see_sweep(context, space, &swept, open));
-    SL_TRY(see_shut(context, space, &swept, doors, shut));
-    if (plan->range > 0) {
-        SL_TRY(narrow(context, space, plan->range, SLI_SOME_WITHIN, open));
-        SL_TRY(narrow(context, space, plan->range, SLI_ALL_WITHIN, shut));
-    }
-    const sli_dfs_known known = {.possible = &open->pvs, .certain = &shut->pvs};
+    // With mirrors alone the sweep has decided all that is seen directly.
+    const bool mirrors_alone = !(plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE));
+    if (!mirrors_alone) SL_TRY(find_certain(context, space, &swept, plan, open, shut));
+    if (plan->range > 0) SL_TRY(narrow(context, space, plan->range, SLI_SOME_WITHIN, &open->pvs));
+    const sli_dfs_known known = {.possible = &open->pvs,
+                                 .certain = mirrors_alone ? &open->pvs : &shut->pvs};
     SL_TRY(sli_dfs_see_rest(context, space, &searched, &known, out));
     out->account.glass_tests += open->account.glass_tests + shut->account.glass_tests;
     out->account.pieces = open->account.pieces + shut->account.pieces;

@@ -141,6 +141,31 @@ sl_plan sl_plan_make(const sl_map *map) {
     return plan;
 }
 
+static bool same_segment(sl_segment a, sl_segment b) {
+    return a.a.x == b.a.x && a.a.y == b.a.y && a.b.x == b.b.x && a.b.y == b.b.y;
+}
+
+static bool same_door(const sl_door *a, const sl_door *b) {
+    return strcmp(a->name, b->name) == 0 && same_segment(a->segment, b->segment);
+}
+
+static bool same_glass(const sl_glass *a, const sl_glass *b, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (a[i].one_sided != b[i].one_sided || !same_segment(a[i].segment, b[i].segment))
+            return false;
+    return true;
+}
+
+bool sl_effects_same(const sl_map *a, const sl_map *b) {
+    if (a->range != b->range || a->door_count != b->door_count ||
+        a->mirror_count != b->mirror_count || a->oneway_count != b->oneway_count)
+        return false;
+    for (size_t i = 0; i < a->door_count; i++)
+        if (!same_door(&a->doors[i], &b->doors[i])) return false;
+    return same_glass(a->mirrors, b->mirrors, a->mirror_count) &&
+           same_glass(a->oneways, b->oneways, a->oneway_count);
+}
+
 void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects) {
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         if (!calls_for(map, effects, i)) continue;

@@ -163,6 +163,7 @@ static const sl_map_format map_formats[] = {
 static const sl_export_format export_formats[] = {
     {.name = "png",
      .what = "the matrix of pairs as a picture, black where row sees column",
+     .shows_mirrors = true,
      .write = sl_export_png},
     {.name = "reject",
      .what = "a copy of a Doom WAD with a new REJECT for the map; needs --wad and --map",

@@ -43,6 +43,9 @@ def rows():
     """What is run: a name, the arguments, and what is given besides where there are boxes."""
     for method in METHODS:
         yield f"bake --method {method}", ["bake", "MAP", "-o", "out.slv", "--method", method], None
+    yield "bake --time-limit", ["bake", "MAP", "-o", "out.slv", "--time-limit", "1e-9"], None
+    yield "bake --shard", ["bake", "MAP", "-o", "out.slv", "--shard", "1/2"], None
+    yield "bake --previous", ["bake", "MAP", "-o", "out.slv", "--previous", "SLV"], None
     yield "info", ["info", "SLV"], None
     yield "eye", ["eye", "SLV", "--at", "5,5", "--json", "-o", "out.png"], ["--object", "crate,block"]
     yield "isovist", ["isovist", "MAP", "--at", "5,5", "--picture", "out.png"], None
@@ -120,8 +123,9 @@ def reason_of(message):
 
 def notes_of(text):
     """What is noted of effects that are taken in part."""
+    text = re.sub(r"taken over from \S+:", "taken over:", text)
     return re.findall(r"^note: (doors stand as the map has them|mirrors are walls here.*"
-                      r"|one-way glass is open.*|the walk's own methods.*)", text, re.M)
+                      r"|one-way glass is open.*|nothing is taken over: the map has effects|the walk's own methods.*)", text, re.M)
 
 
 class Effects(unittest.TestCase):

@@ -13,8 +13,11 @@ import json
 import math
 import pathlib
 import random
+import re
+import struct
 import sys
 import warnings
+import zlib
 
 import sandbox
 
@@ -28,8 +31,8 @@ KINDS = ["maze --size 6", "office --size 1", "city --size 2", "pillars --size 4"
          "maze --size 5 --turned 17.3", "office --size 1 --turned 33",
          "pillars --size 3 --turned-exact 30"]
 OPTIONS = ["", "--subdivide mesh", "--sight open", "--subdivide kd", "--method dfs", "--method prune",
-           "--method multipass --without mirror", "--method flood --without mirror",
-           "--method sampling --without mirror,oneway", "--subdivide given", "--inside",
+           "--method multipass --without mirror,oneway,range", "--method flood",
+           "--method sampling", "--subdivide given", "--inside",
            "--without mirror,door,oneway,range", "--mirror-depth 2", "--stab-trees --without mirror",
            "--subdivide mesh --sight open --method dfs", "--door-sets 1", "--weld 0.01",
            "--kd-rules median"]
@@ -96,6 +99,21 @@ def check_level(level):
     assert all(number < len(level["mirrors"]) for number in level.get("one_sided_mirrors", []))
 
 
+def read_grey(data):
+    """The bits of a pixel and the rows of a grey PNG, whose lines have no filters."""
+    width, height, depth = struct.unpack(">IIB", data[16:25])
+    packed, at = b"", 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += size + 12
+    line = 1 + (width * depth + 7) // 8
+    lines = zlib.decompress(packed)
+    assert not any(lines[::line])
+    return depth, [[lines[y * line + 1 + x * depth // 8] >> 8 - depth - x * depth % 8
+                    & 2 ** depth - 1 for x in range(width)] for y in range(height)]
+
+
 class Exports:
     def __init__(self, box, validator):
         self.box, self.validator = box, validator
@@ -110,6 +128,30 @@ class Exports:
     def export(self, *options):
         return json.loads(self.run("export", "m.slv", "-q", *options),
                           parse_constant=check_geojson.refuse)
+
+    def check_pairs(self, level):
+        """CSV, C and PNG say of each pair what JSON says, with mirrors too."""
+        count = range(len(level["cells"]))
+        mirrors = "mirrors" in level
+        seen = [set(row) for row in level["pvs"]]
+        mirrored = [set(row) for row in level["mirrored"]] if mirrors else [set() for _ in count]
+        head, *lines = self.run("export", "m.slv", "--format", "csv", "-q").splitlines()
+        assert head == ("from,to,direct,mirrored" if mirrors else "from,to")
+        more = ",{:d},{:d}" if mirrors else ""
+        assert lines == [f"{a},{b}" + more.format(b in seen[a], b in mirrored[a])
+                         for a in count for b in sorted(seen[a] | mirrored[a])]
+        header = self.run("export", "m.slv", "--format", "c", "-q")
+        for name, rows in [("seen", seen)] + [("mirrored", mirrored)] * mirrors:
+            table = re.search(rf"visible_{name}\[\d+\]\[\d+\] = {{\n(.*?)\n}};", header, re.S)
+            found = [re.findall(r"\d+", line) for line in table.group(1).splitlines()]
+            assert [{b for b in count if int(row[b // 8]) >> b % 8 & 1} for row in found] == rows
+        assert ("VISIBLE_MIRRORS" in header) == mirrors
+        self.run("export", "m.slv", "--format", "png", "-q", "-o", "m.png")
+        depth, pixels = read_grey(self.box.path("m.png").read_bytes())
+        assert depth == (2 if mirrors else 1)
+        known = {(False, False): 3, (False, True): 2, (True, True): 1, (True, False): 0}
+        assert pixels == [[known[b in seen[a], b in mirrored[a]] & (2 ** depth - 1) for b in count]
+                          for a in count]
 
     def check(self, source, options):
         """Bakes a map and checks all of its exports. False where `bake` refuses the options."""
@@ -126,9 +168,7 @@ class Exports:
         assert not check_geojson.faults(places), check_geojson.faults(places)[0]
         kinds = collections.Counter(f["properties"]["kind"] for f in places["features"])
         assert kinds["cell"] == len(level["cells"]) and kinds["portal"] == len(level["portals"])
-        if "mirrors" not in level:
-            pairs = self.run("export", "m.slv", "--format", "csv", "-q").splitlines()[1:]
-            assert pairs == [f"{a},{b}" for a, row in enumerate(level["pvs"]) for b in row]
+        self.check_pairs(level)
         self.done += 1
         return True
 

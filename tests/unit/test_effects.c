@@ -95,8 +95,39 @@ static void compare(const trial *t, const oracle_ways *ways, sl_guarantee guaran
         }
 }
 
+static void assert_same_doors(const sl_door_sets *doors, const sl_door_sets *same) {
+    const uint32_t n = doors->cell_count;
+    assert_int_equal(n, same->cell_count);
+    if (!n) return;
+    assert_memory_equal(doors->offsets, same->offsets, (n + 1) * sizeof *doors->offsets);
+    if (doors->offsets[n]) assert_memory_equal(doors->bytes, same->bytes, doors->offsets[n]);
+}
+
+/// The exact methods find the same, to the last byte.
+static void compare_methods(const trial *t, const sl_visibility *by_dfs) {
+    const char *const names[] = {"sweep", "prune"};
+    const uint32_t n = t->space.cell_count;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        sl_visibility other = {0};
+        see(t->context, &t->space, &t->plan, names[i], by_dfs->sight, &other);
+        for (uint32_t a = 0; a < n; a++)
+            for (uint32_t b = 0; b < n; b++)
+                if (sl_pvs_sees(&by_dfs->pvs, a, b) != sl_pvs_sees(&other.pvs, a, b)) {
+                    sl_map_write_text(t->context, &t->map, "-");
+                    fail_msg("seed %llu, %s, %s: cells %u and %u", (unsigned long long)t->seed,
+                             names[i], by_dfs->sight == SL_OPEN ? "open" : "closed", a, b);
+                }
+        assert_int_equal(by_dfs->account.pairs, other.account.pairs);
+        assert_same_doors(&by_dfs->doors, &other.doors);
+        assert_true(testing_same_rows(&by_dfs->mirrored, &other.mirrored));
+        assert_same_doors(&by_dfs->mirrored_doors, &other.mirrored_doors);
+        sl_visibility_destroy(t->context, &other);
+    }
+}
+
 /// False where the map is too much for the oracle.
-static bool try_map(uint64_t seed, unsigned effects, sl_sight sight) {
+/// `sampled`: counts pairs that random lines found by mirror.
+static bool try_map(uint64_t seed, unsigned effects, sl_sight sight, uint64_t *sampled) {
     trial t;
     oracle_ways ways;
     begin(&t, seed, effects);
@@ -111,6 +142,8 @@ static bool try_map(uint64_t seed, unsigned effects, sl_sight sight) {
         sl_visibility v = {0};
         see(t.context, &t.space, &t.plan, all[which].name, sight, &v);
         assert_int_equal(v.account.door_fallbacks, 0);
+        if (strcmp(all[which].name, "dfs") == 0) compare_methods(&t, &v);
+        if (all[which].guarantee == SL_AGGRESSIVE) *sampled += v.account.mirrored_pairs;
         for (uint32_t shut = 0; shut < (effects & SL_EFFECT_DOOR ? 8u : 1u); shut++) {
             compare(&t, &ways, all[which].guarantee, &v.pvs, &v.doors, false, shut, truths);
             compare(&t, &ways, all[which].guarantee, &v.mirrored, &v.mirrored_doors, true, shut,
@@ -126,15 +159,17 @@ static bool try_map(uint64_t seed, unsigned effects, sl_sight sight) {
 
 static void random_maps(void **state) {
     (void)state;
-    uint64_t done = 0;
+    uint64_t done = 0, sampled = 0;
     const uint64_t maps = testing_seeds(MAPS);
     for (uint64_t i = 0; i < maps; i++)
-        done += try_map(i + 1, (unsigned)(i % 16), i / 16 % 2 ? SL_OPEN : SL_CLOSED);
+        done += try_map(i + 1, (unsigned)(i % 16), i / 16 % 2 ? SL_OPEN : SL_CLOSED, &sampled);
+    assert_true(sampled > maps);
     // Once more those that more methods know.
     for (uint64_t i = 0; i < maps; i++) {
         const unsigned effects[] = {SL_EFFECT_ONEWAY, SL_EFFECT_RANGE,
-                                    SL_EFFECT_ONEWAY | SL_EFFECT_RANGE};
-        done += try_map(i + 1, effects[i % 3], i / 3 % 2 ? SL_OPEN : SL_CLOSED);
+                                    SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
+                                    SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY};
+        done += try_map(i + 1, effects[i % 4], i / 4 % 2 ? SL_OPEN : SL_CLOSED, &sampled);
     }
     assert_true(done > maps);
 }
@@ -154,6 +189,12 @@ static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
         const sl_point a = draw_place(&random, grid), b = draw_place(&random, grid);
         if (a.x == b.x && a.y == b.y) continue;
         char name[] = {(char)('a' + i), 0};
+        const bool mirror = seed % 4 == 0 && i < 2;
+        if (mirror) {
+            status = sl_map_add_mirror(t->context, &t->map, (sl_segment){a, b}, 0);
+            if (status == SL_OK) t->map.mirrors[t->map.mirror_count - 1].one_sided = i == 1;
+        }
+        if (mirror) continue;
         if (sl_random_below(&random, 2))
             status = sl_map_add_oneway(t->context, &t->map, (sl_segment){a, b}, 0);
         else
@@ -164,33 +205,6 @@ static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
     if (status == SL_OK) status = sl_subdivide_mesh(t->context, &t->map, &t->space);
     t->plan = sl_plan_make(&t->map);
     return status == SL_OK;
-}
-
-static void assert_same_doors(const sl_door_sets *doors, const sl_door_sets *same) {
-    const uint32_t n = doors->cell_count;
-    assert_int_equal(n, same->cell_count);
-    if (!n) return;
-    assert_memory_equal(doors->offsets, same->offsets, (n + 1) * sizeof *doors->offsets);
-    if (doors->offsets[n]) assert_memory_equal(doors->bytes, same->bytes, doors->offsets[n]);
-}
-
-static void compare_methods(const trial *t, const sl_visibility *by_dfs) {
-    const char *const names[] = {"sweep", "prune"};
-    const uint32_t n = t->space.cell_count;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        sl_visibility other = {0};
-        see(t->context, &t->space, &t->plan, names[i], by_dfs->sight, &other);
-        for (uint32_t a = 0; a < n; a++)
-            for (uint32_t b = 0; b < n; b++)
-                if (sl_pvs_sees(&by_dfs->pvs, a, b) != sl_pvs_sees(&other.pvs, a, b)) {
-                    sl_map_write_text(t->context, &t->map, "-");
-                    fail_msg("seed %llu, %s, %s: cells %u and %u", (unsigned long long)t->seed,
-                             names[i], by_dfs->sight == SL_OPEN ? "open" : "closed", a, b);
-                }
-        assert_int_equal(by_dfs->account.pairs, other.account.pairs);
-        assert_same_doors(&by_dfs->doors, &other.doors);
-        sl_visibility_destroy(t->context, &other);
-    }
 }
 
 /// With some doors shut the sets say what a search past walls in their places finds.

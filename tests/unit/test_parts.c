@@ -2,6 +2,7 @@
 /// before it was changed all come to what is found in one go; what is stopped never misses a pair.
 #include "testing.h"
 
+#include "oracle/random_effects.h"
 #include "oracle/random_map.h"
 #include "sightline/support.h"
 
@@ -27,6 +28,14 @@ static sl_see_options options_for(const sl_see_method *method, sl_sight sight, b
     return options;
 }
 
+static void assert_same_doors(const sl_door_sets *a, const sl_door_sets *b) {
+    assert_int_equal(a->cell_count, b->cell_count);
+    assert_int_equal(sl_door_sets_bytes(a), sl_door_sets_bytes(b));
+    if (!sl_door_sets_bytes(a)) return;
+    assert_memory_equal(a->offsets, b->offsets, (a->cell_count + 1) * sizeof *a->offsets);
+    assert_memory_equal(a->bytes, b->bytes, sl_door_sets_bytes(a));
+}
+
 static void assert_same(const sl_visibility *a, const sl_visibility *b) {
     assert_true(testing_same_rows(&a->pvs, &b->pvs));
     assert_int_equal(a->account.doubtful_pairs, b->account.doubtful_pairs);
@@ -34,6 +43,10 @@ static void assert_same(const sl_visibility *a, const sl_visibility *b) {
     assert_int_equal(a->account.pairs, b->account.pairs);
     assert_int_equal(a->sight, b->sight);
     assert_int_equal(a->guarantee, b->guarantee);
+    assert_true(testing_same_rows(&a->mirrored, &b->mirrored));
+    assert_int_equal(a->account.mirrored_pairs, b->account.mirrored_pairs);
+    assert_same_doors(&a->doors, &b->doors);
+    assert_same_doors(&a->mirrored_doors, &b->mirrored_doors);
 }
 
 // --- maps
@@ -136,21 +149,37 @@ static void check_shards(sl_context *context, const sl_see_method *method, const
     }
 }
 
-static void assert_misses_nothing(const sl_visibility *part, const sl_visibility *plain) {
+/// Whatever is seen while some of the doors are shut is in the rows, too.
+static void assert_rows_miss_nothing(const sl_pvs *part, const sl_door_sets *part_doors,
+                                     const sl_pvs *plain, const sl_door_sets *plain_doors,
+                                     const bool *shut) {
+    for (uint32_t a = 0; a < plain->cell_count; a++)
+        for (uint32_t b = 0; b < plain->cell_count; b++)
+            if (sl_pvs_sees(plain, a, b) && sl_door_sets_open(plain_doors, a, b, shut))
+                assert_true(sl_pvs_sees(part, a, b) && sl_door_sets_open(part_doors, a, b, shut));
+}
+
+static void assert_misses_nothing(const sl_visibility *part, const sl_visibility *plain,
+                                  const sl_plan *plan) {
     const uint32_t count = plain->pvs.cell_count;
-    for (uint32_t a = 0; a < count; a++)
-        for (uint32_t b = 0; b < count; b++) {
-            const bool seen = sl_pvs_sees(&part->pvs, a, b);
-            assert_true(seen || !sl_pvs_sees(&plain->pvs, a, b));
-            assert_true(seen == sl_pvs_sees(&part->pvs, b, a));
-        }
+    for (unsigned doors = 0; doors < (plan && plan->map->door_count ? 8u : 1u); doors++) {
+        const bool shut[] = {doors & 1, doors & 2, doors & 4};
+        assert_rows_miss_nothing(&part->pvs, &part->doors, &plain->pvs, &plain->doors, shut);
+        assert_rows_miss_nothing(&part->mirrored, &part->mirrored_doors, &plain->mirrored,
+                                 &plain->mirrored_doors, shut);
+    }
+    for (uint32_t a = 0; a < count && (!plan || plan->mutual); a++)
+        for (uint32_t b = 0; b < count; b++)
+            assert_true(sl_pvs_sees(&part->pvs, a, b) == sl_pvs_sees(&part->pvs, b, a));
     assert_int_equal(part->guarantee, SL_CONSERVATIVE);
     assert_true(part->account.pairs >= plain->account.pairs);
 }
 
-/// Stops again and again, each time a little later; gives how often it was stopped short.
+/// Stops again and again, each time a little later, by up to `step` questions; gives how often it
+/// was stopped short.
 static int check_stops(sl_context *context, const sl_see_method *method, const sl_space *space,
-                       sl_see_options options, const sl_visibility *plain, sl_random *random) {
+                       sl_see_options options, const sl_visibility *plain, sl_random *random,
+                       uint64_t step) {
     sl_partial partial = {0};
     patience p = {0};
     options.enough = is_over;
@@ -161,7 +190,7 @@ static int check_stops(sl_context *context, const sl_see_method *method, const s
         const uint32_t before = partial.done_count;
         atomic_store(&p.asked, 0);
         p.most = most;
-        most += 1 + (long)sl_random_below(random, 40) + most / 2;
+        most += 1 + (long)sl_random_below(random, step) + most / 2;
         assert_ok(context, method->run(context, space, &options, &partial));
         assert_true(partial.done_count >= before);
         sl_visibility now;
@@ -170,7 +199,7 @@ static int check_stops(sl_context *context, const sl_see_method *method, const s
         if (sl_partial_complete(&partial)) {
             assert_same(&now, plain);
         } else {
-            assert_misses_nothing(&now, plain);
+            assert_misses_nothing(&now, plain, options.plan);
             stops++;
         }
         sl_visibility_destroy(context, &now);
@@ -191,7 +220,7 @@ static int check_space(sl_context *context, const sl_space *space, sl_random *ra
                 sl_visibility plain;
                 assert_ok(context, method->see(context, space, &options, &plain));
                 check_shards(context, method, space, options, &plain);
-                stops += check_stops(context, method, space, options, &plain, random);
+                stops += check_stops(context, method, space, options, &plain, random, 40);
                 sl_visibility_destroy(context, &plain);
             }
     return stops;
@@ -209,6 +238,33 @@ static void parts_come_to_the_whole(void **state) {
         destroy(context, &p);
     }
     assert_true((uint64_t)stops > 5 * seeds);
+    sl_context_destroy(context);
+}
+
+static void effects_come_to_the_whole(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {7};
+    int stops = 0;
+    const uint64_t seeds = testing_seeds(RANDOM_MAPS);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        place p = {0};
+        random_effects_map(context, &random, 1 + (unsigned)(seed % 15), 1, &p.map);
+        subdivide(context, false, &p);
+        sl_plan plan = sl_plan_make(&p.map);
+        plan.mirror_depth = (uint32_t)sl_random_below(&random, 3);
+        const sl_see_method *method = testing_method(seed % 2 ? "dfs" : "prune");
+        const bool inside = sl_random_below(&random, 3) == 0;
+        sl_see_options options = options_for(method, seed % 4 < 2 ? SL_OPEN : SL_CLOSED, inside, 2);
+        options.plan = &plan;
+        sl_visibility plain;
+        assert_ok(context, method->see(context, &p.space, &options, &plain));
+        check_shards(context, method, &p.space, options, &plain);
+        stops += check_stops(context, method, &p.space, options, &plain, &random, 3);
+        sl_visibility_destroy(context, &plain);
+        destroy(context, &p);
+    }
+    assert_true((uint64_t)stops >= seeds + seeds / 4);
     sl_context_destroy(context);
 }
 
@@ -264,7 +320,7 @@ static void decided_pairs_are_told_from_others(void **state) {
                sizeof *partial.done);
     partial.done_count = partial.unit_count / 2;
     assert_ok(context, method->finish(context, &p.space, &options, &partial, &half));
-    assert_misses_nothing(&half, &plain);
+    assert_misses_nothing(&half, &plain, NULL);
     assert_true(bound.account.pairs > plain.account.pairs);
     print_message("%d pairs seen, %d by half of the work, %d by the bound\n",
                   (int)plain.account.pairs, (int)half.account.pairs, (int)bound.account.pairs);
@@ -323,7 +379,7 @@ static uint32_t check_edit(sl_context *context, const place *before, const place
             kept += partial.done_count;
             sl_visibility bound;
             assert_ok(context, method->finish(context, &after->space, &options, &partial, &bound));
-            if (!sl_partial_complete(&partial)) assert_misses_nothing(&bound, &plain);
+            if (!sl_partial_complete(&partial)) assert_misses_nothing(&bound, &plain, NULL);
             assert_ok(context, method->run(context, &after->space, &options, &partial));
             assert_ok(context, method->finish(context, &after->space, &options, &partial, &again));
             assert_same(&again, &plain);
@@ -498,9 +554,59 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
     }
 }
 
+/// All methods on a map with all effects: in one go, and those that can in parts, joined with
+/// themselves.
+static sl_status see_effects(sl_context *context, const place *p, const sl_plan *plan,
+                             const sl_see_method *method, sl_visibility *out, sl_partial *partial) {
+    patience few = {.most = 4};
+    sl_see_options options = options_for(method, SL_CLOSED, false, 1), stopped;
+    options.plan = plan;
+    sl_status status = method->see(context, &p->space, &options, &out[0]);
+    if (!method->stabs || !method->run) return status;
+    stopped = options;
+    stopped.enough = is_over;
+    stopped.enough_user = &few;
+    if (status == SL_OK) status = method->run(context, &p->space, &stopped, partial);
+    if (status == SL_OK) status = method->finish(context, &p->space, &options, partial, &out[1]);
+    return status == SL_OK ? sl_partial_merge(context, partial, partial) : status;
+}
+
+static void lack_of_memory_for_effects_leaves_nothing(void **state) {
+    (void)state;
+    const char *const all[] = {"sweep", "prune", "flood", "sampling"};
+    for (size_t m = 0; m < sizeof all / sizeof *all; m++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        const sl_see_method *method = testing_method(all[m]);
+        sl_random random = {3};
+        place p = {0};
+        random_effects_map(context, &random, 15, 1, &p.map);
+        subdivide(context, false, &p);
+        sl_plan plan = sl_plan_make(&p.map);
+        plan.effects &= method->knows;
+        const long live = memory.live;
+        sl_status status = SL_NO_MEMORY;
+        for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++) {
+            sl_visibility seen[2] = {0};
+            sl_partial partial = {0};
+            memory.calls = 0;
+            memory.fail_at = fail_at;
+            status = see_effects(context, &p, &plan, method, seen, &partial);
+            memory.fail_at = 0;
+            for (int i = 0; i < 2; i++) sl_visibility_destroy(context, &seen[i]);
+            sl_partial_destroy(context, &partial);
+            assert_int_equal(memory.live, live);
+        }
+        assert_ok(context, status);
+        destroy(context, &p);
+        sl_context_destroy(context);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_come_to_the_whole),
+        cmocka_unit_test(effects_come_to_the_whole),
         cmocka_unit_test(larger_maps_come_to_the_whole),
 #ifdef SIGHTLINE_TESTS_GLPK
         cmocka_unit_test(doubtful_pairs_come_together),
@@ -510,6 +616,7 @@ int main(void) {
         cmocka_unit_test(other_questions_take_nothing_over),
         cmocka_unit_test(what_does_not_belong_together_is_refused),
         cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
+        cmocka_unit_test(lack_of_memory_for_effects_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

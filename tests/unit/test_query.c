@@ -151,7 +151,7 @@ static void mirrors_show_what_the_depth_allows(void **state) {
     sl_baked baked = {0};
     sl_query *query;
     bake(context, parts, &baked);
-    assert_string_equal(baked.method, "prune");
+    assert_string_equal(baked.method, "sweep");
     assert_ok(context, sl_query_create(context, &baked, &query));
     const sl_view view = sl_query_view(query, (sl_point){5, 1}, 0, 360);
     uint64_t cells[8];

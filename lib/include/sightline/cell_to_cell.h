@@ -89,6 +89,11 @@ typedef struct sl_partial {
     sl_pvs sure, doubtful;       ///< pairs found, some one way only; doubtful: by rounded solvers
     bool inside_only;            ///< the option they were found with
     uint32_t shard, shard_count; ///< which part of the work was asked for; 0, 0 for all
+    // Of a plan with effects, by the searches; else all 0 and without rows.
+    uint32_t effects, mirror_depth, door_limit; ///< of the plan
+    bool rounded;                               ///< some place behind a mirror was
+    sl_pvs mirrored;                            ///< rows of the units done, with mirrors
+    sl_door_sets doors, mirrored_doors;         ///< likewise, with doors
 } sl_partial;
 
 SL_API void sl_partial_destroy(sl_context *context, sl_partial *partial); ///< and zeroes it
@@ -146,7 +151,8 @@ typedef struct sl_see_method {
     bool stabs;      ///< whether it needs a solver; its guarantee is then the solver's
     bool keeps_rows; ///< of bits, as options->rows and row_bytes say
     sl_guarantee guarantee;
-    unsigned knows; ///< the effects that it takes account of where options ask for them: bits
+    unsigned knows;    ///< the effects that it takes account of where options ask for them: bits
+    const char *lacks; ///< why it does not know the others, but doors; NULL where it knows all
     sl_status (*see)(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out);
     const char *units; ///< what its units are, plural; NULL, as the functions below, where it is
@@ -175,7 +181,7 @@ SL_API const sl_see_method *sl_see_method_named(const char *name);
 
 /// The method that is taken where none is asked for: the fastest exact one that can do what the
 /// options ask for and that knows the effects of the map. "sweep" in most cases; "dfs" where the
-/// options ask for stab trees or name a solver; "prune" where the map has mirrors.
+/// options ask for stab trees or name a solver.
 SL_API const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options);
 
 /// SL_UNSUPPORTED, by name, where a method with a solver (NULL for methods that do not stab) does
@@ -186,10 +192,10 @@ SL_API sl_status sl_see_check(sl_context *context, const sl_see_method *method,
 
 /// Makes partial results for a space from what was seen in another one, before some walls were
 /// changed: of all pairs that no changed cell can have a part in. The rest is for `run`; the
-/// result is the same as without them. `seen` must have been made without effects. SL_BAD_ARGUMENT,
-/// and a message that says why, where nothing can be taken over: the sets seen are not exact or
-/// were made with other options, or what is asked for is not exact. `partial` is zeroed
-/// before.
+/// result is the same as without them. `seen` must have been made without effects, and the plan
+/// have none. SL_BAD_ARGUMENT, and a message that says why, where nothing can be taken over: the
+/// sets seen are not exact or were made with other options, or what is asked for is not exact.
+/// `partial` is zeroed before.
 SL_API sl_status sl_partial_reuse(sl_context *context, const sl_space *before,
                                   const sl_visibility *seen, const sl_space *space,
                                   const sl_see_method *method, const sl_see_options *options,

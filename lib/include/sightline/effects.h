@@ -45,6 +45,10 @@ typedef struct sl_plan {
 /// The plan of a map; it never fails.
 SL_API sl_plan sl_plan_make(const sl_map *map);
 
+/// Whether two maps have the same effects, in the same order: doors (open or shut as they may be),
+/// mirrors, one-way glass and the view range.
+SL_API bool sl_effects_same(const sl_map *a, const sl_map *b);
+
 /// Takes effects out of a map, and notes what was taken.
 SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects);
 
