@@ -12,6 +12,7 @@
 ///
 /// Invariant: each probe that was covered stays covered. Cost: O(n * lines that stay * probes / 64)
 /// for n lines, and a search of the network for each line that stays.
+#include "geometry/length.h"
 #include "sightline/axial.h"
 
 #include "axial/touch.h"
@@ -48,7 +49,7 @@ static sl_status rank(sl_context *context, chooser *c) {
     if (!all) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const sl_segment *s = &c->all->lines[i];
-        all[i] = (ranked){hypot(s->b.x - s->a.x, s->b.y - s->a.y), i};
+        all[i] = (ranked){sli_length(s->b.x - s->a.x, s->b.y - s->a.y), i};
     }
     qsort(all, n, sizeof *all, compare_ranks);
     for (uint32_t i = 0; i < n; i++) c->order[i] = all[i].line;

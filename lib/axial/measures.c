@@ -13,6 +13,7 @@
 ///
 /// Lines are sorted by their left ends, and each is tested against those whose extents in x
 /// overlap. Cost of measures: O(n * pairs that touch) for n lines.
+#include "geometry/length.h"
 #include "sightline/axial.h"
 
 #include "axial/touch.h"
@@ -245,7 +246,7 @@ static void measure_local(const job *j, scratch *s, uint32_t line, sl_axial_meas
     uint32_t together = 0;
     s->mark++;
     out->connectivity = (double)(g->first[line + 1] - g->first[line]);
-    out->line_length = hypot(l->b.x - l->a.x, l->b.y - l->a.y);
+    out->line_length = sli_length(l->b.x - l->a.x, l->b.y - l->a.y);
     if (out->connectivity == 0) return;
     out->control = 0;
     for (size_t i = g->first[line]; i < g->first[line + 1]; i++) {

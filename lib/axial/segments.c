@@ -12,6 +12,7 @@
 /// states of a segment share its 1 where they tie. Sums are whole numbers, as in measures.c.
 ///
 /// Cost: O(n * pairs of segments that meet * log) for n segments. Threads take segments one by one.
+#include "geometry/length.h"
 #include "sightline/axial.h"
 
 #include "geometry/orient.h"
@@ -81,7 +82,7 @@ static sl_status find_corners(sl_context *context, network *n) {
     }
     for (uint32_t s = 0; s < n->count; s++) {
         const sl_segment *l = &n->segments[s];
-        n->lengths[s] = hypot(l->b.x - l->a.x, l->b.y - l->a.y);
+        n->lengths[s] = sli_length(l->b.x - l->a.x, l->b.y - l->a.y);
         tips[2 * s] = (tip){l->a, 2 * s};
         tips[2 * s + 1] = (tip){l->b, 2 * s + 1};
     }

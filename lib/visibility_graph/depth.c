@@ -15,6 +15,7 @@
 ///
 /// Cost: O(pairs that see each other, from points beside walls) for each start. Invariant: lengths
 /// leave the heap in ascending order.
+#include "geometry/length.h"
 #include "visibility_graph/measures.h"
 
 #include <math.h>
@@ -271,7 +272,7 @@ static sl_status find_paths(sl_context *context, const sli_vga_job *job, const p
             double straight = INFINITY;
             for (size_t i = 0; i < from_count; i++) {
                 const sl_point a = square_of(&w, from[i]), b = square_of(&w, p);
-                straight = fmin(straight, step * hypot(a.x - b.x, a.y - b.y));
+                straight = fmin(straight, step * sli_length(a.x - b.x, a.y - b.y));
             }
             out[p].metric_straight_line_distance = straight;
             if (w.length[p] == INFINITY) continue;

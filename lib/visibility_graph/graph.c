@@ -16,6 +16,7 @@
 ///
 /// Cost: for each eye, the sides of the rooms that it sees and the points in them. Invariant: a
 /// cone is narrower than half a circle, and the rooms behind a portal lie beyond its line.
+#include "geometry/length.h"
 #include "sightline/vga.h"
 
 #include "geometry/orient.h"
@@ -297,7 +298,7 @@ static void keep_in_range(const sl_vga_grid *grid, uint32_t eye, double range, s
     for (uint32_t p = 0; p < grid->count; p++) {
         if (!sl_bits_has(row, p)) continue;
         const sl_point a = grid->points[eye], b = grid->points[p];
-        if (hypot(a.x - b.x, a.y - b.y) > range) sl_bits_flip(row, p);
+        if (sli_length(a.x - b.x, a.y - b.y) > range) sl_bits_flip(row, p);
     }
 }
 

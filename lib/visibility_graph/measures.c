@@ -7,6 +7,7 @@
 /// Cost: O(connectivity * bundles in sight) for a point. Points are independent, so threads take
 /// bundles of them.
 #include "visibility_graph/measures.h"
+#include "geometry/length.h"
 #include "visibility_graph/tiles.h"
 
 #include <math.h>
@@ -71,7 +72,8 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
     for (size_t b = 0; b < t->bundles; b++) {
         for (sl_bits rest = s->level[b]; rest; rest &= rest - 1) {
             const uint32_t q = t->points[b * 64 + (size_t)__builtin_ctzll(rest)];
-            const double distance = hypot(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
+            const double distance =
+                sli_length(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
             out->point_first_moment += distance;
             out->point_second_moment += distance * distance;
             out->visual_control += 1.0 / j->degree[q];
