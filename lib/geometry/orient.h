@@ -88,8 +88,9 @@ int sli_orient_fine(const sli_fine *a, const sli_fine *b, const sli_fine *c);
 /// The sign of a x b, exact. `scale` is a power of two; the coordinates of both vectors, times
 /// `scale`, must be whole numbers below 2^62.
 static inline int sli_turn_grid(sl_point a, sl_point b, double scale) {
-    return sli_compare_products((int64_t)(a.x * scale), (int64_t)(b.y * scale),
-                                (int64_t)(a.y * scale), (int64_t)(b.x * scale));
+    const int order = sli_compare_products((int64_t)(a.x * scale), (int64_t)(b.y * scale),
+                                           (int64_t)(a.y * scale), (int64_t)(b.x * scale));
+    return order;
 }
 
 /// As sli_turn, by exact arithmetic only.
