@@ -50,6 +50,7 @@ def rows():
     yield "eye", ["eye", "SLV", "--at", "5,5", "--json", "-o", "out.png"], ["--object", "crate,block"]
     yield "isovist", ["isovist", "MAP", "--at", "5,5", "--picture", "out.png"], None
     yield "vga", ["vga", "MAP", "--grid", "1"], None
+    yield "axial", ["axial", "MAP"], None
     yield "explain", ["explain", "SLV", "5,5", "25,2"], None
     yield "walk", ["walk", "SLV", "--steps", "5", "--repeat", "1"], None
     yield "regions", ["regions", "MAP", "--grid", "2", "--objects", "walls", "--points", "16",
