@@ -134,10 +134,27 @@ static sl_status measure(sl_context *context, const axial_plan *plan, axial_work
     return SL_OK;
 }
 
+/// A table holds drawn lines, and these pass doors as they pass walls.
+static sl_status check_lines(sl_context *context, axial_plan *plan) {
+    const bool table = input_ends_with(plan->input, ".csv");
+    if (table && !plan->lines_given) plan->lines = LINES_DRAWN;
+    if (plan->lines != LINES_DRAWN)
+        return table ? sl_fail(context, SL_BAD_ARGUMENT,
+                               "--lines %s: a table holds drawn lines, and no plan to find some "
+                               "in; give the map",
+                               kinds[plan->lines].name)
+                     : SL_OK;
+    if (!plan->doors.shut && !plan->doors.open) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--%s: drawn lines are measured as they are, without "
+                   "doors",
+                   plan->doors.shut ? "shut" : "open");
+}
+
 static sl_status work(command_console *console, axial_plan *plan, axial_work *w) {
     sl_context *context = console->context;
     SL_TRY(check_radii(context, plan));
-    if (input_ends_with(plan->input, ".csv") && !plan->lines_given) plan->lines = LINES_DRAWN;
+    SL_TRY(check_lines(context, plan));
     const bool drawn = plan->lines == LINES_DRAWN;
     SL_TRY(pipeline_plan(context, plan->input, &plan->pipeline));
     SL_TRY(drawn ? take_drawn(context, plan, w) : find_lines(context, plan, w));

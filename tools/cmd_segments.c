@@ -72,6 +72,12 @@ static sl_status read_radius(sl_context *context, const char *option, const char
     return SL_OK;
 }
 
+static bool has_whole(const option_list *radii) {
+    for (size_t i = 0; i < radii->count; i++)
+        if (strcmp(radii->items[i], "n") == 0) return true;
+    return false;
+}
+
 /// Two columns of one name would be no use.
 static sl_status check_apart(sl_context *context, const char *option, const option_list *radii) {
     double one, other;
@@ -112,6 +118,10 @@ static sl_status work(command_console *console, const segments_plan *plan, segme
     sl_context *context = console->context;
     SL_TRY(check_apart(context, "--metric-radius", &plan->metric));
     SL_TRY(check_apart(context, "--angular-radius", &plan->angular));
+    if (has_whole(&plan->metric) && has_whole(&plan->angular))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--metric-radius n and --angular-radius n are one analysis: give one of "
+                       "them");
     SL_TRY(read_segments(context, plan, w));
     SL_TRY(run(context, plan, w));
     const line_column *column = line_table_column(&w->table, plan->measure);
