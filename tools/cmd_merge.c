@@ -66,8 +66,9 @@ static sl_status check_all_there(sl_context *context, const merge_plan *plan, ui
         if (!is_there(plan, shard))
             length += (size_t)snprintf(missing + length, sizeof missing - length, "%s%u",
                                        length ? ", " : "", shard);
-    return sl_fail(context, SL_BAD_INPUT, "of %u shards %u are missing: %s%s", count,
-                   count - part_count(plan), missing, length < sizeof missing - 16 ? "" : ", ...");
+    const uint32_t left = count - part_count(plan);
+    return sl_fail(context, SL_BAD_INPUT, "of %u shards %u %s missing: %s%s", count, left,
+                   left == 1 ? "is" : "are", missing, length < sizeof missing - 16 ? "" : ", ...");
 }
 
 // --- the work
@@ -138,6 +139,9 @@ static sl_status merge_and_report(command_console *console, merge_plan *plan) {
                all.visibility.account.pairs, sight_name(all.visibility.sight), all.method,
                all.solver[0] ? " with " : "", all.solver,
                sl_guarantee_name(all.visibility.guarantee));
+        if (all.visibility.mirrored.cell_count)
+            printf("  mirrored  %" PRIu64 " pairs seen by mirror\n",
+                   all.visibility.account.mirrored_pairs);
     }
     sl_baked_destroy(context, &all);
     sl_free(context, plan->shards);
