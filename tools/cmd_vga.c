@@ -16,8 +16,9 @@
 
 typedef struct vga_plan {
     const char *input, *output, *picture, *pairs;
-    const char *compare; ///< another plan, to be compared
-    door_choice doors, other_doors;
+    const char *compare;      ///< another plan, to be compared
+    const char *compare_shut; ///< its doors that are shut
+    door_choice doors;
     map_pipeline pipeline;
     vga_grid_plan points;
     option_list from, agents_from;
@@ -105,12 +106,13 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     SL_TRY(check_radius(context, p, p->angular_given, VGA_PART_ANGULAR, "angular"));
     if (p->scale_given && !p->picture)
         return sl_fail(context, SL_BAD_ARGUMENT, "--scale is for a --picture");
-    if (p->other_doors.shut && !p->compare)
+    if (p->compare_shut && !p->compare)
         return sl_fail(context, SL_BAD_ARGUMENT, "--compare-shut is for --compare MAP");
     if (p->scale_given && p->compare && p->scale.x != -p->scale.y)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--scale %.9g,%.9g: changes need ends at both sides of 0, as -2,2",
-                       p->scale.x, p->scale.y);
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "--scale %.9g,%.9g: changes need the same number on both sides of 0, as -2,2",
+            p->scale.x, p->scale.y);
     if (p->scale_given && !(p->scale.x < p->scale.y))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
@@ -372,7 +374,9 @@ static sl_status compare(command_console *console, const vga_plan *plan, const v
     vga_work other = {0};
     vga_change change = {0};
     other_plan.input = plan->compare;
-    if (plan->other_doors.shut || plan->other_doors.open) other_plan.doors = plan->other_doors;
+    if (plan->compare_shut)
+        other_plan.doors =
+            (door_choice){.shut = plan->compare_shut, .shut_option = "--compare-shut"};
     if (!plan->range_given) other_plan.range = 0;
     sl_status status = pipeline_plan(context, plan->compare, &other_plan.pipeline);
     if (status == SL_OK) status = compute(context, &other_plan, &other);
@@ -429,8 +433,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .over_0 = true, .given = &plan.step_given},
         {"at", 0, "X,Y",
          "fill the grid from here through doors that are open (default: all that is inside); may "
-         "be "
-         "given several times",
+         "be given several times",
          .list = &plan.points.at},
         {"output", 'o', "TABLE",
          "where the table goes: .csv, or .geojson for a GIS (default: stdout, or nowhere if there "
@@ -455,7 +458,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"compare-shut", 0, "NAME,...",
          "shut these doors of the other plan (default: as in this one); to see what a door does, "
          "compare a map with itself",
-         .text = &plan.other_doors.shut, .rare = true},
+         .text = &plan.compare_shut, .rare = true},
         {"pairs", 0, "FILE.csv", "write the pairs of points that see each other",
          .text = &plan.pairs, .check = CHECK_TABLE, .rare = true},
         {"seen-from", 0, NULL, "with one-way glass: who sees a point (default: what a point sees)",

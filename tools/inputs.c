@@ -242,23 +242,25 @@ static bool set_named(const sl_map *map, const char *name, size_t length, bool t
     return found;
 }
 
-static sl_status fail_door(sl_context *context, const sl_map *map, const char *name, size_t length,
-                           bool open) {
+static sl_status fail_door(sl_context *context, const door_choice *by, const sl_map *map,
+                           const char *name, size_t length) {
     const name_table doors = {"door", map->doors, sizeof *map->doors, map->door_count, NULL};
-    const char *all = open ? "; 'all' opens all" : "; 'none' leaves all open";
+    const char *all = by->open ? "; 'all' opens all" : "; 'none' leaves all open";
+    const char *option = by->open ? "--open" : by->shut_option ? by->shut_option : "--shut";
     char names[NAME_LIST];
     name_list(&doors, names);
-    return sl_fail(context, SL_BAD_ARGUMENT, "--%s: there is no door '%.*s'; the map's doors: %s%s",
-                   open ? "open" : "shut", (int)(length < 64 ? length : 64), name, names,
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: there is no door '%.*s'; the map's doors: %s%s",
+                   option, (int)(length < 64 ? length : 64), name, names,
                    map->door_count ? all : "");
 }
 
-static sl_status read_names(sl_context *context, const char *text, bool open, const sl_map *map,
+static sl_status read_names(sl_context *context, const door_choice *doors, const sl_map *map,
                             bool *shut) {
+    const char *text = doors->open ? doors->open : doors->shut;
     while (*text) {
         const size_t length = strcspn(text, ",");
-        if (!set_named(map, text, length, !open, shut))
-            return fail_door(context, map, text, length, open);
+        if (!set_named(map, text, length, !doors->open, shut))
+            return fail_door(context, doors, map, text, length);
         text += length;
         if (*text) text++;
     }
@@ -273,7 +275,7 @@ sl_status doors_read(sl_context *context, const door_choice *doors, const sl_map
     const bool all_open = text && strcmp(text, doors->open ? "all" : "none") == 0;
     for (size_t i = 0; i < map->door_count; i++)
         shut[i] = !all_open && !doors->shut && !map->doors[i].open;
-    return text && !all_open ? read_names(context, text, doors->open, map, shut) : SL_OK;
+    return text && !all_open ? read_names(context, doors, map, shut) : SL_OK;
 }
 
 /// Replaces the space and the visible sets by those with the doors shut.

@@ -69,6 +69,7 @@ size_t input_next_start(const sl_map *map, const sl_space *space, size_t from);
 /// Which doors are shut: the arguments of --shut and --open. Zeroed: as the map says.
 typedef struct door_choice {
     const char *shut, *open;
+    const char *shut_option; ///< what messages call --shut; NULL: so
 } door_choice;
 
 /// --shut and --open

@@ -193,7 +193,7 @@ void vga_change_print(const vga_change *change, size_t measure) {
         after += p->before == UINT32_MAX;
         both += p->before != UINT32_MAX && p->after != UINT32_MAX;
     }
-    printf("%zu points in both plans", both);
+    printf("%zu point%s in both plans", both, both == 1 ? "" : "s");
     if (before) printf(", %zu in the first one only", before);
     if (after) printf(", %zu in the other one only", after);
     printf("\n  %-36s %12s %12s %12s %12s\n", "measure", "mean", "other", "change", "deviation");
