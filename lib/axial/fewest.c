@@ -8,7 +8,8 @@
 /// 1. Subsets: a line goes where a longer line covers all that it covers.
 /// 2. Fewest: a line goes where all that it covers is covered by others, the shortest line first.
 ///
-/// Lines that go must not tear the others apart: two lines that one line joins stay joined.
+/// Lines that go must not tear the others apart: two lines that one line joins stay joined. So each
+/// part of the plan keeps a line, also a convex room, which has no probes.
 ///
 /// Invariant: each probe that was covered stays covered. Cost: O(n * lines that stay * probes / 64)
 /// for n lines, and a search of the network for each line that stays.
@@ -146,14 +147,16 @@ static sl_status rejoin(sl_context *context, chooser *c) {
     return SL_OK;
 }
 
-/// Whether the kept lines that touch a line reach each other without it. `graph`: of all lines.
+/// Whether the kept lines that touch a line reach each other without it; false for the last line of
+/// its part of the plan. `graph`: of all lines.
 static bool stays_joined(chooser *c, const sl_line_graph *graph, uint32_t line, uint32_t stamp) {
     const uint32_t *touched = graph->others + graph->first[line];
     const size_t count = graph->first[line + 1] - graph->first[line];
     size_t head = 0, tail = 0;
     for (size_t i = 0; i < count && !tail; i++)
         if (c->kept[touched[i]]) c->queue.items[tail++] = touched[i];
-    if (tail) c->stamps[c->queue.items[0]] = stamp;
+    if (!tail) return false;
+    c->stamps[c->queue.items[0]] = stamp;
     while (head < tail) {
         const uint32_t at = c->queue.items[head++];
         for (size_t i = graph->first[at]; i < graph->first[at + 1]; i++) {

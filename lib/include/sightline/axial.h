@@ -42,7 +42,8 @@ SL_API void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines); 
 /// Drops lines, shortest first, but keeps two things (after Turner, Penn and Hillier 2005): each
 /// probe that was crossed, from side to side, is crossed by a line that stays, and lines that a
 /// line joins stay joined. First all lines go that cross no probe beside those that one longer line
-/// crosses. With `fewest`, then all that can go alone. Lines keep their order.
+/// crosses. With `fewest`, then all that can go alone. Each part of a plan keeps a line. Lines keep
+/// their order.
 SL_API sl_status sl_axial_fewest(sl_context *context, sl_axial_lines *lines, bool fewest);
 
 /// Which lines have a point in common: others[first[i] .. first[i + 1]), ascending. Zero it to
