@@ -119,9 +119,15 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
     cairo_stroke(cairo);
 }
 
-/// From low to high values, each a little wider than the last.
+/// From low to high values, each a little wider than the last. Lines without a value lie below.
 static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const picture *p,
                                    const sl_frame *frame) {
+    for (size_t i = 0; i < p->value_count; i++)
+        if (isnan(p->values[i]))
+            sl_path_segment(cairo, frame, p->lines->lines[i].a, p->lines->lines[i].b);
+    sl_set_colour(cairo, p->scene.palette.faint);
+    cairo_set_line_width(cairo, frame->unit);
+    cairo_stroke(cairo);
     for (int step = 0; step < RAMP_STEPS; step++) {
         SL_TRY(sl_check_cancelled(context));
         for (size_t i = 0; i < p->value_count; i++) {

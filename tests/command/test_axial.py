@@ -8,6 +8,7 @@ import io
 import itertools
 import math
 import random
+import re
 import sys
 import unittest
 
@@ -337,6 +338,14 @@ class Segments(unittest.TestCase):
             one, three = (table([*command, "--threads", threads], [("streets.map", self.text)])
                           for threads in ("1", "3"))
             self.assertEqual(one, three)
+
+    def test_lines_without_a_value_are_drawn(self):
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("one.csv").write_text("0,0,1,1\n")
+            result = box.run(["axial", "one.csv", "--picture", "one.svg", "--quiet"])
+            self.assertEqual(result.status, 0, result.text())
+            picture = box.path("one.svg").read_text()
+        self.assertEqual(len(re.findall(r'<path style="fill:none;[^>]*stroke:rgb', picture)), 1)
 
 
 if __name__ == "__main__":

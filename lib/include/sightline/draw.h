@@ -153,7 +153,7 @@ SL_API sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked
 typedef struct sl_drawn_lines {
     const char *name; ///< what the values are: "integration"
     const sl_segment *lines;
-    const double *values; ///< NaN: the line is not drawn
+    const double *values; ///< NaN: the line is thin and grey
     uint32_t count;
     bool alone; ///< without the plan under them
 } sl_drawn_lines;
