@@ -94,8 +94,10 @@ static sl_status read_row(reader *r, const char *line, size_t length) {
 }
 
 static sl_status read_lines(reader *r, const char *text, size_t size) {
+    static const char mark[] = {'\xef', '\xbb', '\xbf'}; // of UTF-8, by some spreadsheets
     number_table *to = r->to;
-    for (size_t at = 0; at < size;) {
+    const bool marked = size >= sizeof mark && memcmp(text, mark, sizeof mark) == 0;
+    for (size_t at = marked ? sizeof mark : 0; at < size;) {
         const char *line = text + at, *end = memchr(line, '\n', size - at);
         size_t length = end ? (size_t)(end - line) : size - at;
         at += length + 1;

@@ -34,26 +34,48 @@ sl_status vga_grid_check(sl_context *context, const vga_grid_plan *plan) {
 
 // --- a part of the grid
 
-/// A table whose first `needed` columns are numbers everywhere.
-static sl_status read_numbers(sl_context *context, const char *path, size_t needed,
-                              const char *what, number_table *table) {
+/// A table of places: one point a row, or two.
+typedef struct place_table {
+    number_table table;
+    size_t columns[4]; ///< of x and y, or of x1, y1, x2, y2
+} place_table;
+
+/// The columns of these names, else the first ones: "Ref,x,y" is what depthmapX writes.
+static void find_columns(place_table *places, const char *const *names, size_t needed) {
+    bool named = true;
+    for (size_t k = 0; k < needed; k++) {
+        places->columns[k] = number_table_column(&places->table, names[k]);
+        named &= places->columns[k] < places->table.columns;
+    }
+    for (size_t k = 0; k < needed && !named; k++) places->columns[k] = k;
+}
+
+/// A table whose `needed` columns are numbers everywhere.
+static sl_status read_places(sl_context *context, const char *path, size_t needed,
+                             place_table *places) {
+    static const char *const names[2][4] = {{"x", "y"}, {"x1", "y1", "x2", "y2"}};
+    const char *what = needed == 2 ? "x,y" : "x1,y1,x2,y2";
+    number_table *table = &places->table;
     SL_TRY(number_table_read(context, path, table));
     sl_status status = SL_OK;
+    find_columns(places, names[needed == 4], needed);
     if (!table->rows || table->columns < needed)
         status = sl_fail_at(context, path, table->rows ? table->lines[0] : 0,
                             "rows of %s are needed", what);
     for (size_t i = 0; i < table->rows && status == SL_OK; i++)
         for (size_t k = 0; k < needed && status == SL_OK; k++)
-            if (isnan(number_table_at(table, i, k)))
+            if (isnan(number_table_at(table, i, places->columns[k])))
                 status = sl_fail_at(context, path, table->lines[i], "%s are needed", what);
     if (status != SL_OK) number_table_destroy(context, table);
     return status;
 }
 
-static sl_status find_place(sl_context *context, const sl_vga_grid *grid, const number_table *table,
-                            size_t row, size_t column, uint32_t *point) {
-    const sl_point at = {number_table_at(table, row, column),
-                         number_table_at(table, row, column + 1)};
+/// The grid's point for the place number `which` of a row.
+static sl_status find_place(sl_context *context, const sl_vga_grid *grid, const place_table *places,
+                            size_t row, size_t which, uint32_t *point) {
+    const number_table *table = &places->table;
+    const sl_point at = {number_table_at(table, row, places->columns[2 * which]),
+                         number_table_at(table, row, places->columns[2 * which + 1])};
     *point = sl_vga_grid_find(grid, at);
     if (*point != UINT32_MAX) return SL_OK;
     return sl_fail_at(context, table->path, table->lines[row],
@@ -63,15 +85,15 @@ static sl_status find_place(sl_context *context, const sl_vga_grid *grid, const 
 
 static sl_status mark_listed(sl_context *context, const char *path, const sl_vga_grid *grid,
                              sl_bits *kept) {
-    number_table table;
-    SL_TRY(read_numbers(context, path, 2, "x,y", &table));
+    place_table places;
+    SL_TRY(read_places(context, path, 2, &places));
     sl_status status = SL_OK;
-    for (size_t i = 0; i < table.rows && status == SL_OK; i++) {
+    for (size_t i = 0; i < places.table.rows && status == SL_OK; i++) {
         uint32_t point;
-        status = find_place(context, grid, &table, i, 0, &point);
+        status = find_place(context, grid, &places, i, 0, &point);
         if (status == SL_OK) sl_bits_add(kept, point);
     }
-    number_table_destroy(context, &table);
+    number_table_destroy(context, &places.table);
     return status;
 }
 
@@ -161,19 +183,20 @@ sl_status vga_grid_find(sl_context *context, const sl_vga_grid *grid, const char
 
 sl_status vga_grid_read_links(sl_context *context, const char *path, const sl_vga_grid *grid,
                               sl_vga_link **links, size_t *count) {
-    number_table table;
-    SL_TRY(read_numbers(context, path, 4, "x1,y1,x2,y2", &table));
-    sl_vga_link *out = sl_alloc_array(context, table.rows, sizeof *out);
+    place_table places;
+    SL_TRY(read_places(context, path, 4, &places));
+    const size_t rows = places.table.rows;
+    sl_vga_link *out = sl_alloc_array(context, rows, sizeof *out);
     sl_status status = out ? SL_OK : SL_NO_MEMORY;
-    for (size_t i = 0; i < table.rows && status == SL_OK; i++) {
-        status = find_place(context, grid, &table, i, 0, &out[i].a);
-        if (status == SL_OK) status = find_place(context, grid, &table, i, 2, &out[i].b);
+    for (size_t i = 0; i < rows && status == SL_OK; i++) {
+        status = find_place(context, grid, &places, i, 0, &out[i].a);
+        if (status == SL_OK) status = find_place(context, grid, &places, i, 1, &out[i].b);
         if (status == SL_OK && out[i].a == out[i].b)
-            status = sl_fail_at(context, path, table.lines[i],
+            status = sl_fail_at(context, path, places.table.lines[i],
                                 "both ends of the link are one point of the grid");
     }
-    *count = table.rows;
-    number_table_destroy(context, &table);
+    *count = rows;
+    number_table_destroy(context, &places.table);
     if (status == SL_OK)
         *links = out;
     else
