@@ -100,8 +100,8 @@ SL_API bool sl_baked_same_space(const sl_space *a, const sl_space *b);
 
 /// What is left to see with doors shut (by number, those of `shut` that are true): a space that has
 /// walls in their place, and the visible sets without what is seen through them alone. Exact where
-/// the bake was. Time and memory are about those of the visible sets. What is seen by mirror is kept
-/// likewise. The new sets have no stab trees and no sets of doors.
+/// the bake was. Time and memory are about those of the visible sets. What is seen by mirror is
+/// kept likewise. The new sets have no stab trees and no sets of doors.
 SL_API sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const bool *shut,
                                sl_space *space, sl_visibility *visibility);
 
