@@ -381,6 +381,7 @@ static sl_status compare(command_console *console, const vga_plan *plan, const v
     sl_status status = pipeline_plan(context, plan->compare, &other_plan.pipeline);
     if (status == SL_OK) status = compute(context, &other_plan, &other);
     if (status == SL_OK) status = vga_change_make(context, &w->table, &other.table, &change);
+    if (status == SL_OK && plan->pairs) status = write_pairs(context, plan, w);
     if (status == SL_OK && plan->picture) status = draw_change(context, plan, w, &change);
     progress_line_clear(&console->line);
     if (status == SL_OK && path) status = vga_change_write(context, &change, path);
@@ -395,8 +396,8 @@ static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
     sl_context *context = console->context;
     const char *path = table_path(plan);
     SL_TRY(compute(context, plan, w));
-    if (plan->pairs) SL_TRY(write_pairs(context, plan, w));
     if (plan->compare) return compare(console, plan, w);
+    if (plan->pairs) SL_TRY(write_pairs(context, plan, w));
     if (plan->picture) SL_TRY(draw(context, plan, w));
     progress_line_clear(&console->line);
     if (path) SL_TRY(vga_write(context, &w->table, path));
