@@ -97,12 +97,12 @@ static sl_status mark_listed(sl_context *context, const char *path, const sl_vga
     return status;
 }
 
-/// Whether a ray to the right of a point crosses a wall. The products are exact enough: points on
-/// an outline belong to either side.
+/// Whether a ray to the right of a point crosses a wall. Exact; a wall that the point lies on is
+/// not crossed.
 static bool is_crossed(sl_point p, const sl_wall *w) {
     if ((w->a.y > p.y) == (w->b.y > p.y)) return false;
     const sl_point low = w->a.y < w->b.y ? w->a : w->b, high = w->a.y < w->b.y ? w->b : w->a;
-    return (high.x - low.x) * (p.y - low.y) > (high.y - low.y) * (p.x - low.x);
+    return sl_orient(low, high, p) > 0;
 }
 
 /// Within: an odd number of outlines lies on the way out.
