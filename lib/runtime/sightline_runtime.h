@@ -411,6 +411,14 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
 #include <float.h>
 #include <string.h>
 
+/// Whether searches know boxes. A program that never calls sl_runtime_boxes_seen and
+/// sl_runtime_look_past_boxes may define SL_RUNTIME_WITHOUT_BOXES, and is smaller by that.
+#ifdef SL_RUNTIME_WITHOUT_BOXES
+#define SLRT_BOXES false
+#else
+#define SLRT_BOXES true
+#endif
+
 #if FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
 #error "with more bits than doubles have no sign is exact: compile by -msse2 -mfpmath=sse"
 #endif
@@ -2608,7 +2616,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ON_PATH) return;
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    if (s->boxes) slrt_meet_boxes(s, cell, sector);
+    if (SLRT_BOXES && s->boxes) slrt_meet_boxes(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
                              sector->along);
     s->sectors[2 * (size_t)cell] = sector->right;
@@ -2635,7 +2643,7 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.along = s->marks[top[0]] & SLRT_ALONG;
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
-    if (s->hiding && slrt_is_hidden_portal(s, directed, &sector)) return;
+    if (SLRT_BOXES && s->hiding && slrt_is_hidden_portal(s, directed, &sector)) return;
     slrt_enter(s, slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4), &sector);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#define SL_RUNTIME_WITHOUT_BOXES
 #include "runtime/sightline_runtime.h"
 
 #define EXPORT(type, name, ...)                                                                    \
