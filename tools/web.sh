@@ -52,6 +52,11 @@ cmake --build "$folder/wasm" -j2 >"$folder/build.log" 2>&1 || {
 }
 rm -rf "$folder/package"
 cp -R "$folder/wasm/package" "$folder/package"
+# Whole lines of comments stay behind: pages load less, and the .d.ts files document the calls.
+for file in "$folder"/package/*.js; do
+    sed -e '/^ *\/\*\*.*\*\/$/d' -e '/^ *\/\*\*/,/\*\/$/d' -e '/^ *\/\//d' "$file" >"$folder/stripped.js"
+    mv "$folder/stripped.js" "$file"
+done
 echo "web: $folder/package"
 
 # ---- The site ----
