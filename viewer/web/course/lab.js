@@ -54,4 +54,13 @@ export function middleOf(scene, cell) {
     return [(2 * x) / p.length, (2 * y) / p.length];
 }
 
+/** A line y' = slope x' + height of a dual, as a segment of the plan. */
+export function planLine(dual, { slope, height }) {
+    const place = (x) => {
+        const y = slope * x + height, [ax, ay] = dual.along;
+        return [dual.origin[0] + dual.scale * (x * ax - y * ay), dual.origin[1] + dual.scale * (x * ay + y * ax)];
+    };
+    return [...place(-4), ...place(4)];
+}
+
 export const round = (v, digits = 1) => Number(v.toFixed(digits));

@@ -2,7 +2,7 @@
 import { dualFigure } from '../parts/dual.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { drawWhy, tellWhy } from '../parts/why-scene.js';
-import { cellAt, round } from './lab.js';
+import { cellAt, planLine, round } from './lab.js';
 import { drawWalls, flat, itemsOf } from './maps.js';
 
 const items = itemsOf(flat.text), box = [0, 0, 18, 12];
@@ -62,15 +62,6 @@ const line = {
         ? `On the wrong side: ${state.wrong.map(nameOf).join(', ')}.` : 'It passes all portals: it is a line of sight.'),
 };
 
-/** A line y' = slope x' + height of a dual, as a segment of the plan. */
-function planLine(dual, { slope, height }) {
-    const place = (x) => {
-        const y = slope * x + height, [ax, ay] = dual.along;
-        return [dual.origin[0] + dual.scale * (x * ax - y * ay), dual.origin[1] + dual.scale * (x * ay + y * ax)];
-    };
-    return [...place(-4), ...place(4)];
-}
-
 /** The portals that the dots of the figure hold, each at its place across and with its left end above. */
 function heldPortals(state) {
     return given.map(([x], i) => {
@@ -92,10 +83,10 @@ const dual = {
         state.conflict = lab.core.conflict(state.portals);
         state.dual = lab.core.dual(state.portals);
         state.sees = state.conflict.verdict !== 'hidden';
+        state.bad = state.conflict.ends.map((end) => ({ portal: end.portal, side: end.side === 'left' ? 'L' : 'R' }));
     },
     draw(surface, camera, tones, state) {
-        const bad = state.conflict.ends.map((end) => ({ portal: end.portal, side: end.side === 'left' ? 'L' : 'R' }));
-        drawPortals(surface, camera, tones, state.portals, bad);
+        drawPortals(surface, camera, tones, state.portals, state.bad);
         if (state.sees) strokeLines(surface, camera, [planLine(state.dual, state.dual.best)], tones.sourceEdge, 3);
     },
     beside(state, tones) {
@@ -105,8 +96,9 @@ const dual = {
         return dualFigure(why, tones);
     },
     tell: (state) => (state.sees
-        ? `A line of sight passes all portals. The best line keeps ${round(state.dual.margin * state.dual.scale, 2)} m from all ends${state.conflict.verdict === 'grazing' ? ': it can only touch' : ''}.`
-        : `No line passes. Ends that contradict each other: ${state.conflict.ends.map((e) => nameOf({ portal: e.portal, side: e.side === 'left' ? 'L' : 'R' })).join(', ')}.`),
+        ? `A line of sight passes all portals. The best line keeps ${round(state.dual.margin * state.dual.scale, 2)} m from ` +
+            `all ends${state.conflict.verdict === 'grazing' ? ': it can only touch' : ''}.`
+        : `No line passes. Ends that contradict each other: ${state.bad.map(nameOf).join(', ')}.`),
 };
 
 const cells = {

@@ -52,15 +52,16 @@ solid 11 8 12 8 12 9 11 9
 `,
 };
 
-/** A hall with so many pillars across and up. */
-export function hall(across, up) {
-    let text = `sightline 1\nwalls 0 0 ${4 * across} 0 ${4 * across} ${4 * up} 0 ${4 * up} 0 0\n`;
-    for (let i = 0; i < across; i++)
-        for (let j = 0; j < up; j++) {
-            const x = 4 * i + 1.5, y = 4 * j + 1.5;
-            text += `solid ${x} ${y} ${x + 1} ${y} ${x + 1} ${y + 1} ${x} ${y + 1}\n`;
+/** A hall with rows of thin pillars that do not line up. */
+export function hall(columns) {
+    let text = `sightline 1\nwalls 0 0 ${4 * columns} 0 ${4 * columns} 12 0 12 0 0\n`;
+    for (let i = 0; i < columns; i++)
+        for (let j = 0; j < 4; j++) {
+            const [x0, y0] = [4 * i + 1 + 0.37 * j, 3 * j + 1 + 0.29 * i].map((v) => Number(v.toFixed(2)));
+            const [x1, y1] = [x0 + 0.4, y0 + 0.4].map((v) => Number(v.toFixed(2)));
+            text += `solid ${x0} ${y0} ${x1} ${y0} ${x1} ${y1} ${x0} ${y1}\n`;
         }
-    return { box: [0, 0, 4 * across, 4 * up], text };
+    return text;
 }
 
 /** The walls of a map of the course, as plan.js draws them. */

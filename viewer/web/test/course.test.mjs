@@ -16,6 +16,7 @@ const chapters = {
     here: [['convex', 5, 0], ['mutual', 0, 1], ['guard', [[2, 10]], [[7.1, 8]]]],
     rooms: [['ell', 3, 2], ['why', 0, 1], ['most', [[2, 10]], [[10, 6.5]]]],
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
+    search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
 };
 
 let site;
