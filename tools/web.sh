@@ -45,9 +45,18 @@ rm -f "$folder/try.c" "$folder/try.o"
 cmake -S "$root" -B "$folder/wasm" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-DNDEBUG \
     -DCMAKE_TOOLCHAIN_FILE="$root/lib/cmake/wasi.cmake" -DSIGHTLINE_WASM=ON \
     ${CMAKE_C_COMPILER_LAUNCHER:+-DCMAKE_C_COMPILER_LAUNCHER="$CMAKE_C_COMPILER_LAUNCHER"} >/dev/null
-cmake --build "$folder/wasm" -j2 >/dev/null
+cmake --build "$folder/wasm" -j2 >"$folder/build.log" 2>&1 || {
+    tail -n 20 "$folder/build.log" >&2
+    echo "web: the package does not build" >&2
+    exit 1
+}
 rm -rf "$folder/package"
 cp -R "$folder/wasm/package" "$folder/package"
+# Whole lines of comments stay behind: pages load less, and the .d.ts files document the calls.
+for file in "$folder"/package/*.js; do
+    sed -e '/^ *\/\*\*.*\*\/$/d' -e '/^ *\/\*\*/,/\*\/$/d' -e '/^ *\/\//d' "$file" >"$folder/stripped.js"
+    mv "$folder/stripped.js" "$file"
+done
 echo "web: $folder/package"
 
 # ---- The site ----

@@ -1927,6 +1927,13 @@ enum {
     SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT
 };
 
+/// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
+/// its borders run along portals (of SLRT_ALONG).
+typedef struct slrt_sector {
+    uint32_t right, left;
+    unsigned along;
+} slrt_sector;
+
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
 /// its directed portals that are done, and the right and left border of the sector through which
 /// the eye sees it.
@@ -1944,10 +1951,13 @@ typedef struct slrt_search {
     bool has_row;
     uint32_t *cells, room, count;
     uint64_t patience;
-    const sl_runtime_boxes *boxes;     ///< NULL for none; the rest is about them
+    /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
+    /// boxes is built without what is only for them.
+    void (*meet_boxes)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
+    bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
+    const sl_runtime_boxes *boxes;     ///< the rest is about them
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
     uint32_t *blockers, blocker_count; ///< with room for as many behind them
-    bool hiding;                       ///< the second search: boxes hide
     bool gave_up;                      ///< the search took too long
 } slrt_search;
 
@@ -1976,13 +1986,6 @@ static bool slrt_within(const slrt_arm *v, const slrt_arm *a, const slrt_arm *b,
 static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
     return !slrt_side(u, v) && slrt_same_way(u, v);
 }
-
-/// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
-/// its borders run along portals (of SLRT_ALONG).
-typedef struct slrt_sector {
-    uint32_t right, left;
-    unsigned along;
-} slrt_sector;
 
 static bool slrt_is_ray(const slrt_search *s, const slrt_sector *sector) {
     const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
@@ -2573,7 +2576,7 @@ static bool slrt_sees_box(const slrt_search *s, uint32_t box, uint32_t cell,
     if (sector->right != SLRT_ALL_ROUND) {
         u = slrt_border(s, sector->right);
         v = slrt_border(s, sector->left);
-    } else if (!s->hiding || slrt_box_holds(at, s->x, s->y)) {
+    } else if (!s->is_hidden || slrt_box_holds(at, s->x, s->y)) {
         return true;
     } else {
         slrt_shadow_of(s, at, &u, &v);
@@ -2581,14 +2584,14 @@ static bool slrt_sees_box(const slrt_search *s, uint32_t box, uint32_t cell,
     if (cell != s->eye_cell && slrt_same_ray(&u, &v) && slrt_holds(s->rt, cell, s->x, s->y) &&
         !slrt_meets_behind_wall(s, at, cell, &u))
         return false;
-    return s->hiding ? slrt_sees_box_past(s, box, cell, u, &v)
-                     : slrt_sees_box_in(s, at, cell, &u, &v);
+    return s->is_hidden ? slrt_sees_box_past(s, box, cell, u, &v)
+                        : slrt_sees_box_in(s, at, cell, &u, &v);
 }
 
 /// Marks the boxes that are seen in a cell, through a sector.
 static void slrt_meet_boxes(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
-    const unsigned char wanted = s->hiding ? SLRT_BOX_PAST_WALLS : 0;
-    const unsigned char found = s->hiding ? SLRT_BOX_SEEN : SLRT_BOX_PAST_WALLS;
+    const unsigned char wanted = s->is_hidden ? SLRT_BOX_PAST_WALLS : 0;
+    const unsigned char found = s->is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_PAST_WALLS;
     uint32_t at = *slrt_first_entry(s->boxes, cell);
     while (at != SLRT_NO_ENTRY) {
         const uint32_t *entry = slrt_entry(s->boxes, at);
@@ -2608,7 +2611,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ON_PATH) return;
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    if (s->boxes) slrt_meet_boxes(s, cell, sector);
+    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
                              sector->along);
     s->sectors[2 * (size_t)cell] = sector->right;
@@ -2635,7 +2638,7 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.along = s->marks[top[0]] & SLRT_ALONG;
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
-    if (s->hiding && slrt_is_hidden_portal(s, directed, &sector)) return;
+    if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
     slrt_enter(s, slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4), &sector);
 }
 
@@ -2783,7 +2786,7 @@ static void slrt_look_at_boxes(slrt_search *s) {
     for (i = 0; i < boxes->count && !s->gave_up; i++)
         if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
     if (!s->blocker_count) return;
-    s->hiding = true;
+    s->is_hidden = slrt_is_hidden_portal;
     for (i = 0; i < boxes->count; i++)
         if (s->box_marks[i] == SLRT_BOX_PAST_WALLS && slrt_is_hidden_box(s, i))
             s->box_marks[i] = SLRT_BOX_HIDDEN;
@@ -2808,11 +2811,12 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
     if (!slrt_start_search(&s, boxes->runtime, view, shut, range, scratch)) return 0;
     s.cells = cells;
     s.room = room;
+    s.meet_boxes = slrt_meet_boxes;
     s.boxes = boxes;
     s.box_marks = seen;
     s.blockers = scratch + sl_runtime_scratch_count(boxes->runtime);
     slrt_look_at_boxes(&s);
-    wanted = s.hiding ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
+    wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
     for (i = 0; i < boxes->count; i++)
         seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
     return s.count;

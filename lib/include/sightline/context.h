@@ -11,8 +11,10 @@
 #include <stdint.h>
 
 #if defined(SIGHTLINE_SHARED) && defined(__GNUC__)
+/// Marks what a shared library shows.
 #define SL_API __attribute__((visibility("default")))
 #else
+/// Marks what a shared library shows.
 #define SL_API
 #endif
 

@@ -1,10 +1,10 @@
-/// The core library for JavaScript: each question of core.js is one function here, and each of
-/// these asks the public headers. Nothing is decided here.
+/// The core library for JavaScript: each question of bake.js and scene.js is one function here, and
+/// each of these asks the public headers. Nothing is decided here.
 ///
 /// A scene is a baked map with what questions about it need. Functions that can fail return the
 /// status (0: done) or, where they return a place, NULL. message() then says why. Arrays that a
 /// function gives stay in the memory of the module, as views for JavaScript, until the next call
-/// about the same scene. One instance of the module serves one thread, so its state is global here.
+/// about the same scene. What the module has beside scenes is in module.c.
 #include "bindings/js/src/bindings.h"
 #include "sightline/json_write.h"
 #include "sightline/sightline.h"
@@ -30,82 +30,8 @@ typedef struct scene {
     sl_steps steps;
 } scene;
 
-static struct {
-    sl_context *context;
-    sl_status status; ///< of the last call
-    sl_bake_options options;
-    bool watched; ///< JavaScript wants to hear of progress
-    uint32_t integers[40];
-    double numbers[32];
-} core;
-
-// --- the module
-
-__attribute__((import_module("host"), import_name("progress"))) int
-host_progress(const char *stage, double done, double total);
-__attribute__((import_module("host"), import_name("cancelled"))) int host_cancelled(void);
-
-static void progress(void *user, const sl_progress *at) {
-    (void)user;
-    if (core.watched) host_progress(at->stage, (double)at->done, (double)at->total);
-}
-
-static bool cancelled(void *user) {
-    (void)user;
-    return core.watched && host_cancelled();
-}
-
-static bool done(sl_status status) {
-    core.status = status;
-    return status == SL_OK;
-}
-
-/// Makes the context; false where there is no memory even for that.
-SLI_EXPORT(int, begin, void) {
-    const sl_hooks hooks = {.progress = progress, .cancelled = cancelled};
-    if (!core.context) core.context = sl_context_create(&hooks);
-    return core.context != NULL;
-}
-
-SLI_EXPORT(void *, take, size_t bytes) {
-    return malloc(bytes ? bytes : 1);
-}
-
-SLI_EXPORT(void, give, void *block) {
-    free(block);
-}
-
-SLI_EXPORT(const char *, message, void) {
-    return sl_context_message(core.context);
-}
-
-SLI_EXPORT(int, status, void) {
-    return (int)core.status;
-}
-
-SLI_EXPORT(const char *, version, void) {
-    return sl_version();
-}
-
-SLI_EXPORT(void, watch, int on) {
-    core.watched = on;
-}
-
-SLI_EXPORT(const uint32_t *, integers_place, void) {
-    return core.integers;
-}
-
-SLI_EXPORT(const double *, numbers_place, void) {
-    return core.numbers;
-}
-
-/// The bytes of what was written last; their number is integers[0].
-SLI_EXPORT(const char *, written, void) {
-    size_t size;
-    const char *bytes = sli_written(&size);
-    core.integers[0] = (uint32_t)size;
-    return bytes;
-}
+/// Of the next bake.
+static sl_bake_options bake_options;
 
 // --- options
 
@@ -116,7 +42,7 @@ static bool is(const char *a, const char *b) {
 static sl_status find_method(const char *name, const sl_see_method **out) {
     *out = name[0] ? sl_see_method_named(name) : NULL;
     if (*out || !name[0]) return SL_OK;
-    return sl_fail(core.context, SL_BAD_ARGUMENT, "method: there is no method '%s'", name);
+    return sl_fail(sli_module.context, SL_BAD_ARGUMENT, "method: there is no method '%s'", name);
 }
 
 static sl_status find_subdivision(const char *name, const sl_subdivision **out) {
@@ -127,18 +53,18 @@ static sl_status find_subdivision(const char *name, const sl_subdivision **out) 
     for (size_t i = 0; i < count; i++)
         if (is(all[i].name, name)) *out = &all[i];
     if (*out) return SL_OK;
-    return sl_fail(core.context, SL_BAD_ARGUMENT, "subdivide: there is no way '%s'", name);
+    return sl_fail(sli_module.context, SL_BAD_ARGUMENT, "subdivide: there is no way '%s'", name);
 }
 
 /// Options of the next bake. An empty name, and a number below 0, stand for the default.
 SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sight, int inside,
            int trees, int check, double weld, double mirror_depth, double door_limit,
            double samples, double seed) {
-    sl_bake_options *o = &core.options;
+    sl_bake_options *o = &bake_options;
     *o = sl_bake_options_default();
     o->see.threads = 1;
-    if (!done(find_method(method, &o->method))) return (int)core.status;
-    if (!done(find_subdivision(subdivide, &o->subdivision))) return (int)core.status;
+    if (!sli_done(find_method(method, &o->method))) return (int)sli_module.status;
+    if (!sli_done(find_subdivision(subdivide, &o->subdivision))) return (int)sli_module.status;
     o->see.sight = open_sight ? SL_OPEN : SL_CLOSED;
     o->see.inside_only = inside;
     o->see.trees = trees;
@@ -155,10 +81,10 @@ SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sig
 
 /// `name` is for messages, and its ending says what the text is.
 static sl_status read_map(const char *name, const char *text, size_t size, sl_map *map) {
-    const sl_subdivision *way = core.options.subdivision;
+    const sl_subdivision *way = bake_options.subdivision;
     const sl_import_options import = {.cells = way && way->takes_cells};
-    SL_TRY(sl_map_parse(core.context, name, text, size, &import, map));
-    if (way && !way->takes_cells) sl_map_drop_cells(core.context, map);
+    SL_TRY(sl_map_parse(sli_module.context, name, text, size, &import, map));
+    if (way && !way->takes_cells) sl_map_drop_cells(sli_module.context, map);
     return SL_OK;
 }
 
@@ -167,14 +93,14 @@ SLI_EXPORT(int, map_write, const char *name, const char *text, size_t size, cons
     sl_map map = {0};
     sl_status status = read_map(name, text, size, &map);
     if (status == SL_OK && is(format, "text"))
-        status = sl_map_write_text(core.context, &map, "");
+        status = sl_map_write_text(sli_module.context, &map, "");
     else if (status == SL_OK && is(format, "plan"))
-        status = sl_map_write_plan(core.context, &map, "");
+        status = sl_map_write_plan(sli_module.context, &map, "");
     else if (status == SL_OK)
-        status =
-            sl_fail(core.context, SL_BAD_ARGUMENT, "format: there is no map format '%s'", format);
-    sl_map_destroy(core.context, &map);
-    return (int)(core.status = status);
+        status = sl_fail(sli_module.context, SL_BAD_ARGUMENT, "format: there is no map format '%s'",
+                         format);
+    sl_map_destroy(sli_module.context, &map);
+    return (int)(sli_module.status = status);
 }
 
 static void put_point(sl_json_writer *json, sl_point point) {
@@ -227,7 +153,7 @@ static sl_status print_faults(const sl_map *map, const sl_space *space, const sl
     const double parts[] = {shares.inside, shares.outside, shares.solid};
     static const char *const names[] = {"inside", "outside", "solid"};
     sl_output output;
-    SL_TRY(sl_output_open(core.context, "", &output));
+    SL_TRY(sl_output_open(sli_module.context, "", &output));
     sl_json_writer json = sl_json_writer_to(output.stream, 0);
     sl_json_put_object(&json);
     sl_json_put_key(&json, "doubt");
@@ -243,18 +169,18 @@ static sl_status print_faults(const sl_map *map, const sl_space *space, const sl
     for (uint32_t i = 0; i < faults->count; i++) put_fault(&json, map, faults, &faults->items[i]);
     sl_json_put_end(&json, ']');
     sl_json_put_end(&json, '}');
-    return sl_output_close(core.context, &output, SL_OK);
+    return sl_output_close(sli_module.context, &output, SL_OK);
 }
 
 static sl_status check_map(const sl_map *map, sl_baked *baked, sl_map *copy, sl_faults *faults,
                            double gap, double thin) {
-    const sl_faults_options options = {.gap = gap, .thin = thin, .clean = &core.options.clean};
+    const sl_faults_options options = {.gap = gap, .thin = thin, .clean = &bake_options.clean};
     sl_bake_account account = {0};
     sl_inside inside;
-    SL_TRY(sl_map_copy(core.context, map, copy));
-    SL_TRY(sl_bake_space(core.context, copy, &core.options, baked, &account));
-    SL_TRY(sl_find_faults(core.context, map, &baked->space, &options, faults));
-    SL_TRY(sl_doubt_inside(core.context, map, &baked->space, &inside));
+    SL_TRY(sl_map_copy(sli_module.context, map, copy));
+    SL_TRY(sl_bake_space(sli_module.context, copy, &bake_options, baked, &account));
+    SL_TRY(sl_find_faults(sli_module.context, map, &baked->space, &options, faults));
+    SL_TRY(sl_doubt_inside(sli_module.context, map, &baked->space, &inside));
     return print_faults(map, &baked->space, faults, inside);
 }
 
@@ -266,75 +192,75 @@ SLI_EXPORT(int, map_check, const char *name, const char *text, size_t size, doub
     sl_faults faults = {0};
     sl_status status = read_map(name, text, size, &map);
     if (status == SL_OK) status = check_map(&map, &baked, &copy, &faults, gap, thin);
-    sl_faults_destroy(core.context, &faults);
-    sl_baked_destroy(core.context, &baked);
-    sl_map_destroy(core.context, &copy);
-    sl_map_destroy(core.context, &map);
-    return (int)(core.status = status);
+    sl_faults_destroy(sli_module.context, &faults);
+    sl_baked_destroy(sli_module.context, &baked);
+    sl_map_destroy(sli_module.context, &copy);
+    sl_map_destroy(sli_module.context, &map);
+    return (int)(sli_module.status = status);
 }
 
 // --- scenes
 
 SLI_EXPORT(void, scene_close, scene *s) {
     if (!s) return;
-    sl_query_destroy(core.context, s->query);
-    sl_region_destroy(core.context, &s->region);
-    sl_mirrored_region_destroy(core.context, &s->mirrored);
-    sl_steps_destroy(core.context, &s->steps);
-    sl_free(core.context, s->flat);
-    sl_free(core.context, s->shut);
-    sl_free(core.context, s->cells);
-    sl_free(core.context, s->list);
-    sl_baked_destroy(core.context, &s->baked);
-    sl_free(core.context, s);
+    sl_query_destroy(sli_module.context, s->query);
+    sl_region_destroy(sli_module.context, &s->region);
+    sl_mirrored_region_destroy(sli_module.context, &s->mirrored);
+    sl_steps_destroy(sli_module.context, &s->steps);
+    sl_free(sli_module.context, s->flat);
+    sl_free(sli_module.context, s->shut);
+    sl_free(sli_module.context, s->cells);
+    sl_free(sli_module.context, s->list);
+    sl_baked_destroy(sli_module.context, &s->baked);
+    sl_free(sli_module.context, s);
 }
 
 /// What questions need, once the map is baked.
 static sl_status equip(scene *s) {
     const sl_map *map = &s->baked.map;
-    s->shut = sl_alloc_array(core.context, map->door_count, sizeof *s->shut);
-    s->cells = sl_alloc_array(core.context, sl_eye_words(&s->baked.space), sizeof *s->cells);
-    s->list = sl_alloc_array(core.context, s->baked.space.cell_count, sizeof *s->list);
+    s->shut = sl_alloc_array(sli_module.context, map->door_count, sizeof *s->shut);
+    s->cells = sl_alloc_array(sli_module.context, sl_eye_words(&s->baked.space), sizeof *s->cells);
+    s->list = sl_alloc_array(sli_module.context, s->baked.space.cell_count, sizeof *s->list);
     if (!s->shut || !s->cells || !s->list) return SL_NO_MEMORY;
     for (size_t i = 0; i < map->door_count; i++) s->shut[i] = !map->doors[i].open;
     s->range = map->range;
-    return sl_query_create(core.context, &s->baked, &s->query);
+    return sl_query_create(sli_module.context, &s->baked, &s->query);
 }
 
 static sl_status bake_text(scene *s, const char *name, const char *text, size_t size) {
     sl_map map = {0};
     sl_status status = read_map(name, text, size, &map);
     if (status == SL_OK)
-        status = sl_bake(core.context, &map, &core.options, &s->baked, &s->account);
-    sl_map_destroy(core.context, &map);
+        status = sl_bake(sli_module.context, &map, &bake_options, &s->baked, &s->account);
+    sl_map_destroy(sli_module.context, &map);
     return status;
 }
 
 /// Closes a scene that could not be made; keeps the message.
 static scene *finish(scene *s, sl_status status) {
     if (status == SL_OK) status = equip(s);
-    if (done(status)) return s;
+    if (sli_done(status)) return s;
     scene_close(s);
     return NULL;
 }
 
 /// Bakes a map by the options.
 SLI_EXPORT(scene *, scene_bake, const char *name, const char *text, size_t size) {
-    scene *s = sl_alloc_array(core.context, 1, sizeof *s);
+    scene *s = sl_alloc_array(sli_module.context, 1, sizeof *s);
     if (!s) return finish(s, SL_NO_MEMORY);
     return finish(s, bake_text(s, name, text, size));
 }
 
 /// Opens the bytes of a baked file.
 SLI_EXPORT(scene *, scene_open, const char *name, const char *bytes, size_t size) {
-    scene *s = sl_alloc_array(core.context, 1, sizeof *s);
+    scene *s = sl_alloc_array(sli_module.context, 1, sizeof *s);
     if (!s) return finish(s, SL_NO_MEMORY);
-    return finish(s, sl_baked_parse(core.context, name, bytes, size, &s->baked));
+    return finish(s, sl_baked_parse(sli_module.context, name, bytes, size, &s->baked));
 }
 
 /// The baked file: see written().
 SLI_EXPORT(int, scene_write, scene *s) {
-    return (int)(core.status = sl_baked_write(core.context, &s->baked, ""));
+    return (int)(sli_module.status = sl_baked_write(sli_module.context, &s->baked, ""));
 }
 
 /// An export by its name: see written(). The table of all exports is not asked: it would bring the
@@ -342,15 +268,15 @@ SLI_EXPORT(int, scene_write, scene *s) {
 SLI_EXPORT(int, scene_export, scene *s, const char *format, double version) {
     const sl_export_options options = {.json_version = (uint32_t)version};
     if (is(format, "json"))
-        core.status = sl_export_json(core.context, &s->baked, &options, "");
+        sli_module.status = sl_export_json(sli_module.context, &s->baked, &options, "");
     else if (is(format, "geojson"))
-        core.status = sl_export_geojson(core.context, &s->baked, &options, "");
+        sli_module.status = sl_export_geojson(sli_module.context, &s->baked, &options, "");
     else if (is(format, "csv"))
-        core.status = sl_export_csv(core.context, &s->baked, &options, "");
+        sli_module.status = sl_export_csv(sli_module.context, &s->baked, &options, "");
     else
-        core.status =
-            sl_fail(core.context, SL_BAD_ARGUMENT, "format: there is no export '%s'", format);
-    return (int)core.status;
+        sli_module.status =
+            sl_fail(sli_module.context, SL_BAD_ARGUMENT, "format: there is no export '%s'", format);
+    return (int)sli_module.status;
 }
 
 /// integers: counts and places of the arrays, as core.js names them; numbers: bounds, range.
@@ -385,10 +311,10 @@ SLI_EXPORT(void, scene_describe, const scene *s) {
                               (uint32_t)s->baked.visibility.sight,
                               (uint32_t)s->baked.visibility.guarantee,
                               (uint32_t)(uintptr_t)s->baked.method};
-    memcpy(core.integers, table, sizeof table);
+    memcpy(sli_module.integers, table, sizeof table);
     const double numbers[] = {space->bounds.min.x, space->bounds.min.y, space->bounds.max.x,
                               space->bounds.max.y, map->range};
-    memcpy(core.numbers, numbers, sizeof numbers);
+    memcpy(sli_module.numbers, numbers, sizeof numbers);
 }
 
 /// numbers: what cleaning and the stages did.
@@ -411,29 +337,30 @@ SLI_EXPORT(void, scene_account, const scene *s) {
                               (double)see->nodes,
                               (double)see->pieces,
                               (double)see->deepest};
-    memcpy(core.numbers, numbers, sizeof numbers);
+    memcpy(sli_module.numbers, numbers, sizeof numbers);
 }
 
 /// integers: the places of a door's name and of its segments (its parts), their number, shut.
 SLI_EXPORT(void, scene_door, const scene *s, uint32_t number) {
     const sl_door *door = &s->baked.map.doors[number];
-    core.integers[0] = (uint32_t)(uintptr_t)door->name;
-    core.integers[1] = (uint32_t)(uintptr_t)(door->parts ? door->parts : &door->segment);
-    core.integers[2] = door->parts ? (uint32_t)door->part_count : 1;
-    core.integers[3] = s->shut[number];
+    sli_module.integers[0] = (uint32_t)(uintptr_t)door->name;
+    sli_module.integers[1] = (uint32_t)(uintptr_t)(door->parts ? door->parts : &door->segment);
+    sli_module.integers[2] = door->parts ? (uint32_t)door->part_count : 1;
+    sli_module.integers[3] = s->shut[number];
 }
 
 /// integers: the place of a mirror's (kind 0) or a one-way glass' (kind 1) segment, one-sided.
 SLI_EXPORT(void, scene_glass, const scene *s, int kind, uint32_t number) {
     const sl_map *map = &s->baked.map;
     const sl_glass *glass = kind ? &map->oneways[number] : &map->mirrors[number];
-    core.integers[0] = (uint32_t)(uintptr_t)&glass->segment;
-    core.integers[1] = glass->one_sided;
+    sli_module.integers[0] = (uint32_t)(uintptr_t)&glass->segment;
+    sli_module.integers[1] = glass->one_sided;
 }
 
 SLI_EXPORT(int, scene_set_door, scene *s, const char *name, int open) {
     const sl_map *map = &s->baked.map;
-    if (!done(sl_query_set_door(core.context, s->query, name, open))) return (int)core.status;
+    if (!sli_done(sl_query_set_door(sli_module.context, s->query, name, open)))
+        return (int)sli_module.status;
     for (size_t i = 0; i < map->door_count; i++)
         if (is(map->doors[i].name, name)) s->shut[i] = !open;
     return SL_OK;
@@ -447,8 +374,8 @@ SLI_EXPORT(uint32_t, scene_locate, const scene *s, double x, double y) {
 
 static sl_status check_cell(const scene *s, uint32_t cell) {
     if (cell < s->baked.space.cell_count) return SL_OK;
-    return sl_fail(core.context, SL_BAD_ARGUMENT, "cell %u: there are %u cells", (unsigned)cell,
-                   (unsigned)s->baked.space.cell_count);
+    return sl_fail(sli_module.context, SL_BAD_ARGUMENT, "cell %u: there are %u cells",
+                   (unsigned)cell, (unsigned)s->baked.space.cell_count);
 }
 
 /// Takes the cells that shut doors hide out of the set.
@@ -465,8 +392,8 @@ static void list_cells(scene *s) {
     for (size_t word = 0; word < sl_eye_words(&s->baked.space); word++)
         for (uint64_t rest = s->cells[word]; rest; rest &= rest - 1)
             s->list[count++] = (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(rest);
-    core.integers[0] = count;
-    core.integers[1] = (uint32_t)(uintptr_t)s->list;
+    sli_module.integers[0] = count;
+    sli_module.integers[1] = (uint32_t)(uintptr_t)s->list;
 }
 
 /// The row of a cell: of the visible sets (which 0), of what is seen by mirror (1), or of the pairs
@@ -474,7 +401,7 @@ static void list_cells(scene *s) {
 SLI_EXPORT(int, scene_row, scene *s, int which, uint32_t cell) {
     const sl_visibility *v = &s->baked.visibility;
     const sl_pvs *sets[] = {&v->pvs, &v->mirrored, &v->doubtful};
-    if (!done(check_cell(s, cell))) return (int)core.status;
+    if (!sli_done(check_cell(s, cell))) return (int)sli_module.status;
     memset(s->cells, 0, sl_eye_words(&s->baked.space) * sizeof *s->cells);
     if (sets[which]->cell_count)
         for (sl_pvs_run run = sl_pvs_begin(sets[which], cell); sl_pvs_next(&run);)
@@ -488,16 +415,17 @@ SLI_EXPORT(int, scene_row, scene *s, int which, uint32_t cell) {
 /// integers[0]: whether cell `from` sees cell `to` directly.
 SLI_EXPORT(int, scene_cell_sees, scene *s, uint32_t from, uint32_t to) {
     bool sees = false;
-    if (!done(check_cell(s, from)) || !done(check_cell(s, to))) return (int)core.status;
-    done(sl_query_cell_sees(core.context, s->query, from, to, &sees));
-    core.integers[0] = sees;
-    return (int)core.status;
+    if (!sli_done(check_cell(s, from)) || !sli_done(check_cell(s, to)))
+        return (int)sli_module.status;
+    sli_done(sl_query_cell_sees(sli_module.context, s->query, from, to, &sees));
+    sli_module.integers[0] = sees;
+    return (int)sli_module.status;
 }
 
 static sl_status set_range(scene *s, double range) {
     const double wanted = range < 0 ? s->baked.map.range : range;
     if (wanted == s->range) return SL_OK;
-    SL_TRY(sl_query_set_range(core.context, s->query, wanted));
+    SL_TRY(sl_query_set_range(sli_module.context, s->query, wanted));
     s->range = wanted;
     return SL_OK;
 }
@@ -506,11 +434,11 @@ static sl_status set_range(scene *s, double range) {
 SLI_EXPORT(int, scene_can_see, scene *s, double x, double y, double to_x, double to_y,
            double range) {
     bool sees = false;
-    if (done(set_range(s, range)))
-        done(sl_query_can_see(core.context, s->query, (sl_point){x, y}, (sl_point){to_x, to_y},
-                              &sees));
-    core.integers[0] = sees;
-    return (int)core.status;
+    if (sli_done(set_range(s, range)))
+        sli_done(sl_query_can_see(sli_module.context, s->query, (sl_point){x, y},
+                                  (sl_point){to_x, to_y}, &sees));
+    sli_module.integers[0] = sees;
+    return (int)sli_module.status;
 }
 
 static sl_status find_culling(const char *name, const sl_eye_method **out) {
@@ -521,7 +449,8 @@ static sl_status find_culling(const char *name, const sl_eye_method **out) {
     for (size_t i = 0; i < count; i++)
         if (is(all[i].name, name)) *out = &all[i];
     if (*out) return SL_OK;
-    return sl_fail(core.context, SL_BAD_ARGUMENT, "method: there is no culling method '%s'", name);
+    return sl_fail(sli_module.context, SL_BAD_ARGUMENT, "method: there is no culling method '%s'",
+                   name);
 }
 
 static sl_status look(scene *s, const sl_view *view, double range, const char *method,
@@ -530,56 +459,56 @@ static sl_status look(scene *s, const sl_view *view, double range, const char *m
     SL_TRY(find_culling(method, &culling));
     SL_TRY(set_range(s, range));
     if (by_mirror)
-        return sl_query_look_mirrored(core.context, s->query, view, culling, s->cells, NULL);
-    return sl_query_look(core.context, s->query, view, culling, s->cells, NULL);
+        return sl_query_look_mirrored(sli_module.context, s->query, view, culling, s->cells, NULL);
+    return sl_query_look(sli_module.context, s->query, view, culling, s->cells, NULL);
 }
 
 /// The cells that a view sees. integers: number and place.
 SLI_EXPORT(int, scene_look, scene *s, double x, double y, double heading, double fov, double range,
            const char *method, int by_mirror) {
     const sl_view view = sl_query_view(s->query, (sl_point){x, y}, heading, fov);
-    if (done(look(s, &view, range, method, by_mirror))) list_cells(s);
-    return (int)core.status;
+    if (sli_done(look(s, &view, range, method, by_mirror))) list_cells(s);
+    return (int)sli_module.status;
 }
 
 // --- regions
 
 /// integers: count, places of points and edges, the eye's cell; then the same as chords.
 static sl_status show_region(scene *s, const sl_region *region, double tolerance) {
-    core.integers[0] = (uint32_t)region->count;
-    core.integers[1] = (uint32_t)(uintptr_t)region->points;
-    core.integers[2] = (uint32_t)(uintptr_t)region->edges;
-    core.integers[3] = region->cell;
-    core.integers[4] = core.integers[0];
-    core.integers[5] = core.integers[1];
+    sli_module.integers[0] = (uint32_t)region->count;
+    sli_module.integers[1] = (uint32_t)(uintptr_t)region->points;
+    sli_module.integers[2] = (uint32_t)(uintptr_t)region->edges;
+    sli_module.integers[3] = region->cell;
+    sli_module.integers[4] = sli_module.integers[0];
+    sli_module.integers[5] = sli_module.integers[1];
     if (!(region->range > 0)) return SL_OK;
     size_t count = sl_region_flatten(region, tolerance, s->flat, s->flat_room);
     if (count > s->flat_room) {
-        SL_TRY(sl_reserve(core.context, &s->flat, &s->flat_room, count, sizeof *s->flat));
+        SL_TRY(sl_reserve(sli_module.context, &s->flat, &s->flat_room, count, sizeof *s->flat));
         count = sl_region_flatten(region, tolerance, s->flat, s->flat_room);
     }
-    core.integers[4] = (uint32_t)count;
-    core.integers[5] = (uint32_t)(uintptr_t)s->flat;
+    sli_module.integers[4] = (uint32_t)count;
+    sli_module.integers[5] = (uint32_t)(uintptr_t)s->flat;
     return SL_OK;
 }
 
 static sl_status make_region(scene *s, const sl_view *view, double range) {
     SL_TRY(set_range(s, range));
-    return sl_query_region(core.context, s->query, view, &s->region);
+    return sl_query_region(sli_module.context, s->query, view, &s->region);
 }
 
 /// The visible region of a view. Arcs become chords that lie within `tolerance` of them.
 SLI_EXPORT(int, scene_region, scene *s, double x, double y, double heading, double fov,
            double range, double tolerance) {
     const sl_view view = sl_query_view(s->query, (sl_point){x, y}, heading, fov);
-    if (done(make_region(s, &view, range))) done(show_region(s, &s->region, tolerance));
-    return (int)core.status;
+    if (sli_done(make_region(s, &view, range))) sli_done(show_region(s, &s->region, tolerance));
+    return (int)sli_module.status;
 }
 
 /// numbers: the measures of the last region, in the order of sl_region_measures.
 SLI_EXPORT(void, scene_measures, const scene *s) {
     const sl_region_measures m = sl_region_measure(&s->region);
-    memcpy(core.numbers, &m, sizeof m);
+    memcpy(sli_module.numbers, &m, sizeof m);
 }
 
 /// What is seen directly and by mirror; integers[0]: the number of parts seen by mirror.
@@ -587,22 +516,22 @@ SLI_EXPORT(int, scene_mirrored_region, scene *s, double x, double y, double head
            double range, uint32_t depth) {
     const sl_view view = sl_query_view(s->query, (sl_point){x, y}, heading, fov);
     sl_status status = set_range(s, range);
-    if (status == SL_OK) status = sl_query_set_mirror_depth(core.context, s->query, depth);
+    if (status == SL_OK) status = sl_query_set_mirror_depth(sli_module.context, s->query, depth);
     if (status == SL_OK)
-        status = sl_query_mirrored_region(core.context, s->query, &view, &s->mirrored);
-    core.integers[0] = status == SL_OK ? (uint32_t)s->mirrored.part_count : 0;
-    return (int)(core.status = status);
+        status = sl_query_mirrored_region(sli_module.context, s->query, &view, &s->mirrored);
+    sli_module.integers[0] = status == SL_OK ? (uint32_t)s->mirrored.part_count : 0;
+    return (int)(sli_module.status = status);
 }
 
 /// A part of the last mirrored region. integers: as scene_region(), then mirror, parent, depth, and
 /// the place of its points in mirrored space.
 SLI_EXPORT(int, scene_mirror_part, scene *s, uint32_t number, double tolerance) {
     const sl_mirror_part *part = &s->mirrored.parts[number];
-    if (!done(show_region(s, &part->region, tolerance))) return (int)core.status;
-    core.integers[6] = part->mirror;
-    core.integers[7] = part->parent;
-    core.integers[8] = part->depth;
-    core.integers[9] = (uint32_t)(uintptr_t)part->image;
+    if (!sli_done(show_region(s, &part->region, tolerance))) return (int)sli_module.status;
+    sli_module.integers[6] = part->mirror;
+    sli_module.integers[7] = part->parent;
+    sli_module.integers[8] = part->depth;
+    sli_module.integers[9] = (uint32_t)(uintptr_t)part->image;
     return SL_OK;
 }
 
@@ -618,23 +547,24 @@ static sl_status explain(scene *s, uint32_t from, uint32_t to, uint32_t misses, 
     options.most_tests = (uint64_t)tests;
     SL_TRY(check_cell(s, from));
     SL_TRY(check_cell(s, to));
-    bool *scratch = sl_alloc_array(core.context, s->baked.map.door_count, sizeof *scratch);
+    bool *scratch = sl_alloc_array(sli_module.context, s->baked.map.door_count, sizeof *scratch);
     if (!scratch) return SL_NO_MEMORY;
-    sl_status status = sl_explain_effects(core.context, &s->baked.space, &s->baked.map, &state,
-                                          &options, from, to, &a.e);
+    sl_status status = sl_explain_effects(sli_module.context, &s->baked.space, &s->baked.map,
+                                          &state, &options, from, to, &a.e);
     sl_output output;
-    if (status == SL_OK && (status = sl_output_open(core.context, "", &output)) == SL_OK)
-        status = sl_output_close(core.context, &output,
-                                 explanation_print_json(core.context, &a, scratch, output.stream));
-    sl_effect_explanation_destroy(core.context, &a.e);
-    sl_free(core.context, scratch);
+    if (status == SL_OK && (status = sl_output_open(sli_module.context, "", &output)) == SL_OK)
+        status =
+            sl_output_close(sli_module.context, &output,
+                            explanation_print_json(sli_module.context, &a, scratch, output.stream));
+    sl_effect_explanation_destroy(sli_module.context, &a.e);
+    sl_free(sli_module.context, scratch);
     return status;
 }
 
 /// Why a pair of cells is seen or hidden, as the JSON of `sightline explain`: see written().
 SLI_EXPORT(int, scene_explain, scene *s, uint32_t from, uint32_t to, uint32_t misses, double tests,
            uint32_t mirror_depth) {
-    return (int)(core.status = explain(s, from, to, misses, tests, mirror_depth));
+    return (int)(sli_module.status = explain(s, from, to, misses, tests, mirror_depth));
 }
 
 /// The depth-first search from a cell. integers: number of steps, their place, whether complete.
@@ -642,22 +572,22 @@ SLI_EXPORT(int, scene_steps, scene *s, uint32_t cell, double most) {
     sl_steps_options options = sl_steps_options_default();
     options.sight = s->baked.visibility.sight;
     if (most >= 0) options.most = (size_t)most;
-    sl_steps_destroy(core.context, &s->steps);
-    if (!done(check_cell(s, cell))) return (int)core.status;
-    done(sl_steps_record(core.context, &s->baked.space, &options, cell, &s->steps));
-    core.integers[0] = (uint32_t)s->steps.count;
-    core.integers[1] = (uint32_t)(uintptr_t)s->steps.steps;
-    core.integers[2] = s->steps.complete;
-    return (int)core.status;
+    sl_steps_destroy(sli_module.context, &s->steps);
+    if (!sli_done(check_cell(s, cell))) return (int)sli_module.status;
+    sli_done(sl_steps_record(sli_module.context, &s->baked.space, &options, cell, &s->steps));
+    sli_module.integers[0] = (uint32_t)s->steps.count;
+    sli_module.integers[1] = (uint32_t)(uintptr_t)s->steps.steps;
+    sli_module.integers[2] = s->steps.complete;
+    return (int)sli_module.status;
 }
 
 /// The kept stab tree of a cell. integers: number of nodes and their place.
 SLI_EXPORT(int, scene_kept_tree, const scene *s, uint32_t cell) {
     const sl_stab_trees *trees = &s->baked.visibility.trees;
-    if (!done(check_cell(s, cell))) return (int)core.status;
+    if (!sli_done(check_cell(s, cell))) return (int)sli_module.status;
     const uint64_t first = trees->cell_count ? trees->offsets[cell] : 0;
-    core.integers[0] = trees->cell_count ? (uint32_t)(trees->offsets[cell + 1] - first) : 0;
-    core.integers[1] = (uint32_t)(uintptr_t)(trees->nodes + first);
+    sli_module.integers[0] = trees->cell_count ? (uint32_t)(trees->offsets[cell + 1] - first) : 0;
+    sli_module.integers[1] = (uint32_t)(uintptr_t)(trees->nodes + first);
     return SL_OK;
 }
 
@@ -668,24 +598,25 @@ SLI_EXPORT(int, scene_kept_tree, const scene *s, uint32_t cell) {
 SLI_EXPORT(void, dual, const sl_portal_ends *portals, uint32_t count, uint32_t cutting) {
     static sl_dual made;
     sl_dual_make(portals, count, cutting, &made);
-    core.integers[0] = made.corner_count;
-    core.integers[1] = (uint32_t)(uintptr_t)made.corners;
+    sli_module.integers[0] = made.corner_count;
+    sli_module.integers[1] = (uint32_t)(uintptr_t)made.corners;
     const double numbers[] = {made.origin.x, made.origin.y,   made.along.x,     made.along.y,
                               made.scale,    made.best.slope, made.best.height, made.margin};
-    memcpy(core.numbers, numbers, sizeof numbers);
+    memcpy(sli_module.numbers, numbers, sizeof numbers);
 }
 
 /// What keeps lines from a portal sequence. integers: verdict, turns, number of ends, then portal
 /// and side of each (1: left).
 SLI_EXPORT(int, conflict, const sl_portal_ends *portals, uint32_t count) {
     sl_conflict found = {0};
-    if (!done(sl_conflict_find(core.context, portals, count, &found))) return (int)core.status;
-    core.integers[0] = found.verdict;
-    core.integers[1] = found.turns;
-    core.integers[2] = found.end_count;
+    if (!sli_done(sl_conflict_find(sli_module.context, portals, count, &found)))
+        return (int)sli_module.status;
+    sli_module.integers[0] = found.verdict;
+    sli_module.integers[1] = found.turns;
+    sli_module.integers[2] = found.end_count;
     for (uint32_t i = 0; i < found.end_count; i++) {
-        core.integers[3 + 2 * i] = found.ends[i].portal;
-        core.integers[4 + 2 * i] = found.ends[i].left;
+        sli_module.integers[3 + 2 * i] = found.ends[i].portal;
+        sli_module.integers[4 + 2 * i] = found.ends[i].left;
     }
     return SL_OK;
 }

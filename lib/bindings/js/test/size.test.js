@@ -15,8 +15,13 @@ test('the runtime is at most 20 kB', () => {
 })
 
 test('the whole library is at most 200 kB', () => {
-  const bytes = size('bake.js', 'maptext.js', 'scene.js', 'host.js', 'core.wasm')
+  const bytes = size('bake.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
   assert.ok(bytes <= 200000, `${bytes} bytes`)
+})
+
+test('visibility graph analysis is at most 130 kB', () => {
+  const bytes = size('graph.js', 'maptext.js', 'host.js', 'module.js', 'graph.wasm')
+  assert.ok(bytes <= 130000, `${bytes} bytes`)
 })
 
 test('the package needs no other, and has what it says', async () => {

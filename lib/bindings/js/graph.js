@@ -1,0 +1,182 @@
+/**
+ * Visibility graph analysis: a grid of points in a map, which of them see each other, and measures
+ * under the names that depthmapX gives them. The WebAssembly module is loaded by the first call.
+ *
+ * A group of measures is computed when one of them is asked for, and kept.
+ */
+import { SightlineError, bytesOf } from './host.js'
+import { isBaked } from './maptext.js'
+import { Module, instantiable } from './module.js'
+
+export { SightlineError }
+
+/** Groups of measures: the bit of the group, and its measures in the order of the module. */
+const GROUPS = [
+  [1, ['connectivity', 'point_first_moment', 'point_second_moment', 'visual_clustering_coefficient',
+    'visual_control', 'visual_controllability']],
+  [2, ['visual_node_count', 'visual_mean_depth', 'visual_entropy', 'visual_relativised_entropy',
+    'visual_integration_hh', 'visual_integration_pvalue', 'visual_integration_tekl']],
+  [4, ['through_vision']],
+  [8, ['metric_mean_shortest_path_distance', 'metric_mean_shortest_path_angle',
+    'metric_mean_straight_line_distance', 'metric_node_count']],
+  [16, ['angular_mean_depth', 'angular_total_depth', 'angular_node_count']],
+]
+const DEPTHS = [[2, 'visual_step_depth'], [8, 'metric_step_shortest_path_length'],
+  [8, 'metric_step_shortest_path_angle'], [8, 'metric_straight_line_distance'], [16, 'angular_step_depth']]
+
+/** Names of all measures. */
+export const measures = Object.freeze(GROUPS.flatMap(([, names]) => names))
+/** Names of all depths from a point. */
+export const depths = Object.freeze(DEPTHS.map(([, name]) => name))
+
+const groupOf = (name) => {
+  const group = GROUPS.find(([, names]) => names.includes(name))
+  if (!group) throw new SightlineError(`there is no measure '${name}'`)
+  return group
+}
+
+/** A made graph. Close it. */
+export class Graph {
+  #core
+  #at
+  #generation
+  #rows
+  #words
+  #values = new Map()
+
+  /** Use graph(). */
+  constructor(core, at, step) {
+    this.#core = core
+    this.#at = at
+    this.#generation = core.generation
+    const [count, points, columns, rows, squares, bits, words, directed] = core.given(8)
+    const [left, bottom] = core.givenNumbers(2)
+    Object.assign(this, { step, count, columns, rows, left, bottom, directed: directed === 1 })
+    this.points = new Float64Array(core.memory.buffer, points, 2 * count).slice()
+    this.squares = new Uint32Array(core.memory.buffer, squares, count).slice()
+    this.#rows = bits
+    this.#words = words
+  }
+
+  get #place() {
+    if (this.#at && this.#generation === this.#core.generation) return this.#at
+    throw new SightlineError(this.#at ? 'the module stopped, and the graph is lost' : 'the graph is closed')
+  }
+
+  /** A column of the table that the last call left: values that are not defined are NaN. */
+  #column(width, k) {
+    const table = new Float64Array(this.#core.memory.buffer, this.#core.given(1)[0], width * this.count)
+    return Float64Array.from({ length: this.count }, (_, p) => {
+      const value = table[width * p + k]
+      return Number.isFinite(value) ? value : NaN
+    })
+  }
+
+  /** A measure of all points; computes its group, where that is not done yet. */
+  values(name, options = {}) {
+    const [part, names] = groupOf(name), at = this.#place
+    if (!this.#values.has(name)) {
+      this.#core.watched(options, () => this.#core.ask((core) => core.graph_measure(at, part)))
+      for (const each of names) this.#values.set(each, this.#column(measures.length, measures.indexOf(each)))
+    }
+    return this.#values.get(name).slice()
+  }
+
+  /** The point in whose square a place lies, or -1. */
+  find(x, y) {
+    return this.#core.core.graph_find(this.#place, x, y) | 0
+  }
+
+  /** How far all points are from the point at a place: NaN where nothing leads; null without a point there. */
+  depth(x, y, name = 'visual_step_depth') {
+    const k = depths.indexOf(name), from = this.find(x, y), at = this.#place
+    if (k < 0) throw new SightlineError(`there is no depth '${name}'`)
+    if (from < 0) return null
+    this.#core.ask((core) => core.graph_depth(at, DEPTHS[k][0], from))
+    return this.#column(depths.length, k)
+  }
+
+  /** Whether one point sees another, by their numbers. */
+  sees(a, b) {
+    this.#place
+    for (const point of [a, b])
+      if (!Number.isInteger(point) || point < 0 || point >= this.count)
+        throw new SightlineError(`point ${point}: there are ${this.count} points`)
+    const row = new Uint32Array(this.#core.memory.buffer, this.#rows + 4 * this.#words * a, this.#words)
+    return ((row[b >> 5] >>> (b & 31)) & 1) === 1
+  }
+
+  /** Gives back the memory. */
+  close() {
+    if (this.#at && this.#generation === this.#core.generation) this.#core.core.graph_close(this.#at)
+    this.#at = 0
+  }
+}
+
+/** The loaded module, for calls without promises. */
+class GraphCore extends Module {
+  #open(map, options) {
+    if (!isBaked(map))
+      return this.withMap(map, options, (name, at, size, items) => {
+        const place = this.run((core) => core.graph_open(name, at, size, 0))
+        if (!place) throw this.failure(items)
+        return place
+      })
+    const bytes = bytesOf(map)
+    return this.withBytes([options.name ?? 'map.slv', bytes], (name, at) => {
+      const place = this.run((core) => core.graph_open(name, at, bytes.length, 1))
+      if (!place) throw this.failure()
+      return place
+    })
+  }
+
+  #fill(at, { grid, doors = {}, range = -1, most = 20000, measures: wanted = [] }) {
+    for (const [name, open] of Object.entries(doors))
+      this.withBytes([name], (nameAt) => this.ask((core) => core.graph_set_door(at, nameAt, +open)))
+    this.ask((core) => core.graph_make(at, grid, range, most))
+    const made = new Graph(this, at, grid)
+    for (const name of wanted) made.values(name)
+    return made
+  }
+
+  /** Makes a graph and keeps it. Close it. */
+  graph(map, options = {}) {
+    const known = ['grid', 'measures', 'doors', 'range', 'most', 'name', 'progress', 'timeLimit']
+    for (const name of Object.keys(options))
+      if (!known.includes(name)) throw new SightlineError(`there is no option '${name}'`)
+    const { grid, range, most, measures: wanted = [] } = options
+    for (const [name, value] of Object.entries({ grid, range: range ?? 0, most: most ?? 1 }))
+      if (!Number.isFinite(value) || value < 0) throw new SightlineError(`${name}: a number is needed`)
+    for (const name of wanted) groupOf(name)
+    return this.watched(options, () => {
+      const at = this.#open(map, options)
+      try {
+        return this.#fill(at, options)
+      } catch (error) {
+        if (error.code !== 'internal') this.core.graph_close(at)
+        throw error
+      }
+    })
+  }
+}
+
+/**
+ * Loads the module. `memory`: the most bytes that it may take, 4 GiB by default.
+ *
+ * @param {{memory?: number}} [options]
+ */
+export async function load(options) {
+  return new GraphCore(...(await instantiable('graph', options)))
+}
+
+/** @type {Promise<GraphCore> | undefined} */
+let shared
+
+/** Makes a graph of a map and measures it. Close it. */
+export async function graph(map, options) {
+  shared ??= load().catch((error) => {
+    shared = undefined
+    throw error
+  })
+  return (await shared).graph(map, options)
+}

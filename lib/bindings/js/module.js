@@ -1,0 +1,192 @@
+/**
+ * What both modules that bake share: memory, progress, errors. Where a module itself stops (a stack
+ * that overflows), the instance is replaced, and what was kept in it is lost.
+ */
+import { SightlineError, compile } from './host.js'
+import { mapText, rename } from './maptext.js'
+
+const PAGE = 65536
+const CODES = ['ok', 'bad argument', 'bad input', 'unsupported', 'out of memory', 'interrupted',
+  'input/output error']
+
+/** Memory up to a number of pages, or to what the browser grants of them. */
+function memoryOf(maximum) {
+  try {
+    return new WebAssembly.Memory({ initial: 64, maximum })
+  } catch {
+    if (maximum > 64) return memoryOf(Math.max(64, maximum >> 1))
+    throw new SightlineError('out of memory', { code: 'out of memory' })
+  }
+}
+
+/** A loaded module. All calls are synchronous. */
+export class Module {
+  /** @internal */
+  constructor(module, maximum) {
+    this.module = module
+    this.maximum = maximum
+    this.generation = 0
+    this.watch = null
+    this.#start()
+  }
+
+  #start() {
+    this.memory = memoryOf(this.maximum)
+    const instance = new WebAssembly.Instance(this.module, {
+      env: { memory: this.memory },
+      host: {
+        progress: (stage, done, total) => this.#progress(stage, done, total),
+        cancelled: () => (this.watch?.stop() ? 1 : 0),
+      },
+      wasi_snapshot_preview1: {
+        clock_time_get: (clock, precision, at) => {
+          const now = BigInt(Math.round(performance.now() * 1e6))
+          new DataView(this.memory.buffer).setBigUint64(at, now, true)
+          return 0
+        },
+        // The C library mentions these, but nothing is read or written through them.
+        ...Object.fromEntries(['fd_close', 'fd_fdstat_get', 'fd_prestat_get', 'fd_prestat_dir_name',
+          'fd_read', 'fd_seek', 'fd_write', 'fd_fdstat_set_flags', 'path_filestat_get', 'path_open',
+        ].map((name) => [name, () => 8])),
+        proc_exit: () => {
+          throw new SightlineError('the module stopped', { code: 'internal' })
+        },
+      },
+    })
+    this.core = instance.exports
+    this.core._initialize()
+    if (!this.core.begin()) throw new SightlineError('out of memory', { code: 'out of memory' })
+    this.integers = this.core.integers_place()
+    this.numbers = this.core.numbers_place()
+    this.generation++
+  }
+
+  #progress(stage, done, total) {
+    this.watch?.report(this.textAt(stage), done, total)
+    return 0
+  }
+
+  /** The version of the library. */
+  get version() {
+    return this.textAt(this.core.version())
+  }
+
+  /** @internal */
+  textAt(at) {
+    const bytes = new Uint8Array(this.memory.buffer)
+    return new TextDecoder().decode(bytes.slice(at, bytes.indexOf(0, at)))
+  }
+
+  /** Calls, and replaces the instance where it stops. @internal */
+  run(call) {
+    try {
+      return call(this.core)
+    } catch (error) {
+      if (!(error instanceof WebAssembly.RuntimeError)) throw error
+      this.#start()
+      const deep = /stack|memory access out of bounds/i.test(error.message)
+      const why = deep ? 'the map goes too deep: the stack is full' : `the module stopped: ${error.message}`
+      throw new SightlineError(why, { code: deep ? 'out of memory' : 'internal' })
+    }
+  }
+
+  /** What failed, as an error. @internal */
+  failure(items) {
+    const message = rename(this.textAt(this.core.message()), items)
+    return new SightlineError(message.text, { ...message, code: CODES[this.core.status()] })
+  }
+
+  /** Calls what returns a status. @internal */
+  ask(call) {
+    if (this.run(call)) throw this.failure()
+  }
+
+  /** Numbers that the last call gave. @internal */
+  given(count = 16) {
+    return new Uint32Array(this.memory.buffer, this.integers, count)
+  }
+
+  /** @internal */
+  givenNumbers(count = 16) {
+    return new Float64Array(this.memory.buffer, this.numbers, count)
+  }
+
+  /** A copy of the bytes that the last call wrote. @internal */
+  written() {
+    const at = this.core.written()
+    return new Uint8Array(this.memory.buffer, at, this.given(1)[0]).slice()
+  }
+
+  /** @internal */
+  writtenText() {
+    const at = this.core.written()
+    return new TextDecoder().decode(new Uint8Array(this.memory.buffer, at, this.given(1)[0]).slice())
+  }
+
+  /** Calls with texts and bytes in the module's memory, each with a 0 behind it. @internal */
+  withBytes(blocks, call) {
+    const places = []
+    try {
+      for (const block of blocks) {
+        const bytes = typeof block === 'string' ? new TextEncoder().encode(block) : block
+        const at = this.run((core) => core.take(bytes.length + 1))
+        if (!at) throw new SightlineError('out of memory', { code: 'out of memory' })
+        places.push(at)
+        const memory = new Uint8Array(this.memory.buffer)
+        memory.set(bytes, at)
+        memory[at + bytes.length] = 0
+      }
+      const before = this.generation
+      try {
+        return call(...places)
+      } finally {
+        if (before !== this.generation) places.length = 0
+      }
+    } finally {
+      for (const at of places) this.core.give(at)
+    }
+  }
+
+  /** Sets what hears of progress and stops long work. @internal */
+  watched(options, call) {
+    const { progress, timeLimit } = options ?? {}
+    if (!progress && !(timeLimit > 0)) return call()
+    const until = timeLimit > 0 ? performance.now() + 1000 * timeLimit : Infinity
+    let stopped = false
+    this.watch = {
+      report: (stage, done, total) => {
+        if (progress && progress(stage, done, total) === false) stopped = true
+      },
+      stop: () => stopped || performance.now() > until,
+    }
+    this.core.watch(1)
+    try {
+      return call()
+    } finally {
+      this.watch = null
+      this.core.watch(0)
+    }
+  }
+
+  /** Calls with the name and the text of a map in memory. @internal */
+  withMap(map, options, call) {
+    const { text, items, name } = mapText.prepare(map, options?.name)
+    return this.withBytes([name, text], (nameAt, at) => call(nameAt, at, this.size(text), items))
+  }
+
+  size(text) {
+    return typeof text === 'string' ? new TextEncoder().encode(text).length : text.length
+  }
+}
+
+/**
+ * The compiled module of that name, and the most pages of memory that it may take.
+ *
+ * @param {string} name
+ * @param {{memory?: number}} [options]
+ * @returns {Promise<[WebAssembly.Module, number]>}
+ */
+export async function instantiable(name, { memory = 65536 * PAGE } = {}) {
+  const pages = Math.min(65536, Math.max(64, Math.floor(memory / PAGE)))
+  return [await compile(name, new URL(`./${name}.wasm`, import.meta.url)), pages]
+}

@@ -1,0 +1,183 @@
+/// Visibility graph analysis for JavaScript: graph.js asks, visibility_graph/ answers.
+///
+/// A graph is a map whose doors stand as they were set, a grid of points in it, and which of them
+/// see each other (sightline/vga.h). Groups of measures are computed one at a time, because some
+/// cost much and few are looked at. Their results stay until the next call about the same graph.
+/// Cost: n * n bits of memory for n points.
+#include "bindings/js/src/bindings.h"
+#include "sightline/bake.h"
+#include "sightline/effects.h"
+#include "sightline/import.h"
+#include "sightline/vga.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct graph {
+    sl_baked baked; ///< its space alone, where it comes from a map
+    bool *shut;     ///< by door of the map
+    sl_space space; ///< with walls in shut doors and on the dark sides of glass
+    sl_outline outline;
+    sl_vga_grid grid;
+    sl_vga_graph graph;
+    sl_vga_measures *measures; ///< by point, of the last group
+    sl_vga_depths *depths;     ///< by point
+} graph;
+
+static sl_context *context(void) {
+    return sli_module.context;
+}
+
+SLI_EXPORT(void, graph_close, graph *g) {
+    if (!g) return;
+    sl_free(context(), g->measures);
+    sl_free(context(), g->depths);
+    sl_vga_graph_destroy(context(), &g->graph);
+    sl_vga_grid_destroy(context(), &g->grid);
+    sl_outline_destroy(context(), &g->outline);
+    sl_space_destroy(context(), &g->space);
+    sl_free(context(), g->shut);
+    sl_baked_destroy(context(), &g->baked);
+    sl_free(context(), g);
+}
+
+// --- the map
+
+/// The first half of a bake: no more is needed, and no method.
+static sl_status subdivide(graph *g, sl_map *map) {
+    const sl_clean_options clean = sl_clean_options_default();
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    sl_clean_account account = {0};
+    SL_TRY(sl_map_clean(context(), map, &clean, &account));
+    SL_TRY(sl_subdivision_for(map)->subdivide(context(), map, &rules, &g->baked.space));
+    if (g->baked.space.neighbour) SL_TRY(sl_space_check(context(), &g->baked.space));
+    g->baked.map = *map;
+    *map = (sl_map){0};
+    return SL_OK;
+}
+
+static sl_status make_space(graph *g, const char *name, const char *text, size_t size) {
+    const sl_import_options import = {0};
+    sl_map map = {0};
+    sl_status status = sl_map_parse(context(), name, text, size, &import, &map);
+    if (status == SL_OK) status = subdivide(g, &map);
+    sl_map_destroy(context(), &map);
+    return status;
+}
+
+static sl_status open_map(graph *g, const char *name, const char *bytes, size_t size, int baked) {
+    SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &g->baked)
+                 : make_space(g, name, bytes, size));
+    const sl_map *map = &g->baked.map;
+    SL_TRY(
+        sl_effects_check_because(context(), map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
+                                 "steps and paths lead straight to points, not to mirror images"));
+    g->shut = sl_alloc_array(context(), map->door_count + 1, sizeof *g->shut);
+    if (!g->shut) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->door_count; i++) g->shut[i] = !map->doors[i].open;
+    return SL_OK;
+}
+
+/// Reads a map, or with `baked` a baked file.
+SLI_EXPORT(graph *, graph_open, const char *name, const char *bytes, size_t size, int baked) {
+    graph *g = sl_alloc_array(context(), 1, sizeof *g);
+    if (sli_done(g ? open_map(g, name, bytes, size, baked) : SL_NO_MEMORY)) return g;
+    graph_close(g);
+    return NULL;
+}
+
+/// Before graph_make(): opens or shuts a door.
+SLI_EXPORT(int, graph_set_door, graph *g, const char *name, int open) {
+    const sl_map *map = &g->baked.map;
+    bool found = false;
+    for (size_t i = 0; i < map->door_count; i++) {
+        if (strcmp(map->doors[i].name, name) != 0) continue;
+        g->shut[i] = !open;
+        found = true;
+    }
+    sli_done(found ? SL_OK : sl_fail(context(), SL_BAD_ARGUMENT, "there is no door '%.64s'", name));
+    return (int)sli_module.status;
+}
+
+// --- the graph
+
+static sl_status refuse_step(double step, double points, double most) {
+    return sl_fail(context(), SL_BAD_ARGUMENT,
+                   "grid: steps of %.3g give %.0f points, more than %.0f; choose a coarser grid",
+                   step, points, most);
+}
+
+/// The area is asked first: a grid that is far too large is not filled.
+static sl_status fill(graph *g, double step, double most) {
+    double area = 0;
+    if (!(step > 0) || isinf(step))
+        return sl_fail(context(), SL_BAD_ARGUMENT, "grid: a step over 0 is needed");
+    for (uint32_t c = 0; c < g->space.cell_count; c++)
+        if (g->space.cells[c].inside) area += sl_space_area(&g->space, c);
+    if (area / step / step > 2 * most) return refuse_step(step, area / step / step, most);
+    SL_TRY(sl_vga_grid_fill(context(), &g->outline, step, NULL, 0, &g->grid));
+    if (g->grid.count > most) return refuse_step(step, g->grid.count, most);
+    if (g->grid.count) return SL_OK;
+    return sl_fail(context(), SL_BAD_ARGUMENT,
+                   "grid: no point of a grid with steps of %.3g is inside; choose a finer grid",
+                   step);
+}
+
+static sl_status make(graph *g, double step, double range, double most) {
+    const sl_filtered_space filtered = {.shut = g->shut, .one_way = true, .dark_walls = true};
+    SL_TRY(sl_filtered_space_make(context(), &g->baked.space, &filtered, NULL, &g->space));
+    SL_TRY(sl_outline_make(context(), &g->space, &g->outline));
+    SL_TRY(fill(g, step, most));
+    return sl_vga_graph_make(context(), &g->outline, &g->grid,
+                             range < 0 ? g->baked.map.range : range, 1, &g->graph);
+}
+
+/// Makes the graph, of no more than `most` points. A range below 0 is the map's own. integers:
+/// points, their place, columns, rows, the place of the points' squares, the place of the rows and
+/// the 32-bit words of each, whether there is one-way glass; numbers: the first column and row.
+SLI_EXPORT(int, graph_make, graph *g, double step, double range, double most) {
+    if (!sli_done(make(g, step, range, most))) return (int)sli_module.status;
+    const sl_vga_grid *grid = &g->grid;
+    const uint32_t table[] = {grid->count,
+                              (uint32_t)(uintptr_t)grid->points,
+                              grid->columns,
+                              grid->rows,
+                              (uint32_t)(uintptr_t)grid->squares,
+                              (uint32_t)(uintptr_t)g->graph.rows,
+                              (uint32_t)(2 * g->graph.words),
+                              g->baked.map.oneway_count > 0};
+    memcpy(sli_module.integers, table, sizeof table);
+    sli_module.numbers[0] = (double)grid->left;
+    sli_module.numbers[1] = (double)grid->bottom;
+    return SL_OK;
+}
+
+// --- measures
+
+/// Measures a group, of sl_vga_part. integers[0]: the place of the sl_vga_measures.
+SLI_EXPORT(int, graph_measure, graph *g, unsigned part) {
+    sl_vga_options options = sl_vga_options_default();
+    options.parts = part;
+    options.threads = 1;
+    if (!g->measures) g->measures = sl_alloc_array(context(), g->grid.count, sizeof *g->measures);
+    sli_done(!g->measures ? SL_NO_MEMORY
+                          : sl_vga_measure(context(), &g->outline, &g->grid, &g->graph, &options,
+                                           g->measures));
+    sli_module.integers[0] = (uint32_t)(uintptr_t)g->measures;
+    return (int)sli_module.status;
+}
+
+/// The point in whose square a place lies; UINT32_MAX: none.
+SLI_EXPORT(uint32_t, graph_find, const graph *g, double x, double y) {
+    return sl_vga_grid_find(&g->grid, (sl_point){x, y});
+}
+
+/// Depths of all points from one. integers[0]: the place of the sl_vga_depths.
+SLI_EXPORT(int, graph_depth, graph *g, unsigned part, uint32_t from) {
+    if (!g->depths) g->depths = sl_alloc_array(context(), g->grid.count, sizeof *g->depths);
+    sli_done(!g->depths ? SL_NO_MEMORY
+                        : sl_vga_depth(context(), &g->outline, &g->grid, &g->graph, NULL, 0, part,
+                                       &from, 1, g->depths));
+    sli_module.integers[0] = (uint32_t)(uintptr_t)g->depths;
+    return (int)sli_module.status;
+}
