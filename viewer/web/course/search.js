@@ -26,6 +26,24 @@ function sequenceOf(steps, at) {
     return list;
 }
 
+/** The part of a line within some convex cells and between them. */
+function within(scene, [ax, ay, bx, by], cells) {
+    let first = Infinity, last = -Infinity;
+    for (const cell of cells) {
+        const p = scene.corners(cell), n = p.length;
+        let from = 0, to = 1;
+        for (let k = 0; k < n; k += 2) {
+            const ex = p[(k + 2) % n] - p[k], ey = p[(k + 3) % n] - p[k + 1];
+            const at = ex * (ay - p[k + 1]) - ey * (ax - p[k]), change = ex * (by - ay) - ey * (bx - ax);
+            if (change > 0) from = Math.max(from, -at / change);
+            else if (change < 0) to = Math.min(to, -at / change);
+        }
+        [first, last] = [Math.min(first, from), Math.max(last, to)];
+    }
+    const at = (t) => [ax + t * (bx - ax), ay + t * (by - ay)];
+    return [...at(first), ...at(last)];
+}
+
 const said = {
     enter: (step) => `a line stabs the sequence, so cell ${step.cell} is seen`,
     backwards: (step) => `this portal leads back to cell ${step.cell}`,
@@ -49,7 +67,8 @@ const walk = {
         state.portals = sequenceOf(state.steps, state.now).map((d) => scene.directed(d));
         state.seen = new Set(state.steps.slice(0, state.now + 1).filter((s) => s.kind === 'enter').map((s) => s.cell));
         const isLine = (state.step.kind === 'enter' || state.step.kind === 'leave') && state.portals.length;
-        state.dual = isLine ? lab.core.dual(state.portals.map((p) => [...p.left, ...p.right])) : null;
+        const dual = isLine ? lab.core.dual(state.portals.map((p) => [...p.left, ...p.right])) : null;
+        state.line = dual ? within(scene, planLine(dual, dual.best), [state.cell, state.step.cell]) : null;
     },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { space: state.scene, from: state.cell, seen: state.seen }, tones);
@@ -58,7 +77,7 @@ const walk = {
         const lines = state.portals.map((p) => [...p.left, ...p.right]), isStopped = state.step.kind === 'hidden' || state.step.kind === 'backwards';
         strokeLines(surface, camera, isStopped ? lines.slice(0, -1) : lines, tones.portal, 5);
         if (isStopped) strokeLines(surface, camera, lines.slice(-1), tones.to, 5, [5, 3]);
-        if (state.dual) strokeLines(surface, camera, [planLine(state.dual, state.dual.best)], tones.sourceEdge, 2);
+        if (state.line) strokeLines(surface, camera, [state.line], tones.sourceEdge, 3);
     },
     beside(state) {
         const kind = state.steps.length ? state.step.kind : '';
