@@ -2,7 +2,7 @@
  * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE
  *
  * PACKAGE is the built npm package, SITE the folder to write. The site is plain files: this folder,
- * the package, the maps of maps/ and a page from each document for an audience.
+ * the package, the maps of maps/, the course, and a page from each document for an audience.
  */
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, posix, relative } from 'node:path';
@@ -50,23 +50,25 @@ function writeGallery(site) {
     writeFileSync(join(site, 'maps/index.json'), `${JSON.stringify(list, null, 1)}\n`);
 }
 
-const page = (title, body) => `<!doctype html>
+/** A page in a folder of the site; `chapter` is the name of a chapter of the course. */
+const page = (title, body, { chapter = '', isCourse = Boolean(chapter) } = {}) => `<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'self'">
+<meta http-equiv="Content-Security-Policy" content="default-src 'self'${chapter ? "; script-src 'self' 'wasm-unsafe-eval'" : ''}">
 <title>${title} - Sightline</title>
 <link rel="icon" href="../icon.svg">
-<link rel="stylesheet" href="../style.css">
+<link rel="stylesheet" href="../style.css">${isCourse ? '\n<link rel="stylesheet" href="course.css">' : ''}${chapter ? '\n<script type="module" src="course.js"></script>' : ''}
 </head>
-<body>
+<body${chapter ? ` data-chapter="${chapter}"` : ''}>
 <header><nav aria-label="Pages">
 <a href="../index.html">Playground</a>
-<a href="floor-plans.html">Floor plans</a>
-<a href="game-maps.html">Game maps</a>
-<a href="teaching.html">Teaching</a>
-<a href="embedding.html">Embedding</a>
+<a href="../course/index.html">Course</a>
+<a href="../pages/floor-plans.html">Floor plans</a>
+<a href="../pages/game-maps.html">Game maps</a>
+<a href="../pages/teaching.html">Teaching</a>
+<a href="../pages/embedding.html">Embedding</a>
 </nav></header>
 <main class="page">
 ${body}
@@ -94,6 +96,28 @@ function writePages(site) {
     }
 }
 
+/**
+ * The course: index.md lists the chapters, and each has its text and a module of one name. Lines such as
+ * {figure: eye} and {exercise: eye} are places that the module fills.
+ */
+function writeCourse(site) {
+    const folder = join(here, 'course');
+    for (const file of readdirSync(folder).filter((name) => name.endsWith('.md'))) {
+        const name = file.slice(0, -3), text = readFileSync(join(folder, file), 'utf8');
+        const chapter = existsSync(join(folder, `${name}.js`)) ? name : '';
+        const link = (target) => {
+            if (!existsSync(join(folder, target))) throw new Error(`course/${file}: the link ${target} leads nowhere`);
+            const document = documents[posix.join('viewer/web/course', target)];
+            return document ? `../pages/${document}.html` : target.replace(/\.md$/, '.html');
+        };
+        const body = toHtml(text, link)
+            .replace(/<p>\{figure: ([\w-]+)\}<\/p>/g, '<figure data-figure="$1"></figure>')
+            .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>');
+        writeFileSync(join(site, 'course', `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true }));
+        rmSync(join(site, 'course', file));
+    }
+}
+
 const valueOf = (name) => process.argv[process.argv.indexOf(name) + 1];
 const [site, library] = [valueOf('--out'), valueOf('--package')];
 if (process.argv.length !== 6 || !process.argv.includes('--out') || !process.argv.includes('--package')) {
@@ -111,3 +135,4 @@ for (const part of parts)
 cpSync(library, join(site, 'package'), { recursive: true });
 writeGallery(site);
 writePages(site);
+writeCourse(site);

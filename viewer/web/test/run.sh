@@ -1,7 +1,7 @@
 #!/bin/sh
 # Tests of the playground: sh viewer/web/test/run.sh WHAT FOLDER [PROGRAM]
 #   formats     what needs no browser, in node
-#   playground  the built site in Chromium and Firefox, as far as they are installed
+#   playground  the built site, with the course, in Chromium and Firefox, as far as they are installed
 #   quick       the same in one browser, without axe-core
 # FOLDER is for the built site and for tools; PROGRAM is the native `sightline`.
 # BROWSERS=chromium chooses one. SHOTS=DIR keeps pictures of the page. SITE=DIR takes a built site.
@@ -42,4 +42,4 @@ if [ "$what" = quick ]; then
     if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
     export BROWSERS QUICK=1
 fi
-exec node --test "$here/playground.test.mjs"
+exec node --test "$here/playground.test.mjs" "$here/course.test.mjs"

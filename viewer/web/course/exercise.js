@@ -1,0 +1,57 @@
+/**
+ * Exercises: a question, an answer that the page checks, and an explanation for right and for wrong.
+ *
+ * kind 'choice': `options` are pairs of an answer and what is to be said about it.
+ * kind 'number': a number is typed; `low` and `high` say what a wrong one has missed.
+ * kind 'place':  handles of `figure` are put somewhere.
+ * `right(lab)` gives the index or the number, computed by the library where it can be; for places,
+ * `judge(state, lab)` gives whether it is right and what is to be said.
+ */
+import { Figure, element } from './figure.js';
+
+let count = 0;
+
+/** @param {any} exercise @param {import('./lab.js').Lab} lab @returns {HTMLElement} */
+export function exerciseForm(exercise, lab) {
+    const id = `exercise-${++count}`, answer = element('p', { className: 'answer', role: 'status' });
+    const form = element('form', { className: 'exercise', 'data-exercise': exercise.name, noValidate: true });
+    const part = { choice: choicePart, number: numberPart, place: placePart }[exercise.kind](exercise, lab, id);
+    form.append(part.node, element('button', { type: 'submit' }, 'Check'), answer);
+    form.addEventListener('submit', (event) => {
+        event.preventDefault();
+        const { right, text } = part.judge();
+        form.dataset.result = right === null ? '' : right ? 'right' : 'wrong';
+        answer.textContent = right === null ? text : `${right ? 'Right.' : 'Not yet.'} ${text}`;
+    });
+    return form;
+}
+
+function choicePart(exercise, lab, id) {
+    const node = element('fieldset', {}, element('legend', {}, exercise.question));
+    exercise.options.forEach(([text], i) => node.append(element('label', {},
+        element('input', { type: 'radio', name: id, value: String(i) }), ` ${text}`)));
+    const judge = () => {
+        const chosen = node.querySelector('input:checked');
+        if (!chosen) return { right: null, text: 'Choose an answer first.' };
+        return { right: Number(chosen.value) === exercise.right(lab), text: exercise.options[Number(chosen.value)][1] };
+    };
+    return { node, judge };
+}
+
+function numberPart(exercise, lab, id) {
+    const input = element('input', { id, type: 'number', step: 'any', inputMode: 'decimal' });
+    const node = element('p', {}, element('label', { htmlFor: id }, exercise.question), ' ', input);
+    const judge = () => {
+        if (input.value === '') return { right: null, text: 'Type a number first.' };
+        const given = Number(input.value), wanted = exercise.right(lab);
+        if (given === wanted) return { right: true, text: exercise.why };
+        return { right: false, text: given < wanted ? exercise.low : exercise.high };
+    };
+    return { node, judge };
+}
+
+function placePart(exercise, lab) {
+    const host = element('figure'), node = element('div', {}, element('p', {}, exercise.question), host);
+    const figure = new Figure(host, exercise.figure, lab);
+    return { node, judge: () => exercise.judge(figure.state, lab) };
+}

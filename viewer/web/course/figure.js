@@ -1,0 +1,183 @@
+/**
+ * A figure that answers: a picture with handles and controls, and a sentence that says what it shows.
+ *
+ * A figure is data: `handles` are places to drag, `controls` are fields below the picture. Whenever one
+ * changes, `update(state, lab)` computes, `draw(surface, camera, tones, state)` draws, and `tell(state)`
+ * says it in words. `beside(state, tones)` may give a second picture. Mouse, touch and keys all move handles.
+ */
+import { Camera } from '../parts/camera.js';
+import { drawDot } from '../parts/plan.js';
+import { watchTones } from '../parts/tones.js';
+
+/**
+ * @typedef {Object} Spec
+ * @property {string} title @property {string} about what the reader can do
+ * @property {number[]} box of the map: x0, y0, x1, y1
+ * @property {{name: string, at: number[], tone?: string}[]} handles
+ * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice', value: any,
+ *   min?: number, max?: number, step?: number, options?: string[][]}[]} [controls]
+ * @property {(state: any, lab: import('./lab.js').Lab) => void} update
+ * @property {(surface: any, camera: Camera, tones: any, state: any) => void} draw
+ * @property {(state: any) => string} tell
+ * @property {(state: any, tones: any) => Element} [beside]
+ */
+
+/** @returns {any} an element with properties, attributes (data-, aria-, role) and children */
+export function element(tag, properties = {}, ...children) {
+    const node = document.createElement(tag);
+    for (const [key, value] of Object.entries(properties))
+        if (key in node && !key.includes('-')) node[key] = value;
+        else node.setAttribute(key, value);
+    node.append(...children);
+    return node;
+}
+
+/** How near a pointer must be to a handle to take it, in pixels. */
+const NEAR = 28;
+
+let count = 0;
+
+export class Figure {
+    /** @param {HTMLElement} host @param {Spec} spec @param {import('./lab.js').Lab} lab */
+    constructor(host, spec, lab) {
+        this.spec = spec;
+        this.lab = lab;
+        this.camera = new Camera();
+        this.active = 0;
+        this.state = {};
+        for (const handle of spec.handles) this.state[handle.name] = [...handle.at];
+        for (const control of spec.controls ?? []) this.state[control.name] = control.value;
+        this.build(host);
+        watchTones((tones) => {
+            this.tones = tones;
+            this.change();
+        });
+        new ResizeObserver(() => this.resize()).observe(this.canvas);
+    }
+
+    build(host) {
+        const { spec } = this, id = `figure-${++count}`;
+        const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
+            : spec.handles.length ? ' Arrows move the dot.' : '';
+        this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
+        this.beside = element('div', { className: 'beside' });
+        this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}${keys}`);
+        this.controls = element('div', { className: 'controls' });
+        for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
+        host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, ...(spec.beside ? [this.beside] : [])),
+            ...(spec.controls?.length ? [this.controls] : []), this.says, caption);
+        host.figure = this;
+        this.listen();
+    }
+
+    field(control, id) {
+        const name = `${id}-${control.name}`;
+        const set = (value) => {
+            this.state[control.name] = value;
+            this.change();
+        };
+        if (control.kind === 'choice') {
+            const list = element('select', { id: name }, ...control.options.map(([value, text]) =>
+                element('option', { value, selected: value === control.value }, text)));
+            list.addEventListener('change', () => set(list.value));
+            return element('span', {}, element('label', { htmlFor: name }, control.label, ' '), list);
+        }
+        const isCheck = control.kind === 'check';
+        const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: control.value }
+            : { id: name, type: 'range', min: control.min, max: control.max, step: control.step ?? 1 });
+        if (!isCheck) input.value = control.value;
+        input.addEventListener('input', () => set(isCheck ? input.checked : Number(input.value)));
+        const label = element('label', { htmlFor: name }, control.label);
+        return element('span', {}, ...(isCheck ? [input, ' ', label] : [label, ' ', input]));
+    }
+
+    listen() {
+        const at = (event) => {
+            const box = this.canvas.getBoundingClientRect();
+            return [event.clientX - box.left, event.clientY - box.top];
+        };
+        this.canvas.addEventListener('pointerdown', (event) => {
+            const { handle } = this.nearest(at(event));
+            if (handle < 0) return;
+            this.active = handle;
+            this.dragged = event.pointerId;
+            this.canvas.setPointerCapture(event.pointerId);
+            if (event.pointerType === 'mouse') this.moveTo(this.camera.toMap(...at(event)));
+        });
+        this.canvas.addEventListener('pointermove', (event) => {
+            if (this.dragged === event.pointerId) this.moveTo(this.camera.toMap(...at(event)));
+        });
+        this.canvas.addEventListener('pointerup', (event) => {
+            if (this.dragged === event.pointerId) this.moveTo(this.camera.toMap(...at(event)));
+            this.dragged = undefined;
+        });
+        this.canvas.addEventListener('pointercancel', () => (this.dragged = undefined));
+        // A finger on a handle drags it; elsewhere it scrolls the page, and a tap brings the handle.
+        this.canvas.addEventListener('touchstart', (event) => {
+            if (this.nearest(at(event.touches[0])).distance < NEAR) event.preventDefault();
+        }, { passive: false });
+        this.canvas.addEventListener('keydown', (event) => this.key(event));
+    }
+
+    nearest([px, py]) {
+        let best = { handle: -1, distance: Infinity };
+        this.spec.handles.forEach(({ name }, handle) => {
+            const [x, y] = this.camera.toScreen(...this.state[name]), distance = Math.hypot(x - px, y - py);
+            if (distance < best.distance) best = { handle, distance };
+        });
+        return best;
+    }
+
+    key(event) {
+        const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+        const handles = this.spec.handles;
+        if (!handles.length || event.ctrlKey || event.metaKey || event.altKey) return;
+        if (by) {
+            const [x0, , x1] = this.spec.box, step = ((x1 - x0) / 80) * (event.shiftKey ? 5 : 1);
+            const [x, y] = this.state[handles[this.active].name];
+            this.moveTo([x + by[0] * step, y + by[1] * step]);
+        } else if (event.key.toLowerCase() === 'n' && handles.length > 1) {
+            this.active = (this.active + 1) % handles.length;
+            this.change();
+        } else return;
+        event.preventDefault();
+        event.stopPropagation();
+    }
+
+    moveTo([x, y]) {
+        const [x0, y0, x1, y1] = this.spec.box, name = this.spec.handles[this.active].name;
+        this.state[name] = [Math.min(x1, Math.max(x0, x)), Math.min(y1, Math.max(y0, y))];
+        this.change();
+    }
+
+    resize() {
+        const width = this.canvas.clientWidth, height = this.canvas.clientHeight, ratio = window.devicePixelRatio || 1;
+        if (!width || !height) return;
+        this.canvas.width = Math.round(width * ratio);
+        this.canvas.height = Math.round(height * ratio);
+        this.camera.resize(width, height);
+        this.camera.fit(this.spec.box, 16);
+        this.draw();
+    }
+
+    /** Computes, says and draws. `frame` is the time that it took, in milliseconds. */
+    change() {
+        const begin = performance.now();
+        this.spec.update(this.state, this.lab);
+        this.says.textContent = this.spec.tell(this.state);
+        if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));
+        this.draw();
+        this.frame = performance.now() - begin;
+    }
+
+    draw() {
+        const surface = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1, { tones } = this;
+        surface.setTransform(ratio, 0, 0, ratio, 0, 0);
+        this.spec.draw(surface, this.camera, tones, this.state);
+        this.spec.handles.forEach(({ name, tone }, i) => {
+            const isActive = this.spec.handles.length > 1 && i === this.active;
+            drawDot(surface, this.camera, this.state[name], isActive ? 9 : 7, tones[tone ?? 'sourceEdge'], isActive ? tones.ink : tones.page);
+        });
+    }
+}
