@@ -7,6 +7,7 @@ import { watchTones } from '../parts/tones.js';
 import { drawWhy } from '../parts/why-scene.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
+import { HeatMap } from './heat.js';
 import { Keys } from './keys.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
@@ -30,6 +31,7 @@ class Playground extends Sight {
         this.tools = makeTools(this);
         this.view = new View(get('plan'), this);
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
+        this.heat = new HeatMap(this, memory > 0 ? memory * 2 ** 20 : undefined);
         this.keys = new Keys(get('plan'), this);
         this.listen();
     }
@@ -58,6 +60,7 @@ class Playground extends Sight {
             panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
                 ['seen in mirrors', tones.image],
                 ['portal', tones.portal], ['door', tones.door]]);
+            this.heat?.showLegend();
             this.redraw();
         });
     }
@@ -65,6 +68,7 @@ class Playground extends Sight {
     // --- the map
 
     changed() {
+        this.heat.drop();
         this.bake();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
@@ -143,14 +147,15 @@ class Playground extends Sight {
     }
 
     scene() {
-        const asks = this.tool === 'why' && this.pair;
+        const asks = this.tool === 'why' && this.pair, heat = asks ? null : this.heat.layer;
         return {
             space: this.plan,
             items: this.doc.items,
             shut: this.shut,
-            seen: asks || !isOn('show-set') ? null : this.seen?.set,
-            region: asks || !isOn('show-region') ? null : this.seen?.region,
-            mirrored: asks || !isOn('show-region') ? null : this.seen?.mirrored,
+            heat,
+            seen: asks || heat || !isOn('show-set') ? null : this.seen?.set,
+            region: asks || heat || !isOn('show-region') ? null : this.seen?.region,
+            mirrored: asks || heat || !isOn('show-region') ? null : this.seen?.mirrored,
             eye: asks ? null : this.eye,
             from: asks ? this.pair[0] : undefined,
             to: asks ? this.pair[1] : undefined,
@@ -199,6 +204,7 @@ class Playground extends Sight {
         this.free = event?.altKey;
         this.tools[this.tool].move?.(place, held);
         if (this.keys.cross || this.tool !== 'look') this.showAt(place);
+        get('heat-value').textContent = this.heat.textAt(place);
         this.redraw();
     }
     release(place, cancelled = false) {

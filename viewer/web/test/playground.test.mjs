@@ -246,6 +246,53 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('heat maps: measures, values, depth from the eye, doors, and what is refused', async () => {
+            const page = await open({}, '', `${room.slice(0, -1)}\ndoor middle 10 4 10 6 open\noneway 4 0 4 10\nrange 15\n`);
+            const text = () => page.locator('#heat-text').textContent(), legend = page.locator('#heat-legend');
+            const shown = () => page.waitForFunction(() => window.playground.heat.heat && !window.playground.heat.jobs.running && !window.playground.heat.depths.running);
+            assert.equal(await page.evaluate(() => performance.getEntriesByType('resource').some((r) => /graph/.test(r.name))), false);
+            const step = async (value) => {
+                await page.fill('#heat-step', value);
+                await page.press('#heat-step', 'Enter');
+            };
+            await page.check('#heat-on');
+            await step('1');
+            await page.selectOption('#heat-measure', 'connectivity');
+            await shown();
+            await page.waitForFunction(() => window.playground.heat.graph.step === 1);
+            await shown();
+            assert.match(await text(), /^\d{3} points, of what a point sees$/);
+            assert.ok(await legend.isVisible());
+            const at = async (x, y) => {
+                await page.mouse.move(...(await screen(page, x, y)));
+                return page.locator('#heat-value').textContent();
+            };
+            const open6 = parseInt((await at(6.1, 5)).replace('connectivity: ', ''), 10);
+            assert.ok(open6 > 40);
+            await shot(page, `${name}-heat`);
+            await page.click('#door-list input');
+            await shown();
+            assert.ok(parseInt((await at(6.1, 5)).replace('connectivity: ', ''), 10) < open6);
+            await page.selectOption('#heat-measure', 'visual_step_depth');
+            await page.click('#door-list input');
+            await page.mouse.click(...(await screen(page, 2, 5)));
+            await shown();
+            await page.waitForFunction(() => window.playground.heat.textAt([2, 5]) === 'visual step depth from the eye: 0');
+            assert.equal(await at(2, 5), 'visual step depth from the eye: 0');
+            await shot(page, `${name}-heat-depth`);
+            await page.selectOption('#heat-measure', 'connectivity');
+            await step('0.001');
+            await page.waitForFunction(() => /choose a coarser grid/.test(document.getElementById('heat-text').textContent));
+            assert.equal(await legend.isVisible(), false);
+            await step('1');
+            await shown();
+            await page.evaluate(() => window.playground.doc.add({ kind: 'mirror', points: [19, 2, 19, 8] }));
+            await settled(page);
+            await page.waitForFunction(() => /mirror/.test(document.getElementById('heat-text').textContent));
+            assert.equal(await page.evaluate(() => window.playground.heat.heat), null);
+            await context.close();
+        });
+
         test('long work shows itself and can be cancelled', async () => {
             const page = await open();
             let walls = 'sightline 1\n';
