@@ -12,6 +12,7 @@ const tasks = {
         const started = performance.now(), plan = core.bake(text, { ...options, progress: tellEvery(id) });
         const bakeTime = performance.now() - started;
         core.setDoors(doors);
+        plan.doors = core.open.doors; // as they stand now
         return { plan, bakeTime, seen: eye && core.look(eye) };
     },
     look({ eye, doors }) {

@@ -44,11 +44,13 @@ export class HeatMap {
         /** What the worker's graph is of. */
         this.made = '';
         this.deepest = 0;
+        /** The step that was entered; null: the usual one. @type {number | null} */
+        this.step = null;
         get('heat-measure').append(...MEASURES.map((name) => new Option(labelOf(name), name)));
         get('heat-measure').value = MEASURES[1];
         for (const id of ['heat-on', 'heat-measure']) get(id).addEventListener('change', () => this.changed());
         get('heat-step').addEventListener('change', () => {
-            this.chosen = get('heat-step').value !== '';
+            this.step = get('heat-step').value === '' ? null : Number(get('heat-step').value);
             this.changed();
         });
         get('heat-stop').addEventListener('click', () => {
@@ -87,13 +89,15 @@ export class HeatMap {
     }
 
     wanted() {
-        if (!this.chosen && this.app.plan) get('heat-step').value = String(usualStep(this.app.plan));
-        return { text: this.app.doc.text(), grid: Number(get('heat-step').value), doors: this.app.openDoors() };
+        const grid = this.step ?? usualStep(this.app.plan);
+        return { text: this.app.doc.text(), grid, doors: this.app.openDoors() };
     }
 
     async run() {
         if (!this.on || !countWalls(this.app.doc.items) || !this.app.plan) return;
         const wanted = this.wanted(), key = JSON.stringify(wanted), { measure } = this;
+        // Not into what is being typed.
+        if (document.activeElement !== get('heat-step')) get('heat-step').value = String(wanted.grid);
         get('heat-stop').disabled = false;
         this.say('Computing ...');
         try {
@@ -104,12 +108,13 @@ export class HeatMap {
                 this.made = key;
             }
             const values = measure === DEPTH ? null : await this.client.call('values', { measure });
-            if (!this.on || this.measure !== measure || JSON.stringify(this.wanted()) !== key) return;
+            if (!this.on || !this.app.plan || this.measure !== measure || JSON.stringify(this.wanted()) !== key) return;
             this.say(`${this.graph.count.toLocaleString('en')} points${this.graph.directed ? ', of what a point sees' : ''}`);
             if (values) this.show(values, rangeOf(values));
             else this.follow();
         } catch (error) {
-            if (this.on) this.say(`No heat map: ${error.message}`);
+            // What the message says of the command's options is no help here.
+            if (this.on) this.say(`No heat map: ${error.message.replace(/; --without .*/, '')}`);
         } finally {
             get('heat-stop').disabled = true;
         }
@@ -131,7 +136,7 @@ export class HeatMap {
         try {
             const values = await this.client.call('depth', { eye });
             if (!values || !this.on || this.measure !== DEPTH || this.made !== key || !key) return;
-            if (JSON.stringify(this.wanted()) !== key) return;
+            if (!this.app.plan || JSON.stringify(this.wanted()) !== key) return;
             // The scale holds while the eye moves: it ends at the most steps that were counted.
             this.deepest = Math.max(this.deepest, rangeOf(values).most);
             this.show(values, { least: 0, most: this.deepest });

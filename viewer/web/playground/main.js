@@ -46,6 +46,7 @@ class Playground extends Sight {
             radio.addEventListener('change', () => this.chooseTool(radio.value));
         for (const id of ['show-cells', 'show-portals', 'show-set', 'show-region', 'snap'])
             get(id).addEventListener('change', () => this.redraw());
+        get('range').addEventListener('change', () => this.setRange(Number(get('range').value)));
         get('sight').addEventListener('change', () => this.bake());
         get('file').addEventListener('change', () => {
             if (get('file').files[0]) this.openFile(get('file').files[0]);
@@ -68,11 +69,19 @@ class Playground extends Sight {
     // --- the map
 
     changed() {
+        get('range').value = this.doc.items.find((item) => item.kind === 'range')?.value ?? '';
         this.heat.drop();
         this.bake();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
+    }
+
+    /** The view range is a statement of the map: 0 takes it out. @param {number} value */
+    setRange(value) {
+        const others = this.doc.items.filter((item) => item.kind !== 'range');
+        this.doc.select(-1);
+        this.doc.change(value > 0 ? [...others, { kind: 'range', points: [], value }] : others);
     }
 
     keep() {
