@@ -14,8 +14,9 @@ export class CoreError extends Error {
 }
 
 export class CoreClient {
-    /** @param {number} [memory] the most bytes that the core may take */
-    constructor(memory) {
+    /** @param {number} [memory] the most bytes that the core may take @param {string} [file] of the worker */
+    constructor(memory, file = './worker.js') {
+        this.file = file;
         this.memory = memory;
         /** @type {Worker | null} */
         this.worker = null;
@@ -28,7 +29,7 @@ export class CoreClient {
     start() {
         if (typeof WebAssembly !== 'object')
             throw new CoreError('This browser has no WebAssembly, so it cannot compute what is seen. You can still draw and save.');
-        this.worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+        this.worker = new Worker(new URL(this.file, import.meta.url), { type: 'module' });
         this.worker.onmessage = ({ data }) => this.receive(data);
         this.worker.onerror = (event) => {
             event.preventDefault();

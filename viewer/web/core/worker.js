@@ -3,27 +3,16 @@
  * and before it, in long work, {id, progress}.
  */
 import { Core } from './core.js';
+import { tellEvery } from './progress.js';
 
 let core = null;
 
-/** Messages of progress come this often at most, in milliseconds. */
-const EVERY = 100;
-
-function teller(id) {
-    let last = performance.now();
-    return (stage, done, total) => {
-        const now = performance.now();
-        if (now - last < EVERY) return;
-        last = now;
-        postMessage({ id, progress: { stage, done, total } });
-    };
-}
-
 const tasks = {
     bake({ id, text, options, doors, eye }) {
-        const started = performance.now(), plan = core.bake(text, { ...options, progress: teller(id) });
+        const started = performance.now(), plan = core.bake(text, { ...options, progress: tellEvery(id) });
         const bakeTime = performance.now() - started;
         core.setDoors(doors);
+        plan.doors = core.open.doors; // as they stand now
         return { plan, bakeTime, seen: eye && core.look(eye) };
     },
     look({ eye, doors }) {

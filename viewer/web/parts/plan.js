@@ -12,6 +12,7 @@
  * @property {number} [from] a chosen cell @property {number} [to] a second one
  * @property {ArrayLike<number>} [region] x, y of the visible region
  * @property {ArrayLike<number>[]} [mirrored] parts that are seen in mirrors, where they lie
+ * @property {(surface: any, camera: Camera, tones: Tones) => void} [heat] draws a heat map over the cells
  * @property {[number, number]} [eye]
  * @property {import('../formats/map-text.js').Item[]} [items] walls, doors ... as they are drawn
  * @property {Set<string>} [shut] names of doors that are shut
@@ -225,6 +226,7 @@ export function drawPlan(surface, camera, scene, tones) {
     surface.fillRect(0, 0, camera.width, camera.height);
     if (show.grid) drawGrid(surface, camera, show.grid, tones.hatch);
     if (scene.space && show.cells) drawCells(surface, camera, scene, tones);
+    scene.heat?.(surface, camera, tones);
     drawRegion(surface, camera, scene, tones);
     if (scene.space && show.portals) drawPortals(surface, camera, scene.space, tones);
     if (scene.items) drawItems(surface, camera, scene, tones, wallWidth(camera));

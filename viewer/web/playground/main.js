@@ -7,6 +7,7 @@ import { watchTones } from '../parts/tones.js';
 import { drawWhy } from '../parts/why-scene.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
+import { HeatMap } from './heat.js';
 import { Keys } from './keys.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
@@ -30,6 +31,7 @@ class Playground extends Sight {
         this.tools = makeTools(this);
         this.view = new View(get('plan'), this);
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
+        this.heat = new HeatMap(this, memory > 0 ? memory * 2 ** 20 : undefined);
         this.keys = new Keys(get('plan'), this);
         this.listen();
     }
@@ -44,6 +46,7 @@ class Playground extends Sight {
             radio.addEventListener('change', () => this.chooseTool(radio.value));
         for (const id of ['show-cells', 'show-portals', 'show-set', 'show-region', 'snap'])
             get(id).addEventListener('change', () => this.redraw());
+        get('range').addEventListener('change', () => this.setRange(Number(get('range').value)));
         get('sight').addEventListener('change', () => this.bake());
         get('file').addEventListener('change', () => {
             if (get('file').files[0]) this.openFile(get('file').files[0]);
@@ -58,6 +61,7 @@ class Playground extends Sight {
             panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
                 ['seen in mirrors', tones.image],
                 ['portal', tones.portal], ['door', tones.door]]);
+            this.heat?.showLegend();
             this.redraw();
         });
     }
@@ -65,10 +69,19 @@ class Playground extends Sight {
     // --- the map
 
     changed() {
+        get('range').value = this.doc.items.find((item) => item.kind === 'range')?.value ?? '';
+        this.heat.drop();
         this.bake();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
+    }
+
+    /** The view range is a statement of the map: 0 takes it out. @param {number} value */
+    setRange(value) {
+        const others = this.doc.items.filter((item) => item.kind !== 'range');
+        this.doc.select(-1);
+        this.doc.change(value > 0 ? [...others, { kind: 'range', points: [], value }] : others);
     }
 
     keep() {
@@ -143,14 +156,15 @@ class Playground extends Sight {
     }
 
     scene() {
-        const asks = this.tool === 'why' && this.pair;
+        const asks = this.tool === 'why' && this.pair, heat = asks ? null : this.heat.layer;
         return {
             space: this.plan,
             items: this.doc.items,
             shut: this.shut,
-            seen: asks || !isOn('show-set') ? null : this.seen?.set,
-            region: asks || !isOn('show-region') ? null : this.seen?.region,
-            mirrored: asks || !isOn('show-region') ? null : this.seen?.mirrored,
+            heat,
+            seen: asks || heat || !isOn('show-set') ? null : this.seen?.set,
+            region: asks || heat || !isOn('show-region') ? null : this.seen?.region,
+            mirrored: asks || heat || !isOn('show-region') ? null : this.seen?.mirrored,
             eye: asks ? null : this.eye,
             from: asks ? this.pair[0] : undefined,
             to: asks ? this.pair[1] : undefined,
@@ -199,6 +213,7 @@ class Playground extends Sight {
         this.free = event?.altKey;
         this.tools[this.tool].move?.(place, held);
         if (this.keys.cross || this.tool !== 'look') this.showAt(place);
+        get('heat-value').textContent = this.heat.textAt(place);
         this.redraw();
     }
     release(place, cancelled = false) {

@@ -92,6 +92,7 @@ export class Sight {
         if (this.eye) this.useSeen(seen);
         else this.setEye(largestCell(plan));
         if (this.places) this.questions.want(this.places);
+        this.heat.changed();
         this.redraw();
     }
 
@@ -111,6 +112,7 @@ export class Sight {
     setEye(place) {
         this.eye = place;
         if (this.plan && place) this.looks.want(place);
+        this.heat.follow();
         this.redraw();
     }
 
@@ -128,10 +130,16 @@ export class Sight {
         this.showFacts();
     }
 
+    /** Doors as they stand, by name. */
+    openDoors() {
+        return Object.fromEntries((this.plan?.doors ?? []).map(({ name }) => [name, !this.shut.has(name)]));
+    }
+
     setDoor(name, open) {
         this.doors[name] = open;
         if (open) this.shut.delete(name);
         else this.shut.add(name);
+        this.heat.changed();
         this.setEye(this.eye);
     }
 

@@ -13,6 +13,7 @@ import { readMapFile } from '../formats/read.js';
 import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
+import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
@@ -238,6 +239,20 @@ test('colours are those of the pictures of the project', () => {
         }
         assert.ok(compared > 15);
     }
+});
+
+test('the ramp of heat maps is even in lightness, and values are found by their squares', () => {
+    for (const dark of [false, true]) {
+        const light = (share) => parseInt(rampColour(dark, share).slice(3, 5), 16);
+        assert.ok(dark ? light(0) < light(0.5) && light(0.5) < light(1) : light(0) > light(0.5) && light(0.5) > light(1));
+    }
+    const heat = { step: 0.5, left: -2, bottom: 0, columns: 2, rows: 3, squares: Uint32Array.of(0, 2, 4), values: Float64Array.of(5, NaN, 7), ...rangeOf(Float64Array.of(5, NaN, 7)) };
+    assert.deepEqual([heat.least, heat.most], [5, 7]);
+    assert.equal(valueAt(heat, [-1.1, 0.1]), 5);
+    assert.ok(Number.isNaN(valueAt(heat, [-1, 1])));
+    assert.equal(valueAt(heat, [-0.5, 0.6]), 7);
+    assert.equal(valueAt(heat, [-0.5, 0]), undefined);
+    assert.equal(valueAt(heat, [9, 9]), undefined);
 });
 
 test('Markdown as HTML', () => {

@@ -246,6 +246,99 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('heat maps: measures, values, depth from the eye, doors, and what is refused', async () => {
+            const page = await open({}, '', `${room.slice(0, -1)}\ndoor middle 10 4 10 6 open\noneway 4 0 4 10\nrange 15\n`);
+            const text = () => page.locator('#heat-text').textContent(), legend = page.locator('#heat-legend');
+            const shown = () => page.waitForFunction(() => window.playground.heat.heat && !window.playground.heat.jobs.running && !window.playground.heat.depths.running);
+            assert.equal(await page.evaluate(() => performance.getEntriesByType('resource').some((r) => /graph/.test(r.name))), false);
+            const step = async (value) => {
+                await page.fill('#heat-step', value);
+                await page.press('#heat-step', 'Enter');
+            };
+            await page.check('#heat-on');
+            await step('1');
+            await page.selectOption('#heat-measure', 'connectivity');
+            await shown();
+            await page.waitForFunction(() => window.playground.heat.graph.step === 1);
+            await shown();
+            assert.match(await text(), /^\d{3} points, of what a point sees$/);
+            assert.ok(await legend.isVisible());
+            const at = async (x, y) => {
+                await page.mouse.move(...(await screen(page, x, y)));
+                return page.locator('#heat-value').textContent();
+            };
+            const open6 = parseInt((await at(6.1, 5)).replace('connectivity: ', ''), 10);
+            assert.ok(open6 > 40);
+            await shot(page, `${name}-heat`);
+            await page.click('#door-list input');
+            await shown();
+            assert.ok(parseInt((await at(6.1, 5)).replace('connectivity: ', ''), 10) < open6);
+            await page.selectOption('#heat-measure', 'visual_step_depth');
+            await page.click('#door-list input');
+            await page.mouse.click(...(await screen(page, 2, 5)));
+            await shown();
+            await page.waitForFunction(() => window.playground.heat.textAt([2, 5]) === 'visual step depth from the eye: 0');
+            assert.equal(await at(2, 5), 'visual step depth from the eye: 0');
+            await shot(page, `${name}-heat-depth`);
+            await page.selectOption('#heat-measure', 'connectivity');
+            await step('0.001');
+            await page.waitForFunction(() => /choose a coarser grid/.test(document.getElementById('heat-text').textContent));
+            assert.equal(await legend.isVisible(), false);
+            await step('1');
+            await shown();
+            await page.evaluate(() => window.playground.doc.add({ kind: 'mirror', points: [19, 2, 19, 8] }));
+            await settled(page);
+            await page.waitForFunction(() => /mirror/.test(document.getElementById('heat-text').textContent));
+            assert.equal(await page.evaluate(() => window.playground.heat.heat), null);
+            await context.close();
+        });
+
+        test('a map with all effects: each is edited, and eye, region and pairs are answered', async () => {
+            const all = `${room}door front 10 4 10 6 open\nwall 15 0 15 3\ndoor back 15 3 15 10 shut\nmirror 19 1 19 9\noneway 4 0 4 10\nrange 14\n`;
+            const page = await open({}, '', all);
+            const facts = async () => ({ pairs: await fact(page, 'Pairs that see each other'), cells: parseInt(await fact(page, 'The eye sees'), 10) });
+            const seen = () => page.evaluate(() => {
+                const { region, mirrored, kept, set } = window.playground.seen;
+                const inRange = region.every((v, i) => i % 2 || Math.hypot(v - window.playground.eye[0], region[i + 1] - window.playground.eye[1]) < 14.01);
+                return { farthest: Math.max(...region.filter((_, i) => i % 2 === 0)), nearest: Math.min(...region.filter((_, i) => i % 2 === 0)), parts: mirrored.length, kept, set: set.size, inRange };
+            });
+            const look = async (x, y) => {
+                await page.evaluate(([ex, ey]) => window.playground.setEye([ex, ey]), [x, y]);
+                await settled(page);
+                return seen();
+            };
+            const first = await facts();
+            const left = await look(3, 5), right = await look(5, 5);
+            assert.ok(left.inRange && right.inRange && right.kept <= right.set);
+            // Glass shows one side, the shut door hides what is behind it.
+            assert.ok((left.farthest > 5) !== (right.nearest < 3), JSON.stringify([left, right]));
+            assert.ok(right.farthest <= 15.01 && right.parts === 0);
+            await page.click('#door-list input[value=back]');
+            await settled(page);
+            assert.ok((await seen()).farthest > 18);
+            assert.ok((await look(13, 5)).parts > 0, 'seen in the mirror');
+            await page.fill('#range', '3');
+            await page.press('#range', 'Enter');
+            await settled(page);
+            assert.match(await page.evaluate(() => window.playground.doc.text()), /range 3\n$/);
+            assert.ok(await page.isChecked('#door-list input[value=back]'), 'the door stays open through a bake');
+            assert.ok((await seen()).farthest <= 16.01 && (await seen()).parts === 0);
+            assert.notEqual((await facts()).pairs, first.pairs);
+            await page.fill('#range', '');
+            await page.press('#range', 'Enter');
+            await settled(page);
+            assert.doesNotMatch(await page.evaluate(() => window.playground.doc.text()), /range/);
+            await page.click('[data-do=undo]');
+            assert.equal(await page.inputValue('#range'), '3');
+            await page.evaluate(() => window.playground.askWhy([8, 5], [12, 5]));
+            await settled(page);
+            assert.ok((await page.locator('#why-text').textContent()).length > 20);
+            await page.check('#heat-on');
+            await page.waitForFunction(() => /No heat map: .*mirror/.test(document.getElementById('heat-text').textContent));
+            await shot(page, `${name}-effects`);
+            await context.close();
+        });
+
         test('long work shows itself and can be cancelled', async () => {
             const page = await open();
             let walls = 'sightline 1\n';
