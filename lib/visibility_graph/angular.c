@@ -25,7 +25,7 @@
 /// gains nothing, and the result is that of trying all ways on, to the last bit.
 ///
 /// Cost: for each point, the words of the points that are expanded, and a heap operation for each
-/// gain of such a point. Memory: for each thread 24 bytes a word, and up to KEPT_TURNS turns.
+/// gain of such a point. Memory: for each thread 16 bytes a word, and up to KEPT_TURNS turns.
 #include "visibility_graph/paths.h"
 
 #include <string.h>
