@@ -9,13 +9,23 @@
 ///            \    /              does not see can gain by u.
 ///              q
 ///
-/// Most ways on turn too much. To see that takes one product: the cosine of the turn that is still
-/// allowed comes from a table, and squares are compared. 64 points are passed over at once where
-/// their largest turn so far is no more than that of the path to `u`, or where their box lies too
-/// far aside. Turns are in single precision, and ties go to the lower number, as in depthmapX.
+/// From one start to the next most points are reached from the same point before. So each point
+/// keeps what a way on turns:
+///
+///       least:  0.4            0.1        of the 64 points of a word
+///               |              |
+///       turns:  0.4 0.7 0.5    0.1 0.3    of each point that p does not see
+///
+/// A word is passed over where its least turn leads to no gain, as no point in it has a worse path
+/// so far. A turn is first kept as a lower bound, by a short formula. It becomes exact when the
+/// bound cannot tell. Turns are in single precision, and ties go to the lower number, as in
+/// depthmapX.
+///
+/// Invariant: the bounds are below the turns by more than rounding. So a way on that is passed over
+/// gains nothing, and the result is that of trying all ways on, to the last bit.
 ///
 /// Cost: for each point, the words of the points that are expanded, and a heap operation for each
-/// gain of such a point.
+/// gain of such a point. Memory: for each thread 16 bytes a word, and up to KEPT_TURNS turns.
 #include "visibility_graph/paths.h"
 
 #include <string.h>
@@ -24,38 +34,80 @@ typedef struct entry {
     float key;
     uint32_t number; ///< of the point
     uint32_t slot, before;
+    uint32_t next; ///< in its bucket, or none
 } entry;
 
-enum { STEPS = 512, KNOWN_BITS = 16 };
+/// Keys of a bucket share their whole number of parts of a right angle. No turn is over two right
+/// angles, so that no two buckets that wait share a place.
+enum { PARTS = 256, BUCKETS = 4 * PARTS };
 
-/// A turn that was computed. From one start to the next most turns are the same.
-typedef struct known_turn {
-    uint32_t before, at, to;
-    float turn;
-} known_turn;
+/// Of each thread: 64 MiB. Points for which no room is left begin anew each time.
+#define KEPT_TURNS ((size_t)1 << 24)
+
+/// How far a bound lies below its turn at least, in right angles. The formula is off by 4.3e-5, and
+/// single precision near a cosine of 1 by 5e-4.
+#define BELOW 1e-3f
+
+/// The ways on from a point to those of a word.
+typedef struct ways_on {
+    uint64_t fresh; ///< points that the point before does not see
+    uint32_t first; ///< of their turns, among those of the point
+    float least;    ///< no turn is less; below 0: not known yet
+} ways_on;
 
 typedef struct walker {
     const sli_vga_sights *sights;
-    float *turn;       ///< by slot, in right angles: of its path so far; INFINITY: none
-    float *most;       ///< by bundle: the largest of these
-    sl_bits *done;     ///< points whose paths are final
-    known_turn *known; ///< by hash
-    SL_ARRAY(entry) heap;
-    float cosines[2 * STEPS + 2]; ///< a little less than those of turns, by turn * STEPS
+    float *turn;             ///< by slot, in right angles: of its path so far; INFINITY: none
+    float *most;             ///< by bundle: the largest of these
+    sl_bits *done;           ///< points whose paths are final
+    ways_on *ways;           ///< by word
+    uint32_t *before;        ///< by slot: the point before, for which its ways on are kept, or none
+    size_t *kept;            ///< by slot: where its turns begin, or 0: in the room that all share
+    float *turns;            ///< with its sign: a bound
+    SL_ARRAY(entry) heap;    ///< of the bucket that is reached
+    SL_ARRAY(entry) entries; ///< of the buckets after it
+    size_t waiting;          ///< entries that are not taken yet
+    uint64_t reached;
+    uint32_t buckets[BUCKETS]; ///< first entries
 } walker;
 
-// --- the heap
+// --- the queue: buckets of keys, and a small heap for the one that is reached
 
-static bool is_before(entry a, entry b) {
-    return a.key < b.key || (a.key == b.key && a.number < b.number);
+static inline bool is_before(const entry *a, const entry *b) {
+    return a->key < b->key || (a->key == b->key && a->number < b->number);
+}
+
+static sl_status push_reached(sl_context *context, walker *w, const entry *e) {
+    SL_TRY(SL_ARRAY_ROOM(context, &w->heap, 1));
+    size_t i = w->heap.count++;
+    for (; i && is_before(e, &w->heap.items[(i - 1) / 2]); i = (i - 1) / 2)
+        w->heap.items[i] = w->heap.items[(i - 1) / 2];
+    w->heap.items[i] = *e;
+    return SL_OK;
 }
 
 static sl_status push(sl_context *context, walker *w, entry e) {
-    SL_TRY(SL_ARRAY_ROOM(context, &w->heap, 1));
-    size_t i = w->heap.count++;
-    for (; i && is_before(e, w->heap.items[(i - 1) / 2]); i = (i - 1) / 2)
-        w->heap.items[i] = w->heap.items[(i - 1) / 2];
-    w->heap.items[i] = e;
+    const uint64_t bucket = (uint64_t)(e.key * PARTS);
+    if (bucket == w->reached) return push_reached(context, w, &e);
+    SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
+    e.next = w->buckets[bucket % BUCKETS];
+    w->buckets[bucket % BUCKETS] = (uint32_t)w->entries.count;
+    w->entries.items[w->entries.count++] = e;
+    w->waiting++;
+    return SL_OK;
+}
+
+/// Goes on to the next bucket with entries that no better path has replaced.
+static sl_status reach_next(sl_context *context, walker *w) {
+    while (w->waiting && !w->heap.count) {
+        uint32_t *bucket = &w->buckets[++w->reached % BUCKETS];
+        for (uint32_t i = *bucket; i != SLI_VGA_NONE; i = w->entries.items[i].next) {
+            const entry *e = &w->entries.items[i];
+            w->waiting--;
+            if (e->key <= w->turn[e->slot]) SL_TRY(push_reached(context, w, e));
+        }
+        *bucket = SLI_VGA_NONE;
+    }
     return SL_OK;
 }
 
@@ -66,8 +118,8 @@ static entry pop(walker *w) {
     for (;;) {
         size_t child = 2 * i + 1;
         if (child >= w->heap.count) break;
-        if (child + 1 < w->heap.count && is_before(items[child + 1], items[child])) child++;
-        if (!is_before(items[child], moved)) break;
+        if (child + 1 < w->heap.count && is_before(&items[child + 1], &items[child])) child++;
+        if (!is_before(&items[child], &moved)) break;
         items[i] = items[child];
         i = child;
     }
@@ -75,66 +127,53 @@ static entry pop(walker *w) {
     return first;
 }
 
-// --- turns
+// --- ways on
 
-/// Two steps of a path, and the least cosine of a turn between them that can gain.
-typedef struct bend {
-    float x, y, length2; ///< the first step, and the square of its length
-    float least;
-} bend;
-
-static float least_cosine(const walker *w, float turn) {
-    return turn < 2 ? w->cosines[(int)(turn * STEPS) + 1] : -2;
+/// At most the turn between two steps (Abramowitz and Stegun 1964, 4.4.45).
+static inline float bound_turn(float ax, float ay, float bx, float by) {
+    const float cosine = (ax * bx + ay * by) / sqrtf((ax * ax + ay * ay) * (bx * bx + by * by));
+    const float size = fabsf(cosine), c = size < 1 ? size : 1;
+    const float series = 1.5707288f + c * (-0.2121144f + c * (0.0742610f - c * 0.0187293f));
+    const float turn = sqrtf(1 - c) * series * (float)(1 / SLI_RIGHT_ANGLE);
+    const float bound = (cosine < 0 ? 2 - turn : turn) - BELOW;
+    return bound > 0 ? bound : 0;
 }
 
-/// Whether a step turns too much.
-static inline bool is_aside(const bend *b, float x, float y) {
-    const float dot = b->x * x + b->y * y;
-    const float square = b->least * b->least * b->length2 * (x * x + y * y);
-    if (b->least >= 0) return dot <= 0 || dot * dot < square;
-    return dot < 0 && dot * dot > square;
-}
-
-/// Whether all of a box is aside of a ray: it does not meet the ray, and no corner is ahead.
-static bool is_box_aside(const bend *b, float x, float y, const sli_vga_box *box) {
-    const float left = box->left - x, right = box->right - x;
-    const float bottom = box->bottom - y, top = box->top - y;
-    if (left <= 0 && right >= 0 && bottom <= 0 && top >= 0) return false;
-    const float corners[4][2] = {{left, bottom}, {left, top}, {right, bottom}, {right, top}};
-    int sides = 0;
-    for (int i = 0; i < 4; i++) {
-        if (!is_aside(b, corners[i][0], corners[i][1])) return false;
-        const float cross = b->x * corners[i][1] - b->y * corners[i][0];
-        const bool ahead = b->x * corners[i][0] + b->y * corners[i][1] > 0;
-        sides |= cross > 0 ? 1 : cross < 0 ? 2 : 3;
-        sides |= ahead ? 4 : 0;
+/// Bounds the turns of a word.
+static void bound_word(const walker *w, const entry *at, uint32_t bundle, ways_on *ways,
+                       float *turns) {
+    const sli_vga_sights *s = w->sights;
+    const float x = s->x[at->slot], y = s->y[at->slot];
+    const float bx = x - s->x[at->before], by = y - s->y[at->before];
+    float least = 2;
+    for (uint64_t rest = ways->fresh; rest; rest &= rest - 1) {
+        const uint32_t q = bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+        const float turn = bound_turn(s->x[q] - x, s->y[q] - y, bx, by);
+        least = turn < least ? turn : least;
+        *turns++ = -turn;
     }
-    return (sides & 3) != 3 || !(sides & 4);
+    ways->least = least;
 }
 
-static float turn_at(walker *w, uint32_t before, uint32_t at, uint32_t to) {
-    const uint32_t hash = (at * 0x9e3779b1u ^ to * 0x85ebca6bu) + before * 0xc2b2ae35u;
-    known_turn *known = &w->known[hash >> (32 - KNOWN_BITS)];
-    if (known->before != before || known->at != at || known->to != to)
-        *known =
-            (known_turn){before, at, to, sli_vga_turn(sli_vga_cosine(w->sights, before, at, to))};
-    return known->turn;
+/// Splits what a point sees: points that the point before sees, too, can gain nothing.
+static void split_row(walker *w, const entry *at) {
+    const sli_vga_sights *s = w->sights;
+    const sli_vga_word *words = s->words.items;
+    const bool first = at->before == SLI_VGA_NONE;
+    size_t k = first ? 0 : s->first[at->before];
+    const size_t end = first ? 0 : s->first[at->before + 1];
+    uint32_t count = 0;
+    for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
+        uint64_t fresh = words[i].seen;
+        while (k < end && words[k].bundle < words[i].bundle) k++;
+        if (k < end && words[k].bundle == words[i].bundle) fresh &= ~words[k].seen;
+        w->ways[i] = (ways_on){fresh, count, -1};
+        for (; fresh; fresh &= fresh - 1) count++;
+    }
+    w->before[at->slot] = w->kept[at->slot] ? at->before : SLI_VGA_NONE;
 }
 
 // --- paths
-
-static sl_status try_point(sl_context *context, walker *w, const entry *at, uint32_t q) {
-    const sli_vga_sights *s = w->sights;
-    const float old = w->turn[q];
-    float turn = 0;
-    if (at->key >= old) return SL_OK;
-    if (at->before != SLI_VGA_NONE) turn = turn_at(w, at->before, at->slot, q);
-    if (at->key + turn >= old) return SL_OK;
-    w->turn[q] = at->key + turn;
-    // Only straight ahead, and beside walls, are points expanded.
-    if (w->turn[q] > 0 && !sl_bits_has(s->turning, q)) return SL_OK;
-    return push(context, w, (entry){w->turn[q], s->points[q], q, at->slot});
-}
 
 static float most_of(const float *turns) {
     float most[8] = {0};
@@ -144,20 +183,25 @@ static float most_of(const float *turns) {
     return most[0];
 }
 
-static sl_status try_word(sl_context *context, walker *w, const entry *at, bend *b, uint32_t bundle,
-                          uint64_t points) {
+static sl_status gain(sl_context *context, walker *w, const entry *at, uint32_t q, float turn) {
     const sli_vga_sights *s = w->sights;
-    const float x = s->x[at->slot], y = s->y[at->slot];
+    w->turn[q] = turn;
+    // Only straight ahead, and beside walls, are points expanded.
+    if (turn > 0 && !sl_bits_has(s->turning, q)) return SL_OK;
+    return push(context, w, (entry){turn, s->points[q], q, at->slot, SLI_VGA_NONE});
+}
+
+static sl_status try_word(sl_context *context, walker *w, const entry *at, uint32_t bundle,
+                          uint64_t fresh, float *turns) {
     bool gained = false;
-    b->least = least_cosine(w, w->most[bundle] - at->key);
-    if (at->before != SLI_VGA_NONE && is_box_aside(b, x, y, &s->boxes[bundle])) return SL_OK;
-    for (; points; points &= points - 1) {
-        const uint32_t q = bundle * 64 + (uint32_t)__builtin_ctzll(points);
-        const float left = w->turn[q] - at->key;
-        if (left <= 0) continue;
-        b->least = least_cosine(w, left);
-        if (at->before != SLI_VGA_NONE && is_aside(b, s->x[q] - x, s->y[q] - y)) continue;
-        SL_TRY(try_point(context, w, at, q));
+    for (; fresh; fresh &= fresh - 1, turns++) {
+        const uint32_t q = bundle * 64 + (uint32_t)__builtin_ctzll(fresh);
+        if (at->key + fabsf(*turns) >= w->turn[q]) continue;
+        if (signbit(*turns)) {
+            *turns = sli_vga_turn(sli_vga_cosine(w->sights, at->before, at->slot, q));
+            if (at->key + *turns >= w->turn[q]) continue;
+        }
+        SL_TRY(gain(context, w, at, q, at->key + *turns));
         gained = true;
     }
     if (gained) w->most[bundle] = most_of(w->turn + (size_t)bundle * 64);
@@ -166,22 +210,36 @@ static sl_status try_word(sl_context *context, walker *w, const entry *at, bend 
 
 static sl_status expand(sl_context *context, walker *w, const entry *at) {
     const sli_vga_sights *s = w->sights;
-    const sli_vga_word *words = s->words.items;
-    bend b = {0};
-    size_t k = 0, known_end = 0;
-    if (at->before != SLI_VGA_NONE) {
-        k = s->first[at->before];
-        known_end = s->first[at->before + 1];
-        b.x = s->x[at->slot] - s->x[at->before];
-        b.y = s->y[at->slot] - s->y[at->before];
-        b.length2 = b.x * b.x + b.y * b.y;
-    }
+    float *turns = w->turns + w->kept[at->slot];
+    if (w->before[at->slot] == SLI_VGA_NONE || w->before[at->slot] != at->before) split_row(w, at);
     for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
-        const uint32_t bundle = words[i].bundle;
-        while (k < known_end && words[k].bundle < bundle) k++;
-        uint64_t rest = words[i].seen & ~w->done[bundle];
-        if (k < known_end && words[k].bundle == bundle) rest &= ~words[k].seen;
-        if (rest && at->key < w->most[bundle]) SL_TRY(try_word(context, w, at, &b, bundle, rest));
+        const uint32_t bundle = s->words.items[i].bundle;
+        ways_on *ways = &w->ways[i];
+        if (!(ways->fresh & ~w->done[bundle]) || at->key + ways->least >= w->most[bundle]) continue;
+        if (ways->least < 0) {
+            if (at->key >= w->most[bundle]) continue;
+            bound_word(w, at, bundle, ways, turns + ways->first);
+            if (at->key + ways->least >= w->most[bundle]) continue;
+        }
+        SL_TRY(try_word(context, w, at, bundle, ways->fresh, turns + ways->first));
+    }
+    return SL_OK;
+}
+
+/// All in sight of the start is reached without a turn.
+static sl_status start(sl_context *context, walker *w, uint32_t from) {
+    const sli_vga_sights *s = w->sights;
+    const entry at = {0, s->points[from], from, SLI_VGA_NONE, SLI_VGA_NONE};
+    w->turn[from] = 0;
+    sl_bits_add(w->done, from);
+    for (size_t i = s->first[from]; i < s->first[from + 1]; i++) {
+        const sli_vga_word *word = &s->words.items[i];
+        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
+            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            SL_TRY(gain(context, w, &at, q, 0));
+        }
+        w->done[word->bundle] |= word->seen; // final
+        w->most[word->bundle] = most_of(w->turn + (size_t)word->bundle * 64);
     }
     return SL_OK;
 }
@@ -189,24 +247,22 @@ static sl_status expand(sl_context *context, walker *w, const entry *at) {
 static sl_status find_straightest(sl_context *context, walker *w, uint32_t from) {
     const sli_vga_sights *s = w->sights;
     const double radius = s->job->options->angular_radius;
-    w->heap.count = 0;
+    w->heap.count = w->entries.count = w->waiting = w->reached = 0;
+    memset(w->buckets, 0xff, sizeof w->buckets); // none
     memset(w->done, 0, s->bundles * sizeof *w->done);
     for (uint32_t q = 0; q < s->count; q++)
         w->turn[q] = s->parts[q] == s->parts[from] ? INFINITY : -1; // never reached
     for (size_t k = 0; k < s->bundles; k++) w->most[k] = INFINITY;
-    w->turn[from] = 0;
-    SL_TRY(push(context, w, (entry){0, s->points[from], from, SLI_VGA_NONE}));
-    while (w->heap.count) {
+    SL_TRY(start(context, w, from));
+    for (;;) {
+        if (!w->heap.count) SL_TRY(reach_next(context, w));
+        if (!w->heap.count) return SL_OK;
         const entry e = pop(w);
-        if (radius > 0 && e.key > radius) break;
+        if (radius > 0 && e.key > radius) return SL_OK;
         if (e.key > w->turn[e.slot]) continue; // a better path has come since
         SL_TRY(expand(context, w, &e));
         sl_bits_add(w->done, e.slot);
-        if (e.before != SLI_VGA_NONE) continue;
-        for (size_t i = s->first[from]; i < s->first[from + 1]; i++) // all in sight are final
-            w->done[s->words.items[i].bundle] |= s->words.items[i].seen;
     }
-    return SL_OK;
 }
 
 static sl_status measure(sl_context *context, walker *w, uint32_t from) {
@@ -232,8 +288,33 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
 static void end(sl_context *context, void *all, void *state) {
     (void)all;
     walker *w = state;
-    void *parts[] = {w->turn, w->most, w->done, w->known, w->heap.items, w};
+    void *parts[] = {w->turn, w->most,  w->done,       w->ways,          w->before,
+                     w->kept, w->turns, w->heap.items, w->entries.items, w};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
+}
+
+static size_t count_seen(const sli_vga_sights *s, uint32_t slot) {
+    size_t seen = 0;
+    for (size_t i = s->first[slot]; i < s->first[slot + 1]; i++)
+        seen += (size_t)__builtin_popcountll(s->words.items[i].seen);
+    return seen;
+}
+
+/// Shares out room for turns, first what all share. Returns how much there is.
+static size_t place_turns(walker *w) {
+    const sli_vga_sights *s = w->sights;
+    size_t most = 1;
+    for (uint32_t slot = 0; slot < s->count; slot++)
+        most = count_seen(s, slot) > most ? count_seen(s, slot) : most;
+    size_t used = most;
+    for (uint32_t slot = 0; slot < s->count; slot++) {
+        const size_t degree = count_seen(s, slot);
+        if (!sl_bits_has(s->turning, slot) || !degree || used - most + degree > KEPT_TURNS)
+            continue;
+        w->kept[slot] = used;
+        used += degree;
+    }
+    return used;
 }
 
 static sl_status begin(sl_context *context, void *all, void **state) {
@@ -242,17 +323,18 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     walker *w = sl_alloc_array(context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
     w->sights = s;
-    // Rounding, here and of squares in single precision, is below a millionth.
-    for (int i = 0; i < 2 * STEPS + 2; i++)
-        w->cosines[i] = (float)(cos(i * SLI_RIGHT_ANGLE / STEPS) - 4e-6);
     w->turn = sl_alloc_array(context, slots, sizeof *w->turn);
     w->most = sl_alloc_array(context, s->bundles, sizeof *w->most);
     w->done = sl_alloc_array(context, s->bundles, sizeof *w->done);
-    w->known = sl_alloc_array(context, (size_t)1 << KNOWN_BITS, sizeof *w->known);
-    if (!w->turn || !w->most || !w->done || !w->known) {
+    w->ways = sl_alloc_array(context, s->words.count + 1, sizeof *w->ways);
+    w->before = sl_alloc_array(context, slots, sizeof *w->before);
+    w->kept = sl_alloc_array(context, slots, sizeof *w->kept);
+    if (w->kept) w->turns = sl_alloc_array(context, place_turns(w), sizeof *w->turns);
+    if (!w->turn || !w->most || !w->done || !w->ways || !w->before || !w->turns) {
         end(context, all, w);
         return SL_NO_MEMORY;
     }
+    memset(w->before, 0xff, slots * sizeof *w->before); // none
     *state = w;
     return SL_OK;
 }

@@ -14,6 +14,9 @@
 /// Invariant: a point of the group has depth d of q if it has depth d - 1 of a point that q sees,
 /// and that point is of the level before: else q would be nearer.
 ///
+/// The masks need points that see each other. Where one-way glass makes exceptions, each point is
+/// a group of its own.
+///
 /// Cost: for a group, the tiles of all bundles, a few rows of some, and the rows of points whose
 /// masks are not full. Most bundles are a group, so that is about a 64th of a search from each
 /// point. Memory: a word for each point and thread.
@@ -29,6 +32,7 @@ enum { DEPTHS = 4096 };
 typedef struct global_job {
     const sli_vga_job *all;
     const sli_vga_tiles *tiles;
+    bool mutual;
 } global_job;
 
 typedef struct searcher {
@@ -271,7 +275,7 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
     const size_t left = g->tiles->count - unit * 64;
     uint64_t places = left < 64 ? ((uint64_t)1 << left) - 1 : UINT64_MAX;
     while (places) {
-        const uint64_t group = choose_group(g->tiles, unit, places);
+        const uint64_t group = g->mutual ? choose_group(g->tiles, unit, places) : places & -places;
         SL_TRY(sl_check_cancelled(context));
         measure_group(g, state, unit, group);
         places &= ~group;
@@ -279,9 +283,27 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
     return SL_OK;
 }
 
+/// Whether all that a point sees sees it. One-way glass makes exceptions.
+static bool is_mutual(const sli_vga_job *j) {
+    uint64_t pairs = 0, all = 0;
+    for (uint32_t p = 0; p < j->graph->count; p++) {
+        const sl_bits *row = sli_vga_row(j->graph, p);
+        all += j->degree[p];
+        for (size_t w = p / 64; w < j->graph->words; w++) {
+            for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
+                const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
+                if (q < p) continue;
+                if (!sl_bits_has(sli_vga_row(j->graph, q), p)) return false;
+                pairs++;
+            }
+        }
+    }
+    return all == 2 * pairs;
+}
+
 sl_status sli_vga_measure_global(sl_context *context, const sli_vga_job *job,
                                  const sli_vga_tiles *tiles) {
-    global_job mine = {job, tiles};
+    global_job mine = {job, tiles, is_mutual(job)};
     const sl_work work = {.job = &mine,
                           .begin = begin,
                           .unit = measure_unit,

@@ -142,6 +142,8 @@ static void bound_by_two(walker *w, uint32_t q) {
         uint64_t both = word->seen & w->seen[word->bundle] & s->turning[word->bundle];
         for (; both; both &= both - 1) {
             const uint32_t at = word->bundle * 64 + (uint32_t)__builtin_ctzll(both);
+            // Through one-way glass q may see what does not see it.
+            if (!sl_bits_has(sli_vga_row(s->job->graph, s->points[at]), s->points[q])) continue;
             const float way = w->bound[at] + (float)sli_vga_distance(s, at, q);
             w->bound[q] = way < w->bound[q] ? way : w->bound[q];
         }

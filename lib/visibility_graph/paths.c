@@ -54,7 +54,32 @@ static sl_status list_row(sl_context *context, sli_vga_sights *s, uint32_t slot,
     return SL_OK;
 }
 
-/// Numbers the parts of the graph that no path joins. `left` holds all slots, and is used up.
+/// The least part that this one is joined to.
+static uint32_t find_part(uint32_t *joined, uint32_t part) {
+    while (joined[part] != part) part = joined[part] = joined[joined[part]];
+    return part;
+}
+
+/// Joins parts where a point sees one of another: one-way glass leads from part to part.
+static void join_parts(sli_vga_sights *s, uint32_t *joined, uint32_t parts) {
+    for (uint32_t part = 0; part < parts; part++) joined[part] = part;
+    for (uint32_t at = 0; at < s->count; at++) {
+        for (size_t i = s->first[at]; i < s->first[at + 1]; i++) {
+            const sli_vga_word *word = &s->words.items[i];
+            for (sl_bits rest = word->seen; rest; rest &= rest - 1) {
+                const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+                if (s->parts[q] == s->parts[at]) continue;
+                const uint32_t a = find_part(joined, s->parts[at]);
+                const uint32_t b = find_part(joined, s->parts[q]);
+                joined[a > b ? a : b] = a > b ? b : a;
+            }
+        }
+    }
+    for (uint32_t q = 0; q < s->count; q++) s->parts[q] = find_part(joined, s->parts[q]);
+}
+
+/// Numbers the parts of the graph that no path joins, in any direction. `left` holds all slots, and
+/// is used up.
 static void number_parts(sli_vga_sights *s, uint32_t *queue, sl_bits *left) {
     uint32_t parts = 0;
     for (size_t b = 0; b < s->bundles; b++) {
@@ -75,6 +100,7 @@ static void number_parts(sli_vga_sights *s, uint32_t *queue, sl_bits *left) {
             parts++;
         }
     }
+    if (parts > 1) join_parts(s, queue, parts);
 }
 
 static sl_status sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *s) {

@@ -363,6 +363,44 @@ static void searches_are_those_of_plain_ones(void **state) {
     sl_context_destroy(context);
 }
 
+/// What is behind glass is reached from one side alone: no part of the graph for both.
+static void paths_lead_through_glass_one_way(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "sightline 1\nwalls 0 0 8 0 8 6 0 6 0 0\nwall 4 0 4 2\nwall 4 3 4 6\nwall 2 2 2 4\n"
+        "wall 6 1 6 4\noneway 4 2 4 3\n",
+        "sightline 1\nwalls 0 0 8 0 8 6 0 6 0 0\nwall 3.75 0 3.75 2\nwall 3.75 3 3.75 6\nwall 2 2 "
+        "2 4\n"
+        "wall 6 1 6 4\noneway 3.75 3 3.75 2\n"};
+    sl_context *context = testing_context(NULL);
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    for (size_t i = 0; i < 2; i++) {
+        fixture f = {0};
+        sl_space plain = {0};
+        assert_ok(context, sl_map_read_text(context, "plan", texts[i], strlen(texts[i]), &f.map));
+        assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
+        assert_ok(context, sl_subdivide_mesh(context, &f.map, &plain));
+        assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
+        fill_and_connect(context, 0.5, &f);
+        sl_vga_options options = sl_vga_options_default();
+        options.parts = SL_VGA_GLOBAL | SL_VGA_METRIC | SL_VGA_ANGULAR;
+        sl_vga_measures *m = test_calloc(f.grid.count + 1, sizeof *m);
+        assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, m));
+        double most = 0, least = INFINITY;
+        for (uint32_t p = 0; p < f.grid.count; p++) {
+            check_plain_depths(context, &f, p, 0, &m[p]);
+            check_plain_paths(&f, p, &m[p]);
+            most = fmax(most, m[p].angular_node_count);
+            least = fmin(least, m[p].angular_node_count);
+        }
+        if (i == 1) assert_true(least + 50 < most); // no point is on the glass
+        test_free(m);
+        sl_space_destroy(context, &plain);
+        fixture_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 static void seeds_stay_in_their_room(void **state) {
     (void)state;
     static const char text[] = "sightline 1\nwalls 0 0 4 0 4 2 0 2 0 0\nwall 2 0 2 2\n";
@@ -509,6 +547,7 @@ int main(void) {
         cmocka_unit_test(oblique_pairs_too),
         cmocka_unit_test(measures_are_those_of_brute_force),
         cmocka_unit_test(searches_are_those_of_plain_ones),
+        cmocka_unit_test(paths_lead_through_glass_one_way),
         cmocka_unit_test(seeds_stay_in_their_room),
         cmocka_unit_test(glass_is_seen_through_one_way),
         cmocka_unit_test(depths_add_up_to_measures),
