@@ -1,9 +1,8 @@
 /// The outline of a space: for each cell its portals in order, and between them walls and border.
 ///
-///          left ____ portal ____ right        a cell is walked counter-clockwise; a gap between
-///          two
-///         .                           .       portals is a piece of wall, or of several walls, or
-///        wall                       border    of the map's border
+///          left ____ portal ____ right        a cell is walked counter-clockwise; a gap
+///         .                           .       between two portals is a piece of wall, or of
+///        wall                       border    several walls, or of the map's border
 ///         .____ wall 3 _____ wall 4 __.
 ///
 /// Glass that is dark from one side has a directed portal at the one side and a wall at the other.
