@@ -1,7 +1,7 @@
 /// The layout of a baked file (.slv).
 ///
 /// A header, a table of sections, then the sections, each at a multiple of 8 bytes from the file's
-/// start, zeros between. Numbers are in the writing machine's byte order, which the header tells.
+/// start, zeros between. Numbers are little endian (slv_order.c), which the header says once more.
 /// The checksum is zlib's CRC-32 of all bytes of the file, its own four taken as 0. Readers pass
 /// over sections whose tag they do not know.
 #ifndef SL_SLV_H
@@ -100,6 +100,13 @@ _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point
 
 /// Whether it is letters, digits and dashes, zeros behind: nothing that plays tricks on a terminal.
 bool sli_slv_is_name(const char name[16]);
+
+/// Whether this machine's numbers lie in memory as they do in the file.
+bool sli_slv_is_native(void);
+/// Turns items of a section from the machine's order of bytes to the file's, or back.
+void sli_slv_order(const char *tag, uint32_t item_bytes, void *items, uint64_t count);
+void sli_slv_order_header(sli_slv_header *header); ///< likewise
+void sli_slv_order_entry(sli_slv_section *entry);  ///< likewise
 
 /// Writes the file to a stream that is open already. Whether the stream took all is the caller's to
 /// ask.

@@ -34,6 +34,7 @@ static sl_status in_file(const reader *r, sl_status status) {
 static uint32_t checksum_of(const reader *r) {
     sli_slv_header header = r->header;
     header.checksum = 0;
+    sli_slv_order_header(&header);
     sli_checksum sum;
     sli_checksum_begin(&sum);
     sli_checksum_add(&sum, &header, sizeof header);
@@ -45,9 +46,10 @@ static sl_status check_header(reader *r) {
     if (r->size < sizeof r->header || memcmp(r->bytes, SLI_SLV_MAGIC, 8) != 0)
         return fail_file(r, "not a baked file (.slv): make one with sightline bake");
     memcpy(&r->header, r->bytes, sizeof r->header);
+    sli_slv_order_header(&r->header);
     const sli_slv_header *h = &r->header;
     if (h->byte_order != SLI_SLV_BYTE_ORDER)
-        return fail_file(r, "baked on a machine of other byte order: bake it again here");
+        return fail_file(r, "its byte order is not that of baked files: bake the map again");
     if (h->version != SLI_SLV_VERSION && h->version != SLI_SLV_VERSION_AXIAL)
         return sl_fail_at(r->context, r->name, 0,
                           "version %u of the baked format; this program knows versions up to %u: "
@@ -70,6 +72,7 @@ static sl_status find_section(const reader *r, const char *tag, size_t item_byte
     for (uint32_t i = 0; i < r->header.section_count; i++) {
         sli_slv_section s;
         memcpy(&s, r->bytes + sizeof r->header + i * sizeof s, sizeof s);
+        sli_slv_order_entry(&s);
         if (memcmp(s.tag, tag, sizeof s.tag) != 0) continue;
         if (*found)
             return sl_fail_at(r->context, r->name, 0, "damaged: section %s is there twice", tag);
@@ -94,6 +97,7 @@ static sl_status load(const reader *r, const char *tag, size_t item_bytes, bool 
     *items = sl_alloc_array(r->context, s.count, item_bytes);
     if (!*items) return SL_NO_MEMORY;
     if (s.count) memcpy(*items, r->bytes + s.offset, s.count * item_bytes);
+    sli_slv_order(tag, s.item_bytes, *items, s.count);
     *count = s.count;
     return SL_OK;
 }
@@ -127,6 +131,7 @@ static sl_status load_info(const reader *r) {
     if (!found || s.count != 1) return fail_file(r, "damaged: section INFO is missing");
     sli_slv_info info;
     memcpy(&info, r->bytes + s.offset, sizeof info);
+    sli_slv_order("INFO", sizeof info, &info, 1);
     if (!makes_sense(&info)) return fail_file(r, "damaged: section INFO makes no sense");
     sl_baked *out = r->out;
     out->space.bounds =
@@ -376,6 +381,7 @@ static sl_status load_views(const reader *r) {
     if (s.count != 1) return fail_file(r, "damaged: section VCIN makes no sense");
     sli_slv_views told;
     memcpy(&told, r->bytes + s.offset, sizeof told);
+    sli_slv_order("VCIN", sizeof told, &told, 1);
     uint32_t cells, nodes;
     SL_TRY(load_counted(r, "VCEL", sizeof *views->view_cells, (void **)&views->view_cells, &cells));
     SL_TRY(load_counted(r, "VCPA", sizeof *views->parents, (void **)&views->parents, &nodes));
@@ -425,6 +431,7 @@ static sl_status load_partial_effects(const reader *r) {
     if (!found) return SL_OK;
     if (s.count != 1) return fail_file(r, "damaged: section PAEF makes no sense");
     memcpy(&told, r->bytes + s.offset, sizeof told);
+    sli_slv_order("PAEF", sizeof told, &told, 1);
     if (told.rounded > 1) return fail_file(r, "damaged: section PAEF makes no sense");
     partial->effects = told.effects;
     partial->mirror_depth = told.mirror_depth;
@@ -457,6 +464,7 @@ static sl_status load_partial(const reader *r) {
     if (!found) return SL_OK;
     if (s.count != 1) return fail_file(r, "damaged: section PART makes no sense");
     memcpy(&part, r->bytes + s.offset, sizeof part);
+    sli_slv_order("PART", sizeof part, &part, 1);
     if (part.inside_only > 1 || part.shard > part.shard_count || (part.shard_count && !part.shard))
         return fail_file(r, "damaged: section PART makes no sense");
     partial->shard = part.shard;

@@ -14,6 +14,8 @@ typedef struct plan {
     sli_slv_header header;
     sli_slv_section sections[MOST_SECTIONS];
     const void *contents[MOST_SECTIONS];
+    void *
+        copies[MOST_SECTIONS]; ///< of the contents in the file's order of bytes, if that is another
     sl_segment *walls;
     char *map_text;
     sli_slv_views views;
@@ -175,6 +177,31 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
     add_section(p, "MAPT", p->map_text, 1, map_bytes);
 }
 
+/// Where the machine's order of bytes is not the file's, what is written is a copy.
+static sl_status order_contents(sl_context *context, plan *p) {
+    for (uint32_t i = 0; i < p->header.section_count && !sli_slv_is_native(); i++) {
+        const sli_slv_section *s = &p->sections[i];
+        p->copies[i] = sl_alloc_array(context, s->count, s->item_bytes);
+        if (!p->copies[i]) return SL_NO_MEMORY;
+        if (s->count) memcpy(p->copies[i], p->contents[i], section_bytes(s));
+        sli_slv_order(s->tag, s->item_bytes, p->copies[i], s->count);
+        p->contents[i] = p->copies[i];
+    }
+    return SL_OK;
+}
+
+static sli_slv_header ordered_header(const plan *p) {
+    sli_slv_header header = p->header;
+    sli_slv_order_header(&header);
+    return header;
+}
+
+static sli_slv_section ordered_entry(const plan *p, uint32_t section) {
+    sli_slv_section entry = p->sections[section];
+    sli_slv_order_entry(&entry);
+    return entry;
+}
+
 /// Places the sections one behind the other and sums up what will be written.
 static void lay_out(plan *p) {
     static const char zeros[8] = {0};
@@ -190,8 +217,12 @@ static void lay_out(plan *p) {
     header->file_bytes = at;
     sli_checksum sum;
     sli_checksum_begin(&sum);
-    sli_checksum_add(&sum, header, sizeof *header);
-    sli_checksum_add(&sum, p->sections, header->section_count * sizeof *p->sections);
+    const sli_slv_header first = ordered_header(p);
+    sli_checksum_add(&sum, &first, sizeof first);
+    for (uint32_t i = 0; i < header->section_count; i++) {
+        const sli_slv_section entry = ordered_entry(p, i);
+        sli_checksum_add(&sum, &entry, sizeof entry);
+    }
     for (uint32_t i = 0; i < header->section_count; i++) {
         const uint64_t bytes = section_bytes(&p->sections[i]);
         sli_checksum_add(&sum, p->contents[i], bytes);
@@ -203,8 +234,12 @@ static void lay_out(plan *p) {
 /// Refused writes are left to the stream's error flag, which the commit asks.
 static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
     static const char zeros[8] = {0};
-    fwrite(&p->header, sizeof p->header, 1, stream);
-    fwrite(p->sections, sizeof *p->sections, p->header.section_count, stream);
+    const sli_slv_header header = ordered_header(p);
+    fwrite(&header, sizeof header, 1, stream);
+    for (uint32_t i = 0; i < p->header.section_count; i++) {
+        const sli_slv_section entry = ordered_entry(p, i);
+        fwrite(&entry, sizeof entry, 1, stream);
+    }
     for (uint32_t i = 0; i < p->header.section_count; i++) {
         SL_TRY(sl_check_cancelled(context));
         const uint64_t bytes = section_bytes(&p->sections[i]);
@@ -234,6 +269,7 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     SL_TRY(copy_walls(context, &baked->space, p));
     SL_TRY(print_map(context, &baked->map, p, &map_bytes));
     add_sections(p, baked, info, map_bytes);
+    SL_TRY(order_contents(context, p));
     lay_out(p);
     return SL_OK;
 }
@@ -245,6 +281,7 @@ static sl_status write_file(sl_context *context, const plan *p, const char *path
 }
 
 static void destroy_plan(sl_context *context, plan *p) {
+    for (uint32_t i = 0; i < p->header.section_count; i++) sl_free(context, p->copies[i]);
     sl_free(context, p->walls);
     free(p->map_text);
 }

@@ -35,7 +35,8 @@ extern "C" {
 typedef enum sl_runtime_status {
     SL_RUNTIME_OK = 0,
     SL_RUNTIME_NOT_BAKED,  ///< not a baked file
-    SL_RUNTIME_BYTE_ORDER, ///< baked on a machine with another byte order
+    SL_RUNTIME_BYTE_ORDER, ///< not little endian: no baked file, or one of an old version from a
+                           ///< machine of other order
     SL_RUNTIME_VERSION,    ///< a version that this header does not know
     SL_RUNTIME_SIZE,       ///< cut short, or longer than it says
     SL_RUNTIME_CHECKSUM,   ///< changed since it was written
@@ -419,29 +420,47 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
 extern "C" {
 #endif
 
-// --- numbers in the file: copied, so that alignment and aliasing do not matter
+// --- numbers in the file: copied, so that alignment and aliasing do not matter; little endian
+
+#if defined(__BYTE_ORDER__) && defined(__ORDER_BIG_ENDIAN__)
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#define SLRT_BIG_ENDIAN
+#endif
+#endif
 
 static uint32_t slrt_u32(const unsigned char *at) {
     uint32_t value;
+#ifdef SLRT_BIG_ENDIAN
+    int i;
+    for (i = 3, value = 0; i >= 0; i--) value = value << 8 | at[i];
+#else
     memcpy(&value, at, sizeof value);
+#endif
     return value;
 }
 
 static int32_t slrt_i32(const unsigned char *at) {
+    const uint32_t bits = slrt_u32(at);
     int32_t value;
-    memcpy(&value, at, sizeof value);
+    memcpy(&value, &bits, sizeof value);
     return value;
 }
 
 static uint64_t slrt_u64(const unsigned char *at) {
     uint64_t value;
+#ifdef SLRT_BIG_ENDIAN
+    int i;
+    for (i = 7, value = 0; i >= 0; i--) value = value << 8 | at[i];
+#else
     memcpy(&value, at, sizeof value);
+#endif
     return value;
 }
 
 static double slrt_f64(const unsigned char *at) {
+    const uint64_t bits = slrt_u64(at);
     double value;
-    memcpy(&value, at, sizeof value);
+    memcpy(&value, &bits, sizeof value);
     return value;
 }
 
@@ -1169,7 +1188,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_NOT_BAKED:
         return "not a baked file (.slv)";
     case SL_RUNTIME_BYTE_ORDER:
-        return "baked on a machine of other byte order";
+        return "its byte order is not that of baked files: bake the map again";
     case SL_RUNTIME_VERSION:
         return "of another version of the baked format";
     case SL_RUNTIME_SIZE:
@@ -1192,14 +1211,32 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
 
 SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell) {
     sl_runtime_cell out;
-    memcpy(&out, runtime->cells + (size_t)cell * SLRT_CELL_BYTES, sizeof out);
+    const unsigned char *at = runtime->cells + (size_t)cell * SLRT_CELL_BYTES;
+#ifdef SLRT_BIG_ENDIAN
+    out.first_vertex = slrt_u32(at);
+    out.vertex_count = slrt_u32(at + 4);
+    out.first_directed = slrt_u32(at + 8);
+    out.directed_count = slrt_u32(at + 12);
+#else
+    memcpy(&out, at, sizeof out);
+#endif
     return out;
 }
 
 SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
                                                                          uint32_t directed) {
     sl_runtime_directed_portal out;
-    memcpy(&out, runtime->directed + (size_t)directed * SLRT_DIRECTED_BYTES, sizeof out);
+    const unsigned char *at = runtime->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+#ifdef SLRT_BIG_ENDIAN
+    out.portal = slrt_u32(at);
+    out.cell = slrt_u32(at + 4);
+    out.left[0] = slrt_f64(at + 8);
+    out.left[1] = slrt_f64(at + 16);
+    out.right[0] = slrt_f64(at + 24);
+    out.right[1] = slrt_f64(at + 32);
+#else
+    memcpy(&out, at, sizeof out);
+#endif
     return out;
 }
 
