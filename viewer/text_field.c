@@ -66,9 +66,7 @@ bool field_key(text_field *field, const char *key, bool *changed) {
     const size_t at = field->at, all = strlen(field->text);
     const bool chosen = field->chosen;
     const bool erases = strcmp(key, "Backspace") == 0 || strcmp(key, "Delete") == 0;
-    if (strcmp(key, "Ctrl+A") == 0)
-        field->at = all;
-    else if (chosen && erases)
+    if (chosen && erases)
         erase(field, 0, all);
     else if (strcmp(key, "Left") == 0)
         field->at = before(field, at);
@@ -76,7 +74,7 @@ bool field_key(text_field *field, const char *key, bool *changed) {
         field->at = after(field, at);
     else if (strcmp(key, "Home") == 0)
         field->at = 0;
-    else if (strcmp(key, "End") == 0)
+    else if (strcmp(key, "End") == 0 || strcmp(key, "Ctrl+A") == 0)
         field->at = all;
     else if (strcmp(key, "Backspace") == 0)
         erase(field, before(field, at), at);
