@@ -47,7 +47,7 @@ class Target:
 def linux(name, triple, debian="", qemu="", flags=""):
     qemu = f"qemu-{qemu or name}"
     return Target(name, f"{triple}-gcc", flags, "Linux", name, (qemu, "-L", f"/usr/{triple}"), debian,
-                  triple, (f"gcc-{triple.replace('_', '-')}", "qemu-user"))
+                  triple, (f"gcc-{triple}", f"libc6-dev-{debian or name}-cross", "qemu-user"))
 
 
 TARGETS = [
@@ -119,8 +119,15 @@ def fetch_libraries(target, folder):
                "APT::Sandbox::User": "root", "Debug::NoLocking": 1}
     apt = ["apt-get", "-q", "-y"] + [f"-o{name}={value}" for name, value in options.items()]
     log = folder / "apt.log"
-    run([*apt, "update"], log)
-    run([*apt, "--no-install-recommends", "--download-only", "install", *LIBRARIES], log)
+    try:
+        run([*apt, "update"], log)
+    except Failure:
+        pass  # a mirror that is just being renewed; older lists may do
+    try:
+        run([*apt, "--no-install-recommends", "--download-only", "install", *LIBRARIES], log)
+    except Failure as failure:
+        print(f"{target.name}: without unit tests: {failure}", file=sys.stderr)
+        return None
     root.mkdir(exist_ok=True)
     for package in sorted((state / "archives").glob("*.deb")):
         if not package.name.startswith(("libc6", "libc-dev")):  # the compiler brings its own
