@@ -458,6 +458,7 @@ static tip follow(const finder *f, uint32_t a, uint32_t b, bool forwards, int si
 /// that stop it before and behind them.
 typedef struct candidate {
     uint32_t key[5];
+    uint32_t by; ///< the corner that found it
     sl_segment line;
 } candidate;
 
@@ -507,6 +508,7 @@ static sl_status add_line(sl_context *context, finder *f, uint32_t a, uint32_t b
     SL_TRY(SL_ARRAY_ROOM(context, &out->lines, 1));
     out->lines.items[out->lines.count++] = (candidate){
         {from.corner, corner_after(f, from.corner, a, b), to.corner, from.wall, to.wall},
+        a,
         {from.at, to.at}};
     return SL_OK;
 }
@@ -553,9 +555,8 @@ static int compare_candidates(const void *left, const void *right) {
     const candidate *a = left, *b = right;
     for (int k = 0; k < 5; k++)
         if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
-    // The same line, which other corners found. Its ends may be rounded otherwise.
-    const int order = sli_compare_points(a->line.a, b->line.a);
-    return order ? order : sli_compare_points(a->line.b, b->line.b);
+    // The same line: as the first pair of corners found it. Others may round its ends otherwise.
+    return (a->by > b->by) - (a->by < b->by);
 }
 
 /// Each line once, in the order of their corners.
