@@ -33,15 +33,24 @@ typedef struct chooser {
     SL_ARRAY(uint32_t) queue;
 } chooser;
 
+/// Equally long lines: the one that covers more is before. Both stay the same if a plan is turned
+/// or mirrored. Lines that are equal in both come by their place, so which of them stays may change
+/// with a turn. A plan that is its own mirror image has such lines, and none is the better one.
 typedef struct ranked {
     double length;
+    uint32_t covers;
     uint32_t line;
 } ranked;
 
 static int compare_ranks(const void *left, const void *right) {
     const ranked *a = left, *b = right;
     if (a->length != b->length) return a->length > b->length ? -1 : 1;
+    if (a->covers != b->covers) return a->covers > b->covers ? -1 : 1;
     return (a->line > b->line) - (a->line < b->line);
+}
+
+static sl_bits *covers_of(const chooser *c, uint32_t line) {
+    return c->covers + line * c->words;
 }
 
 static sl_status rank(sl_context *context, chooser *c) {
@@ -50,16 +59,14 @@ static sl_status rank(sl_context *context, chooser *c) {
     if (!all) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const sl_segment *s = &c->all->lines[i];
-        all[i] = (ranked){sli_length(s->b.x - s->a.x, s->b.y - s->a.y), i};
+        all[i] = (ranked){sli_length(s->b.x - s->a.x, s->b.y - s->a.y), 0, i};
+        for (uint32_t k = 0; k < c->all->probe_count; k++)
+            all[i].covers += sl_bits_has(covers_of(c, i), k);
     }
     qsort(all, n, sizeof *all, compare_ranks);
     for (uint32_t i = 0; i < n; i++) c->order[i] = all[i].line;
     sl_free(context, all);
     return SL_OK;
-}
-
-static sl_bits *covers_of(const chooser *c, uint32_t line) {
-    return c->covers + line * c->words;
 }
 
 /// From one side of the probe to the other; it may graze the probe's end, but not run along it.
@@ -213,8 +220,8 @@ static sl_status reduce(sl_context *context, sl_axial_lines *lines, bool fewest)
     c.kept = sl_alloc_array(context, (size_t)n + 1, sizeof *c.kept);
     c.stamps = sl_alloc_array(context, (size_t)n + 1, sizeof *c.stamps);
     sl_status status = c.covers && c.order && c.kept && c.stamps ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = rank(context, &c);
     if (status == SL_OK) status = find_cover(context, &c);
+    if (status == SL_OK) status = rank(context, &c);
     for (uint32_t i = 0; i < n && status == SL_OK; i++) c.kept[i] = true;
     if (status == SL_OK && !fewest) status = drop_subsets(context, &c);
     if (status == SL_OK && !fewest) status = rejoin(context, &c);

@@ -10,8 +10,9 @@
 ///     walls e                          cross the line, which corners it passes, on which side
 ///     walls lie.
 ///
-/// Invariant: a line counts once, by the first two corners on it. Its ends are corners, or the
-/// rounded places where walls stop it.
+/// Invariant: a line counts once, however many pairs of corners on it find it. What it meets tells
+/// it from others in line with it, not its rounded ends. So turned plans have turned lines. Ends
+/// are corners, or the rounded places where walls stop it.
 ///
 /// Cost: a walk through the buckets of a grid for each pair of corners, most of which end at once,
 /// and one across the map for each pair in sight. Corners are independent, so threads take them one
@@ -23,6 +24,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines) {
     sl_free(context, lines->lines);
@@ -33,12 +35,13 @@ void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines) {
 // --- corners, and walls by place
 
 /// Corners are sorted. Walls are pairs of corners; the walls at corner c lead to the corners
-/// ends[first[c] .. first[c + 1]).
+/// ends[first[c] .. first[c + 1]). `open` has the sides of each, going from c, that are inside.
 typedef struct plan {
     const sl_space *space;
     sl_point *corners;
     uint32_t (*walls)[2];
     uint32_t *first, *ends;
+    uint8_t *open;
     uint32_t count, wall_count;
     // Buckets: columns * rows squares, with the walls that touch them.
     double side;
@@ -67,6 +70,7 @@ static void plan_destroy(sl_context *context, plan *p) {
     sl_free(context, p->walls);
     sl_free(context, p->first);
     sl_free(context, p->ends);
+    sl_free(context, p->open);
     sl_free(context, p->bucket_first);
     sl_free(context, p->bucket);
 }
@@ -78,7 +82,8 @@ static sl_status find_corners(sl_context *context, const sl_space *space, plan *
     p->corners = sl_alloc_array(context, 2 * (size_t)n + 1, sizeof *p->corners);
     p->walls = sl_alloc_array(context, (size_t)n + 1, sizeof *p->walls);
     p->ends = sl_alloc_array(context, 2 * (size_t)n + 1, sizeof *p->ends);
-    if (!p->corners || !p->walls || !p->ends) return SL_NO_MEMORY;
+    p->open = sl_alloc_array(context, 2 * (size_t)n + 1, sizeof *p->open);
+    if (!p->corners || !p->walls || !p->ends || !p->open) return SL_NO_MEMORY;
     for (uint32_t w = 0; w < n; w++) {
         p->corners[2 * w] = space->walls[w].a;
         p->corners[2 * w + 1] = space->walls[w].b;
@@ -98,6 +103,41 @@ static sl_status find_corners(sl_context *context, const sl_space *space, plan *
     for (uint32_t w = 0; w < n; w++)
         for (int e = 0; e < 2; e++) p->ends[p->first[p->walls[w][e] + 1]++] = p->walls[w][1 - e];
     return SL_OK;
+}
+
+// --- what is inside
+
+enum { LEFT = 1, RIGHT = 2, BOTH = 3 };
+
+static void mark_open(plan *p, uint32_t corner, uint32_t to, int side) {
+    for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++)
+        if (p->ends[i] == to) p->open[i] |= (uint8_t)side;
+}
+
+/// Rooms lie at the left of their sides. At a wall's end, the room that touches it there counts.
+static void mark_side(plan *p, const sl_outline *outline, const sl_side *side) {
+    if (side->neighbour < SL_SIDE_WALL || side->neighbour >= SL_SIDE_BORDER) return;
+    const uint32_t wall = side->neighbour - SL_SIDE_WALL;
+    if (wall >= p->wall_count) return;
+    for (int e = 0; e < 2; e++) {
+        const uint32_t corner = p->walls[wall][e], to = p->walls[wall][1 - e];
+        if (sli_same_point(side->start, p->corners[corner])) mark_open(p, corner, to, LEFT);
+        if (sli_same_point(outline->sides[side->next].start, p->corners[corner]))
+            mark_open(p, corner, to, RIGHT);
+    }
+}
+
+/// Finds on which sides of walls it is inside. No coordinate is computed: cells say it. A line that
+/// starts inside stays inside, as no wall crosses it.
+static void find_open_sides(const sl_outline *outline, plan *p) {
+    for (uint32_t c = 0; c < p->space->cell_count; c++) {
+        if (!p->space->cells[c].inside) continue;
+        for (uint32_t k = outline->first_part[c]; k < outline->first_part[c + 1]; k++) {
+            const uint32_t room = outline->parts[k];
+            for (uint32_t i = outline->first[room]; i < outline->first[room + 1]; i++)
+                mark_side(p, outline, &outline->sides[i]);
+        }
+    }
 }
 
 // --- buckets
@@ -168,8 +208,6 @@ static sl_status fill_buckets(sl_context *context, plan *p) {
 }
 
 // --- a line at a corner
-
-enum { LEFT = 1, RIGHT = 2, BOTH = 3 };
 
 /// The sides of the line from a to b on which walls leave a corner.
 static int sides_at(const plan *p, uint32_t corner, sl_point a, sl_point b) {
@@ -253,25 +291,51 @@ static bool sees_next(const plan *p, sl_point a, sl_point b) {
     return true;
 }
 
-static bool is_inside_at(const sl_space *space, sl_point at) {
-    const uint32_t cell = sl_space_locate(space, at);
-    return cell != SL_NO_CELL && space->cells[cell].inside;
+/// The sides of the wall from a corner to another that are inside.
+static int open_sides(const plan *p, uint32_t corner, uint32_t to) {
+    int sides = 0;
+    for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++)
+        if (p->ends[i] == to) sides |= p->open[i];
+    return sides;
 }
 
-/// Whether the open line from a to b is inside. Along a wall: on that side of it.
+/// Whether a point is on the border of the bounds; *out is then a place beyond it.
+static bool is_on_border(const sl_box *bounds, sl_point at, sl_point *out) {
+    *out = at;
+    if (at.x == bounds->min.x || at.x == bounds->max.x)
+        out->x += (at.x == bounds->min.x ? -1 : 1) * (fabs(at.x) + 1);
+    else if (at.y == bounds->min.y || at.y == bounds->max.y)
+        out->y += (at.y == bounds->min.y ? -1 : 1) * (fabs(at.y) + 1);
+    return !sli_same_point(*out, at);
+}
+
+/// Whether the open line from a to b is inside. Along a wall: on that side of it. Else it leaves a
+/// between two walls, and is in the room at the left of the one at its right. Where the border of
+/// the map lies between these, it is in the room at the right of the other.
 static bool is_inside(const plan *p, uint32_t a, uint32_t b, int side) {
-    const sl_point u = p->corners[a], v = p->corners[b];
-    const double aside = side == LEFT ? 1e-6 : side == RIGHT ? -1e-6 : 0; // no question of sight
-    return is_inside_at(p->space, (sl_point){u.x + (v.x - u.x) / 2 - (v.y - u.y) * aside,
-                                             u.y + (v.y - u.y) / 2 + (v.x - u.x) * aside});
+    if (side) return open_sides(p, a, b) & side;
+    const sl_point at = p->corners[a], to = p->corners[b];
+    uint32_t left = p->ends[p->first[a]], right = left;
+    for (uint32_t i = p->first[a] + 1; i < p->first[a + 1]; i++) {
+        const uint32_t e = p->ends[i];
+        if (is_sooner(at, to, p->corners[e], p->corners[left])) left = e;
+        if (is_sooner(at, to, p->corners[right], p->corners[e])) right = e;
+    }
+    sl_point out;
+    if (is_on_border(&p->space->bounds, at, &out) && is_sooner(at, to, p->corners[right], out))
+        return open_sides(p, a, left) & RIGHT;
+    return open_sides(p, a, right) & LEFT;
 }
 
 // --- as long as it can be
 
+#define NONE UINT32_MAX
+
 /// Where something is on the line through a and b: `place` 0 at a, 1 at b.
 typedef struct event {
     double place;
-    uint32_t corner; ///< UINT32_MAX: a wall crosses here
+    uint32_t corner; ///< NONE: a wall crosses here
+    uint32_t wall;
 } event;
 
 typedef struct finder {
@@ -279,10 +343,19 @@ typedef struct finder {
     SL_ARRAY(event) events;
 } finder;
 
+/// Whether it is on b's side of the line. There is nothing between a and b, so rounding is no harm.
+static bool is_ahead(const event *e) {
+    return e->place > 0.5;
+}
+
 static int compare_events(const void *left, const void *right) {
     const event *a = left, *b = right;
     if (a->place != b->place) return a->place < b->place ? -1 : 1;
-    return (a->corner > b->corner) - (a->corner < b->corner);
+    // Corners that rounding does not tell apart keep their order. Walls stop the line after them.
+    if ((a->corner == NONE) != (b->corner == NONE))
+        return (a->corner == NONE) == is_ahead(a) ? 1 : -1;
+    if (a->corner != b->corner) return a->corner < b->corner ? -1 : 1;
+    return (a->wall > b->wall) - (a->wall < b->wall);
 }
 
 static double place_of(sl_point a, sl_point b, sl_point at) {
@@ -298,15 +371,15 @@ static sl_status add_events(sl_context *context, finder *f, uint32_t wall, sl_po
     const int to_u = sli_orient(a, b, u), to_v = sli_orient(a, b, v);
     if (to_u * to_v > 0) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &f->events, 2));
-    if (to_u == 0) f->events.items[f->events.count++] = (event){place_of(a, b, u), ends[0]};
-    if (to_v == 0) f->events.items[f->events.count++] = (event){place_of(a, b, v), ends[1]};
+    if (to_u == 0) f->events.items[f->events.count++] = (event){place_of(a, b, u), ends[0], wall};
+    if (to_v == 0) f->events.items[f->events.count++] = (event){place_of(a, b, v), ends[1], wall};
     if (to_u * to_v < 0) {
         const double far = (u.x - a.x) * (b.y - a.y) - (u.y - a.y) * (b.x - a.x);
         const double near = (v.x - a.x) * (b.y - a.y) - (v.y - a.y) * (b.x - a.x);
         double share = far / (far - near);
         if (!(share >= 0 && share <= 1)) share = 0.5; // nearly in one line: somewhere on the wall
         const sl_point at = {u.x + (v.x - u.x) * share, u.y + (v.y - u.y) * share};
-        f->events.items[f->events.count++] = (event){place_of(a, b, at), UINT32_MAX};
+        f->events.items[f->events.count++] = (event){place_of(a, b, at), NONE, wall};
     }
     return SL_OK;
 }
@@ -346,40 +419,51 @@ static sl_status find_events(sl_context *context, finder *f, sl_point a, sl_poin
     return SL_OK;
 }
 
-/// Follows the line from a corner on it, forwards or backwards, to its end. *first is cleared where
-/// it meets another corner that would hold it. `sides`: where walls keep it from being. Walls along
-/// the line add up: it slides along them on one side, and does not cross over. A probe, which has
-/// no `first`, ends where it comes to a wall along it.
-static sl_point follow(const finder *f, uint32_t a, uint32_t b, bool forwards, int sides,
-                       bool *first) {
+/// An end of a line. `corner`: the last on the way to it. `wall`: the one that stops it behind that
+/// corner; NONE if the corner is the end.
+typedef struct tip {
+    sl_point at;
+    uint32_t corner, wall;
+} tip;
+
+/// Follows the line from a corner on it, forwards or backwards, to its end. `sides`: where walls
+/// keep it from being. Walls along the line add up: it slides along them on one side, and does not
+/// cross over. In a gap between two it may change the side, as a line that is turned a little does.
+/// A probe ends where it comes to a wall along it.
+static tip follow(const finder *f, uint32_t a, uint32_t b, bool forwards, int sides, bool probe) {
     const plan *p = f->plan;
     const sl_point u = p->corners[a], v = p->corners[b];
-    const uint32_t begin = forwards ? b : a;
-    uint32_t last = begin;
-    sides |= sides_at(p, begin, u, v);
-    if (sides == BOTH) return p->corners[begin];
     const size_t count = f->events.count;
-    for (size_t k = 0; k < count; k++) {
+    uint32_t last = forwards ? b : a;
+    sides |= sides_at(p, last, u, v);
+    for (size_t k = 0; k < count && sides != BOTH; k++) {
         const event *e = &f->events.items[forwards ? k : count - 1 - k];
-        if (forwards ? e->place <= 1 : e->place >= 0) continue;
-        if (e->corner == last || e->corner == begin) continue;
-        if (e->corner == UINT32_MAX)
-            return (sl_point){u.x + (v.x - u.x) * e->place, u.y + (v.y - u.y) * e->place};
+        if (is_ahead(e) != forwards || e->corner == last || e->corner == a || e->corner == b)
+            continue;
+        if (e->corner == NONE)
+            return (tip){
+                {u.x + (v.x - u.x) * e->place, u.y + (v.y - u.y) * e->place}, last, e->wall};
         const int here = sides_at(p, e->corner, u, v);
         const bool along = has_wall(p, last, e->corner);
-        if (along && !first) break;
+        if (along && probe) break;
         sides = along ? sides | here : here;
         last = e->corner;
-        if (first && holds_line(p, last, begin)) *first = false;
-        if (sides == BOTH) return p->corners[last];
     }
-    return p->corners[last]; // or the border of the map, if it has no wall
+    return (tip){p->corners[last], last, NONE}; // or the border of the map, if it has no wall
 }
 
 // --- all corners
 
+/// A line, and what tells it from others: its first two corners and its last one, and the walls
+/// that stop it before and behind them.
+typedef struct candidate {
+    uint32_t key[5];
+    uint32_t by; ///< the corner that found it
+    sl_segment line;
+} candidate;
+
 typedef struct found {
-    SL_ARRAY(sl_segment) lines;
+    SL_ARRAY(candidate) lines;
     SL_ARRAY(sl_segment) probes;
 } found;
 
@@ -402,21 +486,30 @@ static void end(sl_context *context, void *all, void *state) {
     sl_free(context, state);
 }
 
+/// The corner after `corner`, going towards b: on a line that comes from before a, to a.
+static uint32_t corner_after(const finder *f, uint32_t corner, uint32_t a, uint32_t b) {
+    uint32_t next = corner == a ? b : a;
+    for (size_t k = f->events.count; k-- > 0 && corner != a;) {
+        const event *e = &f->events.items[k];
+        if (is_ahead(e) || e->corner == NONE) continue;
+        if (e->corner == corner) break;
+        next = e->corner;
+    }
+    return next;
+}
+
 /// `side`: of a wall between the two corners, on which the line is; 0 for none.
 static sl_status add_line(sl_context *context, finder *f, uint32_t a, uint32_t b, int side,
                           found *out) {
     const int other = side ? BOTH ^ side : 0;
-    const size_t count = out->lines.count;
-    bool first = true, any = true;
     if (!is_inside(f->plan, a, b, side)) return SL_OK;
-    const sl_point from = follow(f, a, b, false, other, &first);
-    const sl_point to = follow(f, a, b, true, other, &any);
-    if (!first) return SL_OK;
-    if (side == RIGHT && count && sli_same_point(out->lines.items[count - 1].a, from) &&
-        sli_same_point(out->lines.items[count - 1].b, to))
-        return SL_OK; // the same on both sides
+    const tip from = follow(f, a, b, false, other, false);
+    const tip to = follow(f, a, b, true, other, false);
     SL_TRY(SL_ARRAY_ROOM(context, &out->lines, 1));
-    out->lines.items[out->lines.count++] = (sl_segment){from, to};
+    out->lines.items[out->lines.count++] = (candidate){
+        {from.corner, corner_after(f, from.corner, a, b), to.corner, from.wall, to.wall},
+        a,
+        {from.at, to.at}};
     return SL_OK;
 }
 
@@ -438,11 +531,12 @@ static sl_status extend_walls(sl_context *context, finder *f, uint32_t corner, f
     for (uint32_t i = p->first[corner]; i < p->first[corner + 1]; i++) {
         const uint32_t end = p->ends[i];
         const sl_point u = p->corners[end], v = p->corners[corner];
-        if (sides_at(p, corner, u, v) == BOTH) continue;
+        const int sides = sides_at(p, corner, u, v);
+        // Beside the wall there is room on a side without walls, and it goes on beyond the corner.
+        if (sides == BOTH || !(open_sides(p, end, corner) & ~sides)) continue;
         SL_TRY(find_events(context, f, u, v));
-        const sl_point to = follow(f, end, corner, true, 0, NULL);
-        const sl_point middle = {v.x + (to.x - v.x) / 2, v.y + (to.y - v.y) / 2};
-        if (sli_same_point(v, to) || !is_inside_at(p->space, middle)) continue;
+        const sl_point to = follow(f, end, corner, true, 0, true).at;
+        if (sli_same_point(v, to)) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &out->probes, 1));
         out->probes.items[out->probes.count++] = (sl_segment){v, to};
     }
@@ -457,6 +551,26 @@ static sl_status look_from(sl_context *context, void *all, void *state, size_t c
     return extend_walls(context, state, (uint32_t)corner, &j->found[corner]);
 }
 
+static int compare_candidates(const void *left, const void *right) {
+    const candidate *a = left, *b = right;
+    for (int k = 0; k < 5; k++)
+        if (a->key[k] != b->key[k]) return a->key[k] < b->key[k] ? -1 : 1;
+    // The same line: as the first pair of corners found it. Others may round its ends otherwise.
+    return (a->by > b->by) - (a->by < b->by);
+}
+
+/// Each line once, in the order of their corners.
+static void gather_lines(const job *j, candidate *all, sl_axial_lines *out) {
+    size_t count = 0;
+    for (uint32_t c = 0; c < j->plan.count; c++)
+        for (size_t i = 0; i < j->found[c].lines.count; i++)
+            all[count++] = j->found[c].lines.items[i];
+    qsort(all, count, sizeof *all, compare_candidates);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || memcmp(all[i].key, all[i - 1].key, sizeof all[i].key) != 0)
+            out->lines[out->count++] = all[i].line;
+}
+
 static sl_status gather(sl_context *context, const job *j, sl_axial_lines *out) {
     size_t lines = 0, probes = 0;
     for (uint32_t c = 0; c < j->plan.count; c++) {
@@ -465,15 +579,18 @@ static sl_status gather(sl_context *context, const job *j, sl_axial_lines *out) 
     }
     if (lines > INT32_MAX || probes > INT32_MAX)
         return sl_fail(context, SL_UNSUPPORTED, "%zu axial lines are too many", lines);
+    candidate *all = sl_alloc_array(context, lines + 1, sizeof *all);
     out->lines = sl_alloc_array(context, lines + 1, sizeof *out->lines);
     out->probes = sl_alloc_array(context, probes + 1, sizeof *out->probes);
-    if (!out->lines || !out->probes) return SL_NO_MEMORY;
-    for (uint32_t c = 0; c < j->plan.count; c++) {
-        for (size_t i = 0; i < j->found[c].lines.count; i++)
-            out->lines[out->count++] = j->found[c].lines.items[i];
+    if (!all || !out->lines || !out->probes) {
+        sl_free(context, all);
+        return SL_NO_MEMORY;
+    }
+    gather_lines(j, all, out);
+    sl_free(context, all);
+    for (uint32_t c = 0; c < j->plan.count; c++)
         for (size_t i = 0; i < j->found[c].probes.count; i++)
             out->probes[out->probe_count++] = j->found[c].probes.items[i];
-    }
     return SL_OK;
 }
 
@@ -482,6 +599,7 @@ sl_status sl_axial_all_lines(sl_context *context, const sl_outline *outline, uns
     job j = {0};
     sl_axial_lines lines = {0};
     sl_status status = find_corners(context, outline->space, &j.plan);
+    if (status == SL_OK) find_open_sides(outline, &j.plan);
     if (status == SL_OK) status = fill_buckets(context, &j.plan);
     if (status == SL_OK) {
         j.found = sl_alloc_array(context, (size_t)j.plan.count + 1, sizeof *j.found);

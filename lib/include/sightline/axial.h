@@ -31,7 +31,9 @@ typedef struct sl_axial_lines {
 /// The all-line map (Penn, Conroy, Dalton, Dekker, Mottram and Turner 1997): each line that passes
 /// two corners of walls that see each other, made as long as no wall crosses it. It passes a corner
 /// at which all walls are on one side. It ends at a corner of a room. Which corners it passes is
-/// exact; its ends are rounded where they are not corners. Only lines inside are taken. Probes are
+/// exact; its ends are rounded where they are not corners. Only lines inside are taken: the cells
+/// beside walls say it, exactly. A line may lie within a longer one, as walls have two sides. A
+/// plan that is turned by quarters or mirrored has the same lines. Probes are
 /// the walls' own lines, extended beyond corners into the open (the s-lines of Peponis, Wineman,
 /// Bafna, Rashid and Kim 1998). `threads`: 0 for one per core. Cost: O(corners^2) tests of sight,
 /// and the walls near the line for each pair in sight.
@@ -43,7 +45,8 @@ SL_API void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines); 
 /// probe that was crossed, from side to side, is crossed by a line that stays, and lines that a
 /// line joins stay joined. First all lines go that cross no probe beside those that one longer line
 /// crosses. With `fewest`, then all that can go alone. Each part of a plan keeps a line. Lines keep
-/// their order.
+/// their order. Of equally long lines the one that crosses more probes stays, then the first. Which
+/// is first may change if the plan is turned.
 SL_API sl_status sl_axial_fewest(sl_context *context, sl_axial_lines *lines, bool fewest);
 
 /// Which lines have a point in common: others[first[i] .. first[i + 1]), ascending. Zero it to

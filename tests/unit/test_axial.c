@@ -1,0 +1,204 @@
+/// The all-line map: turning or mirroring a plan turns or mirrors its lines, and strips narrower
+/// than any tolerance have lines too.
+#include "testing.h"
+
+#include "oracle/random_map.h"
+#include "sightline/axial.h"
+#include "sightline/generate.h"
+
+#include <math.h>
+
+typedef struct change {
+    const char *name;
+    bool swaps; ///< x and y, first of all
+    double x, y;
+} change;
+
+static const change changes[] = {
+    {"a quarter turn", true, -1, 1},  {"a half turn", false, -1, -1},
+    {"a quarter back", true, 1, -1},  {"mirroring in x", false, -1, 1},
+    {"mirroring in y", false, 1, -1}, {"x and y swapped", true, 1, 1},
+};
+
+enum { CHANGES = sizeof changes / sizeof *changes };
+
+static sl_point apply(const change *c, sl_point p) {
+    if (c->swaps) p = (sl_point){p.y, p.x};
+    return (sl_point){p.x * c->x, p.y * c->y};
+}
+
+static sl_point undo(const change *c, sl_point p) {
+    p = (sl_point){p.x * c->x, p.y * c->y};
+    return c->swaps ? (sl_point){p.y, p.x} : p;
+}
+
+static void find_lines(sl_context *context, const sl_map *map, unsigned threads,
+                       sl_axial_lines *lines) {
+    sl_space space = {0};
+    sl_outline outline = {0};
+    assert_ok(context, sl_subdivision_for(map)->subdivide(context, map, NULL, &space));
+    assert_ok(context, sl_outline_make(context, &space, &outline));
+    assert_ok(context, sl_axial_all_lines(context, &outline, threads, lines));
+    sl_outline_destroy(context, &outline);
+    sl_space_destroy(context, &space);
+}
+
+// --- sets of lines
+
+/// Ends in millionths: those on walls are rounded. The lesser end comes first.
+typedef struct line_key {
+    int64_t at[4];
+} line_key;
+
+static int compare_keys(const void *left, const void *right) {
+    const line_key *a = left, *b = right;
+    for (int k = 0; k < 4; k++)
+        if (a->at[k] != b->at[k]) return a->at[k] < b->at[k] ? -1 : 1;
+    return 0;
+}
+
+static line_key key_of(const change *back, const sl_segment *line) {
+    const sl_point a = back ? undo(back, line->a) : line->a;
+    const sl_point b = back ? undo(back, line->b) : line->b;
+    const line_key one = {{llround(a.x * 1e6 + 0.3), llround(a.y * 1e6 + 0.3),
+                           llround(b.x * 1e6 + 0.3), llround(b.y * 1e6 + 0.3)}};
+    const line_key other = {{one.at[2], one.at[3], one.at[0], one.at[1]}};
+    return compare_keys(&one, &other) <= 0 ? one : other;
+}
+
+/// Sorted.
+static line_key *keys_of(const change *back, const sl_segment *lines, uint32_t count) {
+    line_key *keys = calloc((size_t)count + 1, sizeof *keys);
+    assert_non_null(keys);
+    for (uint32_t i = 0; i < count; i++) keys[i] = key_of(back, &lines[i]);
+    qsort(keys, count, sizeof *keys, compare_keys);
+    return keys;
+}
+
+static void check_same(const char *what, const change *c, uint64_t seed, const sl_segment *before,
+                       uint32_t count, const sl_segment *after, uint32_t after_count) {
+    line_key *left = keys_of(NULL, before, count), *right = keys_of(c, after, after_count);
+    uint32_t i = 0;
+    while (i < count && i < after_count && compare_keys(&left[i], &right[i]) == 0) i++;
+    if (i < count || i < after_count) {
+        const line_key *at = i < count ? &left[i] : &right[i];
+        fail_msg("seed %llu: %u %s, but %u after %s; first at %g %g %g %g",
+                 (unsigned long long)seed, count, what, after_count, c->name,
+                 (double)at->at[0] / 1e6, (double)at->at[1] / 1e6, (double)at->at[2] / 1e6,
+                 (double)at->at[3] / 1e6);
+    }
+    free(left);
+    free(right);
+}
+
+/// The lines of a map beside those of the map turned and mirrored. The map becomes another.
+static uint32_t check_map(sl_context *context, sl_map *map, uint64_t seed) {
+    sl_axial_lines lines = {0};
+    for (uint32_t w = 0; w < map->wall_count; w++) map->walls[w].ground = 0; // it has sides
+    find_lines(context, map, 1, &lines);
+    for (size_t k = 0; k < CHANGES; k++) {
+        const change *c = &changes[k];
+        sl_axial_lines changed = {0};
+        for (uint32_t w = 0; w < map->wall_count; w++) {
+            map->walls[w].a = apply(c, map->walls[w].a);
+            map->walls[w].b = apply(c, map->walls[w].b);
+        }
+        find_lines(context, map, 2, &changed);
+        check_same("lines", c, seed, lines.lines, lines.count, changed.lines, changed.count);
+        check_same("probes", c, seed, lines.probes, lines.probe_count, changed.probes,
+                   changed.probe_count);
+        for (uint32_t w = 0; w < map->wall_count; w++) {
+            map->walls[w].a = undo(c, map->walls[w].a);
+            map->walls[w].b = undo(c, map->walls[w].b);
+        }
+        sl_axial_lines_destroy(context, &changed);
+    }
+    const uint32_t count = lines.count;
+    sl_axial_lines_destroy(context, &lines);
+    return count;
+}
+
+// --- tests
+
+static const sl_map_kind *kind_named(const char *name) {
+    size_t count;
+    const sl_map_kind *kinds = sl_map_kinds(&count);
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(kinds[i].name, name)) return &kinds[i];
+    fail_msg("there is no kind %s", name);
+    return NULL;
+}
+
+static void turned_offices_have_turned_lines(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    uint32_t count = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(8); seed++) {
+        sl_map map = {0};
+        sl_generate_options options = sl_generate_options_default();
+        options.seed = seed;
+        options.walls = 150;
+        assert_ok(context, sl_generate(context, kind_named("office"), &options, &map));
+        map.start_count = 0;
+        count += check_map(context, &map, seed);
+        sl_map_destroy(context, &map);
+    }
+    assert_true(count > 1000);
+    sl_context_destroy(context);
+}
+
+/// Walls on whole numbers: many in line, with gaps, and some that end in the open.
+static void turned_random_maps_have_turned_lines(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    uint32_t count = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(100); seed++) {
+        sl_map map = {0};
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        map.start_count = 0;
+        if (map.wall_count) count += check_map(context, &map, seed);
+        sl_map_destroy(context, &map);
+    }
+    assert_true(count > 1000);
+    sl_context_destroy(context);
+}
+
+static void check_count(sl_context *context, const char *text, uint32_t count) {
+    sl_map map = {0};
+    sl_axial_lines lines = {0};
+    assert_ok(context, sl_map_parse(context, "room.map", text, strlen(text), NULL, &map));
+    find_lines(context, &map, 1, &lines);
+    if (lines.count != count) fail_msg("%u lines, not %u, of %s", lines.count, count, text);
+    sl_axial_lines_destroy(context, &lines);
+    sl_map_destroy(context, &map);
+}
+
+/// A room has its walls and its two diagonals, however narrow it is.
+static void narrow_rooms_have_lines(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    check_count(context, "sightline 1\nwalls 0 0 10 0 10 6 0 6 0 0\n", 6);
+    check_count(context, "sightline 1\nwalls 0 0 10 0 10 1e-6 0 1e-6 0 0\n", 6);
+    check_count(context, "sightline 1\nwalls 0 0 10 0 10 1e-150 0 1e-150 0 0\n", 6);
+    check_count(context, "sightline 1\nwalls 0 0 10 1 10 1.000000000001 0 1e-12 0 0\n", 6);
+    // Two rooms with a narrow gap between, which is outside: nothing is in the gap.
+    check_count(context,
+                "sightline 1\nwalls 0 0 10 0 10 6 0 6 0 0\n"
+                "walls 0 7 10 7 10 13 0 13 0 7\n",
+                12);
+    check_count(context,
+                "sightline 1\nwalls 0 0 10 0 10 6 0 6 0 0\n"
+                "walls 0 6.0000001 10 6.0000001 10 13 0 13 0 6.0000001\n",
+                12);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(turned_offices_have_turned_lines),
+        cmocka_unit_test(turned_random_maps_have_turned_lines),
+        cmocka_unit_test(narrow_rooms_have_lines),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
