@@ -3,8 +3,9 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
-# groff, the Python package jsonschema, and what the tests of our own Python package use. --web adds
-# what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly, binaryen and node.
+# groff, the Python package jsonschema, what the tests of our own Python package use, and Chromium and
+# npm for the tests of the pages. --web adds what tools/web.sh needs: clang, lld, wasi-libc,
+# compiler-rt for WebAssembly, binaryen and node.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -15,7 +16,7 @@ for argument in "$@"; do
     case $argument in
     --ci) ci=yes ;;
     --web) web=yes ;;
-    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown argument $argument (there are --ci and --web)" >&2; exit 2 ;;
     esac
 done
@@ -102,7 +103,8 @@ is_there() {
     groff) has groff ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node) has "$1" ;;
+    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node | npm) has "$1" ;;
+    chromium) has chromium || has chromium-browser ;;
     clang-sanitizers) clang_sanitizes ;;
     numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | wheel) python_has "$1" ;;
     pip) python_has pip ;;
@@ -181,6 +183,8 @@ package() { # system thing
     brew:clang | brew:clang-sanitizers | brew:clang-tidy) echo llvm ;;
     brew:wasm) echo lld wasi-libc wasi-runtimes ;;
     brew:xvfb) echo --cask xquartz ;;
+    brew:chromium) echo --cask chromium ;;
+    brew:npm) echo node ;;
 
     pacman:mpi | brew:mpi) echo openmpi ;;
     brew:x11) echo libx11 ;;
@@ -226,7 +230,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node jsonschema aspell groff numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
 [ $web = yes ] && things="$things clang wasm binaryen node"
 
 missing=
