@@ -18,6 +18,7 @@ const chapters = {
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
     program: [['unknowns', 10, 3], ['negative', 0, 1], ['widen', [[9, 5.5], [9, 3]], [[9, 8], [9, 4]]]],
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
+    hidden: [['ends', 3, 4], ['proves', 0, 1], ['shut', [[9, 7], [9, 6.5]], [[9, 11.5], [9, 10]]]],
 };
 
 let site;
@@ -197,6 +198,22 @@ for (const name of wanted)
                 return seen.size === 3 ? wrong : -1;
             });
             assert.equal(wrong, 0);
+            await close();
+        });
+
+        test('hidden: a proof has four ends at most, and the line goes when the hulls meet', async () => {
+            const { page, close } = await open('hidden');
+            const says = await page.locator('main > figure').first().evaluate((host) => {
+                const { figure } = host, places = [[9, 3], [1, 0], [12, 11]];
+                return places.map(([l, r]) => {
+                    Object.assign(figure.state, { l1: [9, l], r1: [9, r] });
+                    figure.change();
+                    return [figure.state.conflict.ends.length, figure.says.textContent];
+                });
+            });
+            assert.deepEqual(says.map(([count]) => count), [0, 4, 4]);
+            assert.match(says[0][1], /hulls are apart/);
+            assert.match(says[1][1], /proof has 4 ends/);
             await close();
         });
 
