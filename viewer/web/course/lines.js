@@ -5,13 +5,14 @@ import { drawWhy, tellWhy } from '../parts/why-scene.js';
 import { cellAt, planLine, round } from './lab.js';
 import { drawWalls, flat, itemsOf } from './maps.js';
 
-const items = itemsOf(flat.text), box = [0, 0, 18, 12];
+const items = itemsOf(flat.text);
+export const box = [0, 0, 18, 12];
 
 /** Portals as they are crossed from left to right: left x, left y, right x, right y. */
-const given = [[4, 7, 4, 4], [9, 6, 9, 3], [14, 8, 14, 5]];
+export const given = [[4, 7, 4, 4], [9, 6, 9, 3], [14, 8, 14, 5]];
 
 /** The wall above and below each portal, and the portal with its ends. */
-function drawPortals(surface, camera, tones, portals, bad = []) {
+export function drawPortals(surface, camera, tones, portals, bad = []) {
     drawPlan(surface, camera, {}, tones);
     strokeLines(surface, camera, portals.flatMap(([lx, ly, rx, ry]) => [[lx, ly, lx, box[3]], [rx, ry, rx, box[1]]]), tones.wall, 3);
     strokeLines(surface, camera, portals, tones.portal, 2);
@@ -29,16 +30,16 @@ function drawPortals(surface, camera, tones, portals, bad = []) {
 }
 
 /** Positive where a place lies to the left of the line from a to b. */
-const side = ([ax, ay], [bx, by], x, y) => (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+export const side = ([ax, ay], [bx, by], x, y) => (bx - ax) * (y - ay) - (by - ay) * (x - ax);
 
 /** Ends on the wrong side of the line from a to b. */
 const wrongEnds = (a, b, portals) => portals.flatMap(([lx, ly, rx, ry], portal) => [
     ...(side(a, b, lx, ly) < 0 ? [{ portal, side: 'L' }] : []), ...(side(a, b, rx, ry) > 0 ? [{ portal, side: 'R' }] : [])]);
 
-const nameOf = (end) => `${end.side}${end.portal + 1}`;
+export const nameOf = (end) => `${end.side}${end.portal + 1}`;
 
 /** The line beyond its two dots, over the whole picture. */
-function long([ax, ay], [bx, by]) {
+export function long([ax, ay], [bx, by]) {
     const size = Math.hypot(bx - ax, by - ay) || 1, k = 40 / size;
     return [ax - k * (bx - ax), ay - k * (by - ay), bx + k * (bx - ax), by + k * (by - ay)];
 }
@@ -63,8 +64,8 @@ const line = {
 };
 
 /** The portals that the dots of the figure hold, each at its place across and with its left end above. */
-function heldPortals(state) {
-    return given.map(([x], i) => {
+export function heldPortals(state, portals = given) {
+    return portals.map(([x], i) => {
         const left = state[`l${i}`], right = state[`r${i}`];
         left[0] = right[0] = x;
         if (left[1] < right[1]) [left[1], right[1]] = [right[1], left[1]];

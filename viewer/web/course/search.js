@@ -1,4 +1,4 @@
-/** Chapter 4: the depth-first search, the stab tree, and how it grows. */
+/** Chapter 5: the depth-first search, the stab tree, and how it grows. */
 import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';

@@ -16,7 +16,9 @@ const chapters = {
     here: [['convex', 5, 0], ['mutual', 0, 1], ['guard', [[2, 10]], [[7.1, 8]]]],
     rooms: [['ell', 3, 2], ['why', 0, 1], ['most', [[2, 10]], [[10, 6.5]]]],
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
+    program: [['unknowns', 10, 3], ['negative', 0, 1], ['widen', [[9, 5.5], [9, 3]], [[9, 8], [9, 4]]]],
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
+    hidden: [['ends', 3, 4], ['proves', 0, 1], ['shut', [[9, 7], [9, 6.5]], [[9, 11.5], [9, 10]]]],
 };
 
 let site;
@@ -174,6 +176,46 @@ for (const name of wanted)
                 await close();
             });
         }
+
+        test('program: its simplex method agrees with the exact verdict of the library', async () => {
+            const { page, close } = await open('program');
+            const wrong = await page.evaluate(async () => {
+                const [{ simplex, rowsOf }, { Lab }] = await Promise.all([import('./simplex.js'), import('./lab.js')]);
+                const { core } = await Lab.open(), seen = new Set();
+                let at = 5, wrong = 0;
+                const chance = () => (at = (at * 48271) % 2147483647) / 2147483647;
+                for (let k = 0; k < 400; k++) {
+                    const portals = Array.from({ length: 2 + Math.floor(8 * chance()) }, (_, i) => {
+                        const [y, size] = [Math.round(8 * chance()), 1 + Math.round(5 * chance())];
+                        return [2 * i, y + size, 2 * i, y];
+                    });
+                    const steps = simplex(rowsOf(portals)), { m, comes } = steps.at(-1);
+                    const verdict = m > 1e-9 ? 'stabbed' : m < -1e-9 ? 'hidden' : 'grazing';
+                    seen.add(verdict);
+                    const rises = steps.some((step, i) => i > 0 && step.m > steps[i - 1].m + 1e-9);
+                    if (comes >= 0 || rises || verdict !== core.conflict(portals).verdict) wrong++;
+                }
+                return seen.size === 3 ? wrong : -1;
+            });
+            assert.equal(wrong, 0);
+            await close();
+        });
+
+        test('hidden: a proof has four ends at most, and the line goes when the hulls meet', async () => {
+            const { page, close } = await open('hidden');
+            const says = await page.locator('main > figure').first().evaluate((host) => {
+                const { figure } = host, places = [[9, 3], [1, 0], [12, 11]];
+                return places.map(([l, r]) => {
+                    Object.assign(figure.state, { l1: [9, l], r1: [9, r] });
+                    figure.change();
+                    return [figure.state.conflict.ends.length, figure.says.textContent];
+                });
+            });
+            assert.deepEqual(says.map(([count]) => count), [0, 4, 4]);
+            assert.match(says[0][1], /hulls are apart/);
+            assert.match(says[1][1], /proof has 4 ends/);
+            await close();
+        });
 
         test('axe-core finds nothing', { skip: Boolean(QUICK) }, async () => {
             const axe = readFileSync(join(TOOLS, 'node_modules/axe-core/axe.min.js'), 'utf8');
