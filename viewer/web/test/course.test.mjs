@@ -17,6 +17,7 @@ const chapters = {
     rooms: [['ell', 3, 2], ['why', 0, 1], ['most', [[2, 10]], [[10, 6.5]]]],
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
+    view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 9]]]],
 };
 
 let site;
