@@ -18,6 +18,7 @@ const chapters = {
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
     view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 9]]]],
+    regions: [['passes', 4, 8], ['reason', 0, 1], ['first', [[2, 2]], [[30, 18]]]],
     frames: [['tests', 15, 7], ['safe', 0, 1], ['costly', [[3, 11.5]], [[8, 8]]]],
     effects: [['states', 20, 1024], ['turned', 0, 1], ['corner', [[10, 9]], [[4, 9]]]],
 };
