@@ -64,6 +64,18 @@ export function hall(columns) {
     return text;
 }
 
+/** Rooms in a grid; the doors of neighbouring rooms do not line up. */
+export function grid(columns, rows) {
+    let text = `sightline 1\nwalls 0 0 ${4 * columns} 0 ${4 * columns} ${4 * rows} 0 ${4 * rows} 0 0\n`;
+    for (let i = 0; i < columns; i++)
+        for (let j = 0; j < rows; j++) {
+            const x = 4 * i, y = 4 * j, at = 0.5 + ((3 * i + 5 * j) % 4) * 0.5;
+            if (j) text += `wall ${x} ${y} ${x + at} ${y}\nwall ${x + at + 1.5} ${y} ${x + 4} ${y}\n`;
+            if (i) text += `wall ${x} ${y} ${x} ${y + at}\nwall ${x} ${y + at + 1.5} ${x} ${y + 4}\n`;
+        }
+    return text;
+}
+
 /** The walls of a map of the course, as plan.js draws them. */
 export const itemsOf = (text) => text.split('\n').flatMap((line) => {
     const [kind, ...points] = line.split(' ');
