@@ -1883,11 +1883,12 @@ static bool slrt_put_by_tree(sl_runtime_boxes *boxes, uint32_t box, const double
     if (rt->nodes) stack[count++] = rt->root;
     while (count && count < MOST - 1) {
         const int32_t child = stack[--count];
-        const unsigned char *node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
+        const unsigned char *node;
         if (child < 0) {
             if (!slrt_put_in_cell(boxes, box, at, (uint32_t)~child)) return false;
             continue;
         }
+        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
         i = slrt_i32(node + 8) ? 1 : 0;
         if (at[i] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
         if (at[2 + i] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
