@@ -151,9 +151,11 @@ class Window:
         the map is made in the background."""
         end = time.monotonic() + PATIENCE
         while True:
-            share = self.viewer.difference(picture, self.save())
+            now, known = self.save(), len(self.viewer.faults)
+            share = self.viewer.difference(picture, now)
             if share <= TOLERANCE or time.monotonic() > end:
                 return share
+            del self.viewer.faults[known:]  # another size: what changes it is still to come
             time.sleep(0.2)
 
 
