@@ -597,15 +597,20 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
     return SL_RUNTIME_OK;
 }
 
-/// Whether coordinates are sound: numbers of at most 2e150, so that products stay finite. They are
+/// Whether a coordinate is sound: a number of at most 2e150, so that products stay finite. They are
 /// compared as integers, which no fast-math option changes.
-static bool slrt_usable(const unsigned char *at, int count) {
+static bool slrt_is_coordinate(double value) {
     const double most = 2e150;
-    uint64_t limit;
-    int i;
+    uint64_t bits, limit;
+    memcpy(&bits, &value, sizeof bits);
     memcpy(&limit, &most, sizeof limit);
+    return (bits & UINT64_MAX >> 1) <= limit;
+}
+
+static bool slrt_usable(const unsigned char *at, int count) {
+    int i;
     for (i = 0; i < count; i++)
-        if ((slrt_u64(at + 8 * i) & UINT64_MAX >> 1) > limit) return false;
+        if (!slrt_is_coordinate(slrt_f64(at + 8 * i))) return false;
     return true;
 }
 
@@ -1119,14 +1124,13 @@ static bool slrt_decimal_value(const slrt_decimal *decimal, double *out) {
     return true;
 }
 
-/// Reads the next word of a line as a number. Coordinates are in the range of slrt_usable.
+/// Reads the next word of a line as a number. Coordinates are in the range of
+/// slrt_is_coordinate.
 static bool slrt_take_number(slrt_text *line, bool coordinate, double *out) {
     slrt_decimal decimal;
-    unsigned char bytes[sizeof *out];
     if (!slrt_parse_decimal(slrt_take_word(line), &decimal) || !slrt_decimal_value(&decimal, out))
         return false;
-    memcpy(bytes, out, sizeof bytes);
-    return !coordinate || slrt_usable(bytes, 1);
+    return !coordinate || slrt_is_coordinate(*out);
 }
 
 static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
@@ -1793,11 +1797,10 @@ static bool slrt_lies_on_portal(const sl_runtime *rt, const sl_runtime_cell *cel
     uint32_t i;
     if (box[0] == box[2] && box[1] == box[3]) return true;
     for (i = cell->first_directed; i < cell->first_directed + cell->directed_count; i++) {
-        double a[2], b[2], low, high;
-        memcpy(a, rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 8, sizeof a);
-        memcpy(b, rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 24, sizeof b);
-        low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
-        high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
+        const sl_runtime_directed_portal portal = sl_runtime_get_directed_portal(rt, i);
+        const double *a = portal.left, *b = portal.right;
+        const double low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
+        const double high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
         if (a[axis] == box[axis] && b[axis] == box[axis] && low < box[2 + !axis] &&
             box[!axis] < high)
             return true;
@@ -1903,13 +1906,14 @@ SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
     const sl_runtime *rt = boxes->runtime;
     double at[4];
-    unsigned char bytes[sizeof at];
+    bool usable = true;
+    int i;
     at[0] = to->min_x, at[1] = to->min_y, at[2] = to->max_x, at[3] = to->max_y;
-    memcpy(bytes, at, sizeof bytes);
+    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!(slrt_usable(bytes, 4) && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x ||
-        at[3] < rt->min_y || at[0] > rt->max_x || at[1] > rt->max_y)
+    if (!(usable && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x || at[3] < rt->min_y ||
+        at[0] > rt->max_x || at[1] > rt->max_y)
         return true;
     if (rt->grid_cells ? slrt_put_by_grid(boxes, box, at) : slrt_put_by_tree(boxes, box, at))
         return true;
@@ -2942,7 +2946,10 @@ static void slrt_read_vertex(const sl_runtime *rt, const sl_runtime_cell *cell, 
 
 /// Reads the left (0) or right (1) end of a directed portal.
 static void slrt_read_end(const sl_runtime *rt, uint32_t directed, int right, double *out) {
-    memcpy(out, rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8 + 16 * right, 16);
+    const unsigned char *at =
+        rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8 + 16 * right;
+    out[0] = slrt_f64(at);
+    out[1] = slrt_f64(at + 8);
 }
 
 static bool slrt_same_place(const double *a, const double *b) {
