@@ -66,7 +66,7 @@ bool field_key(text_field *field, const char *key, bool *changed) {
     const size_t at = field->at, all = strlen(field->text);
     const bool chosen = field->chosen;
     const bool erases = strcmp(key, "Backspace") == 0 || strcmp(key, "Delete") == 0;
-    if (chosen && erases)
+    if ((chosen && erases) || strcmp(key, "Ctrl+U") == 0)
         erase(field, 0, all);
     else if (strcmp(key, "Left") == 0)
         field->at = before(field, at);
@@ -80,8 +80,6 @@ bool field_key(text_field *field, const char *key, bool *changed) {
         erase(field, before(field, at), at);
     else if (strcmp(key, "Delete") == 0)
         erase(field, at, after(field, at));
-    else if (strcmp(key, "Ctrl+U") == 0)
-        erase(field, 0, all);
     else if (strcmp(key, "Ctrl+W") == 0)
         erase(field, word_before(field), at);
     else
