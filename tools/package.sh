@@ -18,9 +18,9 @@ version=$(sed -n 's/^#define SL_VERSION_M[AI][JN]OR \([0-9]*\).*/\1/p;s/^#define
 
 case $kind in
 deb)
-    for each in dpkg-buildpackage dh doxygen; do
+    for each in dpkg-buildpackage dh dh_python3 doxygen; do
         command -v $each >/dev/null || {
-            echo "package: $each is missing; as root: apt-get install debhelper doxygen" >&2
+            echo "package: $each is missing; as root: apt-get install debhelper dh-python doxygen" >&2
             exit 1
         }
     done
