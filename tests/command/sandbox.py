@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import unittest
 
 # A sanitizer's finding must not look like a failure of the program's own.
 SANITIZERS = {
@@ -118,3 +119,26 @@ class Sandbox:
         check(not changed, f"failed, and yet wrote {changed}")
         check(len(told) == 1 and re.match(r"sightline: .*[^\s.:]$", told[0]),
               "failed without one line 'sightline: what is wrong' on stderr")
+
+
+class ProgramTest(unittest.TestCase):
+    """Tests of the program that the command line names, each in a sandbox of its own."""
+    program = None
+
+    def setUp(self):
+        self.box = Sandbox(self.program)
+        self.box.__enter__()
+        self.addCleanup(self.box.__exit__)
+
+    def run_well(self, *arguments, **how):
+        result = self.box.run([str(argument) for argument in arguments], **how)
+        self.assertEqual(result.status, 0, result.text())
+        return result
+
+    def printed(self, *arguments):
+        return self.run_well(*arguments).stdout
+
+
+def main():
+    ProgramTest.program = program_argument()
+    unittest.main()

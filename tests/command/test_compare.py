@@ -8,7 +8,6 @@ import json
 import os
 import signal
 import time
-import unittest
 
 import sandbox
 from case import MAPS
@@ -34,20 +33,10 @@ def holds(polygon, x, y):
                for a, b in zip(polygon, polygon[1:] + polygon[:1]))
 
 
-class Compare(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
-    def run_ok(self, *arguments):
-        result = self.box.run(list(arguments))
-        self.assertEqual(result.status, 0, result.text())
-        return result
-
+class Compare(sandbox.ProgramTest):
     def compare(self, name, *options):
         """The runs as JSON and as CSV has them, and the pairs on which they disagree."""
-        told = json.loads(self.run_ok("compare", name, "-o", "out", "--json", *options).stdout)
+        told = json.loads(self.run_well("compare", name, "-o", "out", "--json", *options).stdout)
         rows = self.table("compare.csv")
         for row, run in zip(rows, told["runs"]):
             self.assertEqual(list(row), list(run))
@@ -60,8 +49,8 @@ class Compare(unittest.TestCase):
     def export(self, name, run, *options):
         method, solver = run
         options = ["--method", method, *(["--solver", solver] if solver else []), *options]
-        self.run_ok("bake", name, "-o", "out.slv", "-q", *options)
-        return json.loads(self.run_ok("export", "out.slv").stdout)
+        self.run_well("bake", name, "-o", "out.slv", "-q", *options)
+        return json.loads(self.run_well("export", "out.slv").stdout)
 
     def agrees_with_bakes(self, name, *options):
         """Pairs, pairs too many and too few, and each pair told, from bakes of the same map."""
@@ -129,7 +118,7 @@ class Compare(unittest.TestCase):
                     run["filter_share"], 1 - run["exact_orientations"] / run["orientations"])
             else:
                 self.assertIsNone(run["filter_share"])
-        statistics = json.loads(self.run_ok("bake", "office.map", "-o", "o.slv", "--json",
+        statistics = json.loads(self.run_well("bake", "office.map", "-o", "o.slv", "--json",
                                             "--solver", "glpk").stdout)
         rounded, = [run for run in done if (run["method"], run["solver"]) == ("dfs", "glpk")]
         for key in ("tests", "tree_nodes", "longest_sequence", "pairs", "doubtful_pairs"):
@@ -148,7 +137,7 @@ class Compare(unittest.TestCase):
         for row in rows:
             self.assertEqual((row["seconds"], row["pairs"], row["pairs_too_many"]), ("", "", ""))
         self.assertEqual(pairs, [])
-        table = self.run_ok("compare", "hall.map", "--time-limit", "0.3", "--methods", "dfs",
+        table = self.run_well("compare", "hall.map", "--time-limit", "0.3", "--methods", "dfs",
                             "--solvers", "funnel")
         self.assertRegex(table.stdout, r"dfs +funnel +exact +not done in 0\.3 s\n")
         self.assertIn("no exact run is done", table.stdout)
@@ -160,7 +149,7 @@ class Compare(unittest.TestCase):
         refused = [run for run in told["runs"] if run["outcome"] == "refused"]
         if not refused:
             self.skipTest("no solver refuses such a map")
-        table = self.run_ok("compare", "hair.map", "--repeat", "1").stdout
+        table = self.run_well("compare", "hair.map", "--repeat", "1").stdout
         for run in refused:
             self.assertIsNone(run["pairs"])
             self.assertRegex(table, rf"{run['method']} +{run['solver']} .* refused: \S")
@@ -225,5 +214,4 @@ class Compare(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

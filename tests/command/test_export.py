@@ -9,7 +9,6 @@ import re
 import shutil
 import subprocess
 import sys
-import unittest
 import warnings
 
 import sandbox
@@ -68,23 +67,13 @@ def validator():
     return jsonschema.Draft202012Validator(schema)
 
 
-class Export(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
-    def run_well(self, *arguments):
-        result = self.box.run([str(argument) for argument in arguments])
-        self.assertEqual(result.status, 0, result.stderr)
-        return result.stdout
-
+class Export(sandbox.ProgramTest):
     def bake(self, text, *options):
         self.box.path("m.map").write_text(text, encoding="utf-8")
-        self.run_well("bake", "m.map", "-o", "m.slv", "-q", *options)
+        self.printed("bake", "m.map", "-o", "m.slv", "-q", *options)
 
     def export(self, name="m.slv", *options):
-        self.run_well("export", name, "-o", name + ".json", "-q", *options)
+        self.printed("export", name, "-o", name + ".json", "-q", *options)
         return json.loads(self.box.path(name + ".json").read_text(encoding="utf-8"))
 
     def test_schema(self):
@@ -93,7 +82,7 @@ class Export(unittest.TestCase):
             self.skipTest("the Python package jsonschema is not here (Debian: python3-jsonschema)")
         for path in MAPS:
             with self.subTest(map=path.name):
-                self.run_well("bake", path, "-o", "m.slv", "-q")
+                self.printed("bake", path, "-o", "m.slv", "-q")
                 checked.validate(self.export())
         self.bake(ALL_EFFECTS)
         level = self.export()
@@ -108,9 +97,9 @@ class Export(unittest.TestCase):
         """An export baked as a map gives the same export, to the last byte."""
         for path in MAPS:
             with self.subTest(map=path.name):
-                self.run_well("bake", path, "-o", "m.slv", "-q")
+                self.printed("bake", path, "-o", "m.slv", "-q")
                 self.export()
-                self.run_well("bake", "m.slv.json", "-o", "again.slv", "-q")
+                self.printed("bake", "m.slv.json", "-o", "again.slv", "-q")
                 self.export("again.slv")
                 self.assertEqual(*(self.box.path(name).read_bytes()
                                    for name in ("m.slv.json", "again.slv.json")))
@@ -172,7 +161,7 @@ class Export(unittest.TestCase):
         self.assertEqual(level["doubtful"], slv.rows("DBTO", "DBTB"))
 
     def test_view_cells(self):
-        self.run_well("viewcells", ROOT / "maps/office.map", "--cells", "6", "--elementary", "30",
+        self.printed("viewcells", ROOT / "maps/office.map", "--cells", "6", "--elementary", "30",
                       "--samples", "2000", "--evaluate", "0", "--slv", "m.slv", "-q")
         level, slv = self.export(), slv_reader.Slv(self.box.path("m.slv").read_bytes())
         numbers = [item["view_cell"] for item in slv.items("VCEL")]
@@ -184,10 +173,10 @@ class Export(unittest.TestCase):
     def test_version_1(self):
         """The older form, to the last byte."""
         self.bake(BOX)
-        level = self.run_well("export", "m.slv", "--json-version", "1")
+        level = self.printed("export", "m.slv", "--json-version", "1")
         self.assertEqual(level, BOX_VERSION_1)
         self.box.path("old.json").write_text(level, encoding="utf-8")
-        self.assertEqual(self.run_well("convert", "old.json", "-q").count("wall"), 5)
+        self.assertEqual(self.printed("convert", "old.json", "-q").count("wall"), 5)
 
     def test_geojson(self):
         self.bake(ALL_EFFECTS)
@@ -278,7 +267,7 @@ ENTRY {
         wanted = []
         for text, name in zip(texts, ("second", "Main_2")):
             self.bake(text)
-            self.run_well("export", "m.slv", "--prefix", name, "-o", name + ".h", "-q")
+            self.printed("export", "m.slv", "--prefix", name, "-o", name + ".h", "-q")
             wanted = [list(map(str, line)) for line in self.c_lines(self.export())] + wanted
             entry = "void second(void)" if name == "second" else "int main(void)"
             end = "" if name == "second" else "second(); return 0;"
@@ -291,7 +280,7 @@ ENTRY {
                                 (BAKE / "EXPORT.md").read_text(encoding="utf-8"), re.DOTALL)
         self.box.path("example.c").write_text(example, encoding="utf-8")
         self.bake(BOX)
-        self.run_well("export", "m.slv", "--prefix", "office", "-o", "office.h", "-q")
+        self.printed("export", "m.slv", "--prefix", "office", "-o", "office.h", "-q")
         for compiler in compilers:
             warnings_too = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
             # A header that is compiled by itself uses none of its tables.
@@ -317,7 +306,7 @@ ENTRY {
 
     def test_examples_of_the_document(self):
         text = (BAKE / "EXPORT.md").read_text(encoding="utf-8")
-        self.run_well("bake", ROOT / "maps/effects/doors.map", "-o", "m.slv", "-q")
+        self.printed("bake", ROOT / "maps/effects/doors.map", "-o", "m.slv", "-q")
         self.export()
         self.box.path("m.slv.json").rename(self.box.path("office.json"))
         scripts = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
@@ -342,6 +331,5 @@ ENTRY {
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
     warnings.simplefilter("ignore", DeprecationWarning)
-    unittest.main()
+    sandbox.main()

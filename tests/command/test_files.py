@@ -7,7 +7,6 @@ import signal
 import subprocess
 import threading
 import time
-import unittest
 
 import sandbox
 from test_interrupt import pillars
@@ -15,17 +14,10 @@ from test_interrupt import pillars
 ROOM = "sightline 1\nwalls 0 0 4 0 4 3 0 3 0 0\nwall 2 0 2 2\nstart 1 1 0\n"
 
 
-class Files(unittest.TestCase):
+class Files(sandbox.ProgramTest):
     def setUp(self):
-        self.box = sandbox.Sandbox(PROGRAM)
-        self.box.__enter__()
-        self.addCleanup(self.box.__exit__)
+        super().setUp()
         self.box.path("room.map").write_text(ROOM)
-
-    def run_well(self, *arguments, **how):
-        result = self.box.run([*arguments], **how)
-        self.assertEqual(result.status, 0, result.text())
-        return result
 
     def baked(self):
         self.run_well("bake", "room.map", "-o", "room.slv", "-q")
@@ -43,7 +35,7 @@ class Files(unittest.TestCase):
                     pass
         feeder = threading.Thread(target=feed, daemon=True)
         feeder.start()
-        words = [PROGRAM, *("pipe" if word == "FIFO" else word for word in arguments)]
+        words = [self.program, *("pipe" if word == "FIFO" else word for word in arguments)]
         result = subprocess.run(words, cwd=self.box.folder, capture_output=True, timeout=20,
                                 check=False)
         feeder.join(timeout=5)
@@ -154,7 +146,7 @@ class Files(unittest.TestCase):
 
     def test_link_to_itself(self):
         os.symlink("loop.map", self.box.folder / "loop.map")
-        result = subprocess.run([PROGRAM, "convert", "room.map", "-o", "loop.map"],
+        result = subprocess.run([self.program, "convert", "room.map", "-o", "loop.map"],
                                 cwd=self.box.folder, capture_output=True, check=False)
         self.assertEqual(result.returncode, 1)
         self.assertTrue((self.box.folder / "loop.map").is_symlink())
@@ -177,7 +169,7 @@ class Files(unittest.TestCase):
     def test_pipe_as_output(self):
         pipe = self.box.folder / "pipe.map"
         os.mkfifo(pipe)
-        process = subprocess.Popen([PROGRAM, "convert", "room.map", "-o", "pipe.map"],
+        process = subprocess.Popen([self.program, "convert", "room.map", "-o", "pipe.map"],
                                    cwd=self.box.folder)
         text = pipe.read_text()
         self.assertEqual(process.wait(timeout=20), 0)
@@ -207,7 +199,7 @@ class Files(unittest.TestCase):
     def test_reader_goes_away(self):
         self.run_well("generate", "office", "--walls", "20000", "-o", "big.map", "-q")
         for words in (["convert", "big.map"], ["convert", "big.map", "-o", "/dev/stdout"]):
-            process = subprocess.Popen([PROGRAM, *words], cwd=self.box.folder,
+            process = subprocess.Popen([self.program, *words], cwd=self.box.folder,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             self.assertEqual(process.stdout.readline(), b"sightline 1\n")
             process.stdout.close()
@@ -227,7 +219,7 @@ class Files(unittest.TestCase):
 
     def test_waiting_for_a_pipe_is_interrupted(self):
         os.mkfifo(self.box.folder / "pipe")
-        process = subprocess.Popen([PROGRAM, "info", "pipe"], cwd=self.box.folder,
+        process = subprocess.Popen([self.program, "info", "pipe"], cwd=self.box.folder,
                                    stderr=subprocess.PIPE)
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
@@ -236,5 +228,4 @@ class Files(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

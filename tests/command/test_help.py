@@ -4,7 +4,6 @@ import re
 import shutil
 import subprocess
 import sys
-import unittest
 
 import sandbox
 
@@ -15,30 +14,23 @@ def words(text):
     return [line.split("\t") for line in text.splitlines()]
 
 
-class Help(unittest.TestCase):
+class Help(sandbox.ProgramTest):
     def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-        self.commands = [row[0] for row in words(self.run_of("--help", "words"))]
+        super().setUp()
+        self.commands = [row[0] for row in words(self.printed("--help", "words"))]
         self.assertIn("bake", self.commands)
-
-    def run_of(self, *arguments):
-        result = self.box.run(arguments)
-        self.assertEqual(result.status, 0, result.text())
-        return result.stdout
 
     def test_lines_fit_a_terminal(self):
         for arguments in [[], *([name] for name in self.commands)]:
             for form in [[], ["all"]]:
-                for line in self.run_of(*arguments, "--help", *form).splitlines():
+                for line in self.printed(*arguments, "--help", *form).splitlines():
                     self.assertLess(len(line), 80, f"{arguments} {form}: {line}")
 
     def test_all_forms_have_all_options(self):
         for name in self.commands:
-            everything, manual = self.run_of(name, "--help", "all"), self.run_of(name, "--help", "man")
-            short = set(re.findall(r"^  (?:-\w, )?(--[\w-]+)", self.run_of(name, "--help"), re.MULTILINE))
-            options = [row[0] for row in words(self.run_of(name, "--help", "words"))]
+            everything, manual = self.printed(name, "--help", "all"), self.printed(name, "--help", "man")
+            short = set(re.findall(r"^  (?:-\w, )?(--[\w-]+)", self.printed(name, "--help"), re.MULTILINE))
+            options = [row[0] for row in words(self.printed(name, "--help", "words"))]
             self.assertIn("--help", options)
             self.assertLessEqual(short, set(options))
             self.assertLessEqual(len(short), 22, name)
@@ -50,7 +42,7 @@ class Help(unittest.TestCase):
         if not shutil.which("groff"):
             self.skipTest("there is no groff")
         for name in ["", *self.commands]:
-            page = self.run_of(*([name] if name else []), "--help", "man")
+            page = self.printed(*([name] if name else []), "--help", "man")
             done = subprocess.run(["groff", "-man", "-ww", "-Tascii", "-z"], input=page, text=True,
                                   capture_output=True, check=False)
             self.assertEqual(done.stderr, "", name)
@@ -60,12 +52,11 @@ class Help(unittest.TestCase):
             self.skipTest("there is no bash")
         for typed, wanted in [(["ba"], "bake"), (["bake", "--stab"], "--stab-trees"),
                               (["bake", "--subdivide", "m"], "mesh"), (["bake", "--method", "sw"], "sweep")]:
-            script = (f". {COMPLETION}/sightline.bash; COMP_WORDS=({PROGRAM} {' '.join(typed)}); "
+            script = (f". {COMPLETION}/sightline.bash; COMP_WORDS=({self.program} {' '.join(typed)}); "
                       f"COMP_CWORD={len(typed)}; _sightline; echo \"${{COMPREPLY[*]}}\"")
             done = subprocess.run(["bash", "-c", script], text=True, capture_output=True, check=True)
             self.assertEqual(done.stdout.strip(), wanted)
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

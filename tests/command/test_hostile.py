@@ -11,7 +11,6 @@ import random
 import re
 import shlex
 import sys
-import unittest
 
 import sandbox
 from case import MAPS
@@ -76,26 +75,19 @@ class Command:
         return value if "." in value else None
 
 
-class Hostile(unittest.TestCase):
+class Hostile(sandbox.ProgramTest):
     @classmethod
     def setUpClass(cls):
-        with sandbox.Sandbox(PROGRAM) as box:
+        with sandbox.Sandbox(cls.program) as box:
             names = [line.split("\t")[0] for line in box.run(["--help", "words"]).stdout.splitlines()]
             cls.commands = [Command(name, box.run([name, "--help", "all"]).stdout) for name in names]
 
     def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
+        super().setUp()
         self.box.path("flat.map").write_bytes((MAPS / "flat.map").read_bytes())
         self.box.path("rooms.wad").write_bytes(make_wad(rooms("MAP01", 3), rooms("MAP02", 2)))
-        self.done("bake", "flat.map", "-o", "flat.slv", "--quiet")
-        self.done("bake", "flat.map", "-o", "part.slv", "--quiet", "--shard", "1/1")
-
-    def done(self, *arguments):
-        result = self.box.run(arguments)
-        self.assertEqual(result.status, 0, result.text())
-        return result
+        self.run_well("bake", "flat.map", "-o", "flat.slv", "--quiet")
+        self.run_well("bake", "flat.map", "-o", "part.slv", "--quiet", "--shard", "1/1")
 
     def refused(self, arguments, *statuses, says="", **how):
         with self.subTest(" ".join(shlex.quote(word[:80]) for word in arguments), **how):
@@ -108,7 +100,7 @@ class Hostile(unittest.TestCase):
         """What the other tests spoil is a call that is good."""
         for command in self.commands:
             with self.subTest(command.name):
-                self.done(*command.call("--quiet"))
+                self.run_well(*command.call("--quiet"))
 
     # --- inputs
 
@@ -176,9 +168,9 @@ class Hostile(unittest.TestCase):
         self.refused(["draw", "flat.slv", "-o", "flat.slv"], 2)
         self.refused(["export", "flat.slv", "-o", "flat.slv"], 2, says="is the input itself")
         self.refused(["export", "flat.slv", "-o", "./flat.slv"], 2, says="is the input itself")
-        before = self.done("convert", "flat.map").stdout
+        before = self.run_well("convert", "flat.map").stdout
         self.refused(["convert", "flat.map", "-o", "flat.map"], 2, says="--in-place")
-        self.done("convert", "flat.map", "-o", "flat.map", "--in-place")
+        self.run_well("convert", "flat.map", "-o", "flat.map", "--in-place")
         self.assertEqual(self.box.path("flat.map").read_text(), before)
 
     # --- options
@@ -250,14 +242,14 @@ class Hostile(unittest.TestCase):
 
         for arguments in (["info", path], ["bake", path, "-o", baked, "--check", "--stab-trees"],
                           ["info", baked]):
-            self.assertNotRegex(self.done(*arguments).stdout, r"\b(nan|inf)\b")
+            self.assertNotRegex(self.run_well(*arguments).stdout, r"\b(nan|inf)\b")
         for arguments in (["info", path], ["info", baked], ["bake", path, "-o", baked]):
-            json.loads(self.done(*arguments, "--json").stdout, parse_constant=no_constant)
-        self.done("export", baked, "-o", export)
+            json.loads(self.run_well(*arguments, "--json").stdout, parse_constant=no_constant)
+        self.run_well("export", baked, "-o", export)
         json.loads(self.box.path(export).read_text(), parse_constant=no_constant)
         for ending in (".png", ".svg", ".pdf"):
-            self.done("draw", baked, "-o", f"{folder}a b{ending}", "--title", "\u2713 \u00e9")
-        self.done("convert", baked, "-o", f"{folder}a b.map")
+            self.run_well("draw", baked, "-o", f"{folder}a b{ending}", "--title", "\u2713 \u00e9")
+        self.run_well("convert", baked, "-o", f"{folder}a b.map")
 
     def test_odd_maps(self):
         for name, text in self.ODD.items():
@@ -277,9 +269,9 @@ class Hostile(unittest.TestCase):
     def test_notices_of_a_stranger(self):
         self.box.path("odd.map").write_text("sightline 1\n#! one \033[2J\u009b2J two\n"
                                             "walls 0 0 4 0 4 3 0 3 0 0\n", "utf-8")
-        self.done("bake", "odd.map", "-o", "odd.slv")
+        self.run_well("bake", "odd.map", "-o", "odd.slv")
         for path in ("odd.map", "odd.slv"):
-            self.assertIn("    one ?[2J?2J two\n", self.done("info", path).stdout)
+            self.assertIn("    one ?[2J?2J two\n", self.run_well("info", path).stdout)
 
     # --- closed streams
 
@@ -303,9 +295,8 @@ class Hostile(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
     BRIEF = "--brief" in sys.argv
     if BRIEF:
         sys.argv.remove("--brief")
         print("brief: of options that are misused every third")
-    unittest.main()
+    sandbox.main()

@@ -8,7 +8,6 @@ test_map_format.py PROGRAM
 import json
 import pathlib
 import re
-import unittest
 
 import sandbox
 
@@ -44,12 +43,7 @@ def error_rows(heading):
     return re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|$", sections()[heading], re.MULTILINE)
 
 
-class MapFormat(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
+class MapFormat(sandbox.ProgramTest):
     def run_on(self, name, text, *arguments):
         self.box.path(name).write_text(text, encoding="utf-8")
         return self.box.run(list(arguments))
@@ -122,5 +116,4 @@ class MapFormat(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main(verbosity=2)
+    sandbox.main()

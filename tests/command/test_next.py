@@ -8,7 +8,6 @@ import math
 import random
 import shlex
 import subprocess
-import unittest
 
 import sandbox
 from wad import make_wad, rooms
@@ -84,17 +83,7 @@ def tmx_objects(lines):
             + "</objectgroup></map>")
 
 
-class Next(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
-    def run_well(self, arguments):
-        result = self.box.run(arguments)
-        self.assertEqual(result.status, 0, result.text())
-        return result.stdout
-
+class Next(sandbox.ProgramTest):
     def write(self, name, content):
         binary = isinstance(content, bytes)
         self.box.path(name).write_bytes(content if binary else content.encode())
@@ -106,7 +95,7 @@ class Next(unittest.TestCase):
         while command[0] == "check":
             commands.append(command)
             self.assertLess(len(commands), most, commands)
-            text = self.run_well(command)
+            text = self.printed(*command)
             first = first or text
             last = text.splitlines()[-1]
             self.assertTrue(last.startswith("next: sightline "), text)
@@ -120,7 +109,7 @@ class Next(unittest.TestCase):
             command = words
         commands.append(command)
         self.assertEqual(command[0], "bake")
-        self.run_well(command)
+        self.printed(*command)
         return commands, first
 
     def test_plan(self):
@@ -162,7 +151,7 @@ class Next(unittest.TestCase):
         self.assertIn("(layer WALLS, handle 1F)", text)
         self.assertEqual(sorted(commands[1][2:]), sorted(options + ["--snap", "a-fixed.map"]))
         self.assertEqual(commands[-1][:2], ["bake", "a-fixed.map"])
-        found = json.loads(self.run_well(["check", name, *options, "--json"]))
+        found = json.loads(self.printed("check", name, *options, "--json"))
         gap = [fault for fault in found["faults"] if fault["kind"] == "gap"][0]
         self.assertEqual(gap["label"], "layer WALLS, handle 23")
 
@@ -170,13 +159,13 @@ class Next(unittest.TestCase):
         """Gaps within the digits of a drawing are no faults, unless nothing is welded."""
         frame = [tuple(1000 * value for value in line) for line in PLAN[:4]]
         name = self.write("a.dxf", dxf(jittered(turned(frame, 17.3), 0.004), 2))
-        found = json.loads(self.run_well(["check", name, "--layers", "WALLS", "--json"]))
+        found = json.loads(self.printed("check", name, "--layers", "WALLS", "--json"))
         self.assertEqual(found["counts"]["gap"], 0)
         self.assertGreater(found["closed_on_import"], 0)
-        text = self.run_well(["check", name, "--layers", "WALLS"])
+        text = self.printed("check", name, "--layers", "WALLS")
         self.assertRegex(text, r"[1-9]+ gaps? up to 0\.05 wide (is|are) closed on import")
-        found = json.loads(self.run_well(["check", name, "--layers", "WALLS", "--weld", "0",
-                                          "--json"]))
+        found = json.loads(self.printed("check", name, "--layers", "WALLS", "--weld", "0",
+                                        "--json"))
         self.assertGreater(found["counts"]["gap"], 0)
         self.assertEqual(found["closed_on_import"], 0)
         self.go_on(name, "--layers", "WALLS", "--weld", "0")
@@ -199,8 +188,8 @@ class Next(unittest.TestCase):
         commands, _ = self.go_on(name, "--map", "map02", "--sectors", "--subdivide", "mesh")
         self.assertEqual(commands[-1], ["bake", name, "--map", "map02", "--sectors",
                                         "--subdivide", "mesh"])
-        found = json.loads(self.run_well(["check", name, "--map", "MAP02", "--gap", "20",
-                                          "--json"]))
+        found = json.loads(self.printed("check", name, "--map", "MAP02", "--gap", "20",
+                                        "--json"))
         labels = [fault["label"] for fault in found["faults"] if "label" in fault]
         self.assertTrue(labels and all(label.startswith("linedef ") for label in labels))
         self.assertFalse(any("line" in fault for fault in found["faults"]))
@@ -219,32 +208,31 @@ class Next(unittest.TestCase):
                               ("a.svg", svg(PLAN, "\n")), ("a.uvtt", uvtt(PLAN)),
                               ("a.json", foundry(PLAN)), ("a.wad", make_wad(rooms("MAP01", 3)))):
             self.write(name, content)
-            self.run_well(["check", name, "--snap", name + ".map"])
-            self.run_well(["check", name + ".map"])
+            self.printed("check", name, "--snap", name + ".map")
+            self.printed("check", name + ".map")
 
     def test_baked(self):
         self.write("a.map", map_text(PLAN))
-        self.run_well(["bake", "a.map", "-o", "a.slv"])
+        self.printed("bake", "a.map", "-o", "a.slv")
         commands, _ = self.go_on("a.slv", "--gap", "0.05")
         self.assertEqual(commands, [["check", "a.slv", "--gap", "0.05"],
                                     ["check", "a.slv", "--gap", "0.05", "--snap", "a-fixed.map"],
                                     ["check", "a-fixed.map", "--gap", "0.05", "--start", "2.5,3"],
                                     ["bake", "a-fixed.map", "--start", "2.5,3"]])
         self.assertIn("next: sightline info a.slv",
-                      self.run_well(["check", "a.slv", "--gap", "1e-5", "--start", "1,1"]))
+                      self.printed("check", "a.slv", "--gap", "1e-5", "--start", "1,1"))
 
     def test_widths(self):
         """Far from the origin, and tiny."""
         far = [tuple(100 * v + m for v, m in zip(line, 2 * (531577, 184242))) for line in PLAN]
-        text = self.run_well(["check", self.write("far.map", map_text(far)), "--gap", "3"])
+        text = self.printed("check", self.write("far.map", map_text(far)), "--gap", "3")
         self.assertIn("2 wide, from (532077,184244) to (532077,184242)", text)
         tiny = [tuple(1e-7 * v for v in line) for line in PLAN]
-        text = self.run_well(["check", self.write("tiny.map", map_text(tiny)), "--gap", "3e-9"])
+        text = self.printed("check", self.write("tiny.map", map_text(tiny)), "--gap", "3e-9")
         self.assertIn("2e-09 wide, from (5e-07,2e-09) to (5e-07,0)", text)
         self.go_on("far.map", "--gap", "3")
         self.go_on("tiny.map", "--gap", "3e-9")
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

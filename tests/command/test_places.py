@@ -10,7 +10,6 @@ import math
 import pathlib
 import re
 import sys
-import unittest
 
 import sandbox
 
@@ -44,20 +43,10 @@ def holds(geometry, point):
                for rings in polygons)
 
 
-class Places(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
-    def run_well(self, *arguments):
-        result = self.box.run([str(argument) for argument in arguments])
-        self.assertEqual(result.status, 0, result.stderr)
-        return result.stdout
-
+class Places(sandbox.ProgramTest):
     def features(self, name, *arguments):
         """By kind: (geometry, properties) of each feature."""
-        self.run_well(*arguments, "-o", name, "-q")
+        self.printed(*arguments, "-o", name, "-q")
         collection = json.loads(self.box.path(name).read_text(encoding="utf-8"),
                                 parse_constant=check_geojson.refuse)
         self.assertEqual(check_geojson.faults(collection), [])
@@ -83,7 +72,7 @@ class Places(unittest.TestCase):
                 with self.subTest(map=name, options=options):
                     what = ["isovist", MAPS / name, "--cells", "9", *options]
                     kinds = self.features("a.geojson", *what)
-                    self.same_rows(self.run_well(*what, "-q"), kinds["isovist"])
+                    self.same_rows(self.printed(*what, "-q"), kinds["isovist"])
                     self.assertEqual(set(kinds) - {"mirrored"}, {"isovist"})
                     for geometry, properties in kinds["isovist"]:
                         exact = properties["area"]
@@ -112,12 +101,12 @@ class Places(unittest.TestCase):
         for name, at in (("office.map", "53,20"), ("gallery.map", "5,5"),
                          ("effects/mirrors.map", "2,2"), ("effects/doors.map", "5,5")):
             with self.subTest(map=name):
-                self.run_well("bake", MAPS / name, "-o", "m.slv", "-q")
+                self.printed("bake", MAPS / name, "-o", "m.slv", "-q")
                 what = ["eye", "m.slv", "--at", at, "--look", "10", "--fov", "200", "--object",
                         "8,2,9,6,block"]
                 kinds = self.features("a.geojson", *what)
-                told = json.loads(self.run_well(*what, "--json", "-q"))
-                self.run_well(*what, "-o", "a.csv", "-q")
+                told = json.loads(self.printed(*what, "--json", "-q"))
+                self.printed(*what, "-o", "a.csv", "-q")
                 table = list(csv.DictReader(io.StringIO(self.box.path("a.csv").read_text())))
                 self.assertEqual([(p["cell"], p["look"], p["fov"]) for _, p in kinds["eye"]],
                                  [(told["cell"], 10, 200)])
@@ -148,7 +137,7 @@ class Places(unittest.TestCase):
                     what = ["viewcells", MAPS / name, "--cells", "9", "--elementary", "60",
                             "--samples", "3000", "--evaluate", "0", "--method", method]
                     places = self.features("a.geojson", *what)["view_cell"]
-                    self.same_rows(self.run_well(*what, "-o", "-", "-q"), places)
+                    self.same_rows(self.printed(*what, "-o", "-", "-q"), places)
                     members = [number for _, p in places for number in p["members"]]
                     self.assertEqual(sorted(members), list(range(len(members))))
                     for geometry, properties in places:
@@ -162,7 +151,7 @@ class Places(unittest.TestCase):
         """The legend of a heat map says the unit, where the file does and the measure has one."""
         def heat(unit, measure):
             self.box.path("m.dxf").write_text(DXF.format(unit), encoding="utf-8")
-            self.run_well("isovist", "m.dxf", "--at", "1,1", "-q")
+            self.printed("isovist", "m.dxf", "--at", "1,1", "-q")
             result = self.box.run(["isovist", "m.dxf", "--cells", "9", "--measure", measure,
                                    "--picture", f"{measure}{unit}.png", "-q"])
             if "without pictures" in result.stderr:
@@ -174,8 +163,8 @@ class Places(unittest.TestCase):
 
     def test_cut_exports(self):
         """An export that ends too soon is refused, with its line, and leaves no file."""
-        self.run_well("bake", MAPS / "effects/doors.map", "-o", "m.slv", "-q")
-        text = self.run_well("export", "m.slv", "-q").rstrip("\n")
+        self.printed("bake", MAPS / "effects/doors.map", "-o", "m.slv", "-q")
+        text = self.printed("export", "m.slv", "-q").rstrip("\n")
         for length in {len(text) * i // 23 for i in range(23)} | {len(text) - 1}:
             self.box.path("cut.json").write_text(text[:length], encoding="utf-8")
             result = self.box.run(["bake", "cut.json", "-o", "cut.slv"])
@@ -185,5 +174,4 @@ class Places(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

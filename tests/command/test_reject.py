@@ -6,7 +6,6 @@ test_reject.py PROGRAM
 import json
 import signal
 import time
-import unittest
 
 import sandbox
 from wad import lumps_of_wad, make_wad, pillars, rooms
@@ -19,11 +18,9 @@ MAPS = [rooms("MAP01", 6, reject=bytes((11 * 11 + 7) // 8)), rooms("MAP02", 9),
         rooms("MAP03", 4, reject=b"old"), rooms("MAP04", 12, skew=9)]
 
 
-class Reject(unittest.TestCase):
+class Reject(sandbox.ProgramTest):
     def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
+        super().setUp()
         self.write("in.wad", make_wad(OTHER[:1], MAPS[0], MAPS[1], OTHER[1:], *MAPS[2:]))
 
     def write(self, name, content):
@@ -31,11 +28,6 @@ class Reject(unittest.TestCase):
 
     def read(self, name):
         return self.box.path(name).read_bytes()
-
-    def run_well(self, *arguments):
-        result = self.box.run(list(arguments))
-        self.assertEqual(result.status, 0, result.stderr)
-        return result
 
     def refuse(self, message, *arguments, status=2):
         result = self.box.run(["reject", *arguments])
@@ -133,5 +125,4 @@ class Reject(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

@@ -5,7 +5,6 @@ test_slv_format.py PROGRAM
 """
 import json
 import pathlib
-import unittest
 
 import sandbox
 import slv_reader
@@ -18,23 +17,13 @@ COUNTS = {"cells": "CELL", "vertices": "VERT", "portals": "PORT", "walls": "WALL
           "stab_tree_nodes": "TREN"}
 
 
-class SlvFormat(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
-    def run_well(self, *arguments):
-        result = self.box.run([str(argument) for argument in arguments])
-        self.assertEqual(result.status, 0, result.stderr)
-        return result.stdout
-
+class SlvFormat(sandbox.ProgramTest):
     def read(self, name):
         return slv_reader.Slv(self.box.path(name).read_bytes())
 
     def check(self, name):
         """The file against info and export; gives the reader."""
-        slv, info = self.read(name), json.loads(self.run_well("info", name, "--json"))
+        slv, info = self.read(name), json.loads(self.printed("info", name, "--json"))
         for key, tag in COUNTS.items():
             self.assertEqual(len(slv.items(tag)), info[key], key)
         self.assertEqual(slv.info["pairs"], info["pairs"])
@@ -50,7 +39,7 @@ class SlvFormat(unittest.TestCase):
         return slv
 
     def check_export(self, name, slv, polygons, rows):
-        self.run_well("export", name, "--format", "json", "-o", name + ".json", "-q")
+        self.printed("export", name, "--format", "json", "-o", name + ".json", "-q")
         export = json.loads(self.box.path(name + ".json").read_text(encoding="utf-8"))
         self.assertEqual([slv.info[key] for key in ("min_x", "min_y", "max_x", "max_y")],
                          export["bounds"])
@@ -88,13 +77,13 @@ class SlvFormat(unittest.TestCase):
     def test_maps(self):
         for path in MAPS:
             with self.subTest(map=path.name):
-                self.run_well("bake", path, "-o", "map.slv", "-q")
+                self.printed("bake", path, "-o", "map.slv", "-q")
                 slv = self.check("map.slv")
                 self.assertEqual(slv.header["version"], 1 if slv.items("NODE") else 2)
 
     def test_doors(self):
         """The doors of each alternative stand in the map text, and seams name them."""
-        self.run_well("bake", ROOT / "maps/effects/doors.map", "-o", "doors.slv", "-q")
+        self.printed("bake", ROOT / "maps/effects/doors.map", "-o", "doors.slv", "-q")
         slv = self.check("doors.slv")
         doors = sum(line.startswith("door ") for line in slv.map_text.splitlines())
         rows = slv.door_rows("DORO", "DORB")
@@ -113,7 +102,7 @@ class SlvFormat(unittest.TestCase):
             self.assertEqual(on["forward"], 1 if along < 0 else 0)
 
     def test_mirrors_and_trees(self):
-        self.run_well("bake", ROOT / "maps/effects/mirrors.map", "-o", "mirrors.slv", "--stab-trees",
+        self.printed("bake", ROOT / "maps/effects/mirrors.map", "-o", "mirrors.slv", "--stab-trees",
                       "-q")
         slv = self.check("mirrors.slv")
         self.assertTrue(any(slv.rows("MIRO", "MIRB")))
@@ -130,7 +119,7 @@ class SlvFormat(unittest.TestCase):
 
     def test_view_cells(self):
         for more in [], ["--by-views"]:
-            self.run_well("viewcells", ROOT / "maps/office.map", *VIEW_CELLS, "--slv", "views.slv",
+            self.printed("viewcells", ROOT / "maps/office.map", *VIEW_CELLS, "--slv", "views.slv",
                           "-q", *more)
             slv = self.check("views.slv")
             self.assertEqual("PVSO" in slv.table, not more)
@@ -142,12 +131,12 @@ class SlvFormat(unittest.TestCase):
 
     def test_partial_and_shards(self):
         source = ROOT / "maps/gallery.map"
-        self.run_well("bake", source, "-o", "partial.slv", "--time-limit", "1e-9", "-q")
+        self.printed("bake", source, "-o", "partial.slv", "--time-limit", "1e-9", "-q")
         part, = self.check("partial.slv").items("PART")
         self.assertEqual((part["shard"], part["shard_count"]), (0, 0))
         done = 0
         for number in 1, 2:
-            self.run_well("bake", source, "-o", f"{number}.slv", "--shard", f"{number}/2", "-q")
+            self.printed("bake", source, "-o", f"{number}.slv", "--shard", f"{number}/2", "-q")
             slv = self.read(f"{number}.slv")
             self.assertTrue(slv.is_shard() and slv.visible() is None)
             part, = slv.items("PART")
@@ -165,11 +154,11 @@ class SlvFormat(unittest.TestCase):
             self.assertEqual((slv.header["version"], "BEYO" in slv.table), (1, True))
             self.assertEqual(sum(map(len, slv.visible())), slv.info["pairs"])
             self.box.path(path.name).write_bytes(path.read_bytes())
-            info = json.loads(self.run_well("info", path.name, "--json"))
+            info = json.loads(self.printed("info", path.name, "--json"))
             self.assertEqual(len(slv.cells), info["cells"])
 
     def test_damage(self):
-        self.run_well("bake", ROOT / "maps/flat.map", "-o", "map.slv", "-q")
+        self.printed("bake", ROOT / "maps/flat.map", "-o", "map.slv", "-q")
         data = self.box.path("map.slv").read_bytes()
         for spoiled in data[:-1], data[:40] + bytes([data[40] ^ 1]) + data[41:], b"PNG" + data[3:]:
             with self.assertRaises(slv_reader.Fault):
@@ -177,5 +166,4 @@ class SlvFormat(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()

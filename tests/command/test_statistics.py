@@ -4,7 +4,6 @@ test_statistics.py PROGRAM
 """
 import json
 import os
-import unittest
 
 import sandbox
 from case import MAPS
@@ -17,16 +16,9 @@ def area(polygon):
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(polygon, polygon[1:] + polygon[:1])) / 2
 
 
-class Statistics(unittest.TestCase):
-    def setUp(self):
-        box = sandbox.Sandbox(PROGRAM)
-        self.box = box.__enter__()
-        self.addCleanup(box.__exit__)
-
+class Statistics(sandbox.ProgramTest):
     def json(self, *arguments):
-        result = self.box.run([*arguments])
-        self.assertEqual(result.status, 0, result.text())
-        return json.loads(result.stdout)
+        return json.loads(self.printed(*arguments))
 
     def bake(self, path, *options):
         statistics = self.json("bake", str(path), "-o", "out.slv", "--json", *WITHOUT, *options)
@@ -170,5 +162,4 @@ class Statistics(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sandbox.program_argument()
-    unittest.main()
+    sandbox.main()
