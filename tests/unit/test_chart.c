@@ -248,32 +248,11 @@ static void without_room_labels_are_left_out(void **state) {
 
 // --- files
 
-typedef struct bench {
-    sl_context *context;
-    char directory[32], path[64];
-} bench;
-
 static int set_up(void **state) {
-    bench *b = calloc(1, sizeof *b);
+    draw_bench *b = draw_bench_make();
     if (!b) return -1;
-    b->context = testing_context(NULL);
-    draw_directory(b->directory);
     *state = b;
     return 0;
-}
-
-/// Fails where a test left a file.
-static int tear_down(void **state) {
-    bench *b = *state;
-    const int left = rmdir(b->directory);
-    sl_context_destroy(b->context);
-    free(b);
-    return left;
-}
-
-static const char *path_of(bench *b, const char *name) {
-    snprintf(b->path, sizeof b->path, "%s/%s", b->directory, name);
-    return b->path;
 }
 
 static const sl_chart_mark exact[] = {
@@ -316,10 +295,10 @@ static const char *const kinds[] = {"a.png", "a.svg", "a.pdf"};
 static const char *const magics[] = {"\x89PNG\r\n\x1a\n", "<?xml", "%PDF-"};
 
 static void the_same_chart_gives_the_same_bytes(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_chart chart = everything();
     for (int i = 0; i < 3; i++) {
-        const char *path = path_of(b, kinds[i]);
+        const char *path = draw_path(b, kinds[i]);
         sl_bytes files[2];
         for (int k = 0; k < 2; k++) {
             assert_ok(b->context, sl_draw_chart_file(b->context, &chart, path));
@@ -336,8 +315,8 @@ static void the_same_chart_gives_the_same_bytes(void **state) {
     }
 }
 
-static cairo_surface_t *picture_of(bench *b, const sl_chart *chart) {
-    const char *path = path_of(b, "a.png");
+static cairo_surface_t *picture_of(draw_bench *b, const sl_chart *chart) {
+    const char *path = draw_path(b, "a.png");
     assert_ok(b->context, sl_draw_chart_file(b->context, chart, path));
     cairo_surface_t *surface = cairo_image_surface_create_from_png(path);
     assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
@@ -374,7 +353,7 @@ static found find_colour(cairo_surface_t *picture, uint32_t colour) {
 #define SHADE     0xf0ece3 // what a frontier leaves out of reach
 
 static void marks_have_their_colours(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_chart chart = everything();
     for (size_t shown = 0; shown <= 2; shown++) {
         chart.series_count = shown;
@@ -387,7 +366,7 @@ static void marks_have_their_colours(void **state) {
 
 /// On its own side of 0 only, and all of what is left of the first mark.
 static void a_frontier_shades_what_is_out_of_reach(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_chart chart = everything();
     found sides[2];
     for (int i = 0; i < 2; i++) {
@@ -412,7 +391,7 @@ static void a_frontier_shades_what_is_out_of_reach(void **state) {
 }
 
 static void the_frame_grows_with_the_labels(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     enum { MANY = 30 };
     sl_chart_mark marks[MANY];
     sl_chart_series series = {"many", SL_CHART_MARKS, 4, marks, 1};
@@ -434,7 +413,7 @@ static void the_frame_grows_with_the_labels(void **state) {
 }
 
 static void extremes_are_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_chart_mark far[] = {{.x = 1e-300, .y = -1e300, .label = ""},
                                  {.x = 1e300, .y = 1e300, .label = "far", .note = ""}};
     sl_chart_series series = {NULL, SL_CHART_MARKS, 5, far, 2};
@@ -443,24 +422,24 @@ static void extremes_are_drawn(void **state) {
         sl_chart chart = everything();
         chart.width = widths[i];
         chart.dark = i == 1;
-        assert_ok(b->context, sl_draw_chart_file(b->context, &chart, path_of(b, "a.svg")));
+        assert_ok(b->context, sl_draw_chart_file(b->context, &chart, draw_path(b, "a.svg")));
         chart.series = &series;
         chart.series_count = 1;
         for (int scale = SL_CHART_LINEAR; scale <= SL_CHART_SYMLOG; scale++) {
             chart.x.scale = (sl_chart_scale)scale;
-            assert_ok(b->context, sl_draw_chart_file(b->context, &chart, path_of(b, "a.svg")));
+            assert_ok(b->context, sl_draw_chart_file(b->context, &chart, draw_path(b, "a.svg")));
         }
         const sl_chart empty = {.width = widths[i]};
-        assert_ok(b->context, sl_draw_chart_file(b->context, &empty, path_of(b, "a.svg")));
+        assert_ok(b->context, sl_draw_chart_file(b->context, &empty, draw_path(b, "a.svg")));
         chart.series_count = 0;
-        assert_ok(b->context, sl_draw_chart_file(b->context, &chart, path_of(b, "a.svg")));
+        assert_ok(b->context, sl_draw_chart_file(b->context, &chart, draw_path(b, "a.svg")));
         unlink(b->path);
     }
 }
 
 /// Texts of any length and at any character's end, where the room ends too.
 static void long_texts_are_cut_between_characters(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     static char text[3000];
     for (int shift = 0; shift < 2; shift++) {
         memset(text, 'x', sizeof text);
@@ -477,19 +456,20 @@ static void long_texts_are_cut_between_characters(void **state) {
                                 .series = &series,
                                 .series_count = 1,
                                 .width = 500};
-        assert_ok(b->context, sl_draw_chart_file(b->context, &chart, path_of(b, "a.svg")));
+        assert_ok(b->context, sl_draw_chart_file(b->context, &chart, draw_path(b, "a.svg")));
         unlink(b->path);
     }
 }
 
-static void expect_refusal(bench *b, const sl_chart *chart, const char *name, const char *message) {
-    assert_int_equal(sl_draw_chart_file(b->context, chart, path_of(b, name)), SL_BAD_ARGUMENT);
+static void expect_refusal(draw_bench *b, const sl_chart *chart, const char *name,
+                           const char *message) {
+    assert_int_equal(sl_draw_chart_file(b->context, chart, draw_path(b, name)), SL_BAD_ARGUMENT);
     if (!strstr(sl_context_message(b->context), message))
         fail_msg("\"%s\" is not in: %s", message, sl_context_message(b->context));
 }
 
 static void what_makes_no_sense_is_refused(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_chart good = everything();
     expect_refusal(b, &good, "a.gif", ".png, .svg or .pdf");
     sl_chart bad = good;
@@ -525,10 +505,10 @@ static void what_makes_no_sense_is_refused(void **state) {
 }
 
 static void every_failing_allocation_is_reported(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_chart chart = everything();
     for (int i = 0; i < 3; i++) {
-        const char *path = path_of(b, kinds[i]);
+        const char *path = draw_path(b, kinds[i]);
         sl_status status = SL_NO_MEMORY;
         for (long fail_at = 1; status != SL_OK; fail_at++) {
             testing_memory memory = {0};
@@ -547,26 +527,21 @@ static void every_failing_allocation_is_reported(void **state) {
     }
 }
 
-static bool always(void *user) {
-    (void)user;
-    return true;
-}
-
 static void a_failure_leaves_nothing(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_chart chart = everything();
-    const sl_hooks hooks = {.cancelled = always};
+    const sl_hooks hooks = {.cancelled = draw_cancelled};
     sl_context *context = sl_context_create(&hooks);
     for (int i = 0; i < 3; i++) {
         char name[32];
         snprintf(name, sizeof name, "none/%s", kinds[i]);
-        assert_int_equal(sl_draw_chart_file(b->context, &chart, path_of(b, name)), SL_IO);
-        assert_int_equal(sl_draw_chart_file(context, &chart, path_of(b, kinds[i])), SL_CANCELLED);
+        assert_int_equal(sl_draw_chart_file(b->context, &chart, draw_path(b, name)), SL_IO);
+        assert_int_equal(sl_draw_chart_file(context, &chart, draw_path(b, kinds[i])), SL_CANCELLED);
     }
     sl_context_destroy(context);
 }
 
-#define WITH_BENCH(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+#define WITH_BENCH(test) cmocka_unit_test_setup_teardown(test, set_up, draw_bench_end)
 
 int main(void) {
     const struct CMUnitTest tests[] = {

@@ -14,36 +14,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// What a test works with: the map, and a directory of its own for pictures.
-typedef struct bench {
-    sl_context *context;
-    draw_map map;
-    char directory[32], path[64];
-} bench;
-
 static int set_up(void **state) {
-    bench *b = calloc(1, sizeof *b);
+    draw_bench *b = draw_bench_make();
     if (!b) return -1;
-    b->context = testing_context(NULL);
     b->map = draw_map_make(b->context, DRAW_PLAIN);
-    draw_directory(b->directory);
     *state = b;
     return 0;
-}
-
-/// Fails where a test left a file.
-static int tear_down(void **state) {
-    bench *b = *state;
-    const int left = rmdir(b->directory);
-    sl_baked_destroy(b->context, &b->map.baked);
-    sl_context_destroy(b->context);
-    free(b);
-    return left;
-}
-
-static const char *path_of(bench *b, const char *name) {
-    snprintf(b->path, sizeof b->path, "%s/%s", b->directory, name);
-    return b->path;
 }
 
 static int files_in(const char *directory) {
@@ -55,7 +31,7 @@ static int files_in(const char *directory) {
     return count;
 }
 
-static sl_draw_options everything(const bench *b) {
+static sl_draw_options everything(const draw_bench *b) {
     sl_draw_options options = sl_draw_options_default();
     options.layers |= SL_LAYER_STAB_TREE;
     options.cell = b->map.cells[LEFT_BELOW];
@@ -68,10 +44,10 @@ static const char *const kinds[] = {"a.png", "a.svg", "a.pdf", "b.PNG"};
 static const char *const magics[] = {"\x89PNG\r\n\x1a\n", "<?xml", "%PDF-", "\x89PNG\r\n\x1a\n"};
 
 static void the_ending_tells_the_kind(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_draw_options options = everything(b);
     for (int i = 0; i < 4; i++) {
-        const char *path = path_of(b, kinds[i]);
+        const char *path = draw_path(b, kinds[i]);
         sl_bytes file;
         assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, path));
         assert_ok(b->context, sl_file_read(b->context, path, &file));
@@ -85,10 +61,10 @@ static void the_ending_tells_the_kind(void **state) {
 
 /// Also when cairo made other surfaces meanwhile, and whatever the date.
 static void the_same_input_gives_the_same_bytes(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_draw_options options = everything(b);
     for (int i = 0; i < 3; i++) {
-        const char *path = path_of(b, kinds[i]);
+        const char *path = draw_path(b, kinds[i]);
         sl_bytes files[2];
         for (int k = 0; k < 2; k++) {
             assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, path));
@@ -105,9 +81,9 @@ static void the_same_input_gives_the_same_bytes(void **state) {
     }
 }
 
-static void expect_refusal(bench *b, const sl_draw_options *options, const char *name,
+static void expect_refusal(draw_bench *b, const sl_draw_options *options, const char *name,
                            const char *message) {
-    const char *path = path_of(b, name);
+    const char *path = draw_path(b, name);
     assert_int_equal(sl_draw_file(b->context, &b->map.baked, options, path), SL_BAD_ARGUMENT);
     if (!strstr(sl_context_message(b->context), message))
         fail_msg("\"%s\" is not in: %s", message, sl_context_message(b->context));
@@ -115,7 +91,7 @@ static void expect_refusal(bench *b, const sl_draw_options *options, const char 
 }
 
 static void what_makes_no_sense_is_refused(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_draw_options good = everything(b);
     expect_refusal(b, &good, "a.gif", ".png, .svg or .pdf");
     expect_refusal(b, &good, "png", ".png, .svg or .pdf");
@@ -138,18 +114,18 @@ static void what_makes_no_sense_is_refused(void **state) {
 }
 
 static void bounds_of_width_are_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_draw_options options = everything(b);
     options.width = SL_DRAW_WIDTH_MIN;
-    assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, path_of(b, "a.png")));
+    assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, draw_path(b, "a.png")));
     unlink(b->path);
     options.width = SL_DRAW_WIDTH_MAX;
-    assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, path_of(b, "a.svg")));
+    assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, draw_path(b, "a.svg")));
     unlink(b->path);
 }
 
 static void titles_of_any_length_fit(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     char title[2000];
     sl_draw_options options = everything(b);
     options.title = title;
@@ -158,18 +134,18 @@ static void titles_of_any_length_fit(void **state) {
         for (size_t i = 0; i < length; i++) memcpy(title + 2 * i, "\xc3\xa8", 2);
         title[2 * length] = '\0';
         assert_ok(b->context,
-                  sl_draw_file(b->context, &b->map.baked, &options, path_of(b, "a.png")));
+                  sl_draw_file(b->context, &b->map.baked, &options, draw_path(b, "a.png")));
         unlink(b->path);
     }
 }
 
 static void a_directory_that_is_not_there_is_an_io_failure(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_draw_options options = everything(b);
     for (int i = 0; i < 3; i++) {
         char name[32];
         snprintf(name, sizeof name, "none/%s", kinds[i]);
-        assert_int_equal(sl_draw_file(b->context, &b->map.baked, &options, path_of(b, name)),
+        assert_int_equal(sl_draw_file(b->context, &b->map.baked, &options, draw_path(b, name)),
                          SL_IO);
         assert_non_null(strstr(sl_context_message(b->context), name));
     }
@@ -178,13 +154,13 @@ static void a_directory_that_is_not_there_is_an_io_failure(void **state) {
 
 /// The system refuses to write beyond a size, as it does when a disk is full.
 static void a_refused_write_leaves_the_old_file(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_draw_options options = everything(b);
     struct rlimit usual;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &usual), 0);
     void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
     for (int i = 0; i < 3; i++) {
-        const char *path = path_of(b, kinds[i]);
+        const char *path = draw_path(b, kinds[i]);
         FILE *old = fopen(path, "w");
         assert_non_null(old);
         fputs("old", old);
@@ -205,11 +181,11 @@ static void a_refused_write_leaves_the_old_file(void **state) {
 }
 
 static void every_failing_allocation_is_reported(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_draw_options options = everything(b);
     for (int i = 0; i < 6; i++) {
         if (i == 3) options.cell = SL_NO_CELL;
-        const char *path = path_of(b, kinds[i % 3]);
+        const char *path = draw_path(b, kinds[i % 3]);
         sl_status status = SL_NO_MEMORY;
         for (long fail_at = 1; status != SL_OK; fail_at++) {
             testing_memory memory = {0};
@@ -229,18 +205,13 @@ static void every_failing_allocation_is_reported(void **state) {
     }
 }
 
-static bool always(void *user) {
-    (void)user;
-    return true;
-}
-
 static void cancelling_leaves_nothing(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_draw_options options = everything(b);
-    const sl_hooks hooks = {.cancelled = always};
+    const sl_hooks hooks = {.cancelled = draw_cancelled};
     sl_context *context = sl_context_create(&hooks);
     for (int i = 0; i < 3; i++)
-        assert_int_equal(sl_draw_file(context, &b->map.baked, &options, path_of(b, kinds[i])),
+        assert_int_equal(sl_draw_file(context, &b->map.baked, &options, draw_path(b, kinds[i])),
                          SL_CANCELLED);
     assert_int_equal(files_in(b->directory), 0);
     sl_context_destroy(context);
@@ -248,13 +219,13 @@ static void cancelling_leaves_nothing(void **state) {
 
 /// One cell; and a baked map without anything, which gives a page without a plan.
 static void the_smallest_maps_are_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_baked one = {0}, none = {0};
     testing_space(b->context, "walls 0 0 4 0 4 5 0 5 0 0\n", &one.map, &one.space);
     assert_int_equal(one.space.cell_count, 1);
     sl_draw_options options = sl_draw_options_default();
     for (int i = 0; i < 3; i++) {
-        const char *path = path_of(b, kinds[i]);
+        const char *path = draw_path(b, kinds[i]);
         options.cell = 0;
         assert_ok(b->context, sl_draw_file(b->context, &one, &options, path));
         options.cell = SL_NO_CELL;
@@ -267,7 +238,7 @@ static void the_smallest_maps_are_drawn(void **state) {
 
 /// All effects and marks at once.
 static void effects_are_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_map *map = &b->map.baked.map;
     const sl_point points[] = {{2, 2}, {8, 2}, {8, 8}};
     assert_ok(b->context,
@@ -280,7 +251,7 @@ static void effects_are_drawn(void **state) {
     assert_ok(b->context, sl_map_add_object(b->context, map, "o", (sl_box){{12, 2}, {14, 4}}, 0));
     sl_draw_options options = everything(b);
     sl_bytes with, without;
-    assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, path_of(b, "a.svg")));
+    assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, draw_path(b, "a.svg")));
     assert_ok(b->context, sl_file_read(b->context, b->path, &with));
     options.layers &= ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
     assert_ok(b->context, sl_draw_file(b->context, &b->map.baked, &options, b->path));
@@ -328,7 +299,7 @@ static void numbers_read_well(void **state) {
     assert_string_equal(text, "100.0\xe2\x80\x89%");
 }
 
-#define WITH_BENCH(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+#define WITH_BENCH(test) cmocka_unit_test_setup_teardown(test, set_up, draw_bench_end)
 
 int main(void) {
     const struct CMUnitTest tests[] = {

@@ -12,13 +12,6 @@
 /// Cells of the map below by what they are to each other.
 enum { FIRST, NEXT, GRAZED, LAST, CORNER, CLOSET, PLACES };
 
-typedef struct bench {
-    sl_context *context;
-    sl_baked baked;
-    uint32_t cells[PLACES];
-    char directory[32], path[64];
-} bench;
-
 /// A hall of four cells behind screens through which a line only grazes, a cell round its corner,
 /// and a closet.
 static int set_up(void **state) {
@@ -27,44 +20,29 @@ static int set_up(void **state) {
                                    "wall 10 0 10 5\nwall 20 5 20 10\nwall 30 0 30 5\n"
                                    "wall 10 10 10 20\n";
     static const sl_point places[PLACES] = {{5, 2}, {15, 2}, {35, 2}, {25, 2}, {20, 15}, {5, 15}};
-    bench *b = calloc(1, sizeof *b);
+    draw_bench *b = draw_bench_make();
     if (!b) return -1;
-    b->context = testing_context(NULL);
-    testing_space(b->context, map, &b->baked.map, &b->baked.space);
-    for (int i = 0; i < PLACES; i++) b->cells[i] = sl_space_locate(&b->baked.space, places[i]);
-    draw_directory(b->directory);
+    testing_space(b->context, map, &b->map.baked.map, &b->map.baked.space);
+    for (int i = 0; i < PLACES; i++)
+        b->map.cells[i] = sl_space_locate(&b->map.baked.space, places[i]);
     *state = b;
     return 0;
 }
 
-/// Fails where a test left a file.
-static int tear_down(void **state) {
-    bench *b = *state;
-    const int left = rmdir(b->directory);
-    sl_baked_destroy(b->context, &b->baked);
-    sl_context_destroy(b->context);
-    free(b);
-    return left;
-}
-
-static const char *path_of(bench *b, const char *name) {
-    snprintf(b->path, sizeof b->path, "%s/%s", b->directory, name);
-    return b->path;
-}
-
-static sl_explanation explain(bench *b, int from, int to, uint32_t misses) {
+static sl_explanation explain(draw_bench *b, int from, int to, uint32_t misses) {
     sl_explain_options options = sl_explain_options_default();
     options.most_misses = misses;
     sl_explanation e;
-    assert_ok(b->context,
-              sl_explain(b->context, &b->baked.space, &options, b->cells[from], b->cells[to], &e));
+    assert_ok(b->context, sl_explain(b->context, &b->map.baked.space, &options, b->map.cells[from],
+                                     b->map.cells[to], &e));
     return e;
 }
 
-static sl_bytes drawn(bench *b, const sl_explanation *e, const sl_draw_options *options,
+static sl_bytes drawn(draw_bench *b, const sl_explanation *e, const sl_draw_options *options,
                       const char *name) {
     sl_bytes file;
-    assert_ok(b->context, sl_draw_explanation(b->context, &b->baked, e, options, path_of(b, name)));
+    assert_ok(b->context,
+              sl_draw_explanation(b->context, &b->map.baked, e, options, draw_path(b, name)));
     assert_ok(b->context, sl_file_read(b->context, b->path, &file));
     unlink(b->path);
     return file;
@@ -90,7 +68,7 @@ typedef struct shown {
     int left, right; ///< marks of ends, those of the key and of what decides included
 } shown;
 
-static shown ends_shown(bench *b, int from, int to, uint32_t misses) {
+static shown ends_shown(draw_bench *b, int from, int to, uint32_t misses) {
     sl_explanation e = explain(b, from, to, misses);
     const sl_draw_options options = sl_draw_options_default();
     sl_bytes file = drawn(b, &e, &options, "a.svg");
@@ -103,7 +81,7 @@ static shown ends_shown(bench *b, int from, int to, uint32_t misses) {
 }
 
 static void each_answer_shows_its_ends(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     shown s = ends_shown(b, FIRST, FIRST, 3);
     assert_int_equal(s.left + s.right, 0);
     s = ends_shown(b, FIRST, CLOSET, 3);
@@ -122,7 +100,7 @@ static void each_answer_shows_its_ends(void **state) {
 
 /// Each hidden pair's hulls are filled and stroked in the colours of their ends.
 static void a_hidden_pair_shows_its_conflict(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 3);
     assert_int_equal(e.verdict, SL_HIDDEN);
     assert_true(e.miss_count > 0);
@@ -141,7 +119,7 @@ static const char *const kinds[] = {"a.png", "a.svg", "a.pdf"};
 static const char *const magics[] = {"\x89PNG\r\n\x1a\n", "<?xml", "%PDF-"};
 
 static void all_kinds_of_files_are_the_same_each_time(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_draw_options options = sl_draw_options_default();
     options.width = 500;
     for (int to = 0; to < PLACES; to++) {
@@ -161,7 +139,7 @@ static void all_kinds_of_files_are_the_same_each_time(void **state) {
 }
 
 static void widths_and_titles_of_all_lengths_are_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 1);
     sl_draw_options options = sl_draw_options_default();
     const double widths[] = {SL_DRAW_WIDTH_MIN, 333.3, SL_DRAW_WIDTH_MAX};
@@ -194,16 +172,17 @@ static int files_in(const char *directory) {
 }
 
 static void what_makes_no_sense_is_refused(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 1);
     sl_draw_options options = sl_draw_options_default();
-    assert_int_equal(sl_draw_explanation(b->context, &b->baked, &e, &options, path_of(b, "a.gif")),
-                     SL_BAD_ARGUMENT);
+    assert_int_equal(
+        sl_draw_explanation(b->context, &b->map.baked, &e, &options, draw_path(b, "a.gif")),
+        SL_BAD_ARGUMENT);
     const double widths[] = {63.9, 20000.5, NAN};
     for (int i = 0; i < 3; i++) {
         options.width = widths[i];
         assert_int_equal(
-            sl_draw_explanation(b->context, &b->baked, &e, &options, path_of(b, "a.png")),
+            sl_draw_explanation(b->context, &b->map.baked, &e, &options, draw_path(b, "a.png")),
             SL_BAD_ARGUMENT);
         assert_non_null(strstr(sl_context_message(b->context), "width"));
     }
@@ -212,7 +191,7 @@ static void what_makes_no_sense_is_refused(void **state) {
 }
 
 static void every_failing_allocation_is_reported(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 1);
     const sl_draw_options options = sl_draw_options_default();
     sl_status status = SL_NO_MEMORY;
@@ -220,7 +199,7 @@ static void every_failing_allocation_is_reported(void **state) {
         testing_memory memory = {0};
         sl_context *context = testing_context(&memory);
         memory.fail_at = memory.calls + fail_at;
-        status = sl_draw_explanation(context, &b->baked, &e, &options, path_of(b, "a.svg"));
+        status = sl_draw_explanation(context, &b->map.baked, &e, &options, draw_path(b, "a.svg"));
         if (status != SL_OK) {
             assert_int_equal(status, SL_NO_MEMORY);
             assert_int_equal(files_in(b->directory), 0);
@@ -233,25 +212,21 @@ static void every_failing_allocation_is_reported(void **state) {
     sl_explanation_destroy(b->context, &e);
 }
 
-static bool always(void *user) {
-    (void)user;
-    return true;
-}
-
 static void cancelling_leaves_nothing(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 1);
     const sl_draw_options options = sl_draw_options_default();
-    const sl_hooks hooks = {.cancelled = always};
+    const sl_hooks hooks = {.cancelled = draw_cancelled};
     sl_context *context = sl_context_create(&hooks);
-    assert_int_equal(sl_draw_explanation(context, &b->baked, &e, &options, path_of(b, "a.png")),
-                     SL_CANCELLED);
+    assert_int_equal(
+        sl_draw_explanation(context, &b->map.baked, &e, &options, draw_path(b, "a.png")),
+        SL_CANCELLED);
     assert_int_equal(files_in(b->directory), 0);
     sl_context_destroy(context);
     sl_explanation_destroy(b->context, &e);
 }
 
-#define WITH_BENCH(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
+#define WITH_BENCH(test) cmocka_unit_test_setup_teardown(test, set_up, draw_bench_end)
 
 int main(void) {
     const struct CMUnitTest tests[] = {

@@ -10,38 +10,15 @@
 #include <stddef.h>
 #include <unistd.h>
 
-typedef struct bench {
-    sl_context *context;
-    sl_baked baked;
-    char directory[32], path[64];
-} bench;
-
 static int set_up(void **state) {
-    bench *b = calloc(1, sizeof *b);
+    draw_bench *b = draw_bench_make();
     if (!b) return -1;
-    b->context = testing_context(NULL);
     testing_space(b->context,
                   "walls 0 0 40 0 40 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
                   "wall 20 2 20 10\nwall 30 0 30 8\n",
-                  &b->baked.map, &b->baked.space);
-    draw_directory(b->directory);
+                  &b->map.baked.map, &b->map.baked.space);
     *state = b;
     return 0;
-}
-
-/// Fails where a test left a file.
-static int tear_down(void **state) {
-    bench *b = *state;
-    const int left = rmdir(b->directory);
-    sl_baked_destroy(b->context, &b->baked);
-    sl_context_destroy(b->context);
-    free(b);
-    return left;
-}
-
-static const char *path_of(bench *b, const char *name) {
-    snprintf(b->path, sizeof b->path, "%s/%s", b->directory, name);
-    return b->path;
 }
 
 /// All four cells, three, and one.
@@ -49,18 +26,18 @@ static const uint64_t sets[3] = {15, 7, 1};
 static const sl_eye_layer layers[3] = {
     {"cell_to_cell", &sets[0]}, {"incident_portals", &sets[1]}, {"exact", &sets[2]}};
 
-static sl_bytes drawn(bench *b, const sl_view *view, const char *name) {
+static sl_bytes drawn(draw_bench *b, const sl_view *view, const char *name) {
     const sl_draw_options options = sl_draw_options_default();
     sl_bytes file;
-    assert_ok(b->context, sl_draw_eye(b->context, &b->baked, view, layers, 3, NULL, 0, &options,
-                                      path_of(b, name)));
+    assert_ok(b->context, sl_draw_eye(b->context, &b->map.baked, view, layers, 3, NULL, 0, &options,
+                                      draw_path(b, name)));
     assert_ok(b->context, sl_file_read(b->context, b->path, &file));
     unlink(b->path);
     return file;
 }
 
 static void views_look_different(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_point eye = {5, 5};
     const sl_view views[] = {
         sl_view_all_round(eye),          sl_view_cone(eye, 0, 0, 40),
@@ -85,15 +62,15 @@ static void views_look_different(void **state) {
 
 /// What is seen directly is drawn over the cells.
 static void the_visible_region_is_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_view view = sl_view_all_round((sl_point){5, 5});
     const sl_point corners[4] = {{3, 3}, {7, 3}, {7, 7}, {3, 7}};
     const sl_drawn_region region = {.eye = view.eye, .points = corners, .count = 4};
     const sl_draw_options options = sl_draw_options_default();
     cairo_surface_t *surfaces[2];
     for (size_t i = 0; i < 2; i++) {
-        assert_ok(b->context, sl_draw_eye(b->context, &b->baked, &view, layers, 3, &region, i,
-                                          &options, path_of(b, "eye.png")));
+        assert_ok(b->context, sl_draw_eye(b->context, &b->map.baked, &view, layers, 3, &region, i,
+                                          &options, draw_path(b, "eye.png")));
         surfaces[i] = cairo_image_surface_create_from_png(b->path);
         unlink(b->path);
     }
@@ -113,26 +90,27 @@ static void the_visible_region_is_drawn(void **state) {
 }
 
 static void an_eye_outside_can_be_drawn(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_view view = sl_view_cone((sl_point){-1e6, 5}, 0, 60, 40);
     sl_bytes file = drawn(b, &view, "eye.png");
     assert_true(file.size > 1000);
     sl_free(b->context, file.data);
 }
 
-static void refused(bench *b, const sl_view *view, size_t count, double width, const char *name) {
+static void refused(draw_bench *b, const sl_view *view, size_t count, double width,
+                    const char *name) {
     sl_draw_options options = sl_draw_options_default();
     sl_eye_layer many[SL_EYE_LAYERS_MOST + 1];
     for (size_t i = 0; i <= SL_EYE_LAYERS_MOST; i++) many[i] = layers[0];
     options.width = width;
-    assert_int_equal(
-        sl_draw_eye(b->context, &b->baked, view, many, count, NULL, 0, &options, path_of(b, name)),
-        SL_BAD_ARGUMENT);
+    assert_int_equal(sl_draw_eye(b->context, &b->map.baked, view, many, count, NULL, 0, &options,
+                                 draw_path(b, name)),
+                     SL_BAD_ARGUMENT);
     assert_int_not_equal(access(b->path, F_OK), 0);
 }
 
 static void what_is_refused(void **state) {
-    bench *b = *state;
+    draw_bench *b = *state;
     const sl_view view = sl_view_all_round((sl_point){5, 5});
     const sl_view none = sl_view_all_round((sl_point){NAN, 5});
     refused(b, &view, SL_EYE_LAYERS_MOST + 1, 1200, "eye.png");
@@ -144,10 +122,10 @@ static void what_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(views_look_different, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_visible_region_is_drawn, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(an_eye_outside_can_be_drawn, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(what_is_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(views_look_different, set_up, draw_bench_end),
+        cmocka_unit_test_setup_teardown(the_visible_region_is_drawn, set_up, draw_bench_end),
+        cmocka_unit_test_setup_teardown(an_eye_outside_can_be_drawn, set_up, draw_bench_end),
+        cmocka_unit_test_setup_teardown(what_is_refused, set_up, draw_bench_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,11 +10,13 @@
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/draw.h"
 
+#include <unistd.h>
+
 enum { LEFT_BELOW, RIGHT_BELOW, LEFT_MIDDLE, RIGHT_MIDDLE, OUTSIDE };
 
 typedef struct draw_map {
     sl_baked baked;
-    uint32_t cells[5]; ///< by the names above
+    uint32_t cells[6]; ///< by the names above, or by a test's own
 } draw_map;
 
 /// The map moved and stretched: place (x, y) stands at (x0 + x * x_scale, y0 + y * y_scale).
@@ -89,6 +91,44 @@ static inline draw_map draw_map_make(sl_context *context, draw_place place) {
 static inline void draw_directory(char directory[32]) {
     snprintf(directory, 32, "/tmp/sightline-draw-XXXXXX");
     assert_non_null(mkdtemp(directory));
+}
+
+/// What a test works with: a map, and a directory of its own for pictures.
+typedef struct draw_bench {
+    sl_context *context;
+    draw_map map;
+    char directory[32], path[64];
+} draw_bench;
+
+/// One with no map yet; NULL without memory.
+static inline draw_bench *draw_bench_make(void) {
+    draw_bench *b = calloc(1, sizeof *b);
+    if (!b) return NULL;
+    b->context = testing_context(NULL);
+    draw_directory(b->directory);
+    return b;
+}
+
+/// Fails where a test left a file.
+static inline int draw_bench_end(void **state) {
+    draw_bench *b = *state;
+    const int left = rmdir(b->directory);
+    sl_baked_destroy(b->context, &b->map.baked);
+    sl_context_destroy(b->context);
+    free(b);
+    return left;
+}
+
+/// A file in its directory; good until the next call.
+static inline const char *draw_path(draw_bench *b, const char *name) {
+    snprintf(b->path, sizeof b->path, "%s/%s", b->directory, name);
+    return b->path;
+}
+
+/// For hooks: cancelled from the start.
+static inline bool draw_cancelled(void *user) {
+    (void)user;
+    return true;
 }
 
 /// fontconfig keeps what it has loaded behind offsets, where a leak checker does not find it.
