@@ -119,4 +119,25 @@ static inline void fuzz_read(sl_context *context, const uint8_t *data, size_t si
     sl_map_destroy(context, &map);
 }
 
+/// Reads Tiled, by what the file says itself, by layers and by starts asked for.
+static inline void fuzz_tiled(const uint8_t *data, size_t size, fuzz_reader *read) {
+    sl_context *context = fuzz_context();
+    sl_import_options options = sl_import_options_default();
+    const char *argument = NULL;
+    if (size % 4 == 3) options.layers = "walls,Floor:1+3-9", argument = "layer";
+    if (size % 4 == 2) options.start_names = "player", argument = "--start-names";
+    options.doors = size % 2;
+    fuzz_read(context, data, size, read, &options, argument);
+    sl_context_destroy(context);
+}
+
+/// Reads a virtual table's map, with doors and without.
+static inline void fuzz_tabletop(const uint8_t *data, size_t size, fuzz_reader *read) {
+    sl_context *context = fuzz_context();
+    sl_import_options options = sl_import_options_default();
+    options.doors = size % 2;
+    fuzz_read(context, data, size, read, &options, NULL);
+    sl_context_destroy(context);
+}
+
 #endif

@@ -3,10 +3,6 @@
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    sl_context *context = fuzz_context();
-    sl_import_options options = sl_import_options_default();
-    options.doors = size % 2;
-    fuzz_read(context, data, size, sl_map_read_uvtt, &options, NULL);
-    sl_context_destroy(context);
+    fuzz_tabletop(data, size, sl_map_read_uvtt);
     return 0;
 }

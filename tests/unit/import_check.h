@@ -55,4 +55,24 @@ static inline void assert_refused_of(import_reader *read, const sl_import_option
     sl_context_destroy(context);
 }
 
+/// Each allocation of a reading fails once: nothing is left behind. The options may be NULL.
+static inline void assert_memory_of(import_reader *read, const sl_import_options *options,
+                                    const char *text) {
+    const sl_import_options usual = sl_import_options_default();
+    sl_status status = SL_NO_MEMORY;
+    for (long fail_at = 1; status != SL_OK; fail_at++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        memory.fail_at = memory.calls + fail_at;
+        sl_map map = {0};
+        status = read(context, "f", text, strlen(text), options ? options : &usual, &map);
+        if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
+        if (status != SL_OK) assert_true(map_is_empty(&map));
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        assert_in_range(fail_at, 1, 200);
+    }
+}
+
 #endif

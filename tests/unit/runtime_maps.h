@@ -7,6 +7,7 @@
 #include "bake/slv.h"
 #include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -89,6 +90,35 @@ static inline void baked_file_each(void (*visit)(const baked_file *)) {
     }
     globfree(&found);
     sl_context_destroy(context);
+}
+
+/// A wall on a grid of `size` by `size`, upright or level, up to 4 long.
+static inline sl_segment grid_segment(sl_random *random, int size) {
+    const bool upright = sl_random_below(random, 2);
+    const double at = (double)sl_random_below(random, (uint64_t)size + 1);
+    const double from = (double)sl_random_below(random, (uint64_t)size);
+    const double to = fmin(from + 1 + (double)sl_random_below(random, 4), size);
+    const sl_segment s =
+        upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
+    return sl_random_below(random, 2) ? (sl_segment){s.b, s.a} : s;
+}
+
+/// A room of `size` by `size` with walls and open doors (named a, b, c, ...) anywhere in it. Not
+/// clean yet.
+static inline void grid_rooms(sl_context *context, sl_random *random, int size, int walls,
+                              int doors, sl_map *map) {
+    const sl_point c[5] = {{0, 0}, {size, 0}, {size, size}, {0, size}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(context, sl_map_add_wall(context, map, c[i], c[i + 1], 0));
+    for (int i = 0; i < walls; i++) {
+        const sl_segment at = grid_segment(random, size);
+        assert_ok(context, sl_map_add_wall(context, map, at.a, at.b, 0));
+    }
+    for (int i = 0; i < doors; i++) {
+        const char name[2] = {(char)('a' + i), 0};
+        assert_ok(context,
+                  sl_map_add_door(context, map, name, grid_segment(random, size), true, 0));
+    }
 }
 
 #endif

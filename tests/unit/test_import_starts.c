@@ -667,34 +667,18 @@ static void test_templates(void **state) {
 
 // --- no memory
 
-static void fail_each(import_reader *read, const char *text) {
-    const sl_import_options options = with_doors("player");
-    sl_status status = SL_NO_MEMORY;
-    for (long fail_at = 1; status != SL_OK; fail_at++) {
-        testing_memory memory = {0};
-        sl_context *context = testing_context(&memory);
-        memory.fail_at = memory.calls + fail_at;
-        sl_map map = {0};
-        status = read(context, "f", text, strlen(text), &options, &map);
-        if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
-        if (status != SL_OK) assert_true(map_is_empty(&map));
-        sl_map_destroy(context, &map);
-        sl_context_destroy(context);
-        assert_int_equal(memory.live, 0);
-        assert_in_range(fail_at, 1, 200);
-    }
-}
-
 static void test_memory(void **state) {
     (void)state;
-    fail_each(sl_map_read_tmx,
-              tmx_of("#######\n#..#..#\n#..X..#\n#..#..#\n#######",
-                     OBJECTS(POINT("player", AT("12", "12")) LINE("door", AT("12", "9"), "0,0 4,4")
-                                 NAMED(" door", SIZED("9", "9", "3", "5"))
-                                     NAMED("door", SIZED("9", "9", "3", "5")))));
-    fail_each(sl_map_read_ldtk,
-              ldtk_of(TWO_ROOMS, ENTITY("Door", "24,16", "0,0", EIGHT,
-                                        "") "," ENTITY("Player", "12,12", "0,0", EIGHT, "")));
+    const sl_import_options options = with_doors("player");
+    assert_memory_of(
+        sl_map_read_tmx, &options,
+        tmx_of("#######\n#..#..#\n#..X..#\n#..#..#\n#######",
+               OBJECTS(POINT("player", AT("12", "12")) LINE("door", AT("12", "9"), "0,0 4,4")
+                           NAMED(" door", SIZED("9", "9", "3", "5"))
+                               NAMED("door", SIZED("9", "9", "3", "5")))));
+    assert_memory_of(sl_map_read_ldtk, &options,
+                     ldtk_of(TWO_ROOMS, ENTITY("Door", "24,16", "0,0", EIGHT, "") "," ENTITY(
+                                            "Player", "12,12", "0,0", EIGHT, "")));
 }
 
 int main(void) {

@@ -282,30 +282,13 @@ static void test_export_refused(void **state) {
 
 // --- memory
 
-static void assert_memory(import_reader *read, const char *text) {
-    const sl_import_options options = {.doors = true};
-    sl_status status = SL_NO_MEMORY;
-    for (long fail_at = 1; status != SL_OK; fail_at++) {
-        testing_memory memory = {0};
-        sl_context *context = testing_context(&memory);
-        memory.fail_at = memory.calls + fail_at;
-        sl_map map = {0};
-        status = read(context, "f", text, strlen(text), &options, &map);
-        if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
-        if (status != SL_OK) assert_true(map_is_empty(&map));
-        sl_map_destroy(context, &map);
-        sl_context_destroy(context);
-        assert_int_equal(memory.live, 0);
-        assert_in_range(fail_at, 1, 100);
-    }
-}
-
 static void test_memory(void **state) {
     (void)state;
-    assert_memory(sl_map_read_uvtt, UVTT(LINES "," OBJECTS "," PORTALS));
-    assert_memory(sl_map_read_foundry, DOORS);
-    assert_memory(sl_map_read_export, EVERYTHING);
-    assert_memory(sl_map_read_export, EXPORT(SOLIDS));
+    const sl_import_options options = {.doors = true};
+    assert_memory_of(sl_map_read_uvtt, &options, UVTT(LINES "," OBJECTS "," PORTALS));
+    assert_memory_of(sl_map_read_foundry, &options, DOORS);
+    assert_memory_of(sl_map_read_export, &options, EVERYTHING);
+    assert_memory_of(sl_map_read_export, &options, EXPORT(SOLIDS));
 }
 
 int main(void) {

@@ -827,35 +827,17 @@ static void test_tilesets_beside(void **state) {
     assert_int_equal(rmdir(folder), 0);
 }
 
-/// Each allocation of ours fails once.
-static void fail_each_allocation(const char *text) {
-    const sl_import_options options = sl_import_options_default();
-    sl_status status = SL_NO_MEMORY;
-    for (long fail_at = 1; status != SL_OK; fail_at++) {
-        testing_memory memory = {0};
-        sl_context *context = testing_context(&memory);
-        memory.fail_at = memory.calls + fail_at;
-        sl_map map = {0};
-        status = sl_map_read_tmx(context, "f", text, strlen(text), &options, &map);
-        if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
-        if (status != SL_OK) assert_true(map_is_empty(&map));
-        sl_map_destroy(context, &map);
-        sl_context_destroy(context);
-        assert_int_equal(memory.live, 0);
-        assert_in_range(fail_at, 1, 100);
-    }
-}
-
 static void test_memory(void **state) {
     (void)state;
-    fail_each_allocation(
+    assert_memory_of(
+        sl_map_read_tmx, NULL,
         MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
                 LAYER("a", DATA("encoding='base64' compression='zlib'",
                                 ZLIB)) "<objectgroup "
                                        "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>"));
-    fail_each_allocation(WITH_OBJECTS("isometric", "3", START("12", "10")));
-    fail_each_allocation(TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"));
-    fail_each_allocation(WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16")));
+    assert_memory_of(sl_map_read_tmx, NULL, WITH_OBJECTS("isometric", "3", START("12", "10")));
+    assert_memory_of(sl_map_read_tmx, NULL, TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"));
+    assert_memory_of(sl_map_read_tmx, NULL, WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16")));
 }
 
 int main(void) {

@@ -22,29 +22,6 @@ static double below(trial *t, uint64_t bound) {
     return (double)sl_random_below(&t->random, bound);
 }
 
-static sl_segment random_segment(trial *t) {
-    const bool upright = sl_random_below(&t->random, 2);
-    const double at = below(t, SIZE + 1), from = below(t, SIZE);
-    const double to = from + 1 + below(t, 4);
-    return upright ? (sl_segment){{at, from}, {at, fmin(to, SIZE)}}
-                   : (sl_segment){{from, at}, {fmin(to, SIZE), at}};
-}
-
-static void random_map(trial *t, sl_map *map) {
-    const sl_point c[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
-    for (int i = 0; i < 4; i++)
-        assert_ok(t->context, sl_map_add_wall(t->context, map, c[i], c[i + 1], 0));
-    for (int i = 0; i < 10; i++) {
-        const sl_segment at = random_segment(t);
-        assert_ok(t->context, sl_map_add_wall(t->context, map, at.a, at.b, 0));
-    }
-    for (int i = 0; i < DOORS; i++) {
-        const char name[2] = {(char)('a' + i), 0};
-        assert_ok(t->context, sl_map_add_door(t->context, map, name, random_segment(t), true, 0));
-    }
-    assert_ok(t->context, sl_map_clean(t->context, map, NULL, NULL));
-}
-
 // --- how far what is seen of a cell is
 
 /// What of a polygon lies at the left of the line from a to b.
@@ -189,7 +166,8 @@ static void as_walls_in_the_doors(void **state) {
     for (uint64_t seed = 1; seed <= MAPS; seed++) {
         t.random = (sl_random){seed};
         t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
-        random_map(&t, &t.file.baked.map);
+        grid_rooms(t.context, &t.random, SIZE, 10, DOORS, &t.file.baked.map);
+        assert_ok(t.context, sl_map_clean(t.context, &t.file.baked.map, NULL, NULL));
         baked_file_make(t.context, &t.file, false);
         assert_true(t.file.runtime.cell_count <= CELLS_MOST);
         for (int i = 0; i < STATES; i++) {
