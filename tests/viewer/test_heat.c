@@ -1,50 +1,23 @@
 // The heat map of the viewer: its values are those of the library for the map as it is now, with
 // doors shut or open and after a change; it ends when it is told to.
-#include "testing.h"
+#include "viewer_app.h"
 
-#include "actions.h"
-#include "app.h"
-#include "files.h"
-#include "input.h"
-#include "script.h"
 #include "sightline/bake.h"
-#include "sightline/io.h"
 
 #include <math.h>
 #include <time.h>
 
-#ifndef MAPS
-#error "MAPS: the folder of the maps"
-#endif
-
 // --- the viewer
 
 static app_state *start(const char *map) {
-    sl_context *context = sl_context_create(NULL);
-    app_state *app = calloc(1, sizeof *app);
-    assert_non_null(context);
-    assert_non_null(app);
-    assert_int_equal(sl_io_use(context), SL_OK);
-    app_init(app, context);
-    app->options = sl_import_options_default();
-    app->steady = true;
-    files_open(app, map, false);
-    app_settle(app);
-    if (!app->document.baked) fail_msg("%s: %s", map, app->ui.message);
+    app_state *app = viewer_start(true);
+    viewer_open(app, map);
     script_frame(app);
     return app;
 }
 
-static void end(app_state *app) {
-    sl_context *context = app->context;
-    app_destroy(app);
-    free(app);
-    sl_context_destroy(context);
-}
-
 static void press_key(app_state *app, const char *key) {
-    input_key(app, key, true);
-    input_key(app, key, false);
+    viewer_press(app, key);
     app_tick(app, 0);
 }
 
@@ -152,7 +125,7 @@ static void test_measures(void **state) {
         assert_int_equal(app->view.heat_choice.measure, 0);
         press_key(app, "3");
         assert_int_equal(app->view.heat_choice.measure, count - 1);
-        end(app);
+        viewer_end(app);
     }
 }
 
@@ -182,7 +155,7 @@ static void test_changes(void **state) {
     app_tick(app, 0);
     assert_fresh(app);
     assert_true((shown(app, &graph), graph->graph.edges) < before);
-    end(app);
+    viewer_end(app);
 }
 
 /// The scale that is kept stays while a door is shut. Another measure lets it go.
@@ -203,7 +176,7 @@ static void test_kept_scale(void **state) {
     press_key(app, "7");
     press_key(app, "2");
     assert_fresh(app);
-    end(app);
+    viewer_end(app);
 }
 
 static void point_at(app_state *app, sl_point at) {
@@ -249,7 +222,7 @@ static void test_steps(void **state) {
     free(steps);
     drop_fresh(context, &f);
     sl_context_destroy(context);
-    end(app);
+    viewer_end(app);
 }
 
 /// Mirrors and one-way glass are refused by name, and nothing is shown.
@@ -265,7 +238,7 @@ static void test_refused(void **state) {
         assert_non_null(strstr(app->ui.message, "heat map"));
         assert_non_null(strstr(app->ui.message, maps[m][1]));
         assert_null(heat_layer_values(app, &graph));
-        end(app);
+        viewer_end(app);
     }
 }
 
@@ -295,7 +268,7 @@ static void test_stopped(void **state) {
         app->view.heat_choice.step = 0.25;
         app_tick(app, 0);
         nanosleep(&pause, NULL);
-        end(app);
+        viewer_end(app);
     }
 }
 
@@ -314,7 +287,7 @@ static void test_fills(void **state) {
     assert_int_equal(layers_fill(app), LAYER_CULL);
     press_key(app, "M");
     assert_int_equal(layers_fill(app), LAYER_REGION);
-    end(app);
+    viewer_end(app);
 }
 
 int main(void) {

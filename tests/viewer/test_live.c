@@ -1,50 +1,16 @@
 // Dragging walls, corners and doors: at each step the viewer has the cells, the region and the
 // culling of a fresh bake of the map as it is then. Jobs end when they are told to.
-#include "testing.h"
+#include "viewer_app.h"
 
-#include "actions.h"
-#include "app.h"
-#include "files.h"
-#include "input.h"
-#include "script.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
-#include "sightline/io.h"
 
 #include <dirent.h>
 #include <math.h>
 #include <time.h>
 #include <unistd.h>
 
-#ifndef MAPS
-#error "MAPS: the folder of the maps"
-#endif
-
 // --- the viewer
-
-static app_state *start(bool steady) {
-    sl_context *context = sl_context_create(NULL);
-    app_state *app = calloc(1, sizeof *app);
-    assert_non_null(context);
-    assert_non_null(app);
-    assert_int_equal(sl_io_use(context), SL_OK);
-    app_init(app, context);
-    app->options = sl_import_options_default();
-    app->steady = steady;
-    return app;
-}
-
-static void end(app_state *app) {
-    sl_context *context = app->context;
-    app_destroy(app);
-    free(app);
-    sl_context_destroy(context);
-}
-
-static void press_key(app_state *app, const char *key) {
-    input_key(app, key, true);
-    input_key(app, key, false);
-}
 
 /// Lets time pass until the background has nothing left to do.
 static void wait_for_all(app_state *app) {
@@ -58,10 +24,8 @@ static void wait_for_all(app_state *app) {
 }
 
 static void open_map(app_state *app, const char *path) {
-    files_open(app, path, false);
-    app_settle(app);
-    if (!app->document.baked) fail_msg("%s: %s", path, app->ui.message);
-    press_key(app, "F3");
+    viewer_open(app, path);
+    viewer_press(app, "F3");
     script_frame(app);
 }
 
@@ -196,10 +160,10 @@ static void test_maps(void **state) {
     for (size_t i = 0; i < 2 * sizeof maps / sizeof *maps; i++) {
         char path[4096];
         snprintf(path, sizeof path, "%s/%s", MAPS, maps[i / 2]);
-        app_state *app = start(i % 2 == 0);
+        app_state *app = viewer_start(i % 2 == 0);
         open_map(app, path);
         drag_much(app, i);
-        end(app);
+        viewer_end(app);
     }
 }
 
@@ -231,10 +195,10 @@ static void test_turned(void **state) {
     static const double angles[] = {30, 45, 0.001};
     for (int i = 0; i < 3; i++) {
         write_turned("turned.map", angles[i], 300);
-        app_state *app = start(true);
+        app_state *app = viewer_start(true);
         open_map(app, "turned.map");
         drag_much(app, 100 + (uint64_t)i);
-        end(app);
+        viewer_end(app);
     }
     remove("turned.map");
 }
@@ -252,7 +216,7 @@ static size_t ends_at(const sl_map *map, sl_point at) {
 
 static void test_corner(void **state) {
     (void)state;
-    app_state *app = start(true);
+    app_state *app = viewer_start(true);
     open_map(app, MAPS "/oblique/chapel.map");
     const sl_map *map = &app->document.map;
     sl_point corner = map->walls[0].a;
@@ -263,17 +227,17 @@ static void test_corner(void **state) {
     assert_true(drag(app, corner, 25, 10, true) > 0);
     assert_int_equal(map->wall_count, walls);
     assert_int_equal(ends_at(map, corner), 0);
-    press_key(app, "Ctrl+Z");
+    viewer_press(app, "Ctrl+Z");
     app_settle(app);
     assert_int_equal(ends_at(&app->document.map, corner), ends);
     assert_fresh(app, true);
-    end(app);
+    viewer_end(app);
 }
 
 static void test_door(void **state) {
     (void)state;
     for (int steady = 0; steady < 2; steady++) {
-        app_state *app = start(steady);
+        app_state *app = viewer_start(steady);
         open_map(app, MAPS "/effects/doors.map");
         const sl_segment door = app->document.map.doors[0].segment;
         const size_t walls = app->document.map.wall_count;
@@ -285,7 +249,7 @@ static void test_door(void **state) {
         assert_true(now.b.y - now.a.y == door.b.y - door.a.y);
         assert_int_equal(app->document.map.wall_count, walls);
         assert_memory_equal(&app->document.map.walls[0], &first, sizeof first);
-        end(app);
+        viewer_end(app);
     }
 }
 
@@ -294,7 +258,7 @@ static void test_taken_back(void **state) {
     (void)state;
     static const char *const keys[] = {"Escape", "Ctrl+Z"};
     for (int i = 0; i < 4; i++) {
-        app_state *app = start(i % 2);
+        app_state *app = viewer_start(i % 2);
         open_map(app, MAPS "/effects/doors.map");
         const sl_wall *was = app->document.map.walls;
         const size_t count = app->document.map.wall_count;
@@ -303,7 +267,7 @@ static void test_taken_back(void **state) {
         const sl_point from =
             i < 2 ? middle(was[1].a, was[1].b) : (sl_point){was[1].a.x, was[1].a.y};
         assert_true(drag(app, from, 30, 25, false) > 0);
-        press_key(app, keys[i % 2]);
+        viewer_press(app, keys[i % 2]);
         assert_int_equal(app->tool.drag.kind, DRAG_NONE);
         input_move(app, (sl_point){5, 5});
         input_release(app, (sl_point){5, 5});
@@ -314,7 +278,7 @@ static void test_taken_back(void **state) {
         assert_int_equal(app->document.history.done_count, 0);
         assert_fresh(app, true);
         free(before);
-        end(app);
+        viewer_end(app);
     }
 }
 
@@ -343,7 +307,7 @@ static void test_mended(void **state) {
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
         char path[4096];
         snprintf(path, sizeof path, "%s/%s", MAPS, maps[i]);
-        app_state *app = start(true);
+        app_state *app = viewer_start(true);
         open_map(app, path);
         const sl_wall *wall = &app->document.map.walls[app->document.map.wall_count / 2];
         assert_true(drag(app, wall->a, 30, 20, false) > 0);
@@ -361,24 +325,24 @@ static void test_mended(void **state) {
             if (share > 0.004) fail_msg("%s: %.2f %% differ", maps[i], 100 * share);
             cairo_surface_destroy(mended[k]);
         }
-        end(app);
+        viewer_end(app);
     }
 }
 
 /// A wall that is drawn shows while it is drawn.
 static void test_new_wall(void **state) {
     (void)state;
-    app_state *app = start(true);
+    app_state *app = viewer_start(true);
     open_map(app, MAPS "/office.map");
     const size_t walls = app->document.map.wall_count;
     const sl_box b = app->document.baked->space.bounds;
     const sl_point outside = {b.min.x - 0.02 * (b.max.x - b.min.x), b.min.y};
     assert_true(drag(app, outside, 60, -35, true) > 0);
     assert_int_equal(app->document.map.wall_count, walls + 1);
-    press_key(app, "Ctrl+Z");
+    viewer_press(app, "Ctrl+Z");
     app_settle(app);
     assert_int_equal(app->document.map.wall_count, walls);
-    end(app);
+    viewer_end(app);
 }
 
 // --- jobs that end
@@ -386,7 +350,7 @@ static void test_new_wall(void **state) {
 static void test_stopped(void **state) {
     (void)state;
     write_turned("large.map", 30, 20000);
-    app_state *app = start(true);
+    app_state *app = viewer_start(true);
     open_map(app, MAPS "/office.map");
     const uint32_t cells = app->document.baked->space.cell_count;
     const uint32_t version = app->document.version;
@@ -396,13 +360,13 @@ static void test_stopped(void **state) {
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
     // Whatever stage it is in: it ends, and the map that was open stays.
     if (app->document.version == version) {
-        press_key(app, "Escape");
+        viewer_press(app, "Escape");
         assert_null(app->document.job);
         assert_int_equal(app->document.baked->space.cell_count, cells);
         assert_true(app->document.has_visibility);
         assert_false(document_is_late(&app->document));
     }
-    end(app);
+    viewer_end(app);
     remove("large.map");
 }
 
@@ -411,15 +375,15 @@ static void test_closed(void **state) {
     (void)state;
     write_turned("large.map", 30, 20000);
     for (int waits = 0; waits < 40; waits += 13) {
-        app_state *app = start(false);
-        press_key(app, "F5"); // view cells as well
+        app_state *app = viewer_start(false);
+        viewer_press(app, "F5"); // view cells as well
         files_open(app, "large.map", false);
         for (int i = 0; i < waits; i++) {
             const struct timespec pause = {0, 20000000};
             nanosleep(&pause, NULL);
             app_tick(app, 0.02);
         }
-        end(app);
+        viewer_end(app);
     }
     remove("large.map");
 }
@@ -455,16 +419,16 @@ static void wait_for_pictures(app_state *app) {
 /// Saves the way, and answers the question of how many pictures that are.
 static void save_way(app_state *app) {
     action_run(app, action_find("export_series"));
-    press_key(app, "S");
+    viewer_press(app, "S");
 }
 
 static void test_exported(void **state) {
     (void)state;
-    app_state *app = start(false);
+    app_state *app = viewer_start(false);
     open_map(app, MAPS "/office.map");
-    press_key(app, "F9");
+    viewer_press(app, "F9");
     for (int i = 0; i < 20; i++) app_tick(app, 1.0 / 60);
-    press_key(app, "F9");
+    viewer_press(app, "F9");
     const size_t frames = app->tool.recorder.frames.count;
     assert_true(frames > 10);
     save_way(app);
@@ -474,12 +438,12 @@ static void test_exported(void **state) {
     // Stopped: each picture is whole or not there.
     save_way(app);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
-    press_key(app, "Escape");
+    viewer_press(app, "Escape");
     assert_null(app->exports);
     assert_true(take_away("sightline-frames") <= 3);
     static const char *const keys[] = {"Ctrl+E", "Ctrl+G", "Ctrl+P"};
     for (int i = 0; i < 3; i++) {
-        press_key(app, keys[i]);
+        viewer_press(app, keys[i]);
         wait_for_pictures(app);
         assert_int_equal(strncmp(app->ui.message, "saved ", 6), 0);
         assert_int_equal(remove(app->ui.message + 6), 0);
@@ -487,14 +451,14 @@ static void test_exported(void **state) {
     // Closed while a picture is being written.
     save_way(app);
     app_tick(app, 0.001);
-    end(app);
+    viewer_end(app);
     take_away("sightline-frames");
 }
 
 /// Words about what was done go after a while, errors do not.
 static void test_message(void **state) {
     (void)state;
-    app_state *app = start(true);
+    app_state *app = viewer_start(true);
     open_map(app, MAPS "/office.map");
     app->steady = false;
     ui_say(&app->ui, false, "done");
@@ -507,7 +471,7 @@ static void test_message(void **state) {
     app_tick(app, 30);
     app_tick(app, 0);
     assert_string_equal(app->ui.message, "wrong");
-    end(app);
+    viewer_end(app);
 }
 
 int main(void) {

@@ -1,0 +1,49 @@
+/// The viewer without a window, for tests of its state.
+#ifndef SL_TEST_VIEWER_APP_H
+#define SL_TEST_VIEWER_APP_H
+
+#include "testing.h"
+
+#include "actions.h"
+#include "app.h"
+#include "files.h"
+#include "input.h"
+#include "script.h"
+#include "sightline/io.h"
+
+#ifndef MAPS
+#error "MAPS: the folder of the maps"
+#endif
+
+/// With no map; `steady` has each job done before the next step.
+static inline app_state *viewer_start(bool steady) {
+    sl_context *context = sl_context_create(NULL);
+    app_state *app = calloc(1, sizeof *app);
+    assert_non_null(context);
+    assert_non_null(app);
+    assert_int_equal(sl_io_use(context), SL_OK);
+    app_init(app, context);
+    app->options = sl_import_options_default();
+    app->steady = steady;
+    return app;
+}
+
+static inline void viewer_open(app_state *app, const char *map) {
+    files_open(app, map, false);
+    app_settle(app);
+    if (!app->document.baked) fail_msg("%s: %s", map, app->ui.message);
+}
+
+static inline void viewer_end(app_state *app) {
+    sl_context *context = app->context;
+    app_destroy(app);
+    free(app);
+    sl_context_destroy(context);
+}
+
+static inline void viewer_press(app_state *app, const char *key) {
+    input_key(app, key, true);
+    input_key(app, key, false);
+}
+
+#endif
