@@ -157,3 +157,13 @@ def html(handle: Any) -> str:
     coded = base64.b64encode(svg(handle).encode("utf-8")).decode("ascii")
     return (f'<img alt="{escaping.escape(repr(handle))}" '
             f'src="data:image/svg+xml;base64,{coded}">')
+
+
+class InNotebooks:
+    """What notebooks show of a plan or a level."""
+
+    def _repr_svg_(self) -> str:
+        return svg(self)
+
+    def _repr_html_(self) -> str:
+        return html(self)

@@ -113,7 +113,7 @@ class Explanation:
         return why
 
 
-class Level(Handle):
+class Level(drawing.InNotebooks, Handle):
     """A baked plan: cells, the portals between them, and which cells see each other.
 
     `Plan.bake` makes one, and `Level.open` reads one. Several threads may use a level: they take
@@ -601,12 +601,6 @@ class Level(Handle):
     def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draw with matplotlib; returns the axes. `cells=True`, `portals=True` add these."""
         return drawing.plot(self, ax, **style)
-
-    def _repr_svg_(self) -> str:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
-        return drawing.html(self)
 
     def __repr__(self) -> str:
         if self.closed:

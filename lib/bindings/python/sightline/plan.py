@@ -27,7 +27,7 @@ _DOUBTS = {
 }
 
 
-class Plan(Handle):
+class Plan(drawing.InNotebooks, Handle):
     """A plan: walls, solid ground, doors, mirrors, one-way glass, starts and a view range.
 
     Lengths are in any unit, and y grows upwards.
@@ -407,12 +407,6 @@ class Plan(Handle):
     def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draw walls, doors, mirrors, glass and starts with matplotlib; returns the axes."""
         return drawing.plot(self, ax, **style)
-
-    def _repr_svg_(self) -> str:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
-        return drawing.html(self)
 
     def __repr__(self) -> str:
         if self.closed:
