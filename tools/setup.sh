@@ -3,7 +3,7 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
-# groff, the Python package jsonschema, what the tests of our own Python package use, and Chromium and
+# groff, abidw, the Python package jsonschema, what the tests of our own Python package use, and Chromium and
 # npm for the tests of the pages. --web adds what tools/web.sh needs: clang, lld, wasi-libc,
 # compiler-rt for WebAssembly, binaryen and node.
 #
@@ -101,6 +101,7 @@ is_there() {
     xdotool) has xdotool ;;
     aspell) has aspell && aspell dump dicts | grep -q '^en' ;;
     groff) has groff ;;
+    abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
     clang | clang-format | clang-tidy | doxygen | llvm-symbolizer | node | npm) has "$1" ;;
@@ -137,6 +138,7 @@ package() { # system thing
     apt:clang-sanitizers) echo libclang-rt-dev ;;
     apt:wasm) echo lld wasi-libc libclang-rt-dev-wasm32 ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
+    apt:abidw) echo abigail-tools ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
     apt:numpy | apt:scipy | apt:pandas | apt:geopandas | apt:matplotlib) echo "python3-$2" ;;
     apt:nbconvert | apt:ipykernel | apt:wheel | apt:pip) echo "python3-$2" ;;
@@ -157,6 +159,7 @@ package() { # system thing
     dnf:mpi) echo openmpi-devel ;;
     dnf:xvfb) echo xorg-x11-server-Xvfb ;;
     dnf:x11) echo libX11-devel ;;
+    dnf:abidw | pacman:abidw | brew:abidw) echo libabigail ;;
     dnf:libpng | dnf:libxml2 | dnf:libyaml) echo "$2-devel" ;;
     dnf:cmocka) echo libcmocka-devel ;;
 
@@ -230,7 +233,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
 [ $web = yes ] && things="$things clang wasm binaryen node"
 
 missing=
