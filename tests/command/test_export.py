@@ -330,6 +330,17 @@ ENTRY {
             self.assertIn(f"`{name}`", text)
 
 
+    def test_files_of_older_versions(self):
+        """A baked file and an export of 0.1.0 still say what they said."""
+        for stored in sorted((ROOT / "tests/old_files").glob("*.json")):
+            before = json.loads(stored.read_text(encoding="utf-8"))
+            self.printed("bake", stored, "-o", "again.slv", "-q")
+            for baked in stored.with_suffix(".slv"), "again.slv":
+                with self.subTest(stored.name, read_from=str(baked)):
+                    now = json.loads(self.printed("export", baked))
+                    self.assertEqual({key: now.get(key) for key in before}, before)
+        self.assertTrue(before)
+
 if __name__ == "__main__":
     warnings.simplefilter("ignore", DeprecationWarning)
     sandbox.main()
