@@ -104,14 +104,16 @@ void progress_line_tick(progress_line *line) {
 /// the signal's number; lock-free and atomic because worker threads read it.
 static atomic_bool interrupted;
 
-/// The same for: whether the first signal is only noted, and whether it came.
-static atomic_bool asks_first, asked;
+/// The same for: whether the first signal is only noted, and whether it came. RISC-V exchanges no
+/// single bytes without a lock.
+static atomic_bool asks_first;
+static atomic_int asked;
 
 /// The first signal makes the running call stop and tidy up; the next one ends the program. Where
 /// the first one is only noted, the second and the third do this.
 static void on_signal(int number) {
     (void)number;
-    if (atomic_load(&asks_first) && !atomic_exchange(&asked, true)) return;
+    if (atomic_load(&asks_first) && !atomic_exchange(&asked, 1)) return;
     atomic_store(&interrupted, true);
     system_on_interruption(NULL);
 }
@@ -121,7 +123,7 @@ void console_ask_first(void) {
 }
 
 bool console_is_asked(void) {
-    return atomic_load(&asked);
+    return atomic_load(&asked) != 0;
 }
 
 void console_print_text(FILE *stream, const char *text, size_t length) {

@@ -1,6 +1,7 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
 #include "base/base.h"
+#include "base/size.h"
 #include "effects/mirrors.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
@@ -85,25 +86,27 @@ static sl_status find_section(const reader *r, const char *tag, size_t item_byte
     return SL_OK;
 }
 
-/// Copies a section's items; SL_OK and none where an optional one is missing.
+/// Copies a section's items; SL_OK and none where an optional one is missing. `items` is the
+/// address of a T *, written as bytes: a T * is no void * to the compiler.
 static sl_status load(const reader *r, const char *tag, size_t item_bytes, bool optional,
-                      void **items, uint64_t *count) {
+                      void *items, uint64_t *count) {
     sli_slv_section s;
     bool found;
     *count = 0;
     SL_TRY(find_section(r, tag, item_bytes, &s, &found));
     if (!found && optional) return SL_OK;
     if (!found) return sl_fail_at(r->context, r->name, 0, "damaged: section %s is missing", tag);
-    *items = sl_alloc_array(r->context, s.count, item_bytes);
-    if (!*items) return SL_NO_MEMORY;
-    if (s.count) memcpy(*items, r->bytes + s.offset, s.count * item_bytes);
-    sli_slv_order(tag, s.item_bytes, *items, s.count);
+    void *copy = sl_alloc_array(r->context, sli_size(s.count), item_bytes);
+    if (!copy) return SL_NO_MEMORY;
+    if (s.count) memcpy(copy, r->bytes + s.offset, sli_size(s.count * item_bytes));
+    sli_slv_order(tag, s.item_bytes, copy, s.count);
+    memcpy(items, &copy, sizeof copy);
     *count = s.count;
     return SL_OK;
 }
 
 /// As load, into a field of 32 bits.
-static sl_status load_counted(const reader *r, const char *tag, size_t item_bytes, void **items,
+static sl_status load_counted(const reader *r, const char *tag, size_t item_bytes, void *items,
                               uint32_t *count) {
     uint64_t found;
     SL_TRY(load(r, tag, item_bytes, false, items, &found));
@@ -168,8 +171,7 @@ static sl_status copy_walls(const reader *r, const sl_segment *segments, uint32_
 static sl_status load_walls(const reader *r) {
     sl_space *space = &r->out->space;
     sl_segment *segments = NULL;
-    sl_status status =
-        load_counted(r, "WALL", sizeof *segments, (void **)&segments, &space->wall_count);
+    sl_status status = load_counted(r, "WALL", sizeof *segments, &segments, &space->wall_count);
     if (status == SL_OK) {
         space->walls = sl_alloc_array(r->context, space->wall_count, sizeof *space->walls);
         status =
@@ -182,8 +184,8 @@ static sl_status load_walls(const reader *r) {
 static sl_status load_seams(const reader *r) {
     sl_space *s = &r->out->space;
     uint64_t seams, portals;
-    SL_TRY(load(r, "SEAM", sizeof *s->seams, true, (void **)&s->seams, &seams));
-    SL_TRY(load(r, "SEPO", sizeof *s->seam_portals, true, (void **)&s->seam_portals, &portals));
+    SL_TRY(load(r, "SEAM", sizeof *s->seams, true, &s->seams, &seams));
+    SL_TRY(load(r, "SEPO", sizeof *s->seam_portals, true, &s->seam_portals, &portals));
     if (seams > INT32_MAX || portals > UINT32_MAX)
         return fail_file(r, "damaged: section SEAM or SEPO is too long");
     s->seam_count = (uint32_t)seams;
@@ -208,8 +210,8 @@ static sl_status check_seams(const reader *r) {
 static sl_status load_grid(const reader *r) {
     sl_cell_grid *g = &r->out->space.grid;
     uint64_t buckets, entries;
-    SL_TRY(load(r, "GRIO", sizeof *g->first, false, (void **)&g->first, &buckets));
-    SL_TRY(load(r, "GRIC", sizeof *g->cells, false, (void **)&g->cells, &entries));
+    SL_TRY(load(r, "GRIO", sizeof *g->first, false, &g->first, &buckets));
+    SL_TRY(load(r, "GRIC", sizeof *g->cells, false, &g->cells, &entries));
     if (buckets != (uint64_t)g->columns * g->rows + 1 || entries > UINT32_MAX)
         return fail_file(r, "damaged: sections GRIO and GRIC make no grid");
     g->entry_count = (uint32_t)entries;
@@ -246,14 +248,14 @@ static sl_status loosen(const reader *r) {
 
 static sl_status load_space(const reader *r) {
     sl_space *s = &r->out->space;
-    SL_TRY(load_counted(r, "NODE", sizeof *s->nodes, (void **)&s->nodes, &s->node_count));
-    SL_TRY(load_counted(r, "CELL", sizeof *s->cells, (void **)&s->cells, &s->cell_count));
-    SL_TRY(load_counted(r, "VERT", sizeof *s->vertices, (void **)&s->vertices, &s->vertex_count));
-    SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
-    SL_TRY(load_counted(r, "EXIT", sizeof *s->directed, (void **)&s->directed, &s->directed_count));
+    SL_TRY(load_counted(r, "NODE", sizeof *s->nodes, &s->nodes, &s->node_count));
+    SL_TRY(load_counted(r, "CELL", sizeof *s->cells, &s->cells, &s->cell_count));
+    SL_TRY(load_counted(r, "VERT", sizeof *s->vertices, &s->vertices, &s->vertex_count));
+    SL_TRY(load_counted(r, "PORT", sizeof *s->portals, &s->portals, &s->portal_count));
+    SL_TRY(load_counted(r, "EXIT", sizeof *s->directed, &s->directed, &s->directed_count));
     SL_TRY(load_walls(r));
     uint64_t sides;
-    SL_TRY(load(r, "BEYO", sizeof *s->neighbour, true, (void **)&s->neighbour, &sides));
+    SL_TRY(load(r, "BEYO", sizeof *s->neighbour, true, &s->neighbour, &sides));
     SL_TRY(load_seams(r));
     if (s->neighbour && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
@@ -269,9 +271,9 @@ static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *
                           bool optional, sl_pvs *pvs) {
     const uint32_t cells = r->out->space.cell_count;
     uint64_t offsets, bytes;
-    SL_TRY(load(r, offsets_tag, sizeof *pvs->offsets, optional, (void **)&pvs->offsets, &offsets));
+    SL_TRY(load(r, offsets_tag, sizeof *pvs->offsets, optional, &pvs->offsets, &offsets));
     if (!offsets && optional) return SL_OK;
-    SL_TRY(load(r, bytes_tag, 1, false, (void **)&pvs->bytes, &bytes));
+    SL_TRY(load(r, bytes_tag, 1, false, &pvs->bytes, &bytes));
     if (offsets != (uint64_t)cells + 1 || pvs->offsets[cells] != bytes)
         return fail_file(r, "damaged: not one visible set a cell");
     pvs->cell_count = cells;
@@ -293,8 +295,8 @@ static sl_status load_doors(const reader *r, const char *offsets_tag, const char
     SL_TRY(find_section(r, offsets_tag, sizeof *sets->offsets, &section, &has_offsets));
     SL_TRY(find_section(r, bytes_tag, 1, &section, &has_bytes));
     if (!has_offsets && !has_bytes) return SL_OK;
-    SL_TRY(load(r, offsets_tag, sizeof *sets->offsets, false, (void **)&sets->offsets, &offsets));
-    SL_TRY(load(r, bytes_tag, 1, false, (void **)&sets->bytes, &bytes));
+    SL_TRY(load(r, offsets_tag, sizeof *sets->offsets, false, &sets->offsets, &offsets));
+    SL_TRY(load(r, bytes_tag, 1, false, &sets->bytes, &bytes));
     if (offsets != (uint64_t)cells + 1 || sets->offsets[cells] != bytes)
         return fail_file(r, "damaged: not one row of door sets a cell");
     sets->cell_count = cells;
@@ -356,9 +358,9 @@ static sl_status load_trees(const reader *r) {
     sl_stab_trees *trees = &r->out->visibility.trees;
     const uint32_t cells = r->out->space.cell_count;
     uint64_t offsets, nodes;
-    SL_TRY(load(r, "TREO", sizeof *trees->offsets, true, (void **)&trees->offsets, &offsets));
+    SL_TRY(load(r, "TREO", sizeof *trees->offsets, true, &trees->offsets, &offsets));
     if (!offsets) return SL_OK;
-    SL_TRY(load(r, "TREN", sizeof *trees->nodes, false, (void **)&trees->nodes, &nodes));
+    SL_TRY(load(r, "TREN", sizeof *trees->nodes, false, &trees->nodes, &nodes));
     if (offsets != (uint64_t)cells + 1 || trees->offsets[0] != 0 || trees->offsets[cells] != nodes)
         return fail_file(r, "damaged: not one stab tree a cell");
     for (uint32_t i = 0; i < cells; i++)
@@ -383,8 +385,8 @@ static sl_status load_views(const reader *r) {
     memcpy(&told, r->bytes + s.offset, sizeof told);
     sli_slv_order("VCIN", sizeof told, &told, 1);
     uint32_t cells, nodes;
-    SL_TRY(load_counted(r, "VCEL", sizeof *views->view_cells, (void **)&views->view_cells, &cells));
-    SL_TRY(load_counted(r, "VCPA", sizeof *views->parents, (void **)&views->parents, &nodes));
+    SL_TRY(load_counted(r, "VCEL", sizeof *views->view_cells, &views->view_cells, &cells));
+    SL_TRY(load_counted(r, "VCPA", sizeof *views->parents, &views->parents, &nodes));
     SL_TRY(load_pvs(r, "VCRO", "VCRB", false, &views->rows));
     if (cells != views->rows.cell_count || nodes != told.node_count)
         return fail_file(r, "damaged: sections VCIN, VCEL and VCPA do not fit");
@@ -398,7 +400,8 @@ static sl_status load_map(const reader *r) {
     bool found;
     SL_TRY(find_section(r, "MAPT", 1, &s, &found));
     if (!found) return fail_file(r, "damaged: section MAPT is missing");
-    SL_TRY(sl_map_read_text(r->context, r->name, r->bytes + s.offset, s.count, &r->out->map));
+    SL_TRY(sl_map_read_text(r->context, r->name, r->bytes + s.offset, sli_size(s.count),
+                            &r->out->map));
     if (r->out->map.wall_count || r->out->map.cell_count)
         return fail_file(r, "damaged: section MAPT holds walls or cells");
     return SL_OK;
@@ -413,7 +416,7 @@ static bool bits_beyond_are_clear(const sl_partial *partial) {
 
 static sl_status load_done(const reader *r, sl_partial *partial) {
     uint64_t words;
-    SL_TRY(load(r, "DONE", sizeof *partial->done, false, (void **)&partial->done, &words));
+    SL_TRY(load(r, "DONE", sizeof *partial->done, false, &partial->done, &words));
     if (words != sl_bits_words(partial->unit_count) || !bits_beyond_are_clear(partial))
         return fail_file(r, "damaged: section DONE does not tell of each unit");
     for (uint64_t i = 0; i < words; i++)

@@ -1,6 +1,7 @@
 #include "bake/slv.h"
 #include "base/base.h"
 #include "base/file_system.h"
+#include "base/size.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 
@@ -181,9 +182,9 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
 static sl_status order_contents(sl_context *context, plan *p) {
     for (uint32_t i = 0; i < p->header.section_count && !sli_slv_is_native(); i++) {
         const sli_slv_section *s = &p->sections[i];
-        p->copies[i] = sl_alloc_array(context, s->count, s->item_bytes);
+        p->copies[i] = sl_alloc_array(context, sli_size(s->count), s->item_bytes);
         if (!p->copies[i]) return SL_NO_MEMORY;
-        if (s->count) memcpy(p->copies[i], p->contents[i], section_bytes(s));
+        if (s->count) memcpy(p->copies[i], p->contents[i], sli_size(section_bytes(s)));
         sli_slv_order(s->tag, s->item_bytes, p->copies[i], s->count);
         p->contents[i] = p->copies[i];
     }
@@ -225,8 +226,8 @@ static void lay_out(plan *p) {
     }
     for (uint32_t i = 0; i < header->section_count; i++) {
         const uint64_t bytes = section_bytes(&p->sections[i]);
-        sli_checksum_add(&sum, p->contents[i], bytes);
-        sli_checksum_add(&sum, zeros, padded(bytes) - bytes);
+        sli_checksum_add(&sum, p->contents[i], sli_size(bytes));
+        sli_checksum_add(&sum, zeros, (size_t)(padded(bytes) - bytes));
     }
     header->checksum = sli_checksum_value(&sum);
 }
@@ -243,8 +244,8 @@ static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
     for (uint32_t i = 0; i < p->header.section_count; i++) {
         SL_TRY(sl_check_cancelled(context));
         const uint64_t bytes = section_bytes(&p->sections[i]);
-        if (bytes) fwrite(p->contents[i], 1, bytes, stream);
-        fwrite(zeros, 1, padded(bytes) - bytes, stream);
+        if (bytes) fwrite(p->contents[i], 1, sli_size(bytes), stream);
+        fwrite(zeros, 1, (size_t)(padded(bytes) - bytes), stream);
         sl_report(context, "write", "bytes", p->sections[i].offset + bytes, p->header.file_bytes);
     }
     return SL_OK;

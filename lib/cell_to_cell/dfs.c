@@ -19,6 +19,7 @@
 /// one of its two cells only.
 #include "cell_to_cell/dfs.h"
 
+#include "base/size.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/rows.h"
 #include "sightline/support.h"
@@ -88,7 +89,8 @@ static sl_status tree_store_join(sl_context *context, const sli_tree_store *stor
                                  sl_stab_trees *out) {
     const uint32_t count = store->cell_count;
     uint64_t *offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *offsets);
-    sl_stab_node *nodes = sl_alloc_array(context, store->held / sizeof *nodes, sizeof *nodes);
+    sl_stab_node *nodes =
+        sl_alloc_array(context, sli_size(store->held / sizeof *nodes), sizeof *nodes);
     if (!offsets || !nodes) {
         sl_free(context, offsets);
         sl_free(context, nodes);
@@ -97,7 +99,8 @@ static sl_status tree_store_join(sl_context *context, const sli_tree_store *stor
     uint32_t left_out = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct sli_kept_tree *tree = &store->trees[i];
-        if (tree->count) memcpy(nodes + offsets[i], tree->nodes, tree->count * sizeof *nodes);
+        if (tree->count)
+            memcpy(nodes + offsets[i], tree->nodes, sli_size(tree->count * sizeof *nodes));
         left_out += tree->count == 0;
         offsets[i + 1] = offsets[i] + tree->count;
     }

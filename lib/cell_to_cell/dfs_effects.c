@@ -14,6 +14,7 @@
 /// of all ends by more than rounding moves them: it never sees what no line joins.
 #include "cell_to_cell/dfs.h"
 
+#include "base/size.h"
 #include "cell_to_cell/directions.h"
 #include "cell_to_cell/door_table.h"
 #include "cell_to_cell/methods.h"
@@ -475,10 +476,10 @@ static sl_status copy_rows(sl_context *context, const sl_pvs *rows, sl_pvs *out)
     const uint32_t count = rows->cell_count;
     if (!count) return SL_OK;
     out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
-    out->bytes = sl_alloc(context, rows->offsets[count] + 1);
+    out->bytes = sl_alloc(context, sli_size(rows->offsets[count] + 1));
     if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
     memcpy(out->offsets, rows->offsets, ((size_t)count + 1) * sizeof *out->offsets);
-    if (rows->offsets[count]) memcpy(out->bytes, rows->bytes, rows->offsets[count]);
+    if (rows->offsets[count]) memcpy(out->bytes, rows->bytes, sli_size(rows->offsets[count]));
     out->cell_count = count;
     return SL_OK;
 }

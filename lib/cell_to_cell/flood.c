@@ -11,6 +11,7 @@
 /// The range: the nearest points of two convex cells that have none in common are a corner of one
 /// and a place on a side of the other. The farthest points are corners of both. Boxes are compared
 /// first. Rounding goes to the safe side.
+#include "base/size.h"
 #include "cell_to_cell/bounds.h"
 #include "geometry/length.h"
 
@@ -224,12 +225,12 @@ static sl_status spread_rows(sl_context *context, const components *c, uint32_t 
         out->offsets[i + 1] =
             out->offsets[i] + (of == UINT32_MAX ? 0 : offsets[of + 1] - offsets[of]);
     }
-    out->bytes = sl_alloc(context, out->offsets[count] + 1);
+    out->bytes = sl_alloc(context, sli_size(out->offsets[count] + 1));
     if (!out->bytes) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < count; i++)
         if (c->of[i] != UINT32_MAX)
             memcpy(out->bytes + out->offsets[i], c->rows.bytes.items + offsets[c->of[i]],
-                   out->offsets[i + 1] - out->offsets[i]);
+                   sli_size(out->offsets[i + 1] - out->offsets[i]));
     return SL_OK;
 }
 

@@ -8,6 +8,7 @@
 /// conservative. An exact search finds a pair from either of its cells, "prune" from the lower one.
 /// A rounded search may find it from one and not from the other, so that it needs both. With
 /// effects each source has rows of its own: what it sees, by mirror too, and through which doors.
+#include "base/size.h"
 #include "cell_to_cell/methods.h"
 
 #include "cell_to_cell/bounds.h"
@@ -152,12 +153,12 @@ static sl_status join_doors(sl_context *context, const sl_door_sets *a, const sl
     const uint32_t count = a->cell_count;
     if (!count) return SL_OK;
     out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
-    out->bytes = sl_alloc(context, sl_door_sets_bytes(a) + sl_door_sets_bytes(b) + 1);
+    out->bytes = sl_alloc(context, sli_size(sl_door_sets_bytes(a) + sl_door_sets_bytes(b) + 1));
     if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
     out->cell_count = count;
     for (uint32_t i = 0; i < count; i++) {
         const sl_door_sets *from = a->offsets[i] < a->offsets[i + 1] ? a : b;
-        const uint64_t bytes = from->offsets[i + 1] - from->offsets[i];
+        const size_t bytes = sli_size(from->offsets[i + 1] - from->offsets[i]);
         if (bytes) memcpy(out->bytes + out->offsets[i], from->bytes + from->offsets[i], bytes);
         out->offsets[i + 1] = out->offsets[i] + bytes;
     }

@@ -5,6 +5,8 @@
 /// follow. Neighbouring cells have neighbouring numbers, so that runs are long and rows short.
 #include "cell_to_cell/pvs_rows.h"
 
+#include "base/size.h"
+
 #include <string.h>
 
 void sl_pvs_destroy(sl_context *context, sl_pvs *pvs) {
@@ -139,7 +141,7 @@ static sl_status join(sl_context *context, const sli_row_bytes *rows, uint32_t c
     pvs.offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *pvs.offsets);
     if (!pvs.offsets) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < count; i++) pvs.offsets[i + 1] = pvs.offsets[i] + rows[i].count;
-    pvs.bytes = sl_alloc(context, pvs.offsets[count] + 1);
+    pvs.bytes = sl_alloc(context, sli_size(pvs.offsets[count] + 1));
     if (!pvs.bytes) {
         sl_pvs_destroy(context, &pvs);
         return SL_NO_MEMORY;
@@ -168,7 +170,7 @@ sl_status sli_columns_gather(sl_context *context, const sl_pvs *rows, uint32_t c
         for (sl_pvs_run run = sl_pvs_begin(rows, row); sl_pvs_next(&run);)
             for (uint32_t to = run.first; to < run.end; to++) out->starts[to + 2]++;
     for (uint32_t i = 1; i < count + 2; i++) out->starts[i] += out->starts[i - 1];
-    out->members = sl_alloc_array(context, out->starts[count + 1], sizeof *out->members);
+    out->members = sl_alloc_array(context, sli_size(out->starts[count + 1]), sizeof *out->members);
     if (!out->members) return SL_NO_MEMORY;
     for (uint32_t row = 0; row < rows->cell_count; row++)
         for (sl_pvs_run run = sl_pvs_begin(rows, row); sl_pvs_next(&run);)

@@ -50,18 +50,20 @@ static bool is_shut(const maker *m, uint32_t portal) {
     return false;
 }
 
-/// What of the space goes on as it is.
-static sl_status copy(sl_context *context, void **to, const void *from, size_t count, size_t size,
+/// What of the space goes on as it is. `to` is the address of a T *, written as bytes: a T * is no
+/// void * to the compiler.
+static sl_status copy(sl_context *context, void *to, const void *from, size_t count, size_t size,
                       size_t more) {
     if (!from) return SL_OK;
-    *to = sl_alloc_array(context, count + more, size);
-    if (!*to) return SL_NO_MEMORY;
-    if (count) memcpy(*to, from, count * size);
+    void *block = sl_alloc_array(context, count + more, size);
+    if (!block) return SL_NO_MEMORY;
+    if (count) memcpy(block, from, count * size);
+    memcpy(to, &block, sizeof block);
     return SL_OK;
 }
 
 #define COPY(items, count, more)                                                                   \
-    SL_TRY(copy(context, (void **)&s->items, f->items, f->count, sizeof *s->items, (more)))
+    SL_TRY(copy(context, &s->items, f->items, f->count, sizeof *s->items, (more)))
 
 static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
     const sl_space *f = m->from;

@@ -189,8 +189,9 @@ sl_status sli_region_end_at_eye(sl_context *context, sl_region *region) {
 
 sl_status sli_region_add_on_mirror(sl_context *context, sl_region *region, const sli_eye_ray *ray,
                                    sl_point a, sl_point b, sl_region_edge edge) {
-    const bool at_end = (ray->at.x == a.x && ray->at.y == a.y && !ray->rest.x && !ray->rest.y) ||
-                        (ray->at.x == b.x && ray->at.y == b.y && !ray->rest.x && !ray->rest.y);
+    const bool whole = ray->rest.x == 0 && ray->rest.y == 0;
+    const bool at_end = (ray->at.x == a.x && ray->at.y == a.y && whole) ||
+                        (ray->at.x == b.x && ray->at.y == b.y && whole);
     const place at = place_of(region->view.eye, ray, at_end, a, b);
     if (region->memory->pending) SL_TRY(end_piece(context, region, &at, SL_EDGE_CONE));
     edge.exact = at.exact;

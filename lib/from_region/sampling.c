@@ -75,7 +75,7 @@ static double slope_of(const sampler *s, uint32_t pixel) {
 /// The share of a step by which a pixel's lines are shifted. Opposite quadrants have the same
 /// lines, and so the same shift.
 static double shift_of(const sampler *s, image i, uint32_t pixel) {
-    const uint64_t falling = i.quadrant % 2, steep = i.steep;
+    const uint64_t falling = i.quadrant % 2 != 0, steep = i.steep;
     sl_random random = {s->options->seed ^
                         (((uint64_t)pixel << 2 | falling << 1 | steep) * 0x9e3779b97f4a7c15u)};
     random.state = sl_random_next(&random);

@@ -59,7 +59,7 @@ static sl_status grow(maze *m) {
     for (uint64_t steps = 0; m->end_count; steps++) {
         if (steps % 4096 == 0) SL_TRY(sl_check_cancelled(m->plot->context));
         size_t at = m->end_count - 1;
-        if (sli_chance(m->plot, 10)) at = sl_random_below(&m->plot->random, m->end_count);
+        if (sli_chance(m->plot, 10)) at = (size_t)sl_random_below(&m->plot->random, m->end_count);
         uint32_t next;
         if (find_new(m, m->ends[at], &next)) {
             join(m, m->ends[at], next);
@@ -225,7 +225,7 @@ static void open_tunnels(network *n) {
             n->tunnels[n->tunnel_count++] = (tunnel){i, true, false};
     }
     for (size_t i = n->tunnel_count; i > 1; i--) {
-        const size_t j = sl_random_below(&n->plot->random, i);
+        const size_t j = (size_t)sl_random_below(&n->plot->random, i);
         const tunnel swapped = n->tunnels[i - 1];
         n->tunnels[i - 1] = n->tunnels[j];
         n->tunnels[j] = swapped;

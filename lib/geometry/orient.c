@@ -57,7 +57,7 @@ static void add(uint64_t *limbs, int count, const product *p, int shift) {
     for (int i = shift / 64, part = 0; i < count; i++, part++) {
         const uint64_t value = part < 3 ? parts[part] : 0;
         const uint64_t sum = limbs[i] + (p->negative ? ~value : value), all = sum + carry;
-        carry = (sum < limbs[i]) + (all < sum);
+        carry = (uint64_t)(sum < limbs[i]) + (all < sum);
         limbs[i] = all;
     }
 }

@@ -137,12 +137,12 @@ static sl_status read_things(sl_context *context, const sli_wad *wad, const sli_
         // A Hexen thing has an id in front, and its height behind its place.
         const unsigned char *at = lump.bytes + i * bytes + (hexen ? 2 : 0);
         const unsigned char *angle = at + (hexen ? 6 : 4);
-        const int type = sli_wad_u16(angle + 2);
+        const unsigned type = sli_wad_u16(angle + 2);
         if (!is_start(type)) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &records->starts, 1));
         const sl_start start = {.at = {sli_wad_i16(at), sli_wad_i16(at + 2)},
                                 .heading = sli_wad_i16(angle)};
-        records->starts.items[records->starts.count++] = (sli_doom_start){start, type};
+        records->starts.items[records->starts.count++] = (sli_doom_start){start, (int)type};
     }
     return SL_OK;
 }

@@ -109,7 +109,7 @@ sli_affine sli_affine_turn(double degrees) {
     const double quarters = remainder(degrees / 90, 4);
     if (quarters == rint(quarters)) {
         sine = quarters == 1 ? 1 : quarters == -1 ? -1 : 0;
-        cosine = quarters == 0 ? 1 : sine ? 0 : -1;
+        cosine = quarters == 0 ? 1 : sine != 0 ? 0 : -1;
     }
     return (sli_affine){.xx = cosine, .xy = -sine, .yx = sine, .yy = cosine};
 }

@@ -801,8 +801,8 @@ static void find_unit(svg *s, xmlNode *root, double box_width) {
     char *text = sli_xml_attribute(root, "width"), *unit = s->pen.map->unit;
     const size_t length = text ? sl_number_length(text, strlen(text)) : 0;
     double width = 0;
-    if (!box_width) strcpy(unit, units[0]);
-    if (box_width && length && sl_number_read(text, length, &width) && width == box_width) {
+    if (box_width == 0) strcpy(unit, units[0]);
+    if (box_width != 0 && length && sl_number_read(text, length, &width) && width == box_width) {
         const sli_word rest = {text + length, strcspn(text + length, " \t\r\n")};
         if (!rest.length) strcpy(unit, units[0]);
         for (size_t i = 0; i < sizeof units / sizeof *units; i++)

@@ -244,7 +244,8 @@ static void tell_left_out(const sli_things *things, const sli_thing *thing, size
     char where[32] = "", x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
     if (thing->line) snprintf(where, sizeof where, ":%lu", (unsigned long)thing->line);
     const sli_affine down = {.xx = 1, .yy = -1, .y0 = things->top};
-    const sl_point at = sli_affine_apply(things->shown.xx ? things->shown : down, thing->middle);
+    const sl_point at =
+        sli_affine_apply(things->shown.xx != 0 ? things->shown : down, thing->middle);
     sl_number_write(at.x, x);
     sl_number_write(at.y, y);
     sl_note(things->context, "%s%s: %s '%s' at %s %s is %s: %s", things->file, where,

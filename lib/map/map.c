@@ -105,7 +105,7 @@ static sl_status copy_name(sl_context *context, const char *what, const char *na
 
 /// Makes room for one more item in an array of the map.
 #define MAP_ROOM(context, map, items, thing)                                                       \
-    sl_reserve((context), (void **)&(map)->items, &(map)->thing##_room, (map)->thing##_count + 1,  \
+    sl_reserve((context), &(map)->items, &(map)->thing##_room, (map)->thing##_count + 1,           \
                sizeof *(map)->items)
 
 sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b, uint32_t line) {
@@ -201,8 +201,7 @@ sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corn
     for (size_t i = 0; i < count; i++) SL_TRY(check_point(context, "cell", corners[i]));
     const size_t total = map->corner_count + count;
     SL_TRY(MAP_ROOM(context, map, cells, cell));
-    SL_TRY(sl_reserve(context, (void **)&map->corners, &map->corner_room, total,
-                      sizeof *map->corners));
+    SL_TRY(sl_reserve(context, &map->corners, &map->corner_room, total, sizeof *map->corners));
     memcpy(map->corners + map->corner_count, corners, count * sizeof *corners);
     map->cells[map->cell_count++] =
         (sl_map_cell){.first = map->corner_count, .count = (uint32_t)count, .line = line};
@@ -279,7 +278,7 @@ static sl_status add_label_text(sl_context *context, sl_map *map, const char *te
         return SL_OK;
     }
     if (map->label_length > UINT32_MAX - sizeof shown) return sl_fail_memory(context);
-    SL_TRY(sl_reserve(context, (void **)&map->label_text, &map->label_text_room,
+    SL_TRY(sl_reserve(context, &map->label_text, &map->label_text_room,
                       map->label_length + length + 1, 1));
     *begin = (uint32_t)map->label_length;
     memcpy(map->label_text + map->label_length, shown, length + 1);

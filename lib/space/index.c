@@ -22,6 +22,7 @@
 /// need too many entries; their grid gets fewer buckets.
 #include "space/index.h"
 
+#include "base/size.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -248,7 +249,8 @@ sl_status sli_wall_grid_create(sl_context *context, const sl_map *map, double re
         grid.offsets[i + 1] = (uint32_t)sum;
         sum += count;
     }
-    grid.walls = sum <= UINT32_MAX ? sl_alloc_array(context, sum, sizeof *grid.walls) : NULL;
+    grid.walls =
+        sum <= UINT32_MAX ? sl_alloc_array(context, sli_size(sum), sizeof *grid.walls) : NULL;
     if (!grid.walls) {
         sl_free(context, grid.offsets);
         return sl_fail_memory(context);

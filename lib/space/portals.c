@@ -45,7 +45,7 @@ static sl_status gather_cells(sl_context *context, portal_maker *maker, int32_t 
         if (node->axis != axis || above)
             maker->stack.items[maker->stack.count + (node->axis != axis)] = node->below;
         if (node->axis != axis || !above) maker->stack.items[maker->stack.count] = node->above;
-        maker->stack.count += 1 + (node->axis != axis);
+        maker->stack.count += node->axis == axis ? 1 : 2;
     }
     return SL_OK;
 }

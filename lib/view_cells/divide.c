@@ -298,7 +298,7 @@ static sl_status split(sli_view_divider *d, sli_view_choose choose, uint32_t num
     sli_view_part_destroy(d->context, part);
     *part = below;
     d->parts.items[d->parts.count++] = above;
-    d->with_mass += (below.mass > 0) + (above.mass > 0) - 1;
+    d->with_mass += (uint32_t)(below.mass > 0) + (above.mass > 0) - 1;
     SL_TRY(enqueue(d, choose, number));
     return enqueue(d, choose, (uint32_t)d->parts.count - 1);
 }

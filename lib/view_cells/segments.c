@@ -11,6 +11,7 @@
 /// Each unit of samples has random numbers of its own, and units are joined in order. So the result
 /// is the same for any number of threads. Cost: O(rooms on the line) a sample; O(leaves passed x
 /// objects) a segment for the sets.
+#include "base/size.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 #include "view_cells/tree.h"
@@ -202,7 +203,8 @@ static sl_status sort(sl_context *context, const sl_box *box, const sl_view_segm
     placed *order = sl_alloc_array(context, from->count, sizeof *order);
     out->items = sl_alloc_array(context, from->count, sizeof *out->items);
     out->first = sl_alloc_array(context, (size_t)from->count + 1, sizeof *out->first);
-    out->objects = sl_alloc_array(context, from->first[from->count], sizeof *out->objects);
+    out->objects =
+        sl_alloc_array(context, sli_size(from->first[from->count]), sizeof *out->objects);
     if (!order || !out->items || !out->first || !out->objects) {
         sl_free(context, order);
         return SL_NO_MEMORY;

@@ -79,9 +79,11 @@ static sl_point at(const shaper *s, uint32_t point) {
 static sl_status gather_points(shaper *s) {
     const sl_view_tree *tree = s->tree;
     const uint32_t all = tree->first[tree->cell_count];
-    SL_TRY(SL_ARRAY_ROOM(s->context, &s->points, all + 1));
-    memcpy(s->points.items, tree->corners, all * sizeof *tree->corners);
-    qsort(s->points.items, all, sizeof *s->points.items, compare_points);
+    SL_TRY(SL_ARRAY_ROOM(s->context, &s->points, all));
+    if (all) {
+        memcpy(s->points.items, tree->corners, all * sizeof *tree->corners);
+        qsort(s->points.items, all, sizeof *s->points.items, compare_points);
+    }
     for (uint32_t i = 0; i < all; i++)
         if (!i || !sli_same_point(s->points.items[i], s->points.items[s->points.count - 1]))
             s->points.items[s->points.count++] = s->points.items[i];

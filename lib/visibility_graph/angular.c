@@ -247,7 +247,8 @@ static sl_status start(sl_context *context, walker *w, uint32_t from) {
 static sl_status find_straightest(sl_context *context, walker *w, uint32_t from) {
     const sli_vga_sights *s = w->sights;
     const double radius = s->job->options->angular_radius;
-    w->heap.count = w->entries.count = w->waiting = w->reached = 0;
+    w->heap.count = w->entries.count = w->waiting = 0;
+    w->reached = 0;
     memset(w->buckets, 0xff, sizeof w->buckets); // none
     memset(w->done, 0, s->bundles * sizeof *w->done);
     for (uint32_t q = 0; q < s->count; q++)

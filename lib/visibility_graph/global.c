@@ -55,8 +55,8 @@ static void add(searcher *s, uint64_t depth, int64_t points) {
 
 /// Counts a point that has this depth for those of the mask, and one more for the rest.
 static void add_partial(searcher *s, uint64_t depth, uint64_t mask) {
-    const size_t near = depth < DEPTHS ? depth : DEPTHS - 1;
-    const size_t far = depth + 1 < DEPTHS ? depth + 1 : DEPTHS - 1;
+    const size_t near = (size_t)(depth < DEPTHS ? depth : DEPTHS - 1);
+    const size_t far = near + 1 < DEPTHS ? near + 1 : DEPTHS - 1;
     s->common[far]++;
     for (; mask; mask &= mask - 1) {
         int64_t *own = s->own[__builtin_ctzll(mask)];

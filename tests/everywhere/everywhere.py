@@ -53,11 +53,13 @@ def linux(name, triple, debian="", qemu="", flags=""):
 TARGETS = [
     Target("gcc-O0", "gcc", "-O0"),
     Target("gcc-O1", "gcc", "-O1"),
+    Target("gcc-O3", "gcc", "-O3"),
     Target("gcc-O3-native", "gcc", "-O3 -march=native"),
     Target("clang-O0", "clang", "-O0", packages=("clang",)),
+    Target("clang-O2", "clang", "-O2", packages=("clang",)),
     Target("clang-O3-native", "clang", "-O3 -march=native", packages=("clang",)),
-    Target("i386-sse2", "gcc", "-m32 -msse2 -mfpmath=sse", packages=("gcc-multilib",),
-           options=("-DSIGHTLINE_IO=OFF",)),
+    # Not by gcc -m32, whose package Debian does not install beside the other compilers.
+    linux("i386", "i686-linux-gnu", "i386", flags="-msse2 -mfpmath=sse"),
     linux("aarch64", "aarch64-linux-gnu", "arm64"),
     linux("armhf", "arm-linux-gnueabihf", "armhf", "arm"),
     linux("riscv64", "riscv64-linux-gnu"),

@@ -1,7 +1,8 @@
 """What the runtime's header promises: runtime.py SUBJECT ROOT [--command SIGHTLINE].
 
 compile  it compiles without a warning as C99, C11, C++11 and C++17 by every compiler that is here, and
-         needs nothing from outside but memcpy, memset and memcmp
+         needs nothing from outside but memcpy, memset and memcmp; clang in the place of
+         Microsoft's compiler reads it and the library's headers without what only gcc knows
 example  the program in its README compiles as it stands there, and runs
 sizes    no test: bytes of its compiled code, as CSV
 
@@ -58,6 +59,33 @@ def check_compile(root, scratch):
                     yield f"{program} -std={standard}, {what}: needs {', '.join(sorted(foreign))}"
 
 
+# Headers of the C library, as far as ours need them: Microsoft's own are not here.
+OF_MICROSOFT = {"string.h": "void *memcpy(void *, const void *, size_t);\nvoid *memset(void *, int, size_t);\n"
+                            "int memcmp(const void *, const void *, size_t);\n",
+                "stdio.h": "typedef struct file FILE;\n"}
+MICROSOFT = ["--target=x86_64-pc-windows-msvc", "-fms-compatibility", "-fmsc-version=1930", "-fsyntax-only",
+             "-Wall", "-Wextra", "-Wpedantic", "-Wgnu", "-Wvla", "-Wconversion", "-Werror"]
+
+
+def check_microsoft(root, scratch):
+    headers = [path.relative_to(root / "lib/include").as_posix()
+               for path in sorted((root / "lib/include/sightline").glob("*.h"))]
+    texts = {"the runtime header": IMPLEMENTATION,
+             "the library's headers": "".join(f'#include "{name}"\n' for name in headers)}
+    for name, text in OF_MICROSOFT.items():
+        (scratch / name).write_text(
+            "#include <stddef.h>\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n" + text +
+            "#ifdef __cplusplus\n}\n#endif\n")
+    for language, standard, program in compilers():
+        for what, text in texts.items() if program.startswith("clang") and standard != "c99" else ():
+            unit = scratch / f"unit.{language}"
+            unit.write_text(text)
+            done = run([program, f"-std={standard}", *MICROSOFT, f"-isystem{scratch}", f"-I{root / 'lib/runtime'}",
+                        f"-I{root / 'lib/include'}", str(unit)])
+            if done.returncode:
+                yield f"{program} -std={standard} for Microsoft, {what}:\n{done.stdout}"
+
+
 def check_example(root, scratch, command):
     readme = (root / "lib/runtime/README.md").read_text(encoding="utf-8")
     programs = re.findall(r"^```c\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
@@ -110,8 +138,8 @@ def main():
         if options.subject == "sizes":
             print_sizes(options.root, scratch)
             return 0
-        faults = list(check_compile(options.root, scratch) if options.subject == "compile"
-                      else check_example(options.root, scratch, options.command))
+        faults = [*check_compile(options.root, scratch), *check_microsoft(options.root, scratch)] \
+            if options.subject == "compile" else list(check_example(options.root, scratch, options.command))
     for fault in faults:
         print(fault)
     return 1 if faults else 0

@@ -2,6 +2,8 @@
 // under the methods that keep them.
 #include "testing.h"
 
+#include "base/size.h"
+#include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/rows.h"
 #include "sightline/generate.h"
 #include "sightline/support.h"
@@ -235,6 +237,33 @@ static void lack_of_memory_leaves_nothing(void **state) {
     sl_context_destroy(context);
 }
 
+/// No block of a gigabyte or more.
+static void *small_blocks(void *user, void *block, size_t bytes) {
+    (void)user;
+    if (bytes) return bytes >> 30 ? NULL : realloc(block, bytes);
+    free(block);
+    return NULL;
+}
+
+/// Where sizes have 32 bits, the low ones of this sum are a block of 17 bytes. What is joined is
+/// never looked at: the sum alone is refused.
+static void rows_beyond_the_address_space_are_refused(void **state) {
+    (void)state;
+    assert_true(sli_size(0) == 0 && sli_size(UINT32_MAX) == UINT32_MAX);
+    assert_true(sli_size(UINT64_MAX) == SIZE_MAX);
+    assert_true(sli_size((uint64_t)UINT32_MAX + 18) > UINT32_MAX - 1);
+    sl_context *context = sl_context_create(&(sl_hooks){.resize = small_blocks});
+    sli_row_bytes rows[2];
+    for (size_t i = 0; i < 2; i++) {
+        rows[i] = (sli_row_bytes){.items = sl_alloc(context, 1), .count = (size_t)1 << 31 | 8};
+        assert_non_null(rows[i].items);
+    }
+    sl_pvs joined = {0};
+    assert_int_equal(sli_pvs_join(context, rows, 2, &joined), SL_NO_MEMORY);
+    assert_null(joined.bytes);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_hold_what_is_added),
@@ -242,6 +271,7 @@ int main(void) {
         cmocka_unit_test(sparse_rows_give_the_same_bytes),
         cmocka_unit_test(the_limit_is_kept_and_told),
         cmocka_unit_test(lack_of_memory_leaves_nothing),
+        cmocka_unit_test(rows_beyond_the_address_space_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
