@@ -330,10 +330,13 @@ void object_toggle(app_state *app, uint32_t object) {
 
 void object_describe(const app_state *app, uint32_t object, char *text, size_t room) {
     const bool blocks = app->document.blocks[object];
-    const bool seen = app->view.seen.valid && object < app->view.seen.object_count &&
-                      app->view.seen.objects[object];
+    const seen_state *seen = &app->view.seen;
+    const bool known = seen->valid && object < seen->object_count;
     snprintf(text, room, "%s: %s, %s. Drag it; a click has it %s.",
-             app->document.map.objects[object].name, seen ? "seen by the eye" : "not seen",
+             app->document.map.objects[object].name,
+             known && seen->objects[object]            ? "seen by the eye"
+             : known && seen->objects_mirrored[object] ? "seen by mirror"
+                                                       : "not seen",
              blocks ? "blocks sight" : "seen through", blocks ? "seen through" : "block sight");
 }
 

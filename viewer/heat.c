@@ -136,7 +136,7 @@ static sl_status start(app_state *app, heat_layer *layer) {
     return SL_OK;
 }
 
-/// Takes a copy of the space with walls in the doors that are shut.
+/// Takes a copy of the space with walls in the doors that are shut and on the dark side of glass.
 static sl_status begin(app_state *app) {
     const document_state *document = &app->document;
     const sl_map *map = &document->baked->map;
@@ -151,8 +151,11 @@ static sl_status begin(app_state *app) {
     if (!layer->shut) return SL_NO_MEMORY;
     layer->door_count = map->door_count;
     for (size_t i = 0; i < map->door_count; i++) layer->shut[i] = !map->doors[i].open;
-    SL_TRY(sl_effects_check(app->context, map, "the heat map", SL_EFFECT_RANGE | SL_EFFECT_DOOR));
-    const sl_filtered_space filtered = {.shut = layer->shut};
+    SL_TRY(sl_effects_check_because(app->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
+                                    "steps and paths lead straight to points, not to mirror "
+                                    "images"));
+    const bool glass = map->oneway_count > 0;
+    const sl_filtered_space filtered = {.shut = layer->shut, .one_way = glass, .dark_walls = glass};
     SL_TRY(sl_filtered_space_make(app->context, &document->baked->space, &filtered, NULL,
                                   &layer->graph.space));
     return start(app, layer);

@@ -17,7 +17,7 @@ const heat_measure *heat_measures(size_t *count);
 
 /// Zeroed to start. The caller fills the first block.
 typedef struct heat_graph {
-    sl_space space; ///< with walls in doors that are shut
+    sl_space space; ///< with walls in doors that are shut and on the dark side of glass
     double step, range;
     unsigned wanted; ///< the group to measure next; 0: none
 

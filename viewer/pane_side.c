@@ -292,9 +292,7 @@ static void draw_mirrored(app_state *app, column *c) {
     const int length =
         snprintf(text, sizeof text, "In mirrors: %u cell%s more, and %s of the area in %zu part%s.",
                  cells, cells == 1 ? "" : "s", share, parts, parts == 1 ? "" : "s");
-    if (app->document.map.oneway_count)
-        snprintf(text + length, sizeof text - (size_t)length, " Parts past glass are not counted.");
-    else if (seen->depth < app->document.mirror_depth)
+    if (seen->depth < app->document.mirror_depth)
         snprintf(text + length, sizeof text - (size_t)length,
                  " Parts to %u reflection%s: more take too long.", seen->depth,
                  seen->depth == 1 ? "" : "s");

@@ -6,8 +6,9 @@
 
 typedef struct present_own {
     sl_space space;
-    sl_space one_way; ///< for mirrors, into which glass is dark or not by another side: without the
-                      ///< directed portals that glass bars; empty where the map has not both
+    /// For mirrors, into which glass is dark or not by another side; empty where the map has not
+    /// both. `doors` has walls in shut doors alone, `one_way` also on the dark sides of glass.
+    sl_space doors, one_way;
     sl_outline outline;
     sl_visibility row; ///< of one cell
     uint32_t cell;
@@ -48,6 +49,11 @@ static sl_status make_space(sl_context *context, const present_state *present,
     return status;
 }
 
+/// Where both are, what is dark in a mirror is not what is dark from the eye.
+static bool has_both(const document_state *document) {
+    return document->baked->map.mirror_count && document->baked->map.oneway_count;
+}
+
 // --- what it is made of
 
 static void drop_own(sl_context *context, present_state *present) {
@@ -61,6 +67,7 @@ static void drop_own(sl_context *context, present_state *present) {
     sl_visibility_destroy(context, &o->row);
     sl_outline_destroy(context, &o->outline);
     sl_space_destroy(context, &o->space);
+    sl_space_destroy(context, &o->doors);
     sl_space_destroy(context, &o->one_way);
     sl_free(context, o);
     present->own = NULL;
@@ -179,12 +186,12 @@ static sl_status make_own(sl_context *context, present_state *present,
     own *o = present->own = sl_alloc_array(context, 1, sizeof *o);
     if (!o) return SL_NO_MEMORY;
     SL_TRY(make_space(context, present, document, &o->space));
-    if (document->map.mirror_count && document->map.oneway_count) {
-        const sl_filtered_space filtered = {.shut = present->shut, .one_way = true};
-        SL_TRY(
-            sl_filtered_space_make(context, &document->baked->space, &filtered, NULL, &o->one_way));
-    }
-    return sl_outline_make(context, &o->space, &o->outline);
+    if (!has_both(document)) return sl_outline_make(context, &o->space, &o->outline);
+    sl_filtered_space filtered = {.shut = present->shut};
+    SL_TRY(sl_filtered_space_make(context, &document->baked->space, &filtered, NULL, &o->doors));
+    filtered = (sl_filtered_space){.shut = present->shut, .one_way = true, .dark_walls = true};
+    SL_TRY(sl_filtered_space_make(context, &document->baked->space, &filtered, NULL, &o->one_way));
+    return sl_outline_make(context, present->backwards ? &o->space : &o->one_way, &o->outline);
 }
 
 /// Starts again with a new document, or one that changed.
@@ -218,15 +225,24 @@ static sl_status place(sl_context *context, present_state *present,
     return SL_OK;
 }
 
+/// Objects cut both sides of glass before it is dark from one.
+static sl_status make_moving(sl_context *context, present_state *present,
+                             const document_state *document) {
+    const own *o = present->own;
+    const bool both = has_both(document);
+    SL_TRY(sl_moving_create(context, both ? &o->doors : present->space,
+                            o ? &o->row : &document->baked->visibility, &present->moving));
+    present->touched = document->touched + 1; // whatever it was
+    if (both) SL_TRY(sl_moving_add_glass(context, present->moving));
+    if (!document->baked->map.mirror_count || !document->mirror_depth) return SL_OK;
+    return sl_moving_add_mirrors(context, present->moving, &document->baked->map,
+                                 document->mirror_depth);
+}
+
 /// Puts objects in again where they moved or the space changed.
 static sl_status put_objects(sl_context *context, present_state *present,
                              const document_state *document) {
-    if (!present->moving) {
-        const own *o = present->own;
-        SL_TRY(sl_moving_create(context, present->space, o ? &o->row : &document->baked->visibility,
-                                &present->moving));
-        present->touched = document->touched + 1; // whatever it was
-    }
+    if (!present->moving) SL_TRY(make_moving(context, present, document));
     if (present->touched != document->touched) {
         SL_TRY(place(context, present, document));
         present->touched = document->touched;
@@ -259,8 +275,6 @@ static sl_status update(sl_context *context, present_state *present, const docum
     const size_t count = present->shut_count;
     const bool has_rows = document_has_rows(document);
     const bool unused = document->has_visibility && !has_rows; // its search would believe them
-    // Where both are, what is dark in a mirror is not what is dark from the eye.
-    const bool both = document->map.mirror_count && document->map.oneway_count;
     const bool any =
         count && find_shut(&document->baked->map, eye, present->backwards, present->wanted);
     const bool same = !count || memcmp(present->shut, present->wanted, count) == 0;
@@ -269,7 +283,7 @@ static sl_status update(sl_context *context, present_state *present, const docum
         present->has_rows = has_rows;
         present->version++;
         drop_own(context, present);
-        if (any || unused || both) SL_TRY(make_own(context, present, document));
+        if (any || unused || has_both(document)) SL_TRY(make_own(context, present, document));
     }
     if (present->own && !present->backwards) SL_TRY(follow_eye(context, present, document, eye));
     const own *o = present->own;

@@ -17,9 +17,9 @@ typedef struct present_state {
     /// Where something is shut, the search has the visible set of the eye's cell alone. It has none
     /// where the bake had a shorter range.
     sl_eye_search *search;
-    /// The space with the map's objects in it; NULL where it has none, or where they cannot be put
-    /// in. If any of them blocks sight, the outline is that of this space, and its cell c is a part
-    /// of cell parents[c]. Else `parents` is NULL.
+    /// The space with the map's objects and mirrors in it; NULL where it has none, or where they
+    /// cannot be put in. If any of them blocks sight, the outline is that of this space, and its
+    /// cell c is a part of cell parents[c]. Else `parents` is NULL.
     sl_moving *moving;
     bool still; ///< objects cannot be put in as they are now
     const uint32_t *parents;

@@ -15,7 +15,8 @@ static void free_sets(sl_context *context, seen_state *seen) {
         seen->methods[i] = (seen_method){0};
     }
     sl_free(context, seen->objects);
-    seen->objects = NULL;
+    sl_free(context, seen->objects_mirrored);
+    seen->objects = seen->objects_mirrored = NULL;
     seen->object_count = 0;
     if (seen->pvs) sl_free(context, seen->pvs);
     if (seen->mirrored) sl_free(context, seen->mirrored);
@@ -39,7 +40,10 @@ static sl_status make_sets(sl_context *context, seen_state *seen, const document
     seen->pvs = sl_alloc_array(context, words, sizeof *seen->pvs);
     seen->mirrored = sl_alloc_array(context, words, sizeof *seen->mirrored);
     seen->objects = sl_alloc_array(context, document->object_count, sizeof *seen->objects);
-    if (!seen->pvs || !seen->mirrored || !seen->objects) return SL_NO_MEMORY;
+    seen->objects_mirrored =
+        sl_alloc_array(context, document->object_count, sizeof *seen->objects_mirrored);
+    if (!seen->pvs || !seen->mirrored || !seen->objects || !seen->objects_mirrored)
+        return SL_NO_MEMORY;
     seen->object_count = document->object_count;
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         seen->methods[i].cells = sl_alloc_array(context, words, sizeof *seen->pvs);
@@ -204,21 +208,34 @@ void seen_forget_mirrors(sl_context *context, seen_state *seen) {
     seen->depth = 0;
 }
 
+/// What a method sees by mirror. The last one, which is exact, also looks past objects.
+static sl_status look_by_method(seen_state *seen, const document_state *document,
+                                const present_state *present, const sl_eye_method *method,
+                                bool is_last, uint64_t *cells) {
+    sl_eye_account account;
+    if (seen->object_count)
+        memset(seen->objects_mirrored, 0, seen->object_count * sizeof *seen->objects_mirrored);
+    if (is_last && present->parents && document->mirror_depth)
+        return sl_moving_look_mirrored(seen->hurried, present->moving, &seen->view, cells,
+                                       seen->objects_mirrored, &account);
+    return method->mirrored(seen->hurried, present->search, &seen->view, cells, &account);
+}
+
 /// Methods are in order from loose to exact. If one has no time, the result of the one before is
 /// used.
 static sl_status look_by_methods(seen_state *seen, const document_state *document,
-                                 sl_eye_search *search) {
+                                 const present_state *present) {
     const size_t words = sl_eye_words(&document->baked->space);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const uint64_t *known = seen->mirrored;
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         seen_method *m = &seen->methods[i];
-        sl_eye_account account;
         sl_status status = SL_CANCELLED;
         give(seen, CELLS_SECONDS);
         if (methods[i].mirrored)
-            status = methods[i].mirrored(seen->hurried, search, &seen->view, m->mirrored, &account);
+            status =
+                look_by_method(seen, document, present, &methods[i], i + 1 == count, m->mirrored);
         if (status == SL_NO_MEMORY) return status;
         if (status != SL_OK) memcpy(m->mirrored, known, words * sizeof *known);
         known = m->mirrored;
@@ -229,8 +246,7 @@ static sl_status look_by_methods(seen_state *seen, const document_state *documen
     return SL_OK;
 }
 
-/// Adds reflections as long as there is time. Maps with one-way glass have no parts: a region knows
-/// which glass is dark from the eye, but not from its images.
+/// Adds reflections as long as there is time.
 static sl_status make_parts(sl_context *context, seen_state *seen, const document_state *document,
                             const present_state *present) {
     const uint32_t most = document->mirror_depth;
@@ -264,9 +280,8 @@ sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
         seen->hurried = sl_context_create(&hooks);
         if (!seen->hurried) return SL_NO_MEMORY;
     }
-    SL_TRY(look_by_methods(seen, document, present->search));
-    if (!document->map.oneway_count && present->mirrors.outline)
-        return make_parts(context, seen, document, present);
+    SL_TRY(look_by_methods(seen, document, present));
+    if (present->mirrors.outline) return make_parts(context, seen, document, present);
     seen_forget_mirrors(context, seen);
     return SL_OK;
 }

@@ -26,7 +26,8 @@ typedef struct seen_state {
     uint64_t *mirrored; ///< what it sees by mirror, likewise
     uint32_t cell, pvs_count;
     double pvs_area;
-    bool *objects; ///< of the document's object_count, whether each is seen
+    bool *objects;          ///< of the document's object_count, whether each is seen directly
+    bool *objects_mirrored; ///< likewise by mirror, if some object blocks sight
     size_t object_count;
     sl_region region;
     sl_mirrored_region in_mirrors; ///< its parts; none where the map has no mirrors

@@ -470,10 +470,12 @@ sl_status sl_export_json(sl_context *context, const sl_baked *baked,
     if (version > SL_JSON_VERSION)
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no JSON version %u; the newest is %d",
                        version, SL_JSON_VERSION);
-    // Version 1 has no place for what mirrors show.
     if (version == 1)
-        SL_TRY(sl_effects_check(context, &baked->map, "JSON version 1",
-                                SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE));
+        SL_TRY(sl_effects_check_because(
+            context, &baked->map, "JSON version 1",
+            SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
+            "it has no member for what is seen by mirror, and its readers would take a pair that "
+            "is seen by mirror alone for hidden; version 2 has one"));
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     printer out = {context, output.stream, sl_json_writer_to(output.stream, 0), false};

@@ -47,6 +47,14 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
 } sl_runtime_status;
 
+/// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
+/// into mirrors. To all others mirrors are walls.
+typedef enum sl_runtime_mirrors {
+    SL_RUNTIME_NO_MIRRORS = 0,   ///< the map has no mirrors: all that is seen is seen directly
+    SL_RUNTIME_MIRRORS_BAKED,    ///< rows of the cells that are seen by mirror
+    SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
+} sl_runtime_mirrors;
+
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
@@ -66,14 +74,17 @@ typedef struct sl_runtime {
     bool loose; ///< a file of format version 1 with oblique walls, or made from one: by rounding,
                 ///< cells may overlap or leave gaps
     bool unfinished; ///< the bake was stopped: rows miss nothing, but have undecided cells too
-    uint32_t view_cell_count; ///< 0 for a bake without view cells
-    uint32_t view_node_count; ///< the rows of view cells and of groups of them
-    uint32_t door_count;      ///< doors are numbered in the order of the map
+    sl_runtime_mirrors mirrors; ///< if not SL_RUNTIME_NO_MIRRORS: more is seen than directly
+    uint32_t view_cell_count;   ///< 0 for a bake without view cells
+    uint32_t view_node_count;   ///< the rows of view cells and of groups of them
+    uint32_t door_count;        ///< doors are numbered in the order of the map
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
-    const unsigned char *door_offsets, *door_bytes; ///< NULL if no pair depends on doors
-    const unsigned char *seams, *seam_portals;      ///< NULL for none
+    const unsigned char *door_offsets, *door_bytes;     ///< NULL if no pair depends on doors
+    const unsigned char *mirror_offsets, *mirror_bytes; ///< NULL without rows of mirrors
+    const unsigned char *mirror_door_offsets, *mirror_door_bytes;
+    const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
     const unsigned char *text; ///< what the map holds beside walls, as map text
     size_t text_bytes;
@@ -104,9 +115,9 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
 
-/// Whether anything in cell `to` can be seen from anywhere in cell `from`. False if either is no
-/// cell (SL_RUNTIME_NO_CELL), and for a cell without a row. Time: the length of the row. To test
-/// many cells from one, unpack its row (sl_runtime_row_bits).
+/// Whether anything in cell `to` can be seen directly from anywhere in cell `from`. False if either
+/// is no cell (SL_RUNTIME_NO_CELL), and for a cell without a row. Time: the length of the row. To
+/// test many cells from one, unpack its row (sl_runtime_row_bits).
 SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to);
 
 /// As sl_runtime_can_see while some doors are shut. `shut` has door_count bytes, not 0 for a shut
@@ -191,8 +202,8 @@ SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits);
 
-/// What can be seen from anywhere in some cells: the cells that at least one of them sees. As bits,
-/// as sl_runtime_row_bits does for one cell; returns how many there are. `shut` is as for
+/// What can be seen directly from anywhere in some cells: the cells that at least one sees. As
+/// bits, as sl_runtime_row_bits does for one cell; returns how many there are. `shut` is as for
 /// sl_runtime_can_see_past, or NULL for none. Numbers that are no cells are left out.
 ///
 /// Ask it with what an eye sees (sl_runtime_look) to find what to wake up: all that anything in
@@ -248,6 +259,8 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 /// it is seen. Returns 0 if the eye is in no cell or in solid ground. `scratch` may hold anything;
 /// each thread needs its own.
 ///
+/// Mirrors are walls: sl_runtime_look_mirrored adds what is seen in them.
+///
 /// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
 /// walls. A line may run along portals and cross them to its left or to its right, but not some to
 /// the left and others to the right. One-way glass is a wall for an eye on its dark side. For an
@@ -273,6 +286,39 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
+
+// Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
+// missed, but cells may be added. The rows count whole cells, all directions and the map's range.
+// So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
+// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+
+/// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
+/// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
+SL_RUNTIME_API sl_runtime_run sl_runtime_mirrored_row(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether anything in cell `to` can be seen from anywhere in cell `from`, directly or by mirror.
+/// `shut` is as for sl_runtime_can_see_past, or NULL for none. True for all cells if the bake did
+/// not look into the map's mirrors.
+SL_RUNTIME_API bool sl_runtime_can_see_mirrored(const sl_runtime *runtime, uint32_t from,
+                                                uint32_t to, const unsigned char *shut);
+
+/// As sl_runtime_look_past, and after these cells those that are seen by mirror alone. The first
+/// `*direct` cells are exact: those that the eye sees directly, inside the cone. The others are
+/// those of the row of the eye's cell, whatever the cone and `range` are. If the eye's cell has no
+/// row, or the bake did not look into the map's mirrors, they are all other cells but solid ground.
+/// Without mirrors it is sl_runtime_look_past.
+SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
+                                                 const sl_runtime_view *view,
+                                                 const unsigned char *shut, double range,
+                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
+                                                 uint32_t *direct);
+
+/// As sl_runtime_seen_from, directly or by mirror. All cells if the bake did not look into the
+/// map's mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,
+                                                      const uint32_t *cells, uint32_t count,
+                                                      const unsigned char *shut,
+                                                      unsigned char *bits);
 
 /// Eye-to-region: the polygon that the eye sees inside the cone, for fog of war. Returns the number
 /// of its points, and puts the first `room` of them into `points`, as pairs x, y. If there are more
@@ -496,6 +542,10 @@ enum slrt_tag {
     SLRT_BEYO,
     SLRT_SEPO,
     SLRT_MAPT,
+    SLRT_MIRO,
+    SLRT_MIRB,
+    SLRT_MDOO,
+    SLRT_MDOB,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -568,6 +618,10 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"BEYO", 4},
                           {"SEPO", 12},
                           {"MAPT", 1},
+                          {"MIRO", 8},
+                          {"MIRB", 1},
+                          {"MDOO", 8},
+                          {"MDOB", 1},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -918,8 +972,25 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     return true;
 }
 
-static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
+/// The rows of door sets of `rt`, whose doors are counted.
+static bool slrt_door_rows_are_sound(const sl_runtime *rt, const slrt_section *offsets,
+                                     const slrt_section *bytes) {
     uint64_t i, before = 0;
+    if (!rt->door_offsets && !rt->door_bytes) return true;
+    if (!rt->door_offsets || !rt->door_bytes || offsets->count != (uint64_t)rt->cell_count + 1)
+        return false;
+    for (i = 0; i <= rt->cell_count; i++) {
+        const uint64_t end = slrt_u64(rt->door_offsets + i * 8);
+        if (end < before || end > bytes->count || (!i && end)) return false;
+        before = end;
+    }
+    for (i = 0; i < rt->cell_count; i++)
+        if (!slrt_door_row_is_sound(rt, (uint32_t)i)) return false;
+    return true;
+}
+
+static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
+    uint64_t i;
     rt->door_count = 0;
     rt->door_offsets = found[SLRT_DORO].items;
     rt->door_bytes = found[SLRT_DORB].items;
@@ -930,18 +1001,34 @@ static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
         if (number >= INT32_MAX) return false;
         if (number >= rt->door_count) rt->door_count = number + 1;
     }
-    if (!rt->door_offsets && !rt->door_bytes) return true;
-    if (!rt->door_offsets || !rt->door_bytes ||
-        found[SLRT_DORO].count != (uint64_t)rt->cell_count + 1)
-        return false;
-    for (i = 0; i <= rt->cell_count; i++) {
-        const uint64_t end = slrt_u64(rt->door_offsets + i * 8);
-        if (end < before || end > found[SLRT_DORB].count || (!i && end)) return false;
-        before = end;
-    }
-    for (i = 0; i < rt->cell_count; i++)
-        if (!slrt_door_row_is_sound(rt, (uint32_t)i)) return false;
-    return true;
+    return slrt_door_rows_are_sound(rt, &found[SLRT_DORO], &found[SLRT_DORB]);
+}
+
+/// What is seen by mirror, to be read like what is seen directly.
+static sl_runtime slrt_mirrored(const sl_runtime *rt) {
+    sl_runtime rows = *rt;
+    rows.row_offsets = rt->mirror_offsets;
+    rows.row_bytes = rt->mirror_bytes;
+    rows.door_offsets = rt->mirror_door_offsets;
+    rows.door_bytes = rt->mirror_door_bytes;
+    return rows;
+}
+
+/// Rows of what is seen by mirror, if the file has any.
+static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
+    sl_runtime rows;
+    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
+    rt->mirror_offsets = found[SLRT_MIRO].items;
+    rt->mirror_bytes = found[SLRT_MIRB].items;
+    rt->mirror_door_offsets = found[SLRT_MDOO].items;
+    rt->mirror_door_bytes = found[SLRT_MDOB].items;
+    if (!rt->mirror_offsets)
+        return !rt->mirror_bytes && !rt->mirror_door_offsets && !rt->mirror_door_bytes;
+    if (!rt->mirror_bytes || found[SLRT_MIRO].count != (uint64_t)rt->cell_count + 1) return false;
+    rt->mirrors = SL_RUNTIME_MIRRORS_BAKED;
+    rows = slrt_mirrored(rt);
+    return slrt_rows_are_sound(&rows, found[SLRT_MIRB].count, false) &&
+           slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
 }
 
 // --- the map text: statements in lines, words between blanks, comments after '#'
@@ -1159,6 +1246,8 @@ static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
             if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
             doors++;
         }
+        if (slrt_word_is(&first, "mirror") && !rt->mirrors)
+            rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
     }
     return doors >= rt->door_count;
 }
@@ -1176,7 +1265,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
-    if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
+    if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
     if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
@@ -1409,6 +1498,10 @@ SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t 
     return slrt_pair_is_open(&pairs, to, shut);
 }
 
+static bool slrt_sees(const sl_runtime *rt, uint32_t from, uint32_t to, const unsigned char *shut) {
+    return shut ? sl_runtime_can_see_past(rt, from, to, shut) : sl_runtime_can_see(rt, from, to);
+}
+
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell) {
     const sl_runtime_run run = sl_runtime_row(runtime, cell);
     return run.next != run.stop;
@@ -1465,6 +1558,42 @@ SL_RUNTIME_API uint32_t sl_runtime_seen_from(const sl_runtime *runtime, const ui
     uint32_t i, seen = 0;
     memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
     for (i = 0; i < count; i++) seen += slrt_add_row(runtime, cells[i], shut, bits);
+    return seen;
+}
+
+// --- what is seen by mirror
+
+SL_RUNTIME_API sl_runtime_run sl_runtime_mirrored_row(const sl_runtime *runtime, uint32_t cell) {
+    const sl_runtime rows = slrt_mirrored(runtime);
+    return sl_runtime_row(&rows, rows.row_offsets ? cell : SL_RUNTIME_NO_CELL);
+}
+
+SL_RUNTIME_API bool sl_runtime_can_see_mirrored(const sl_runtime *runtime, uint32_t from,
+                                                uint32_t to, const unsigned char *shut) {
+    sl_runtime rows;
+    if (runtime->mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED)
+        return from < runtime->cell_count && to < runtime->cell_count;
+    if (slrt_sees(runtime, from, to, shut)) return true;
+    if (!runtime->mirrors) return false;
+    rows = slrt_mirrored(runtime);
+    return slrt_sees(&rows, from, to, shut);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,
+                                                      const uint32_t *cells, uint32_t count,
+                                                      const unsigned char *shut,
+                                                      unsigned char *bits) {
+    const sl_runtime rows = slrt_mirrored(runtime);
+    uint32_t i, seen = 0;
+    memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
+    if (runtime->mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED && count) {
+        for (i = 0; i < runtime->cell_count; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
+        return runtime->cell_count;
+    }
+    for (i = 0; i < count; i++) {
+        seen += slrt_add_row(runtime, cells[i], shut, bits);
+        if (rows.row_offsets) seen += slrt_add_row(&rows, cells[i], shut, bits);
+    }
     return seen;
 }
 
@@ -2808,6 +2937,39 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     s.cells = cells;
     s.room = room;
     slrt_run_search(&s);
+    return s.count;
+}
+
+/// Adds to a search that has run what the eye may see by mirror.
+static void slrt_see_mirrored(slrt_search *s) {
+    const sl_runtime rows = slrt_mirrored(s->rt);
+    const bool known = s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row;
+    sl_runtime_run run;
+    slrt_door_pairs pairs;
+    uint32_t i;
+    for (i = 0; i < s->rt->cell_count && !known; i++)
+        if (!sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
+    if (!known) return;
+    run = sl_runtime_row(&rows, s->eye_cell);
+    pairs = slrt_door_pairs_of(&rows, s->eye_cell);
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++)
+            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
+                                                 const sl_runtime_view *view,
+                                                 const unsigned char *shut, double range,
+                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
+                                                 uint32_t *direct) {
+    slrt_search s;
+    *direct = 0;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    *direct = s.count;
+    if (runtime->mirrors) slrt_see_mirrored(&s);
     return s.count;
 }
 

@@ -136,12 +136,12 @@ class Fog(unittest.TestCase):
         return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               universal_newlines=True, check=False)
 
-    def ask(self, level, eye, doors, limit):
+    def ask(self, level, eye, doors, limit, notes=""):
         """What all programs answer, which is the same."""
         answers = {}
         for language in self.programs:
             done = self.run_one(language, level, repr(eye[0]), repr(eye[1]), *doors)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual((done.returncode, done.stderr), (0, notes))
             answers[language] = Answer(done.stdout, self.at / f"{language}.svg")
         of_c = answers["slv"]
         for language, answer in answers.items():
@@ -166,6 +166,12 @@ class Fog(unittest.TestCase):
             if low_x < x < high_x and low_y < y < high_y:
                 count += 1
                 yield x, y
+
+    def test_mirrors_are_noted(self):
+        """The programs see by no mirror, and say so."""
+        level = self.bake("mirrors", (ROOT / "maps/effects/mirrors.map").read_text(encoding="utf-8"))
+        answer = self.ask(level, (5.1, 25.03), [], 1e-8, "note: mirrors are walls here\n")
+        self.assertLess(len(answer.seen), 4)
 
     def check_level(self, name):
         path, degrees, doors = LEVELS[name]

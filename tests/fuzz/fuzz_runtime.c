@@ -35,6 +35,24 @@ static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
         count -= sees;
     }
     FUZZ_CHECK(count == 0);
+    run = sl_runtime_mirrored_row(r, cell);
+    while (sl_runtime_next(&run)) FUZZ_CHECK(run.first < run.end && run.end <= r->cell_count);
+    const uint32_t seen = sl_runtime_seen_from_mirrored(r, &cell, 1, NULL, b->bits);
+    for (uint32_t to = 0; to < r->cell_count; to++)
+        count += sl_runtime_can_see_mirrored(r, cell, to, NULL);
+    FUZZ_CHECK(seen == count);
+}
+
+/// By mirror no cell of `seen` is lost, and none comes twice. Leaves `seen` as it was.
+static void check_mirrored(const sl_runtime *r, const sl_runtime_view *view, uint32_t seen,
+                           const buffers *b) {
+    uint32_t direct = 0;
+    const uint32_t count =
+        sl_runtime_look_mirrored(r, view, NULL, 0, b->scratch, b->cells, r->cell_count, &direct);
+    FUZZ_CHECK(direct == seen && count >= direct && count <= r->cell_count);
+    FUZZ_CHECK(r->mirrors || count == direct);
+    for (uint32_t i = 0; i < count; i++)
+        FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]] == (i < direct));
 }
 
 static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
@@ -48,6 +66,7 @@ static void check_look(const sl_runtime *r, const sl_runtime_view *view, const b
         FUZZ_CHECK(b->cells[i] < r->cell_count && !b->seen[b->cells[i]]++);
         FUZZ_CHECK(!sl_runtime_has_row(r, cell) || sl_runtime_can_see(r, cell, b->cells[i]));
     }
+    check_mirrored(r, view, count, b);
 }
 
 /// Past doors and within a range no more is seen; `seen` is what check_look has left.

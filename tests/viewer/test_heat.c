@@ -42,7 +42,8 @@ static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh
     assert_int_equal(sl_bake_space(context, &map, &options, &f->baked, &account), SL_OK);
     bool *shut = calloc(f->baked.map.door_count + 1, sizeof *shut);
     for (size_t i = 0; i < f->baked.map.door_count; i++) shut[i] = !f->baked.map.doors[i].open;
-    const sl_filtered_space filtered = {.shut = shut};
+    const bool glass = f->baked.map.oneway_count > 0;
+    const sl_filtered_space filtered = {.shut = shut, .one_way = glass, .dark_walls = glass};
     assert_int_equal(sl_filtered_space_make(context, &f->baked.space, &filtered, NULL, &f->space),
                      SL_OK);
     free(shut);
@@ -107,7 +108,7 @@ static void assert_fresh(app_state *app) {
 /// All measures, one after the other, and back to the first one.
 static void test_measures(void **state) {
     static const char *const maps[] = {MAPS "/office.map", MAPS "/oblique/rotunda.map",
-                                       MAPS "/effects/range.map"};
+                                       MAPS "/effects/range.map", MAPS "/effects/oneway.map"};
     size_t count;
     (void)state;
     heat_measures(&count);
@@ -225,21 +226,46 @@ static void test_steps(void **state) {
     viewer_end(app);
 }
 
-/// Mirrors and one-way glass are refused by name, and nothing is shown.
+/// Mirrors are refused by name and with a reason, and nothing is shown.
 static void test_refused(void **state) {
-    static const char *const maps[][2] = {{MAPS "/effects/mirrors.map", "mirror"},
-                                          {MAPS "/effects/oneway.map", "one-way"}};
     (void)state;
-    for (int m = 0; m < 2; m++) {
-        const heat_graph *graph;
-        app_state *app = start(maps[m][0]);
-        press_key(app, "1");
-        assert_true(app->ui.message_is_error);
-        assert_non_null(strstr(app->ui.message, "heat map"));
-        assert_non_null(strstr(app->ui.message, maps[m][1]));
-        assert_null(heat_layer_values(app, &graph));
-        viewer_end(app);
+    const heat_graph *graph;
+    app_state *app = start(MAPS "/effects/mirrors.map");
+    press_key(app, "1");
+    assert_true(app->ui.message_is_error);
+    assert_non_null(strstr(app->ui.message, "heat map"));
+    assert_non_null(strstr(app->ui.message, "mirror"));
+    assert_non_null(strstr(app->ui.message, "not to mirror images"));
+    assert_null(heat_layer_values(app, &graph));
+    viewer_end(app);
+}
+
+/// Glass counts one way: some steps go to a point from which none go back.
+static void test_glass(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/effects/oneway.map");
+    const heat_graph *graph;
+    press_key(app, "1");
+    assert_fresh(app);
+    shown(app, &graph);
+    const uint32_t count = graph->grid.count;
+    uint32_t *there = calloc(count, sizeof *there), *back = calloc(count, sizeof *back);
+    size_t one_way = 0;
+    sl_context *context = sl_context_create(NULL);
+    assert_true(there && back);
+    for (uint32_t p = 0; p < count; p += 7) {
+        assert_int_equal(sl_vga_step_depth(context, &graph->graph, &p, 1, there), SL_OK);
+        for (uint32_t q = 0; q < count; q += 11) {
+            if (there[q] != 1) continue;
+            assert_int_equal(sl_vga_step_depth(context, &graph->graph, &q, 1, back), SL_OK);
+            one_way += back[p] != 1;
+        }
     }
+    assert_true(one_way > 0);
+    free(there);
+    free(back);
+    sl_context_destroy(context);
+    viewer_end(app);
 }
 
 /// Escape stops the work at any time; switched off and on, the heat map is made again.
@@ -294,8 +320,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_measures),   cmocka_unit_test(test_changes),
         cmocka_unit_test(test_kept_scale), cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_stopped),
-        cmocka_unit_test(test_fills),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_glass),
+        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_fills),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,6 +122,7 @@ int main(int argc, char **argv) {
     sl_runtime level;
     const sl_runtime_status status = sl_runtime_open(bytes, size, &level);
     if (status != SL_RUNTIME_OK) fail(sl_runtime_status_text(status), argv[1]);
+    if (level.mirrors) fputs("note: mirrors are walls here\n", stderr);
 
     const double x = number(argv[3]), y = number(argv[4]);
     unsigned char *shut = room(level.door_count);

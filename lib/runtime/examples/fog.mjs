@@ -138,6 +138,7 @@ const [path, picturePath, x, y, ...doors] = process.argv.slice(2);
 try {
   if (y === undefined || doors.length % 2) throw Error("usage: LEVEL.json PICTURE.svg X Y [open NAME | shut NAME]...");
   const level = new Level(JSON.parse(readFileSync(path, "utf8")));
+  if (level.data.mirrors?.length) console.error("note: mirrors are walls here");
   for (let i = 0; i < doors.length; i += 2) level.setDoor(doors[i], doors[i + 1]);
   const eye = [Number(x), Number(y)], cell = level.locate(eye), { seen, ends } = level.look(eye);
   const points = cornersOf(ends);

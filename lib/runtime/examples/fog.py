@@ -157,6 +157,8 @@ def draw(out, level, eye, points):
 def main(level_path, picture, x, y, *doors):
     with open(level_path, encoding="utf-8") as file:
         level = Level(json.load(file))
+    if level.data.get("mirrors"):
+        print("note: mirrors are walls here", file=sys.stderr)
     for state, name in zip(doors[::2], doors[1::2]):
         level.set_door(state, name)
     eye = (float(x), float(y))

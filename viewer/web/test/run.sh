@@ -1,8 +1,9 @@
 #!/bin/sh
-# Tests of the playground: sh viewer/web/test/run.sh WHAT FOLDER [PROGRAM]
+# Tests of the playground: sh viewer/web/test/run.sh WHAT FOLDER [PROGRAM [PYTHON]]
 #   formats     what needs no browser, in node
 #   playground  the built site, with the course, in Chromium and Firefox, as far as they are installed
 #   quick       the same in one browser, without axe-core
+#   effects     the rows of the playground in tools/EFFECTS.md, by the built site in node
 # FOLDER is for the built site and for tools; PROGRAM is the native `sightline`.
 # BROWSERS=chromium chooses one. SHOTS=DIR keeps pictures of the page. SITE=DIR takes a built site.
 set -eu
@@ -18,12 +19,12 @@ command -v node >/dev/null || skip "node is missing"
 [ "$(node -p 'parseInt(process.versions.node)')" -ge 18 ] || skip "node is older than 18"
 [ "$what" != formats ] || exec node --test "$here/formats.test.mjs"
 
-command -v chromium >/dev/null || command -v firefox-esr >/dev/null || command -v firefox >/dev/null ||
+[ "$what" = effects ] || command -v chromium >/dev/null || command -v firefox-esr >/dev/null || command -v firefox >/dev/null ||
     skip "there is neither Chromium nor Firefox"
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 export TOOLS="$folder/tools"
-if [ ! -d "$TOOLS/node_modules/axe-core" ]; then
+if [ "$what" != effects ] && [ ! -d "$TOOLS/node_modules/axe-core" ]; then
     command -v npm >/dev/null || skip "npm is missing"
     mkdir -p "$TOOLS"
     (cd "$TOOLS" && npm install --silent --no-save --prefix . playwright-core@1.56.1 axe-core@4) >/dev/null 2>&1 ||
@@ -38,6 +39,8 @@ if [ -z "${SITE:-}" ]; then
     SITE=$folder/site
 fi
 export SITE
+[ "$what" != effects ] ||
+    exec "${4:-python3}" -B "$here/../../../tests/command/test_effects.py" "$SIGHTLINE" --site "$SITE" --only
 if [ "$what" = quick ]; then
     if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
     export BROWSERS QUICK=1
