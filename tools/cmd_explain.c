@@ -1,6 +1,6 @@
 /// `sightline explain`: why a cell does or does not see another.
 #include "commands.h"
-#include "explain_answer.h"
+#include "explain_text.h"
 #include "inputs.h"
 #include "names.h"
 #include "options.h"
@@ -42,27 +42,27 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
 }
 
 /// Draws the pair as it is; where effects hide it, the line that they stop.
-static sl_status draw(sl_context *context, const explain_plan *plan, const answer *a) {
+static sl_status draw(sl_context *context, const explain_plan *plan, const sl_explained *a) {
     const sl_explanation *e = a->e.direct.without ? &a->e.without : &a->e.now;
     return sl_draw_explanation(context, a->baked, e, &plan->drawing, plan->output);
 }
 
-static sl_status tell(command_console *console, const explain_plan *plan, const answer *a) {
+static sl_status tell(command_console *console, const explain_plan *plan, const sl_explained *a) {
     sl_context *context = console->context;
+    const sl_status drawn = plan->output ? draw(context, plan, a) : SL_OK;
+    progress_line_clear(&console->line);
+    SL_TRY(drawn);
+    // A write that fails shows when the program checks its stdout at the end.
+    if (plan->json) return sl_explained_json(context, a, stdout);
     bool *scratch = sl_alloc_array(context, a->baked->map.door_count, sizeof *scratch);
     if (!scratch) return SL_NO_MEMORY;
-    sl_status status = plan->output ? draw(context, plan, a) : SL_OK;
-    progress_line_clear(&console->line);
-    if (status == SL_OK && plan->json)
-        status = explanation_print_json(context, a, scratch, stdout);
-    else if (status == SL_OK)
-        explanation_print(a, scratch);
+    explanation_print(a, scratch);
     sl_free(context, scratch);
-    return status;
+    return SL_OK;
 }
 
 static sl_status explain(command_console *console, const explain_plan *plan, sl_baked *baked,
-                         answer *a) {
+                         bool *shut, sl_explained *a) {
     sl_context *context = console->context;
     const sl_space *space = &baked->space;
     sl_explain_options options = plan->options;
@@ -70,11 +70,9 @@ static sl_status explain(command_console *console, const explain_plan *plan, sl_
     if (!plan->sight_given) options.sight = baked->visibility.sight;
     SL_TRY(choose_cell(context, "A", plan->operands[FROM_OPERAND], space, &from));
     SL_TRY(choose_cell(context, "B", plan->operands[TO_OPERAND], space, &to));
-    a->shut = sl_alloc_array(context, baked->map.door_count, sizeof *a->shut);
-    if (!a->shut) return SL_NO_MEMORY;
-    SL_TRY(doors_read(context, &plan->doors, &baked->map, a->shut));
-    for (size_t i = 0; i < baked->map.door_count; i++) baked->map.doors[i].open = !a->shut[i];
-    const sl_explain_state state = {a->shut, plan->mirror_depth};
+    SL_TRY(doors_read(context, &plan->doors, &baked->map, shut));
+    for (size_t i = 0; i < baked->map.door_count; i++) baked->map.doors[i].open = !shut[i];
+    const sl_explain_state state = {shut, plan->mirror_depth};
     SL_TRY(sl_explain_effects(context, space, &baked->map, &state, &options, from, to, &a->e));
     return tell(console, plan, a);
 }
@@ -121,10 +119,11 @@ sl_status cmd_explain(command_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, plan.operands[FILE_OPERAND], &baked));
-    answer a = {.baked = &baked};
-    const sl_status status = explain(console, &plan, &baked, &a);
+    bool *shut = sl_alloc_array(console->context, baked.map.door_count, sizeof *shut);
+    sl_explained a = {.baked = &baked, .shut = shut};
+    const sl_status status = shut ? explain(console, &plan, &baked, shut, &a) : SL_NO_MEMORY;
     sl_effect_explanation_destroy(console->context, &a.e);
-    sl_free(console->context, a.shut);
+    sl_free(console->context, shut);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

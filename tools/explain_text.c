@@ -1,5 +1,6 @@
 /// The words of `sightline explain`.
-#include "explain_answer.h"
+#include "explain_text.h"
+
 #include "names.h"
 #include "sightline/support.h"
 
@@ -129,13 +130,13 @@ static void print_hidden(const sl_space *space, const sl_explanation *e) {
 // --- the file
 
 /// Why the file says something else.
-static void print_difference(const answer *a) {
+static void print_difference(const sl_explained *a) {
     const sl_baked *baked = a->baked;
     const sl_explanation *e = &a->e.now;
     const char *truth = e->seen ? "seen" : "hidden";
     switch (baked->visibility.guarantee) {
     case SL_ROUNDED:
-        printf(is_doubtful(a) ? ": rounding decided that" : ", by a rounded solver");
+        printf(sl_explained_is_doubtful(a) ? ": rounding decided that" : ", by a rounded solver");
         printf("; exactly, it is %s.\n", truth);
         return;
     case SL_CONSERVATIVE:
@@ -149,15 +150,15 @@ static void print_difference(const answer *a) {
     printf(" and promises exact answers, but it is %s: the file is wrong.\n", truth);
 }
 
-static void print_file(const answer *a) {
+static void print_file(const sl_explained *a) {
     const sl_baked *baked = a->baked;
     const sl_explanation *e = &a->e.now;
-    const said what = said_by(a);
-    if (what == SAID_NOTHING) {
+    const sl_said said = sl_explained_said(a);
+    if (said == SL_SAID_NOTHING) {
         puts("The file does not say: it was baked from inside cells only.");
         return;
     }
-    const char *word = what == SAID_SEEN ? "seen" : "hidden";
+    const char *word = said == SL_SAID_SEEN ? "seen" : "hidden";
     const sl_sight sight = baked->visibility.sight;
     if (sight != e->sight)
         printf("The file, baked with %s sight, says %s", sight_name(sight), word);
@@ -165,10 +166,10 @@ static void print_file(const answer *a) {
         printf("The file says %s", word);
     if (sight != e->sight || (!e->complete && !e->seen))
         puts(".");
-    else if ((what == SAID_SEEN) != e->seen)
+    else if ((said == SL_SAID_SEEN) != e->seen)
         print_difference(a);
     else
-        puts(is_doubtful(a) ? " too, but rounding decided that." : " too.");
+        puts(sl_explained_is_doubtful(a) ? " too, but rounding decided that." : " too.");
 }
 
 /// Prints a way by mirror, step by step.
@@ -204,16 +205,16 @@ static void print_steps(const sl_baked *baked, const sl_bent_sightline *bent) {
 
 static void print_names(const sl_map *map, const bool *marked) {
     size_t count = 0, printed = 0;
-    for (size_t i = 0; i < map->door_count; i++) count += is_first(map, marked, i);
+    for (size_t i = 0; i < map->door_count; i++) count += sl_door_is_first(map, marked, i);
     for (size_t i = 0; i < map->door_count; i++) {
-        if (!is_first(map, marked, i)) continue;
+        if (!sl_door_is_first(map, marked, i)) continue;
         printf("%s%s", !printed ? "" : printed + 1 < count ? ", " : " and ", map->doors[i].name);
         printed++;
     }
 }
 
 /// Which doors the pair needs, by the file: "west, or north-west and east".
-static void print_needs(const answer *a, bool mirrored, bool *scratch) {
+static void print_needs(const sl_explained *a, bool mirrored, bool *scratch) {
     const sl_visibility *v = &a->baked->visibility;
     const sl_door_sets *sets = mirrored ? &v->mirrored_doors : &v->doors;
     const sl_explanation *e = &a->e.now;
@@ -232,18 +233,16 @@ static void print_needs(const answer *a, bool mirrored, bool *scratch) {
 }
 
 /// Prints what of effects a way passes: open doors, glass from its lit side, its length.
-static void print_passed(const answer *a, const way *w, bool *scratch) {
+static void print_passed(const sl_explained *a, const sl_way *w, bool *scratch) {
     const sl_map *map = &a->baked->map;
-    if (mark_doors(a, w, false, scratch)) {
+    if (sl_way_doors(a, w, false, scratch)) {
         printf("It passes the open doors ");
         print_names(map, scratch);
         puts(".");
     }
     print_needs(a, w->bent != NULL, scratch);
-    for (uint32_t i = 0; i < way_count(w); i++) {
-        const uint32_t directed = way_at(w, i);
-        const sl_seam *glass =
-            directed == UINT32_MAX ? NULL : seam_of(&a->baked->space, directed, SL_SEAM_ONEWAY);
+    for (uint32_t i = 0; i < sl_way_count(w); i++) {
+        const sl_seam *glass = sl_way_seam(&a->baked->space, w, i, SL_SEAM_ONEWAY);
         if (!glass) continue;
         printf("It passes one-way glass from ");
         print_point(glass->at.a);
@@ -251,10 +250,19 @@ static void print_passed(const answer *a, const way *w, bool *scratch) {
         print_point(glass->at.b);
         puts(", which is seen through from this side.");
     }
-    if (map->range > 0 && way_count(w) > 1)
+    if (map->range > 0 && sl_way_count(w) > 1)
         printf("The shortest line there is %.6g long, within the range of %.6g.\n", w->length,
                map->range);
 }
+
+/// The effects that can hide a pair.
+enum { HIDING = 3 };
+static const struct {
+    unsigned bit;
+    const char *what;
+} hiding[HIDING] = {{SL_EFFECT_DOOR, "shut doors"},
+                    {SL_EFFECT_ONEWAY, "one-way glass"},
+                    {SL_EFFECT_RANGE, "the view range"}};
 
 static void print_effects(unsigned effects, const char *last) {
     unsigned count = 0, printed = 0;
@@ -267,27 +275,27 @@ static void print_effects(unsigned effects, const char *last) {
 }
 
 /// Whether glass is dark on a way, given the cell that each portal is left from.
-static bool is_dark(const answer *a, const way *w, uint32_t i, uint32_t from) {
-    const uint32_t directed = way_at(w, i);
+static bool is_dark(const sl_explained *a, const sl_way *w, uint32_t i, uint32_t from) {
+    const uint32_t directed = sl_way_at(w, i);
     return directed != UINT32_MAX && sl_portal_is_blocked(&a->baked->space, from, directed);
 }
 
-static uint32_t cell_after(const answer *a, const way *w, uint32_t i) {
-    return w->bent ? w->bent->steps[i].cell : a->baked->space.directed[way_at(w, i)].cell;
+static uint32_t cell_after(const sl_explained *a, const sl_way *w, uint32_t i) {
+    return w->bent ? w->bent->steps[i].cell : a->baked->space.directed[sl_way_at(w, i)].cell;
 }
 
 /// Prints what stops a way that effects hide.
-static void print_stops(const answer *a, const way *w, bool *scratch) {
+static void print_stops(const sl_explained *a, const sl_way *w, bool *scratch) {
     const sl_map *map = &a->baked->map;
-    if (mark_doors(a, w, true, scratch)) {
+    if (sl_way_doors(a, w, true, scratch)) {
         printf("Shut on this way: ");
         print_names(map, scratch);
         puts(".");
     }
     uint32_t from = a->e.now.from;
-    for (uint32_t i = 0; i < way_count(w); from = cell_after(a, w, i++)) {
+    for (uint32_t i = 0; i < sl_way_count(w); from = cell_after(a, w, i++)) {
         if (!is_dark(a, w, i, from)) continue;
-        const sl_seam *glass = seam_of(&a->baked->space, way_at(w, i), SL_SEAM_ONEWAY);
+        const sl_seam *glass = sl_way_seam(&a->baked->space, w, i, SL_SEAM_ONEWAY);
         printf("Dark from this side: one-way glass from ");
         print_point(glass->at.a);
         printf(" to ");
@@ -300,7 +308,7 @@ static void print_stops(const answer *a, const way *w, bool *scratch) {
 }
 
 /// "Without shut doors, or without the view range, the cell would be seen."
-static void print_verdict(const answer *a, const sl_effect_verdict *verdict, bool mirrored) {
+static void print_verdict(const sl_explained *a, const sl_effect_verdict *verdict, bool mirrored) {
     if (verdict->seen || !a->e.effects) return;
     const char *by = mirrored ? "By mirror, walls" : "Walls";
     if (!verdict->without) {
@@ -316,20 +324,21 @@ static void print_verdict(const answer *a, const sl_effect_verdict *verdict, boo
                           : " together, the cell would be seen; none of them decides alone.");
 }
 
-static void print_would_be(const answer *a, bool *scratch) {
+static void print_would_be(const sl_explained *a, bool *scratch) {
     const sl_explanation *e = &a->e.without;
     const sl_space *space = &a->baked->space;
-    const way w = way_direct(e);
+    const sl_way w = sl_way_direct(e);
     printf("Without ");
     print_effects(a->e.direct.without, " and ");
-    printf(" it is seen through %" PRIu32 " portal%s:\n", way_count(&w), plural(way_count(&w)));
-    print_portals(space, &e->sequence, way_count(&w));
+    printf(" it is seen through %" PRIu32 " portal%s:\n", sl_way_count(&w),
+           plural(sl_way_count(&w)));
+    print_portals(space, &e->sequence, sl_way_count(&w));
     print_line(e->witness);
     puts(e->verdict == SL_GRAZING ? " grazes there." : " passes there.");
     print_stops(a, &w, scratch);
 }
 
-static void print_bent(const answer *a, bool *scratch) {
+static void print_bent(const sl_explained *a, bool *scratch) {
     const sl_explanation *e = &a->e.now;
     const sl_bent_sightline *bent = &e->bent;
     const bool hidden = !a->e.mirrored.seen;
@@ -339,7 +348,7 @@ static void print_bent(const answer *a, bool *scratch) {
                e->from, e->to, bent->verdict == SL_GRAZING ? ", though lines only graze" : "",
                bent->mirrors, plural(bent->mirrors));
         print_steps(a->baked, bent);
-        const way w = way_bent(bent);
+        const sl_way w = sl_way_bent(bent);
         print_passed(a, &w, scratch);
     }
     if (!hidden) return;
@@ -353,11 +362,11 @@ static void print_bent(const answer *a, bool *scratch) {
     printf(" it is seen with %" PRIu32 " reflection%s:\n", a->e.bent_without.mirrors,
            plural(a->e.bent_without.mirrors));
     print_steps(a->baked, &a->e.bent_without);
-    const way w = way_bent(&a->e.bent_without);
+    const sl_way w = sl_way_bent(&a->e.bent_without);
     print_stops(a, &w, scratch);
 }
 
-static void print_now(const answer *a) {
+static void print_now(const sl_explained *a) {
     const sl_explanation *e = &a->e.now;
     const sl_space *space = &a->baked->space;
     if (e->from == e->to)
@@ -377,10 +386,10 @@ static void print_now(const answer *a) {
         print_hidden(space, e);
 }
 
-void explanation_print(const answer *a, bool *scratch) {
+void explanation_print(const sl_explained *a, bool *scratch) {
     const sl_explanation *e = &a->e.now;
     print_now(a);
-    const way w = way_direct(e);
+    const sl_way w = sl_way_direct(e);
     if (e->seen && e->from != e->to) print_passed(a, &w, scratch);
     print_verdict(a, &a->e.direct, false);
     if (a->e.direct.without) print_would_be(a, scratch);

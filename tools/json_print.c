@@ -109,17 +109,15 @@ void json_add_members(json_fields *fields, const char *key, const uint64_t *set,
     sl_json_put_end(json, ']');
 }
 
-void json_put_point(sl_json_writer *json, sl_point point) {
-    sl_json_put_list(json);
-    sl_json_put_real(json, point.x);
-    sl_json_put_real(json, point.y);
-    sl_json_put_end(json, ']');
-}
-
 void json_add_points(json_fields *fields, const char *key, const sl_point *points, size_t count) {
     sl_json_writer *json = json_add(fields, key);
     sl_json_put_list(json);
-    for (size_t i = 0; i < count; i++) json_put_point(json, points[i]);
+    for (size_t i = 0; i < count; i++) {
+        sl_json_put_list(json);
+        sl_json_put_real(json, points[i].x);
+        sl_json_put_real(json, points[i].y);
+        sl_json_put_end(json, ']');
+    }
     sl_json_put_end(json, ']');
 }
 
@@ -144,19 +142,15 @@ void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_acco
     json_add_fields(fields, key, &cleaning);
 }
 
-sl_status json_print_to(sl_context *context, json_fields *fields, FILE *stream) {
+sl_status json_print(sl_context *context, json_fields *fields) {
     sl_json_put_end(writer_of(fields), '}');
     const bool failed = fields->failed || fields->writer.failed;
-    sl_json_writer out = sl_json_writer_to(stream, 2);
+    sl_json_writer out = sl_json_writer_to(stdout, 2);
+    // A write that fails shows when the program checks its stdout at the end.
     if (!failed) {
         sl_json_put_written(&out, fields->text, fields->size);
-        putc('\n', stream);
+        putchar('\n');
     }
     json_drop(fields);
     return failed ? sl_fail_memory(context) : SL_OK;
-}
-
-sl_status json_print(sl_context *context, json_fields *fields) {
-    // A write that fails shows when the program checks its stdout at the end.
-    return json_print_to(context, fields, stdout);
 }

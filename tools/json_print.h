@@ -41,12 +41,7 @@ void json_add_fields(json_fields *fields, const char *key, json_fields *inner);
 void json_add_list(json_fields *fields, const char *key, json_fields *items, size_t count);
 void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_account *account);
 
-/// [x, y]
-void json_put_point(sl_json_writer *json, sl_point point);
-
 /// Prints the object on stdout and uses it up.
 sl_status json_print(sl_context *context, json_fields *fields);
-/// The same into a stream, whose error flag keeps writes that fail.
-sl_status json_print_to(sl_context *context, json_fields *fields, FILE *stream);
 
 #endif

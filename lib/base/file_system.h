@@ -1,4 +1,5 @@
-/// What files need of the operating system: file_posix.c, and file_windows.c in its place there.
+/// What files need of the operating system: file_posix.c and memory_posix.c, and file_windows.c in
+/// their place there.
 /// All paths are UTF-8. What fails sets errno.
 #ifndef SLI_FILE_SYSTEM_H
 #define SLI_FILE_SYSTEM_H

@@ -12,7 +12,8 @@ set(CMAKE_C_STANDARD_REQUIRED ON)
 set(CMAKE_C_EXTENSIONS OFF)
 
 add_library(sightline_flags INTERFACE)
-target_compile_definitions(sightline_flags INTERFACE _XOPEN_SOURCE=700)
+target_compile_definitions(sightline_flags INTERFACE _XOPEN_SOURCE=700
+  $<$<NOT:$<BOOL:${SIGHTLINE_BOXES}>>:SLI_WITHOUT_BOXES>)
 if(MINGW) # its printf as C has it, and nothing to install beside a program
   target_compile_definitions(sightline_flags INTERFACE __USE_MINGW_ANSI_STDIO=1)
   target_link_options(sightline_flags INTERFACE -static)

@@ -56,7 +56,7 @@ static sl_status enter(sl_context *context, exact_job *job, const sli_eye_step *
     sli_eye_query *query = job->query;
     const size_t depth = ++job->way.count;
     if (query->search->targets.first) sli_eye_meet_targets(query, to, depth == 1);
-    if (query->search->boxes) sli_eye_meet_boxes(query, to, depth == 1);
+    if (SLI_BOXES && query->search->boxes) sli_eye_meet_boxes(query, to, depth == 1);
     // No cell comes twice on the way; a first directed portal may have given two steps.
     if (depth > (size_t)query->space->cell_count + 1)
         return sl_fail(context, SL_BAD_INPUT,

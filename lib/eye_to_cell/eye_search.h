@@ -9,6 +9,14 @@
 #include "space/boxes.h"
 #include "space/index.h"
 
+/// The option SIGHTLINE_BOXES of the build. Without it a query refuses boxes, and nothing leads to
+/// the sources that are for boxes alone: a linker can leave them out.
+#ifdef SLI_WITHOUT_BOXES
+enum { SLI_BOXES = 0 };
+#else
+enum { SLI_BOXES = 1 };
+#endif
+
 /// A step of the exact method: a cell that is entered, or a node of the stab tree.
 typedef struct sli_eye_step {
     sli_portal_step at; ///< `next` is the node's number in a stab tree

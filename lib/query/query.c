@@ -61,6 +61,7 @@ static void drop_mirrors(sl_context *context, sl_query *q) {
 
 static void drop_boxes(sl_context *context, sl_query *q) {
     drop_mirrors(context, q);
+    if (!SLI_BOXES) return;
     if (q->moving) sl_moving_destroy(context, q->moving);
     q->moving = NULL;
     q->boxes_placed = false;
@@ -167,6 +168,8 @@ void sl_query_set_doors(sl_context *context, sl_query *query, bool open) {
 sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_moving_box *boxes,
                              size_t count) {
     sl_moving_box *copy = NULL;
+    if (!SLI_BOXES && count)
+        return sl_fail(context, SL_UNSUPPORTED, "this build has no boxes (SIGHTLINE_BOXES)");
     if (count) {
         copy = sl_alloc_array(context, count, sizeof *copy);
         if (!copy) return SL_NO_MEMORY;
@@ -174,7 +177,7 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
     }
     drop_mirrors(context, query);
     query->boxes_placed = false;
-    sli_box_lists_destroy(context, &query->lists);
+    if (SLI_BOXES) sli_box_lists_destroy(context, &query->lists);
     sl_free(context, query->boxes);
     query->boxes = copy;
     query->box_count = count;
@@ -240,9 +243,14 @@ static sl_status make_glass(sl_context *context, sl_query *q) {
 }
 
 static sl_status make_layers(sl_context *context, sl_query *q) {
-    SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
+    if (SLI_BOXES) SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
     SL_TRY(make_doors(context, q));
     return make_glass(context, q);
+}
+
+/// Whether sight goes past boxes that hide what is behind them.
+static bool has_blocks(const sl_query *q) {
+    return SLI_BOXES && q->any_blocks;
 }
 
 static bool has_mirrors(const sl_query *q) {
@@ -319,7 +327,7 @@ static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *
 
 /// The outline that sight goes by: with the boxes, if some of them block.
 static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
-    if (q->any_blocks) {
+    if (has_blocks(q)) {
         SL_TRY(make_moving(context, q));
         return sl_moving_outline(context, q->moving, out);
     }
@@ -432,7 +440,7 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
     if (!method) method = exact_method();
     if (!account) account = &own;
     SL_TRY(make_layers(context, query));
-    if (query->any_blocks && method == exact_method())
+    if (has_blocks(query) && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
     if (!has_mirrors(query) && is_in_line_with_glass(query, view->eye))
         return look_in_line(context, query, view, method, cells, account);
@@ -455,7 +463,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
         return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
                        method->name);
     SL_TRY(make_layers(context, query));
-    if (query->any_blocks && method == exact_method())
+    if (has_blocks(query) && method == exact_method())
         return look_past(context, query, view, true, cells, NULL, account);
     SL_TRY(make_search(context, query));
     return method->mirrored(context, query->search, view, cells, account);
@@ -465,7 +473,7 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
                               bool *mirrored) {
     sl_eye_account account;
     SL_TRY(make_layers(context, query));
-    if (!query->box_count) return SL_OK;
+    if (!SLI_BOXES || !query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
     if (lists_will_do(query, view->eye)) return look_by_lists(context, query, view, seen);
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);

@@ -54,6 +54,9 @@ static int compare_covers(const void *left, const void *right) {
 static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_point from,
                            sl_point to) {
     const sl_wall *w = &o->space->walls[wall];
+    // Most walls near an axial piece are on another line: that takes no predicate.
+    if (from.x == to.x && (w->a.x != from.x || w->b.x != from.x)) return SL_OK;
+    if (from.y == to.y && (w->a.y != from.y || w->b.y != from.y)) return SL_OK;
     if (sli_orient(w->a, w->b, from) != 0 || sli_orient(w->a, w->b, to) != 0) return SL_OK;
     const double a = along(from, to, w->a), b = along(from, to, w->b);
     cover c = {fmin(a, b), fmax(a, b), a < b ? w->a : w->b, a < b ? w->b : w->a, wall};
@@ -63,11 +66,11 @@ static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_p
     return SL_OK;
 }
 
-/// Finds the walls on a piece of boundary: each is near to some point of it. A wall may come
-/// several times.
+/// Finds the walls on a piece of boundary. Points are taken along it, less than two reaches apart:
+/// so each wall is within reach of one. A wall may come several times.
 static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, sl_point to) {
     const sl_point d = {to.x - from.x, to.y - from.y};
-    const double steps = ceil((fabs(d.x) + fabs(d.y)) / o->reach);
+    const double steps = ceil((fabs(d.x) + fabs(d.y)) / (1.9 * o->reach));
     o->covers.count = 0;
     for (double i = 0; i <= steps; i++) {
         const sl_point at = {from.x + d.x * (i / steps), from.y + d.y * (i / steps)};
@@ -75,7 +78,7 @@ static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, 
         const uint32_t *walls = sli_wall_grid_at(&o->grid, at, &count);
         for (uint32_t k = 0; k < count; k++) SL_TRY(add_cover(context, o, walls[k], from, to));
     }
-    if (o->covers.count)
+    if (o->covers.count > 1)
         qsort(o->covers.items, o->covers.count, sizeof *o->covers.items, compare_covers);
     return SL_OK;
 }

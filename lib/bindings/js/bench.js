@@ -1,96 +1,153 @@
 /**
- * WebAssembly against native code: bake, region and runtime, in one run.
+ * WebAssembly against native code, in one run: the bytes of bakes, and how long bakes and questions take.
  *
- *     node bench.js PACKAGE COMMAND ANSWERS [MAP...]
+ *     node bench.js [--chromium] PACKAGE COMMAND ANSWERS [MAP|FOLDER...]
  *
- * Prints a table. PACKAGE is the folder of the package, COMMAND the native `sightline`, ANSWERS the
- * program of tests/bindings. Times are the least of several; compare the two of a line.
+ * Prints a table: native code beside Node and, with --chromium, beside that browser. PACKAGE is the folder
+ * of the package, COMMAND the native `sightline`, ANSWERS the program of tests/bindings. Of a folder it takes
+ * all files that COMMAND reads, and says what it leaves out; without maps it generates some. Times are the
+ * least of several: compare those of one line. Exits with 1 where bytes differ.
  */
-import { execFileSync } from 'node:child_process'
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs'
+import { execFileSync, spawn } from 'node:child_process'
+import { once } from 'node:events'
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs'
+import { createServer } from 'node:http'
 import { tmpdir } from 'node:os'
 import { basename, join, resolve } from 'node:path'
 import { pathToFileURL } from 'node:url'
+import { eyesOf, leastStages, measure } from './bench-times.js'
 
-const [folder, command, answers, ...maps] = process.argv.slice(2)
+const words = process.argv.slice(2)
+const browser = words[0] === '--chromium' && words.shift()
+const [folder, command, answers, ...chosen] = words
 if (!answers) {
-  console.error('usage: node bench.js PACKAGE COMMAND ANSWERS [MAP...]')
+  console.error('usage: node bench.js [--chromium] PACKAGE COMMAND ANSWERS [MAP|FOLDER...]')
   process.exit(2)
 }
-const load = (name) => import(pathToFileURL(resolve(folder, name)).href)
-const { Level } = await load('sightline.js')
-const { load: loadCore } = await load('bake.js')
-const core = await loadCore()
 const scratch = mkdtempSync(join(tmpdir(), 'sightline-bench-'))
-const native = (...words) => execFileSync(command, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })
+process.on('exit', () => rmSync(scratch, { recursive: true, force: true }))
+const native = (...args) => execFileSync(command, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 2 ** 28 })
 
-/** The least of some times. */
-function least(runs, time) {
-  let best = Infinity
-  for (let i = 0; i < runs; i++) best = Math.min(best, time())
-  return best
-}
+// ---- Maps ----
 
-/** The least milliseconds of each stage, added: a pause hits one stage of one run. */
-function leastStages(runs, bake) {
-  const least = {}
-  for (let i = 0; i < runs; i++)
-    for (const [stage, seconds] of Object.entries(bake())) least[stage] = Math.min(least[stage] ?? Infinity, seconds)
-  return Object.values(least).reduce((sum, seconds) => sum + 1000 * seconds, 0)
-}
-
-function bakeTimes(path, slv) {
-  const text = readFileSync(path)
-  const wasm = leastStages(40, () => {
-    const scene = core.open(text, { name: basename(path) })
-    const { seconds } = scene.account
-    scene.close()
-    return seconds
-  })
-  const own = leastStages(40, () => {
-    const report = native('bake', path, '--threads', '1', '--json', '-o', slv)
-    const { write, ...seconds } = JSON.parse(report).seconds
-    return seconds
-  })
-  return [own, wasm]
-}
-
-/** Microseconds an eye: the native program's answers less the answers to nothing, and the level's. */
-function lookTimes(level, slv, kind, ask) {
-  const { minX, minY, maxX, maxY } = level.bounds
-  const eyes = Array.from({ length: 2000 }, (_, i) => [
-    minX + ((i * 0.618034) % 1) * (maxX - minX), minY + ((i * 0.414214) % 1) * (maxY - minY)])
-  const wasm = least(25, () => {
-    const from = performance.now()
-    for (const [x, y] of eyes) ask(x, y)
-    return performance.now() - from
-  })
-  const line = execFileSync(answers, [slv], { encoding: 'utf8', input: `t${kind} ${eyes.map((eye) => eye.join(' ')).join(' ')}\n`, maxBuffer: 2 ** 28 })
-  return [Number(line) / eyes.length, (1000 * wasm) / eyes.length]
-}
-
-const rows = []
-const chosen = maps.length ? maps : [['office', 1], ['office', 4], ['city', 4]].flatMap(([kind, size]) =>
-  [[], ['--turned', '17']].map((turn) => {
+function generated() {
+  return [['office', 1], ['office', 4], ['city', 4]].flatMap(([kind, size]) => [[], ['--turned', '17']].map((turn) => {
     const path = join(scratch, `${kind}-${size}${turn.length ? '-turned' : ''}.map`)
     native('generate', kind, '--size', String(size), '-o', path, ...turn)
     return path
   }))
-for (const path of chosen) {
-  const slv = join(scratch, 'level.slv')
-  const name = basename(path).replace(/\.[^.]*$/, '')
-  const walls = core.open(readFileSync(path), { name: basename(path) })
-  rows.push([name, `bake, ${walls.wallCount} walls`, ...bakeTimes(path, slv), 'ms'])
-  walls.close()
-  const level = await Level.open(readFileSync(slv))
-  rows.push([name, 'runtime: cells of an eye', ...lookTimes(level, slv, 'k', (x, y) => level.look(x, y)), 'µs'])
-  rows.push([name, 'runtime: polygon of an eye', ...lookTimes(level, slv, 'v', (x, y) => level.visiblePolygon(x, y)), 'µs'])
-  const scene = core.open(readFileSync(slv))
-  rows.push([name, 'library: region of an eye', ...lookTimes(level, slv, 'r', (x, y) => scene.visiblePolygon(x, y)), 'µs'])
-  scene.close()
-  level.close()
 }
-rmSync(scratch, { recursive: true })
-console.log('| map | what | native | WebAssembly | ratio |\n| --- | --- | --- | --- | --- |')
-for (const [name, what, own, wasm, unit] of rows)
-  console.log(`| ${name} | ${what} | ${own.toPrecision(3)} ${unit} | ${wasm.toPrecision(3)} ${unit} | ${(wasm / own).toFixed(1)} |`)
+
+const filesOf = (path) => !statSync(path).isDirectory() ? [path]
+  : readdirSync(path, { withFileTypes: true }).filter((entry) => entry.isFile()).map((entry) => join(path, entry.name)).sort()
+
+/** A file as map text, and its native bake; null, and why, where there is none. */
+function prepared(path, number) {
+  const map = join(scratch, `${number}.map`), slv = join(scratch, `${number}.slv`)
+  try {
+    if (/\.map$/.test(path)) writeFileSync(map, readFileSync(path))
+    else native('convert', path, '-o', map)
+    native('bake', map, '-o', slv)
+    return { name: basename(path).replace(/\.(map|txt)$/, ''), map, slv, number }
+  } catch (error) {
+    console.error(`left out: ${path}: ${String(error.stderr ?? error.message).trim().split('\n').pop()}`)
+    return null
+  }
+}
+
+// ---- Times ----
+
+/** Microseconds an eye, by the native program. */
+function lookTime(slv, kind, eyes) {
+  const input = `t${kind} ${eyes.map((eye) => eye.join(' ')).join(' ')}\n`
+  return Number(execFileSync(answers, [slv], { encoding: 'utf8', input, maxBuffer: 2 ** 28 })) / eyes.length
+}
+
+const fromPackage = (name) => import(pathToFileURL(resolve(folder, name)).href)
+const modules = { ...(await fromPackage('sightline.js')), ...(await fromPackage('bake.js')) }
+const core = await modules.load()
+
+async function here({ map, slv }) {
+  const eyes = eyesOf((await modules.Level.open(readFileSync(slv))).bounds)
+  const scratchSlv = join(scratch, 'again.slv')
+  const bake = leastStages(() => {
+    const { write, ...seconds } = JSON.parse(native('bake', map, '--threads', '1', '--json', '-o', scratchSlv)).seconds
+    return seconds
+  })
+  const own = { bake, cells: lookTime(slv, 'k', eyes), polygon: lookTime(slv, 'v', eyes), region: lookTime(slv, 'r', eyes) }
+  return { native: own, Node: await measure(core, modules.Level, readFileSync(map), readFileSync(slv)) }
+}
+
+/** The same in a browser without a window: the page fetches the maps, and posts its times. */
+async function inBrowser(maps) {
+  const page = `<!doctype html><script type=module>
+    import { measure } from '/bench-times.js'
+    import { Level } from '/package/sightline.js'
+    import { load } from '/package/bake.js'
+    const core = await load(), bytes = async (name) => new Uint8Array(await (await fetch(name)).arrayBuffer())
+    const times = []
+    try {
+      for (const number of ${JSON.stringify(maps.map((map) => map.number))})
+        times.push(await measure(core, Level, await bytes('/' + number + '.map'), await bytes('/' + number + '.slv')))
+      await fetch('/times', { method: 'POST', body: JSON.stringify(times) })
+    } catch (error) {
+      await fetch('/times', { method: 'POST', body: JSON.stringify({ error: error.message }) })
+    }</script>`
+  const types = { html: 'text/html', js: 'text/javascript', wasm: 'application/wasm' }
+  let posted
+  const answer = new Promise((resolve, reject) => (posted = { resolve, reject }))
+  const server = createServer(async (request, response) => {
+    const name = request.url.slice(1)
+    if (request.method === 'POST') {
+      const parts = []
+      for await (const part of request) parts.push(part)
+      posted.resolve(JSON.parse(Buffer.concat(parts)))
+      return response.end()
+    }
+    const file = name === 'bench-times.js' ? new URL(name, import.meta.url)
+      : name.startsWith('package/') ? join(folder, basename(name)) : /^\d+\.(map|slv)$/.test(name) ? join(scratch, name) : null
+    if (!file && name !== '') return response.writeHead(404).end()
+    // The two policies give the page a clock of microseconds.
+    response.writeHead(200, { 'content-type': types[name.split('.')[1] ?? 'html'] ?? 'application/octet-stream',
+      'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' })
+    response.end(file ? readFileSync(file) : page)
+  }).listen(0, '127.0.0.1')
+  await once(server, 'listening')
+  const program = spawn('chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', `--user-data-dir=${join(scratch, 'browser')}`,
+    `http://127.0.0.1:${server.address().port}/`], { stdio: 'ignore' })
+  program.on('error', posted.reject)
+  program.on('exit', () => posted.reject(new Error('the browser has ended by itself')))
+  try {
+    const times = await answer
+    if (times.error) throw new Error(`in the browser: ${times.error}`)
+    return times
+  } finally {
+    server.close()
+    if (program.exitCode === null && program.kill()) await once(program, 'exit')
+  }
+}
+
+// ---- The table ----
+
+const files = chosen.length ? chosen.flatMap(filesOf) : generated()
+const maps = files.map(prepared).filter(Boolean)
+const rows = []
+for (const map of maps) rows.push(await here(map))
+if (browser) for (const [i, times] of (await inBrowser(maps)).entries()) rows[i].Chromium = times
+
+const places = browser ? ['Node', 'Chromium'] : ['Node']
+const questions = [
+  ['bake', 'bake', 'ms'], ['cells', 'runtime: cells of an eye', 'µs'], ['polygon', 'runtime: polygon of an eye', 'µs'],
+  ['region', 'library: region of an eye', 'µs'], ['step', 'bake, then cells and region of one eye', 'ms'],
+]
+console.log(`| map | what | native | ${places.join(' | ratio | ')} | ratio |\n| --- | --- | --- |${' --- | --- |'.repeat(places.length)}`)
+for (const [i, row] of rows.entries())
+  for (const [key, what, unit] of questions) {
+    const cells = places.flatMap((place) => [`${row[place][key].toPrecision(3)} ${unit}`, row.native[key] ? (row[place][key] / row.native[key]).toFixed(1) : ''])
+    const walls = key === 'bake' ? `, ${row.Node.walls} walls` : ''
+    console.log(`| ${maps[i].name} | ${what}${walls} | ${row.native[key] ? `${row.native[key].toPrecision(3)} ${unit}` : ''} | ${cells.join(' | ')} |`)
+  }
+const differs = rows.flatMap((row, i) => places.filter((place) => !row[place].same).map((place) => `${maps[i].name} (${place})`))
+console.log(`\nBytes as the native bake has them: ${rows.length * places.length - differs.length} of ${rows.length * places.length} bakes.`)
+if (differs.length) console.error(`Bytes differ: ${differs.join(', ')}`)
+process.exitCode = differs.length ? 1 : 0

@@ -52,7 +52,8 @@ SL_API void sl_query_set_doors(sl_context *context, sl_query *query, bool open);
 
 /// Boxes that block sight or are to be seen themselves (sightline/moving.h), in place of those
 /// before. They are copied. The next question fails as sl_moving_place does. If some box blocks, it
-/// cuts the cells at the sides of all boxes, and copies the rest of the space.
+/// cuts the cells at the sides of all boxes, and copies the rest of the space. SL_UNSUPPORTED in a
+/// build without boxes (SIGHTLINE_BOXES).
 SL_API sl_status sl_query_set_boxes(sl_context *context, sl_query *query,
                                     const sl_moving_box *boxes, size_t count);
 

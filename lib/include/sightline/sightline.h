@@ -9,6 +9,7 @@
 #include "sightline/dual.h"
 #include "sightline/effects.h"
 #include "sightline/explain.h"
+#include "sightline/explained.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/faults.h"
 #include "sightline/geometry.h"

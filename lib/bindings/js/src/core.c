@@ -8,8 +8,6 @@
 #include "bindings/js/src/bindings.h"
 #include "sightline/json_write.h"
 #include "sightline/sightline.h"
-#include "tools/explain_answer.h"
-#include "tools/names.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -540,24 +538,20 @@ SLI_EXPORT(int, scene_mirror_part, scene *s, uint32_t number, double tolerance) 
 static sl_status explain(scene *s, uint32_t from, uint32_t to, uint32_t misses, double tests,
                          uint32_t mirror_depth) {
     sl_explain_options options = sl_explain_options_default();
-    answer a = {.baked = &s->baked, .shut = s->shut};
+    sl_explained a = {.baked = &s->baked, .shut = s->shut};
     const sl_explain_state state = {s->shut, mirror_depth};
     options.sight = s->baked.visibility.sight;
     options.most_misses = misses;
     options.most_tests = (uint64_t)tests;
     SL_TRY(check_cell(s, from));
     SL_TRY(check_cell(s, to));
-    bool *scratch = sl_alloc_array(sli_module.context, s->baked.map.door_count, sizeof *scratch);
-    if (!scratch) return SL_NO_MEMORY;
     sl_status status = sl_explain_effects(sli_module.context, &s->baked.space, &s->baked.map,
                                           &state, &options, from, to, &a.e);
     sl_output output;
     if (status == SL_OK && (status = sl_output_open(sli_module.context, "", &output)) == SL_OK)
-        status =
-            sl_output_close(sli_module.context, &output,
-                            explanation_print_json(sli_module.context, &a, scratch, output.stream));
+        status = sl_output_close(sli_module.context, &output,
+                                 sl_explained_json(sli_module.context, &a, output.stream));
     sl_effect_explanation_destroy(sli_module.context, &a.e);
-    sl_free(sli_module.context, scratch);
     return status;
 }
 
@@ -619,9 +613,4 @@ SLI_EXPORT(int, conflict, const sl_portal_ends *portals, uint32_t count) {
         sli_module.integers[4 + 2 * i] = found.ends[i].left;
     }
     return SL_OK;
-}
-
-/// The command's name of a sight, for the JSON of an explanation.
-const char *sight_name(sl_sight sight) {
-    return sight == SL_OPEN ? "open" : "closed";
 }

@@ -58,17 +58,3 @@ sl_path_kind sl_path_look(const char *path) {
     (void)path;
     return SL_PATH_NOTHING;
 }
-
-bool sli_memory_open(sli_memory_stream *memory) {
-    *memory = (sli_memory_stream){0};
-    memory->stream = open_memstream(&memory->text, &memory->size);
-    return memory->stream != NULL;
-}
-
-bool sli_memory_close(sli_memory_stream *memory) {
-    const bool failed = ferror(memory->stream) != 0;
-    const bool kept = fclose(memory->stream) == 0 && !failed;
-    if (!kept) free(memory->text);
-    if (!kept) memory->text = NULL;
-    return kept;
-}
