@@ -19,20 +19,24 @@
 ///
 /// Cost: for each point about O(points + ways on in the lists of points beside walls). The lists
 /// take O(pairs of points that are two steps apart), up to KEPT_WAYS; what has no list tries all.
-/// Keys are at least 1 apart along a path, so a bucket for each whole length is sorted once, when
+/// Keys are at least 1 apart along a path, so a bucket of keys near each other is sorted once, when
 /// it is reached.
 #include "visibility_graph/paths.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/// A way on to a point, and the number of the last step; NONE where no path turns at the point.
+/// A way on to a point, and the number of its step; NONE where no path turns at the point.
 typedef struct way_on {
     uint32_t slot, step;
+    float length; ///< of the step, rounded
 } way_on;
 
-/// Memory for ways on: 256 MiB, shared out evenly among the bundles.
+/// Memory for ways on: 384 MiB, shared out evenly among the bundles.
 #define KEPT_WAYS ((size_t)1 << 25)
+
+/// Buckets hold the keys of a part of a square.
+enum { PARTS = 4 };
 
 /// Shortest paths are told from others by at least this, in squares.
 #define LEAST_DETOUR 4e-3f
@@ -75,7 +79,9 @@ typedef struct walker {
     const sli_vga_sights *sights;
     const all_ways *ways; ///< NULL: all ways on are tried
     // By slot:
-    float *length;    ///< of its path so far, in squares; INFINITY: none
+    float *length; ///< of its path so far, in squares; where `last` is none: no path is longer
+    float *bound;
+    float *hop;       ///< length of its path's last step
     float *turn;      ///< along its path, in right angles, once the path is final
     uint32_t *last;   ///< the slot of its path before it, or none
     uint32_t *before; ///< of those that were expanded: `before` of their entry
@@ -84,14 +90,16 @@ typedef struct walker {
     uint32_t bucket_mask;
     SL_ARRAY(entry) entries;
     SL_ARRAY(entry) sorted;
+    SL_ARRAY(uint32_t) order; ///< slots in the order of expansion
     size_t waiting;
+    uint32_t old_from; ///< the start before, or none
 } walker;
 
 // --- buckets
 
 static sl_status push(sl_context *context, walker *w, entry e) {
     SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
-    uint32_t *bucket = &w->buckets[(uint64_t)e.key & w->bucket_mask];
+    uint32_t *bucket = &w->buckets[(uint64_t)(e.key * PARTS) & w->bucket_mask];
     e.number = w->sights->points[e.slot];
     e.next = *bucket;
     *bucket = (uint32_t)w->entries.count;
@@ -109,8 +117,8 @@ static int compare_entries(const void *left, const void *right) {
 }
 
 /// Takes all entries of a bucket, sorted.
-static sl_status take_bucket(sl_context *context, walker *w, uint64_t length) {
-    uint32_t *bucket = &w->buckets[length & w->bucket_mask];
+static sl_status take_bucket(sl_context *context, walker *w, uint64_t parts) {
+    uint32_t *bucket = &w->buckets[parts & w->bucket_mask];
     w->sorted.count = 0;
     for (uint32_t i = *bucket; i != SLI_VGA_NONE; i = w->entries.items[i].next) {
         SL_TRY(SL_ARRAY_ROOM(context, &w->sorted, 1));
@@ -147,35 +155,40 @@ static float turn_to(walker *w, uint32_t slot) {
     return w->turn[at] + known->turn;
 }
 
+/// Whether a step of this length, rounded to single precision, may lead to a gain.
+static inline bool may_gain(float key, float step, float old) {
+    return step * (1 - 1e-6f) < old - key;
+}
+
 /// Tries the way on from a point to another.
-static sl_status try_point(sl_context *context, walker *w, const entry *at, way_on way) {
+static sl_status try_point(sl_context *context, walker *w, const entry *at, uint32_t q,
+                           uint32_t number) {
     const sli_vga_sights *s = w->sights;
-    const uint32_t q = way.slot;
     const float old = w->length[q];
-    const double dx = (double)s->x[at->slot] - (double)s->x[q];
-    const double dy = (double)s->y[at->slot] - (double)s->y[q];
-    const double left = (double)old - (double)at->key, square = dx * dx + dy * dy;
-    if (square > left * left * (1 + 1e-12)) return SL_OK; // without a root
-    const double step = sqrt(square);
+    const double step = sli_vga_distance(s, at->slot, q);
     if (at->key + step >= old) return SL_OK;
-    w->length[q] = at->key + (float)step;
+    w->hop[q] = (float)step;
+    w->length[q] = at->key + w->hop[q];
     w->last[q] = at->slot;
     // A path that is shorter by less than a float tells is there already, with its way so far.
     if (w->length[q] == old || !sl_bits_has(s->turning, q)) return SL_OK;
     return push(context, w,
-                (entry){.key = w->length[q], .slot = q, .before = at->slot, .step = way.step});
+                (entry){.key = w->length[q], .slot = q, .before = at->slot, .step = number});
 }
 
 /// Tries all ways on.
 static sl_status expand_row(sl_context *context, walker *w, const entry *at) {
     const sli_vga_sights *s = w->sights;
+    const float x = s->x[at->slot], y = s->y[at->slot];
     const bool numbered = w->ways && sl_bits_has(w->ways->listed, at->slot);
     uint32_t step = numbered ? w->ways->first_step[at->slot] : SLI_VGA_NONE;
     for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
         const sli_vga_word *word = &s->words.items[i];
         for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
             const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
-            SL_TRY(try_point(context, w, at, (way_on){q, step}));
+            const float dx = s->x[q] - x, dy = s->y[q] - y, left = w->length[q] - at->key;
+            if (left > 0 && (dx * dx + dy * dy) * (1 - 1e-6f) < left * left)
+                SL_TRY(try_point(context, w, at, q, step));
             step += numbered && sl_bits_has(s->turning, q);
         }
     }
@@ -187,34 +200,76 @@ static sl_status expand(sl_context *context, walker *w, const entry *at) {
     const all_ways *a = w->ways;
     const size_t bundle = at->before / 64;
     const uint32_t *starts = &a->starts[at->step + bundle];
-    const way_on *ways = a->lists[bundle].ways.items;
-    for (size_t i = starts[0]; i < starts[1]; i++) SL_TRY(try_point(context, w, at, ways[i]));
+    const way_on *way = a->lists[bundle].ways.items + starts[0];
+    const way_on *end = a->lists[bundle].ways.items + starts[1];
+    for (; way < end; way++)
+        if (may_gain(at->key, way->length, w->length[way->slot]))
+            SL_TRY(try_point(context, w, at, way->slot, way->step));
     return SL_OK;
+}
+
+/// Bounds lengths by the paths from the start before, moved to the new one:
+///
+///       o--------- u ----- q
+///     old         /            All but the first step is as before.
+///       x--------'
+///     new
+static void find_bounds(walker *w, uint32_t from) {
+    const sli_vga_sights *s = w->sights;
+    float *bound = w->bound;
+    const float slack = w->ways->detour;
+    for (size_t i = s->first[from]; i < s->first[from + 1]; i++) {
+        const sli_vga_word *word = &s->words.items[i];
+        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
+            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            bound[q] = (float)sli_vga_distance(s, from, q);
+        }
+    }
+    for (size_t i = 0; i < w->order.count; i++) {
+        const uint32_t q = w->order.items[i], at = w->last[q];
+        if (at == SLI_VGA_NONE || at == w->old_from) continue;
+        const float way = bound[at] + w->hop[q];
+        bound[q] = way < bound[q] ? way : bound[q];
+    }
+    for (uint32_t q = 0; q < s->count; q++) {
+        const uint32_t at = w->last[q];
+        const float way =
+            at == SLI_VGA_NONE || at == w->old_from ? INFINITY : bound[at] + w->hop[q];
+        w->length[q] = (way < bound[q] ? way : bound[q]) + slack;
+    }
 }
 
 static sl_status find_shortest(sl_context *context, walker *w, uint32_t from) {
     const sli_vga_job *j = w->sights->job;
     const double radius = j->options->metric_radius, step = j->grid->step;
     w->entries.count = 0;
+    for (uint32_t q = 0; q < w->sights->count; q++) w->length[q] = w->bound[q] = INFINITY;
+    if (w->ways && w->old_from != SLI_VGA_NONE) find_bounds(w, from);
     for (uint32_t q = 0; q < w->sights->count; q++) {
-        w->length[q] = w->turn[q] = INFINITY;
+        w->turn[q] = INFINITY;
         w->last[q] = SLI_VGA_NONE;
     }
+    w->order.count = 0;
+    w->old_from = from;
     w->length[from] = w->turn[from] = 0;
     SL_TRY(push(context, w, (entry){.slot = from, .before = SLI_VGA_NONE, .step = SLI_VGA_NONE}));
     bool within = true;
-    for (uint64_t length = 0; w->waiting; length++) {
-        if (w->buckets[length & w->bucket_mask] == SLI_VGA_NONE) continue;
-        SL_TRY(take_bucket(context, w, length));
+    for (uint64_t parts = 0; w->waiting; parts++) {
+        if (w->buckets[parts & w->bucket_mask] == SLI_VGA_NONE) continue;
+        SL_TRY(take_bucket(context, w, parts));
+        SL_TRY(SL_ARRAY_ROOM(context, &w->order, w->sorted.count));
         for (size_t i = 0; i < w->sorted.count && within; i++) {
             const entry *e = &w->sorted.items[i];
             within = !(radius > 0 && e->key * step > radius);
             if (!within) break; // what waits is taken, and left
+            w->order.items[w->order.count++] = e->slot;
             if (e->before != SLI_VGA_NONE) w->turn[e->slot] = turn_to(w, e->slot);
             SL_TRY(expand(context, w, e));
             w->before[e->slot] = e->before;
         }
     }
+    for (uint32_t q = 0; q < w->sights->count; q++)
+        if (w->last[q] == SLI_VGA_NONE && q != from) w->length[q] = INFINITY;
     return SL_OK;
 }
 
@@ -263,8 +318,9 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
 // --- walkers
 
 static void walker_destroy(sl_context *context, walker *w) {
-    void *parts[] = {w->length,  w->turn,          w->last,         w->before, w->turns,
-                     w->buckets, w->entries.items, w->sorted.items, w};
+    void *parts[] = {w->length,      w->turn,    w->last,          w->before,
+                     w->turns,       w->buckets, w->entries.items, w->sorted.items,
+                     w->order.items, w->bound,   w->hop,           w};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
@@ -276,16 +332,20 @@ static sl_status walker_make(sl_context *context, const sli_vga_sights *s, const
     if (!w) return SL_NO_MEMORY;
     w->sights = s;
     w->ways = ways;
+    w->old_from = SLI_VGA_NONE;
     // No step is longer than columns and rows together, so that many lengths can wait at once.
-    for (w->bucket_mask = 1; w->bucket_mask < grid->columns + grid->rows + 2;)
+    for (w->bucket_mask = 1; w->bucket_mask < PARTS * (grid->columns + grid->rows + 2);)
         w->bucket_mask = w->bucket_mask * 2 + 1;
     w->length = sl_alloc_array(context, slots, sizeof *w->length);
+    w->bound = sl_alloc_array(context, slots, sizeof *w->bound);
+    w->hop = sl_alloc_array(context, slots, sizeof *w->hop);
     w->turn = sl_alloc_array(context, slots, sizeof *w->turn);
     w->last = sl_alloc_array(context, slots, sizeof *w->last);
     w->before = sl_alloc_array(context, slots, sizeof *w->before);
     w->turns = sl_alloc_array(context, slots, sizeof *w->turns);
     w->buckets = sl_alloc_array(context, (size_t)w->bucket_mask + 1, sizeof *w->buckets);
-    if (!w->length || !w->turn || !w->last || !w->before || !w->turns || !w->buckets) {
+    if (!w->length || !w->bound || !w->hop || !w->turn || !w->last || !w->before || !w->turns ||
+        !w->buckets) {
         walker_destroy(context, w);
         return SL_NO_MEMORY;
     }
@@ -350,7 +410,8 @@ static sl_status list_ways(sl_context *context, const all_ways *a, uint32_t p, u
             const float dx = s->x[q] - x, dy = s->y[q] - y, left = two[q] - hop;
             if (left > 0 && dx * dx + dy * dy <= left * left) {
                 SL_TRY(SL_ARRAY_ROOM(context, &list->ways, 1));
-                list->ways.items[list->ways.count++] = (way_on){q, turns ? step : SLI_VGA_NONE};
+                list->ways.items[list->ways.count++] =
+                    (way_on){q, turns ? step : SLI_VGA_NONE, (float)sli_vga_distance(s, u, q)};
             }
             step += turns;
         }
