@@ -18,7 +18,7 @@
 /// ways on, to the last bit.
 ///
 /// Cost: for each point about O(points + ways on in the lists of points beside walls). The lists
-/// take O(pairs of points that are two steps apart), up to KEPT_WAYS; what has no list tries all.
+/// take O(pairs of points that are two steps apart), up to a limit; what has no list tries all.
 /// Keys are at least 1 apart along a path, so a bucket of keys near each other is sorted once, when
 /// it is reached.
 #include "visibility_graph/paths.h"
@@ -31,9 +31,6 @@ typedef struct way_on {
     uint32_t slot, step;
     float length; ///< of the step, rounded
 } way_on;
-
-/// Memory for ways on: 384 MiB, shared out evenly among the bundles.
-#define KEPT_WAYS ((size_t)1 << 25)
 
 /// Buckets hold the keys of a part of a square.
 enum { PARTS = 4 };
@@ -180,7 +177,7 @@ static sl_status try_point(sl_context *context, walker *w, const entry *at, uint
 static sl_status expand_row(sl_context *context, walker *w, const entry *at) {
     const sli_vga_sights *s = w->sights;
     const float x = s->x[at->slot], y = s->y[at->slot];
-    const bool numbered = w->ways && sl_bits_has(w->ways->listed, at->slot);
+    const bool numbered = w->ways && sl_bits_has(s->turning, at->slot);
     uint32_t step = numbered ? w->ways->first_step[at->slot] : SLI_VGA_NONE;
     for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
         const sli_vga_word *word = &s->words.items[i];
@@ -196,8 +193,9 @@ static sl_status expand_row(sl_context *context, walker *w, const entry *at) {
 }
 
 static sl_status expand(sl_context *context, walker *w, const entry *at) {
-    if (at->step == SLI_VGA_NONE) return expand_row(context, w, at);
     const all_ways *a = w->ways;
+    if (at->step == SLI_VGA_NONE || !sl_bits_has(a->listed, at->before))
+        return expand_row(context, w, at);
     const size_t bundle = at->before / 64;
     const uint32_t *starts = &a->starts[at->step + bundle];
     const way_on *way = a->lists[bundle].ways.items + starts[0];
@@ -422,7 +420,7 @@ static sl_status list_ways(sl_context *context, const all_ways *a, uint32_t p, u
 static sl_status list_unit(sl_context *context, void *all, void *state, size_t unit) {
     const all_ways *a = all;
     const sli_vga_sights *s = a->sights;
-    const size_t most = KEPT_WAYS / s->bundles;
+    const size_t most = s->kept_ways / s->bundles;
     way_list *list = &a->lists[unit];
     size_t start = 0; // place in `starts`
     for (uint32_t p = (uint32_t)unit * 64; p < s->count && p < unit * 64 + 64; p++) {
@@ -490,7 +488,7 @@ static sl_status ways_make(sl_context *context, const sli_vga_sights *s, all_way
     a->listed = sl_alloc_array(context, s->bundles + 1, sizeof *a->listed);
     if (!a->first_step || !a->lists || !a->listed) return SL_NO_MEMORY;
     const uint32_t steps = number_steps(s, a->first_step);
-    if (!s->count || steps == SLI_VGA_NONE) return SL_OK; // no lists
+    if (!s->count || steps == SLI_VGA_NONE) return SL_OK; // all rows are tried whole
     a->starts = sl_alloc_array(context, (size_t)steps + s->bundles + 1, sizeof *a->starts);
     if (!a->starts) return SL_NO_MEMORY;
     SL_TRY(choose_detour(context, a));
