@@ -5,35 +5,63 @@
 /// Distances are counted in squares and in single precision. Of equally long paths the first in
 /// the order of (length, number of the point) counts. All of this is as in depthmapX.
 ///
-/// Neighbouring points have almost the same paths. So a search begins with what the search before
-/// it, from the point beside it, has found:
+/// Each part of a shortest path is a shortest path. So two steps p, u, q are part of one only if no
+/// other way of one or two steps leads from p to q and is shorter:
 ///
-///       o--------- u ----- q     Bounds: a path from the old start, moved to the new one, is a
-///     old         /              path. So its length bounds the shortest from above. A way on
-///       x--------'               that is longer than the bound gains nothing.
-///     new
+///          u ------ q         From p by u only those q are tried that u is best for. The lists
+///         /  #    .           of these q are made once, for all points p beside walls, and serve
+///        /  #  .              the searches from all points.
+///       p . v                 (v is shorter: p, u, q is not listed)
 ///
-/// Slack: how much longer the way by u to q is than the bound of q. Of the 64 points of a word, u
-/// keeps the least slack. From one start to the next it shrinks by no more than the length of u and
-/// the bounds of the 64 points do. While it is over 0, the 64 are passed over.
+/// Invariant: what is not listed is longer than the shortest path by more than rounding can hide
+/// (`detour`), or the search is done again with all ways on. Thus the result is that of trying all
+/// ways on, to the last bit.
 ///
-/// Points that are seen from the point before u are passed over too, unless they are straight
-/// ahead, as the detour by u is longer.
-///
-/// Invariant: what is passed over is longer than the shortest path by more than rounding can hide
-/// (`tolerance`). Thus the result is that of trying all ways on, to the last bit.
-///
-/// Cost: for each point about O(points + words of points beside walls); a word is tried only where
-/// it may gain. Keys are at least 1 apart along a path, so a bucket for each whole length is sorted
-/// once, when it is reached.
+/// Cost: for each point about O(points + ways on in the lists of points beside walls). The lists
+/// take O(pairs of points that are two steps apart), up to a limit; what has no list tries all.
+/// Keys are at least 1 apart along a path, so a bucket of keys near each other is sorted once, when
+/// it is reached.
 #include "visibility_graph/paths.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+/// A way on to a point, and the number of its step; NONE where no path turns at the point.
+typedef struct way_on {
+    uint32_t slot, step;
+    float length; ///< of the step, rounded
+} way_on;
+
+/// Buckets hold the keys of a part of a square.
+enum { PARTS = 4 };
+
+/// Shortest paths are told from others by at least this, in squares.
+#define LEAST_DETOUR 4e-3f
+
+/// Each step of a path is 1 at least and is rounded by up to 2^-24 of its length: so two paths of
+/// the length L are off by up to L * L * 2^-23.
+#define ROUNDING 1.25e-7f
+
+/// The ways on of 64 points.
+typedef struct way_list {
+    SL_ARRAY(way_on) ways;
+} way_list;
+
+/// Steps lead from points beside walls to points beside walls, and are numbered in the order of
+/// the rows. The ways on after step k of bundle b: starts[k + b] to starts[k + b + 1].
+typedef struct all_ways {
+    const sli_vga_sights *sights;
+    float detour;
+    uint32_t *first_step; ///< by slot
+    uint32_t *starts;
+    way_list *lists; ///< by bundle
+    sl_bits *listed; ///< slots whose steps have lists
+} all_ways;
+
 typedef struct entry {
     float key;
     uint32_t slot, before; ///< before: the slot of the path before it, or none
+    uint32_t step;         ///< the number of its last step, or none
     uint32_t number;       ///< of the point
     uint32_t next;         ///< in its bucket, or none
 } entry;
@@ -44,56 +72,35 @@ typedef struct known_turn {
     float turn;
 } known_turn;
 
-/// Points with less slack are tried each time.
-#define LIST_BELOW 0.02f
-
-/// A longer detour than this is told from none in spite of rounding.
-#define DETOUR 0.002f
-
-/// The ways on from a point to those of a word.
-typedef struct ways_on {
-    uint64_t fresh; ///< points that the point before does not see
-    uint64_t tried; ///< points that are tried each time
-    float least;    ///< no more than the slack of any other fresh point
-} ways_on;
-
 typedef struct walker {
     const sli_vga_sights *sights;
+    const all_ways *ways; ///< NULL: all ways on are tried
     // By slot:
-    float *length;     ///< of its path so far, in squares; INFINITY: none
-    float *old_length; ///< from the start before
-    float *bound;      ///< no shortest path is longer, but for rounding
-    float *old_bound;
-    float *turn;      ///< along its path, in right angles, once the path is final
+    float *length; ///< of its path so far, in squares; where `last` is none: no path is longer
+    float *bound;
     float *hop;       ///< length of its path's last step
+    float *turn;      ///< along its path, in right angles, once the path is final
     uint32_t *last;   ///< the slot of its path before it, or none
-    uint32_t *steps;  ///< of the path of its bound
     uint32_t *before; ///< of those that were expanded: `before` of their entry
-    uint32_t *run;    ///< number of the search in which its slacks were set
     known_turn *turns;
-    // By bundle:
-    sl_bits *seen;                   ///< by the start
-    float *most_bound, *most_change; ///< the largest bound; by how much a bound grows at most
-    // By word:
-    ways_on *ways;
     uint32_t *buckets; ///< first entries; by length modulo their number
     uint32_t bucket_mask;
     SL_ARRAY(entry) entries;
     SL_ARRAY(entry) sorted;
     SL_ARRAY(uint32_t) order; ///< slots in the order of expansion
     size_t waiting;
-    uint32_t from, old_from, runs;
-    float tolerance, guard;
+    uint32_t old_from; ///< the start before, or none
 } walker;
 
 // --- buckets
 
-static sl_status push(sl_context *context, walker *w, float key, uint32_t slot, uint32_t before) {
+static sl_status push(sl_context *context, walker *w, entry e) {
     SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
-    uint32_t *bucket = &w->buckets[(uint64_t)key & w->bucket_mask];
-    w->entries.items[w->entries.count] =
-        (entry){key, slot, before, w->sights->points[slot], *bucket};
-    *bucket = (uint32_t)w->entries.count++;
+    uint32_t *bucket = &w->buckets[(uint64_t)(e.key * PARTS) & w->bucket_mask];
+    e.number = w->sights->points[e.slot];
+    e.next = *bucket;
+    *bucket = (uint32_t)w->entries.count;
+    w->entries.items[w->entries.count++] = e;
     w->waiting++;
     return SL_OK;
 }
@@ -107,8 +114,8 @@ static int compare_entries(const void *left, const void *right) {
 }
 
 /// Takes all entries of a bucket, sorted.
-static sl_status take_bucket(sl_context *context, walker *w, uint64_t length) {
-    uint32_t *bucket = &w->buckets[length & w->bucket_mask];
+static sl_status take_bucket(sl_context *context, walker *w, uint64_t parts) {
+    uint32_t *bucket = &w->buckets[parts & w->bucket_mask];
     w->sorted.count = 0;
     for (uint32_t i = *bucket; i != SLI_VGA_NONE; i = w->entries.items[i].next) {
         SL_TRY(SL_ARRAY_ROOM(context, &w->sorted, 1));
@@ -132,90 +139,6 @@ static sl_status take_bucket(sl_context *context, walker *w, uint64_t length) {
     return SL_OK;
 }
 
-// --- bounds
-
-/// The bound of a point that the start does not see: by two steps.
-static void bound_by_two(walker *w, uint32_t q) {
-    const sli_vga_sights *s = w->sights;
-    for (size_t i = s->first[q]; i < s->first[q + 1]; i++) {
-        const sli_vga_word *word = &s->words.items[i];
-        uint64_t both = word->seen & w->seen[word->bundle] & s->turning[word->bundle];
-        for (; both; both &= both - 1) {
-            const uint32_t at = word->bundle * 64 + (uint32_t)__builtin_ctzll(both);
-            // Through one-way glass q may see what does not see it.
-            if (!sl_bits_has(sli_vga_row(s->job->graph, s->points[at]), s->points[q])) continue;
-            const float way = w->bound[at] + (float)sli_vga_distance(s, at, q);
-            w->bound[q] = way < w->bound[q] ? way : w->bound[q];
-        }
-    }
-    w->steps[q] = 2;
-}
-
-/// The bound of a point by the path from the old start.
-static void move_bound(walker *w, uint32_t q) {
-    const uint32_t at = w->last[q];
-    if (w->bound[q] < INFINITY || at == SLI_VGA_NONE) return;
-    if (at == w->old_from) {
-        bound_by_two(w, q);
-        return;
-    }
-    w->bound[q] = w->bound[at] + w->hop[q];
-    w->steps[q] = w->steps[at] + 1;
-}
-
-static void bound_seen(walker *w, uint32_t from) {
-    const sli_vga_sights *s = w->sights;
-    memset(w->seen, 0, s->bundles * sizeof *w->seen);
-    for (size_t i = s->first[from]; i < s->first[from + 1]; i++) {
-        const sli_vga_word *word = &s->words.items[i];
-        w->seen[word->bundle] = word->seen;
-        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
-            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
-            w->bound[q] = (float)sli_vga_distance(s, from, q);
-            w->steps[q] = 1;
-        }
-    }
-    w->bound[from] = 0;
-    w->steps[from] = 0;
-}
-
-/// Sums up bounds and their changes by bundles.
-static void sum_up_bounds(walker *w) {
-    float longest = 0;
-    uint32_t steps = 0;
-    for (size_t b = 0; b < w->sights->bundles; b++) {
-        float most = 0, change = -INFINITY;
-        for (size_t q = b * 64; q < b * 64 + 64; q++) {
-            const float now = w->bound[q], old = w->old_bound[q];
-            const float grown = now < INFINITY && old < INFINITY ? now - old : INFINITY;
-            most = now > most ? now : most;
-            change = grown > change ? grown : change;
-            if (now < INFINITY && now > longest) longest = now;
-            steps = w->steps[q] > steps ? w->steps[q] : steps;
-        }
-        w->most_bound[b] = most;
-        w->most_change[b] = change;
-    }
-    // Each step of a path is rounded twice, by half of 2^-23 of its length.
-    w->tolerance = longest * (float)(steps + 8) * 2.4e-7f;
-    w->guard = longest * 5e-7f;
-}
-
-static void find_bounds(walker *w, uint32_t from) {
-    const uint32_t count = w->sights->count;
-    float *swap = w->bound;
-    w->bound = w->old_bound;
-    w->old_bound = swap;
-    const uint32_t *parts = w->sights->parts;
-    for (uint32_t q = 0; q < count; q++) w->bound[q] = parts[q] == parts[from] ? INFINITY : 0;
-    bound_seen(w, from);
-    if (w->old_from != SLI_VGA_NONE) {
-        for (size_t i = 0; i < w->order.count; i++) move_bound(w, w->order.items[i]);
-        for (uint32_t q = 0; q < count; q++) move_bound(w, q);
-    }
-    sum_up_bounds(w);
-}
-
 // --- paths
 
 /// The turn of a path whose last step is known, and all before it.
@@ -229,149 +152,142 @@ static float turn_to(walker *w, uint32_t slot) {
     return w->turn[at] + known->turn;
 }
 
-static float distance_to_box(float x, float y, const sli_vga_box *box) {
-    const float dx = x < box->left ? box->left - x : x > box->right ? x - box->right : 0;
-    const float dy = y < box->bottom ? box->bottom - y : y > box->top ? y - box->top : 0;
-    return sqrtf(dx * dx + dy * dy);
+/// Whether a step of this length, rounded to single precision, may lead to a gain.
+static inline bool may_gain(float key, float step, float old) {
+    return step * (1 - 1e-6f) < old - key;
 }
 
 /// Tries the way on from a point to another.
-static sl_status try_point(sl_context *context, walker *w, const entry *at, uint32_t q) {
+static sl_status try_point(sl_context *context, walker *w, const entry *at, uint32_t q,
+                           uint32_t number) {
     const sli_vga_sights *s = w->sights;
     const float old = w->length[q];
-    const double dx = (double)s->x[at->slot] - (double)s->x[q];
-    const double dy = (double)s->y[at->slot] - (double)s->y[q];
-    const double bound = (double)w->bound[q] + w->tolerance;
-    const double left = (bound < old ? bound : old) - at->key, square = dx * dx + dy * dy;
-    if (square > left * left * (1 + 1e-12)) return SL_OK; // without a root
-    const double step = sqrt(square);
+    const double step = sli_vga_distance(s, at->slot, q);
     if (at->key + step >= old) return SL_OK;
     w->hop[q] = (float)step;
     w->length[q] = at->key + w->hop[q];
     w->last[q] = at->slot;
     // A path that is shorter by less than a float tells is there already, with its way so far.
     if (w->length[q] == old || !sl_bits_has(s->turning, q)) return SL_OK;
-    return push(context, w, w->length[q], q, at->slot);
+    return push(context, w,
+                (entry){.key = w->length[q], .slot = q, .before = at->slot, .step = number});
 }
 
-/// Those of a word that are straight ahead, or nearly: the detour by `at` is up to DETOUR.
-static uint64_t find_ahead(const sli_vga_sights *s, const entry *at, uint32_t bundle,
-                           uint64_t seen) {
-    const float x = s->x[at->slot], y = s->y[at->slot];
-    const float bx = x - s->x[at->before], by = y - s->y[at->before];
-    const float hop = sqrtf(bx * bx + by * by);
-    uint64_t ahead = 0;
-    for (; seen; seen &= seen - 1) {
-        const uint32_t q = bundle * 64 + (uint32_t)__builtin_ctzll(seen);
-        const float ax = s->x[q] - x, ay = s->y[q] - y;
-        const float dot = ax * bx + ay * by, cross = ax * by - ay * bx;
-        // A detour d of steps a and b turns by t: t * t is about 2 d (1 / a + 1 / b).
-        if (dot > 0 && cross * cross <= 2.2f * DETOUR * (dot / hop + hop) * dot)
-            ahead |= (uint64_t)1 << q % 64;
-    }
-    return ahead;
-}
-
-/// Splits what a point sees. Points that the point before sees, too, can gain nothing, unless they
-/// are straight ahead.
-static void split_row(walker *w, const entry *at) {
+/// Tries all ways on.
+static sl_status expand_row(sl_context *context, walker *w, const entry *at) {
     const sli_vga_sights *s = w->sights;
-    const bool all = at->before == SLI_VGA_NONE || w->tolerance > DETOUR / 2;
-    size_t k = all ? 0 : s->first[at->before];
+    const float x = s->x[at->slot], y = s->y[at->slot];
+    const bool numbered = w->ways && sl_bits_has(s->turning, at->slot);
+    uint32_t step = numbered ? w->ways->first_step[at->slot] : SLI_VGA_NONE;
     for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
         const sli_vga_word *word = &s->words.items[i];
-        uint64_t known = 0;
-        if (!all) {
-            const size_t end = s->first[at->before + 1];
-            while (k < end && s->words.items[k].bundle < word->bundle) k++;
-            if (k < end && s->words.items[k].bundle == word->bundle)
-                known = s->words.items[k].seen & word->seen;
+        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
+            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            const float dx = s->x[q] - x, dy = s->y[q] - y, left = w->length[q] - at->key;
+            if (left > 0 && (dx * dx + dy * dy) * (1 - 1e-6f) < left * left)
+                SL_TRY(try_point(context, w, at, q, step));
+            step += numbered && sl_bits_has(s->turning, q);
         }
-        w->ways[i].fresh = word->seen & ~known;
-        w->ways[i].tried = known ? find_ahead(s, at, word->bundle, known) : 0;
-        w->ways[i].least = -INFINITY;
     }
-}
-
-static sl_status try_points(sl_context *context, walker *w, const entry *at, uint32_t bundle,
-                            uint64_t points) {
-    for (; points; points &= points - 1)
-        SL_TRY(try_point(context, w, at, bundle * 64 + (uint32_t)__builtin_ctzll(points)));
     return SL_OK;
-}
-
-/// Takes down the slacks of the ways on to those of a word.
-static void find_slacks(walker *w, const entry *at, uint32_t bundle, ways_on *ways) {
-    const sli_vga_sights *s = w->sights;
-    const float x = s->x[at->slot], y = s->y[at->slot], key = at->key - w->guard;
-    uint64_t listed = 0;
-    ways->tried &= ~ways->fresh;
-    ways->least = key + distance_to_box(x, y, &s->boxes[bundle]) - w->most_bound[bundle];
-    if (ways->least > w->tolerance) return;
-    ways->least = INFINITY;
-    for (uint64_t rest = ways->fresh; rest; rest &= rest - 1) {
-        const uint32_t q = bundle * 64 + (uint32_t)__builtin_ctzll(rest);
-        const float dx = x - s->x[q], dy = y - s->y[q];
-        const float slack = key + sqrtf(dx * dx + dy * dy) - w->bound[q];
-        listed |= (uint64_t)(slack <= LIST_BELOW) << q % 64;
-        const float other = slack <= LIST_BELOW ? INFINITY : slack;
-        ways->least = other < ways->least ? other : ways->least;
-    }
-    ways->tried |= listed;
 }
 
 static sl_status expand(sl_context *context, walker *w, const entry *at) {
-    const sli_vga_sights *s = w->sights;
-    const size_t end = s->first[at->slot + 1];
-    const bool known = w->run[at->slot] + 1 == w->runs && w->before[at->slot] == at->before &&
-                       w->tolerance <= DETOUR / 2;
-    const float grown = at->key - w->old_length[at->slot] - w->guard;
-    if (!known) split_row(w, at);
-    for (size_t i = s->first[at->slot]; i < end; i++) {
-        const uint32_t bundle = s->words.items[i].bundle;
-        ways_on *ways = &w->ways[i];
-        if (known) ways->least += grown - w->most_change[bundle];
-        if (ways->fresh && !(ways->least > w->tolerance)) find_slacks(w, at, bundle, ways);
-        SL_TRY(try_points(context, w, at, bundle, ways->tried));
-    }
-    w->run[at->slot] = w->runs;
+    const all_ways *a = w->ways;
+    if (at->step == SLI_VGA_NONE || !sl_bits_has(a->listed, at->before))
+        return expand_row(context, w, at);
+    const size_t bundle = at->before / 64;
+    const uint32_t *starts = &a->starts[at->step + bundle];
+    const way_on *way = a->lists[bundle].ways.items + starts[0];
+    const way_on *end = a->lists[bundle].ways.items + starts[1];
+    for (; way < end; way++)
+        if (may_gain(at->key, way->length, w->length[way->slot]))
+            SL_TRY(try_point(context, w, at, way->slot, way->step));
     return SL_OK;
+}
+
+/// Bounds lengths by the paths from the start before, moved to the new one:
+///
+///       o--------- u ----- q
+///     old         /            All but the first step is as before.
+///       x--------'
+///     new
+static void find_bounds(walker *w, uint32_t from) {
+    const sli_vga_sights *s = w->sights;
+    float *bound = w->bound;
+    const float slack = w->ways->detour;
+    for (size_t i = s->first[from]; i < s->first[from + 1]; i++) {
+        const sli_vga_word *word = &s->words.items[i];
+        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
+            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            bound[q] = (float)sli_vga_distance(s, from, q);
+        }
+    }
+    for (size_t i = 0; i < w->order.count; i++) {
+        const uint32_t q = w->order.items[i], at = w->last[q];
+        if (at == SLI_VGA_NONE || at == w->old_from) continue;
+        const float way = bound[at] + w->hop[q];
+        bound[q] = way < bound[q] ? way : bound[q];
+    }
+    for (uint32_t q = 0; q < s->count; q++) {
+        const uint32_t at = w->last[q];
+        const float way =
+            at == SLI_VGA_NONE || at == w->old_from ? INFINITY : bound[at] + w->hop[q];
+        w->length[q] = (way < bound[q] ? way : bound[q]) + slack;
+    }
 }
 
 static sl_status find_shortest(sl_context *context, walker *w, uint32_t from) {
     const sli_vga_job *j = w->sights->job;
     const double radius = j->options->metric_radius, step = j->grid->step;
-    float *swap = w->length;
-    w->runs++;
-    w->length = w->old_length;
-    w->old_length = swap;
-    w->from = from;
-    find_bounds(w, from);
-    w->order.count = 0;
     w->entries.count = 0;
+    for (uint32_t q = 0; q < w->sights->count; q++) w->length[q] = w->bound[q] = INFINITY;
+    if (w->ways && w->old_from != SLI_VGA_NONE) find_bounds(w, from);
     for (uint32_t q = 0; q < w->sights->count; q++) {
-        w->length[q] = w->turn[q] = INFINITY;
+        w->turn[q] = INFINITY;
         w->last[q] = SLI_VGA_NONE;
     }
+    w->order.count = 0;
+    w->old_from = from;
     w->length[from] = w->turn[from] = 0;
-    SL_TRY(push(context, w, 0, from, SLI_VGA_NONE));
+    SL_TRY(push(context, w, (entry){.slot = from, .before = SLI_VGA_NONE, .step = SLI_VGA_NONE}));
     bool within = true;
-    for (uint64_t length = 0; w->waiting; length++) {
-        if (w->buckets[length & w->bucket_mask] == SLI_VGA_NONE) continue;
-        SL_TRY(take_bucket(context, w, length));
+    for (uint64_t parts = 0; w->waiting; parts++) {
+        if (w->buckets[parts & w->bucket_mask] == SLI_VGA_NONE) continue;
+        SL_TRY(take_bucket(context, w, parts));
         SL_TRY(SL_ARRAY_ROOM(context, &w->order, w->sorted.count));
         for (size_t i = 0; i < w->sorted.count && within; i++) {
             const entry *e = &w->sorted.items[i];
             within = !(radius > 0 && e->key * step > radius);
             if (!within) break; // what waits is taken, and left
-            if (e->before != SLI_VGA_NONE) w->turn[e->slot] = turn_to(w, e->slot);
             w->order.items[w->order.count++] = e->slot;
+            if (e->before != SLI_VGA_NONE) w->turn[e->slot] = turn_to(w, e->slot);
             SL_TRY(expand(context, w, e));
             w->before[e->slot] = e->before;
         }
     }
-    w->old_from = from;
+    for (uint32_t q = 0; q < w->sights->count; q++)
+        if (w->last[q] == SLI_VGA_NONE && q != from) w->length[q] = INFINITY;
     return SL_OK;
+}
+
+static float longest_of(const walker *w) {
+    float longest = 0;
+    for (uint32_t q = 0; q < w->sights->count; q++)
+        if (w->length[q] < INFINITY && w->length[q] > longest) longest = w->length[q];
+    return longest;
+}
+
+/// Finds the shortest paths by the lists, or without them where rounding hides too much.
+static sl_status find_paths(sl_context *context, walker *w, uint32_t from) {
+    SL_TRY(find_shortest(context, w, from));
+    const float longest = longest_of(w);
+    const all_ways *ways = w->ways;
+    if (!ways || longest * longest * ROUNDING <= ways->detour) return SL_OK;
+    w->ways = NULL;
+    const sl_status status = find_shortest(context, w, from);
+    w->ways = ways;
+    return status;
 }
 
 static sl_status measure(sl_context *context, walker *w, uint32_t from) {
@@ -379,7 +295,7 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
     const sl_vga_options *options = s->job->options;
     const double step = s->job->grid->step;
     double length = 0, turn = 0, straight = 0, nodes = 0;
-    SL_TRY(find_shortest(context, w, from));
+    SL_TRY(find_paths(context, w, from));
     for (uint32_t p = 0; p < s->count; p++) {
         const uint32_t slot = s->slots[p];
         if (w->length[slot] == INFINITY) continue;
@@ -397,55 +313,216 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
     return SL_OK;
 }
 
-// --- all points
+// --- walkers
 
-static void end(sl_context *context, void *all, void *state) {
-    (void)all;
-    walker *w = state;
-    void *parts[] = {w->length,  w->old_length,    w->bound,        w->old_bound,   w->turn,
-                     w->hop,     w->last,          w->steps,        w->before,      w->run,
-                     w->turns,   w->most_bound,    w->most_change,  w->seen,        w->ways,
-                     w->buckets, w->entries.items, w->sorted.items, w->order.items, w};
+static void walker_destroy(sl_context *context, walker *w) {
+    void *parts[] = {w->length,      w->turn,    w->last,          w->before,
+                     w->turns,       w->buckets, w->entries.items, w->sorted.items,
+                     w->order.items, w->bound,   w->hop,           w};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
-    const sli_vga_sights *s = all;
+static sl_status walker_make(sl_context *context, const sli_vga_sights *s, const all_ways *ways,
+                             walker **out) {
     const sl_vga_grid *grid = s->job->grid;
     const size_t slots = s->bundles * 64;
     walker *w = sl_alloc_array(context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
     w->sights = s;
+    w->ways = ways;
     w->old_from = SLI_VGA_NONE;
-    w->runs = 1; // no slack is of the search before the first
     // No step is longer than columns and rows together, so that many lengths can wait at once.
-    for (w->bucket_mask = 1; w->bucket_mask < grid->columns + grid->rows + 2;)
+    for (w->bucket_mask = 1; w->bucket_mask < PARTS * (grid->columns + grid->rows + 2);)
         w->bucket_mask = w->bucket_mask * 2 + 1;
-    float **floats[] = {&w->length, &w->old_length, &w->bound, &w->old_bound, &w->turn, &w->hop};
-    uint32_t **numbers[] = {&w->last, &w->steps, &w->before, &w->run};
-    bool room = true;
-    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
-        room &= (*floats[i] = sl_alloc_array(context, slots, sizeof **floats[i])) != NULL;
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        room &= (*numbers[i] = sl_alloc_array(context, slots, sizeof **numbers[i])) != NULL;
+    w->length = sl_alloc_array(context, slots, sizeof *w->length);
+    w->bound = sl_alloc_array(context, slots, sizeof *w->bound);
+    w->hop = sl_alloc_array(context, slots, sizeof *w->hop);
+    w->turn = sl_alloc_array(context, slots, sizeof *w->turn);
+    w->last = sl_alloc_array(context, slots, sizeof *w->last);
+    w->before = sl_alloc_array(context, slots, sizeof *w->before);
     w->turns = sl_alloc_array(context, slots, sizeof *w->turns);
-    w->most_bound = sl_alloc_array(context, s->bundles, sizeof *w->most_bound);
-    w->most_change = sl_alloc_array(context, s->bundles, sizeof *w->most_change);
-    w->seen = sl_alloc_array(context, s->bundles, sizeof *w->seen);
-    w->ways = sl_alloc_array(context, s->words.count + 1, sizeof *w->ways);
     w->buckets = sl_alloc_array(context, (size_t)w->bucket_mask + 1, sizeof *w->buckets);
-    if (!room || !w->turns || !w->most_bound || !w->most_change || !w->seen || !w->ways ||
+    if (!w->length || !w->bound || !w->hop || !w->turn || !w->last || !w->before || !w->turns ||
         !w->buckets) {
-        end(context, all, w);
+        walker_destroy(context, w);
         return SL_NO_MEMORY;
     }
     memset(w->buckets, 0xff, ((size_t)w->bucket_mask + 1) * sizeof *w->buckets);
+    *out = w;
+    return SL_OK;
+}
+
+// --- the lists of ways on
+
+static void end_lists(sl_context *context, void *all, void *state) {
+    (void)all;
+    sl_free(context, state);
+}
+
+static sl_status begin_lists(sl_context *context, void *all, void **state) {
+    const all_ways *a = all;
+    *state = sl_alloc_array(context, a->sights->bundles * 64, sizeof(float));
+    return *state ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Finds the least length of one step or two from p, by slot.
+static void find_two_steps(const sli_vga_sights *s, uint32_t p, float *two) {
+    for (uint32_t q = 0; q < s->count; q++) two[q] = INFINITY;
+    two[p] = 0;
+    for (size_t i = s->first[p]; i < s->first[p + 1]; i++) {
+        const sli_vga_word *word = &s->words.items[i];
+        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
+            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            two[q] = (float)sli_vga_distance(s, p, q);
+        }
+    }
+    for (size_t i = s->first[p]; i < s->first[p + 1]; i++) {
+        const sli_vga_word *word = &s->words.items[i];
+        for (uint64_t rest = word->seen & s->turning[word->bundle]; rest; rest &= rest - 1) {
+            const uint32_t u = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            const float x = s->x[u], y = s->y[u], hop = (float)sli_vga_distance(s, p, u);
+            for (size_t k = s->first[u]; k < s->first[u + 1]; k++) {
+                const sli_vga_word *next = &s->words.items[k];
+                for (uint64_t more = next->seen; more; more &= more - 1) {
+                    const uint32_t q = next->bundle * 64 + (uint32_t)__builtin_ctzll(more);
+                    const float dx = s->x[q] - x, dy = s->y[q] - y, left = two[q] - hop;
+                    const float square = dx * dx + dy * dy;
+                    if (left > 0 && square < left * left) two[q] = hop + sqrtf(square);
+                }
+            }
+        }
+    }
+}
+
+/// Lists the ways on from p by u.
+static sl_status list_ways(sl_context *context, const all_ways *a, uint32_t p, uint32_t u,
+                           const float *two, way_list *list) {
+    const sli_vga_sights *s = a->sights;
+    const float x = s->x[u], y = s->y[u], hop = (float)sli_vga_distance(s, p, u) - a->detour;
+    uint32_t step = a->first_step[u];
+    for (size_t k = s->first[u]; k < s->first[u + 1]; k++) {
+        const sli_vga_word *word = &s->words.items[k];
+        for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
+            const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            const bool turns = sl_bits_has(s->turning, q);
+            const float dx = s->x[q] - x, dy = s->y[q] - y, left = two[q] - hop;
+            if (left > 0 && dx * dx + dy * dy <= left * left) {
+                SL_TRY(SL_ARRAY_ROOM(context, &list->ways, 1));
+                list->ways.items[list->ways.count++] =
+                    (way_on){q, turns ? step : SLI_VGA_NONE, (float)sli_vga_distance(s, u, q)};
+            }
+            step += turns;
+        }
+    }
+    return SL_OK;
+}
+
+static sl_status list_unit(sl_context *context, void *all, void *state, size_t unit) {
+    const all_ways *a = all;
+    const sli_vga_sights *s = a->sights;
+    const size_t most = s->kept_ways / s->bundles;
+    way_list *list = &a->lists[unit];
+    size_t start = 0; // place in `starts`
+    for (uint32_t p = (uint32_t)unit * 64; p < s->count && p < unit * 64 + 64; p++) {
+        if (!sl_bits_has(s->turning, p)) continue;
+        SL_TRY(sl_check_cancelled(context));
+        find_two_steps(s, p, state);
+        const size_t before = list->ways.count;
+        start = a->first_step[p] + unit;
+        for (size_t i = s->first[p]; i < s->first[p + 1]; i++) {
+            const sli_vga_word *word = &s->words.items[i];
+            for (uint64_t rest = word->seen & s->turning[word->bundle]; rest; rest &= rest - 1) {
+                const uint32_t u = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+                a->starts[start++] = (uint32_t)list->ways.count;
+                SL_TRY(list_ways(context, a, p, u, state, list));
+            }
+        }
+        a->starts[start] = (uint32_t)list->ways.count;
+        if (list->ways.count > most) { // no room for these, nor for those after
+            list->ways.count = before;
+            break;
+        }
+        sl_bits_add(a->listed, p);
+    }
+    return SL_OK;
+}
+
+/// Numbers the steps. Returns how many there are, or NONE for too many.
+static uint32_t number_steps(const sli_vga_sights *s, uint32_t *first_step) {
+    uint64_t count = 0;
+    for (uint32_t slot = 0; slot < s->count; slot++) {
+        first_step[slot] = (uint32_t)count;
+        if (!sl_bits_has(s->turning, slot)) continue;
+        for (size_t i = s->first[slot]; i < s->first[slot + 1]; i++)
+            count += (uint64_t)__builtin_popcountll(s->words.items[i].seen &
+                                                    s->turning[s->words.items[i].bundle]);
+        if (count + s->bundles >= SLI_VGA_NONE) return SLI_VGA_NONE;
+    }
+    return (uint32_t)count;
+}
+
+static void ways_destroy(sl_context *context, all_ways *a) {
+    for (size_t b = 0; a->lists && b < a->sights->bundles; b++)
+        sl_free(context, a->lists[b].ways.items);
+    sl_free(context, a->lists);
+    sl_free(context, a->starts);
+    sl_free(context, a->first_step);
+    sl_free(context, a->listed);
+}
+
+/// A search from the first point shows about how long paths are.
+static sl_status choose_detour(sl_context *context, all_ways *a) {
+    walker *w;
+    SL_TRY(walker_make(context, a->sights, NULL, &w));
+    const sl_status status = find_shortest(context, w, 0);
+    const float longest = status == SL_OK ? 2 * longest_of(w) : 0;
+    a->detour = fmaxf(LEAST_DETOUR, longest * longest * ROUNDING);
+    walker_destroy(context, w);
+    return status;
+}
+
+static sl_status ways_make(sl_context *context, const sli_vga_sights *s, all_ways *a) {
+    *a = (all_ways){.sights = s};
+    a->first_step = sl_alloc_array(context, s->count + 1, sizeof *a->first_step);
+    a->lists = sl_alloc_array(context, s->bundles + 1, sizeof *a->lists);
+    a->listed = sl_alloc_array(context, s->bundles + 1, sizeof *a->listed);
+    if (!a->first_step || !a->lists || !a->listed) return SL_NO_MEMORY;
+    const uint32_t steps = number_steps(s, a->first_step);
+    if (!s->count || steps == SLI_VGA_NONE) return SL_OK; // all rows are tried whole
+    a->starts = sl_alloc_array(context, (size_t)steps + s->bundles + 1, sizeof *a->starts);
+    if (!a->starts) return SL_NO_MEMORY;
+    SL_TRY(choose_detour(context, a));
+    const sl_work work = {.job = a,
+                          .begin = begin_lists,
+                          .unit = list_unit,
+                          .end = end_lists,
+                          .stage = "ways of two steps",
+                          .units = "bundles of points"};
+    return sl_work_run(context, &work, s->bundles, s->job->options->threads);
+}
+
+// --- all points
+
+typedef struct metric_job {
+    const sli_vga_sights *sights;
+    all_ways ways;
+} metric_job;
+
+static void end(sl_context *context, void *all, void *state) {
+    (void)all;
+    walker_destroy(context, state);
+}
+
+static sl_status begin(sl_context *context, void *all, void **state) {
+    const metric_job *j = all;
+    walker *w;
+    SL_TRY(walker_make(context, j->sights, &j->ways, &w));
     *state = w;
     return SL_OK;
 }
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const sli_vga_sights *s = all;
+    const sli_vga_sights *s = ((const metric_job *)all)->sights;
     for (size_t slot = unit * 64; slot < s->count && slot < unit * 64 + 64; slot++) {
         SL_TRY(sl_check_cancelled(context));
         SL_TRY(measure(context, state, (uint32_t)slot));
@@ -454,12 +531,16 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
 }
 
 sl_status sli_vga_measure_metric(sl_context *context, const sli_vga_sights *sights) {
-    sli_vga_sights mine = *sights;
-    const sl_work work = {.job = &mine,
+    metric_job job = {.sights = sights};
+    const sl_work work = {.job = &job,
                           .begin = begin,
                           .unit = measure_unit,
                           .end = end,
                           .stage = "shortest paths",
                           .units = "bundles of points"};
-    return sl_work_run(context, &work, sights->bundles, sights->job->options->threads);
+    sl_status status = ways_make(context, sights, &job.ways);
+    if (status == SL_OK)
+        status = sl_work_run(context, &work, sights->bundles, sights->job->options->threads);
+    ways_destroy(context, &job.ways);
+    return status;
 }

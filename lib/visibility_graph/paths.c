@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static void sights_destroy(sl_context *context, sli_vga_sights *s) {
+void sli_vga_sights_destroy(sl_context *context, sli_vga_sights *s) {
     sl_free(context, s->slots);
     sl_free(context, s->points);
     sl_free(context, s->x);
@@ -103,8 +103,8 @@ static void number_parts(sli_vga_sights *s, uint32_t *queue, sl_bits *left) {
     if (parts > 1) join_parts(s, queue, parts);
 }
 
-static sl_status sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *s) {
-    s->job = job;
+sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *s) {
+    *s = (sli_vga_sights){.job = job, .kept_ways = SLI_VGA_KEPT_WAYS};
     s->count = job->graph->count;
     s->bundles = sl_bits_words(s->count);
     sl_bits *row = sl_alloc_array(context, s->bundles, sizeof *row);
@@ -137,13 +137,13 @@ static sl_status sights_make(sl_context *context, const sli_vga_job *job, sli_vg
 }
 
 sl_status sli_vga_measure_paths(sl_context *context, const sli_vga_job *job) {
-    sli_vga_sights sights = {0};
-    sl_status status = sights_make(context, job, &sights);
+    sli_vga_sights sights;
+    sl_status status = sli_vga_sights_make(context, job, &sights);
     if (status == SL_OK && job->options->parts & SL_VGA_METRIC)
         status = sli_vga_measure_metric(context, &sights);
     if (status == SL_OK && job->options->parts & SL_VGA_ANGULAR)
         status = sli_vga_measure_angular(context, &sights);
-    sights_destroy(context, &sights);
+    sli_vga_sights_destroy(context, &sights);
     return status;
 }
 

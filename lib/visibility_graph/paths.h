@@ -23,6 +23,9 @@ typedef struct sli_vga_box {
     float left, right, bottom, top;
 } sli_vga_box;
 
+/// Memory for lists of ways on (metric.c): 384 MiB.
+#define SLI_VGA_KEPT_WAYS ((size_t)1 << 25)
+
 /// The graph for searches. Points are numbered by slot: those near each other have near numbers.
 typedef struct sli_vga_sights {
     const sli_vga_job *job;
@@ -35,7 +38,11 @@ typedef struct sli_vga_sights {
     sli_vga_box *boxes;       ///< by bundle
     size_t *first;            ///< by slot, and one more: into `words`
     SL_ARRAY(sli_vga_word) words;
+    size_t kept_ways; ///< SLI_VGA_KEPT_WAYS
 } sli_vga_sights;
+
+sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *out);
+void sli_vga_sights_destroy(sl_context *context, sli_vga_sights *sights);
 
 static inline double sli_vga_distance(const sli_vga_sights *s, uint32_t a, uint32_t b) {
     const double dx = (double)s->x[a] - (double)s->x[b], dy = (double)s->y[a] - (double)s->y[b];

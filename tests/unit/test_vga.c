@@ -6,6 +6,7 @@
 #include "sightline/effects.h"
 #include "sightline/sees.h"
 #include "sightline/vga.h"
+#include "visibility_graph/paths.h"
 
 #include <math.h>
 #include <string.h>
@@ -363,6 +364,46 @@ static void searches_are_those_of_plain_ones(void **state) {
     sl_context_destroy(context);
 }
 
+/// Shortest paths are found by lists of ways on. What has no room for a list tries all ways on.
+static void lists_do_not_change_paths(void **state) {
+    (void)state;
+    static const size_t limits[] = {0, 300, 3000};
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    make_plan(context, &f);
+    const uint32_t n = f.grid.count;
+    sl_vga_options options = sl_vga_options_default();
+    options.parts = SL_VGA_METRIC;
+    sl_bits *turning = NULL;
+    assert_ok(context, sli_vga_find_turning(context, &f.outline, &f.grid, &turning));
+    sl_vga_measures *all = test_calloc(n, sizeof *all), *some = test_calloc(n, sizeof *some);
+    sli_vga_job job = {&f.grid, &f.graph, &options, NULL, turning, all};
+    sli_vga_sights sights;
+    assert_ok(context, sli_vga_sights_make(context, &job, &sights));
+    assert_ok(context, sli_vga_measure_metric(context, &sights));
+    for (uint32_t p = 0; p < n; p += 5) {
+        plain_path *paths = test_calloc(n, sizeof *paths);
+        double length = 0;
+        find_plain_paths(&f, p, false, paths);
+        for (uint32_t q = 0; q < n; q++) length += paths[q].length * f.grid.step;
+        assert_true(all[p].metric_mean_shortest_path_distance == length / n);
+        test_free(paths);
+    }
+    job.measures = some;
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        sights.kept_ways = limits[i];
+        memset(some, 0, n * sizeof *some);
+        assert_ok(context, sli_vga_measure_metric(context, &sights));
+        assert_memory_equal(some, all, n * sizeof *some);
+    }
+    sli_vga_sights_destroy(context, &sights);
+    sl_free(context, turning);
+    test_free(all);
+    test_free(some);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 /// What is behind glass is reached from one side alone: no part of the graph for both.
 static void paths_lead_through_glass_one_way(void **state) {
     (void)state;
@@ -547,6 +588,7 @@ int main(void) {
         cmocka_unit_test(oblique_pairs_too),
         cmocka_unit_test(measures_are_those_of_brute_force),
         cmocka_unit_test(searches_are_those_of_plain_ones),
+        cmocka_unit_test(lists_do_not_change_paths),
         cmocka_unit_test(paths_lead_through_glass_one_way),
         cmocka_unit_test(seeds_stay_in_their_room),
         cmocka_unit_test(glass_is_seen_through_one_way),
