@@ -260,7 +260,8 @@ sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye
 static void put(FILE *out, double value, char after) {
     char text[SL_NUMBER_TEXT];
     sl_number_write(value, text);
-    fprintf(out, "%s%c", text, after);
+    fputs(text, out);
+    putc(after, out);
 }
 
 static sl_status write_rows(sl_context *context, bool mirrors, const eye_places *eyes,

@@ -1,8 +1,22 @@
 /// Numbers as decimal text, the same in every locale. A double has at most 17 digits; the shortest
 /// text that reads back to the same double is found by trying 15, 16 and 17.
+///
+/// Most numbers of a map lie between 10^-4 and 10^15. They are written with whole numbers alone. A
+/// double is m 2^e. With k chosen so that 17 digits stand before the point,
+///
+///     value 10^k = m 5^k / 2^s,   s = -(e + k)
+///
+/// and m 5^k has less than 128 bits. So the digits are a shift, and what rounding them adds or
+/// drops is exact. The text reads back to the same double where this is less than half of the step
+/// to the next double, 5^k in the same unit. Below a power of two that step is half as long, but
+/// all such powers here are written exactly. (Both Steele and White 1990, How to Print
+/// Floating-Point Numbers Accurately, with numbers small enough to need no bignums.) Other numbers
+/// are left to printf and strtod.
+#include "base/wide.h"
 #include "sightline/support.h"
 
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +37,65 @@ static void replace(char *text, const char *from, const char *to) {
     while (*to) *at++ = *to++;
 }
 
+enum { LEAST_POWER = 2 }; ///< of ten, by which values are multiplied
+
+/// A decimal number: digits / 10^places.
+typedef struct decimal {
+    uint64_t digits;
+    int places;
+} decimal;
+
+/// The number of 15 to 17 digits that reads back to a value from 10^-4 to below 10^15.
+static decimal shortest(double value) {
+    // By power: the least value that it gives 17 digits. The doubles below 1 are a little larger
+    // than the powers of ten that they stand for, so no comparison errs.
+    static const double least[] = {1e14, 1e13, 1e12, 1e11, 1e10, 1e9,  1e8,  1e7,  1e6, 1e5,
+                                   1e4,  1e3,  1e2,  1e1,  1e0,  1e-1, 1e-2, 1e-3, 1e-4};
+    int power = LEAST_POWER, exponent;
+    uint64_t five = 25;
+    for (; value < least[power - LEAST_POWER]; power++) five *= 5;
+    const uint64_t mantissa = (uint64_t)ldexp(frexp(value, &exponent), 53);
+    const int shift = 53 - exponent - power; // 1 to 63
+    const sli_wide product = sli_wide_product(mantissa, five);
+    const uint64_t whole = product.high << (64 - shift) | product.low >> shift;
+    decimal out = {.places = power - 2};
+    for (uint64_t unit = 100;; unit /= 10, out.places++) {
+        out.digits = whole / unit;
+        const sli_wide step = sli_wide_shifted((sli_wide){0, unit}, shift);
+        const sli_wide kept = sli_wide_shifted((sli_wide){0, out.digits * unit}, shift);
+        const sli_wide rest = sli_wide_difference(product, kept);
+        const int half = sli_wide_compare(sli_wide_shifted(rest, 1), step);
+        const bool up = half > 0 || (half == 0 && out.digits % 2);
+        const sli_wide error = up ? sli_wide_difference(step, rest) : rest;
+        out.digits += up;
+        if (unit == 1 || (!error.high && error.low <= five / 2)) break;
+    }
+    for (; out.places && out.digits % 10 == 0; out.places--) out.digits /= 10;
+    return out;
+}
+
+static void write_decimal(decimal number, char *text) {
+    char digits[SL_NUMBER_TEXT];
+    size_t at = sizeof digits;
+    digits[--at] = '\0';
+    for (int i = 0; i < number.places; i++, number.digits /= 10)
+        digits[--at] = (char)('0' + number.digits % 10);
+    if (number.places) digits[--at] = '.';
+    do digits[--at] = (char)('0' + number.digits % 10);
+    while (number.digits /= 10);
+    memcpy(text, digits + at, sizeof digits - at);
+}
+
 void sl_number_write(double value, char text[SL_NUMBER_TEXT]) {
+    if (value == 0) {
+        memcpy(text, signbit(value) ? "-0" : "0", signbit(value) ? 3 : 2);
+        return;
+    }
+    if (fabs(value) >= 1e-4 && fabs(value) < 1e15) {
+        if (value < 0) *text++ = '-';
+        write_decimal(shortest(fabs(value)), text);
+        return;
+    }
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, SL_NUMBER_TEXT, "%.*g", digits, value);
         if (strtod(text, NULL) == value) break;

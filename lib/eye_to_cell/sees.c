@@ -1,9 +1,15 @@
 /// Single lines of sight: do two points see each other, and what does a ray hit?
 ///
-/// sl_sees follows the segment between two points from room to room, through all portals that it
-/// meets. Where it touches a corner of rooms it may go on in several rooms, and all are tried. It
-/// is seen where a room that holds the other point is entered; with open sight it must touch no
-/// wall.
+/// sl_sees follows the segment between two points from room to room. Nearly always it leaves each
+/// room within one side, and the other point lies before that side or behind it:
+///
+///     +--------+---------+     first the side by which the segment leaves a room, as for a ray;
+///     | eye *--|----* .. |     then on which side of it the point is: before it, it is seen;
+///     +--------+---------+     behind it, the segment goes on through a portal or ends at a wall
+///
+/// Where the segment touches a corner, or an end lies on a side, it may go on in several rooms.
+/// Then all rooms are tried that it comes to by portals that it meets. It is seen where one of them
+/// holds the point; with open sight it must touch no wall.
 ///
 /// sl_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
 /// room to the first side that is no portal. Both decide by exact predicates alone; only the point
@@ -14,6 +20,52 @@
 #include "sightline/support.h"
 
 #include <math.h>
+
+// --- two points, where nothing is touched
+
+typedef enum finding { HIDDEN, SEEN, TOUCHES } finding;
+
+/// Finds the side by which a ray leaves the room that its eye is in. False where the eye is not
+/// within the room, or the ray's line touches a corner of it.
+static bool leave_start(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ray *ray,
+                        double limit, uint32_t room, uint32_t *at) {
+    const sl_side *sides = o->sides;
+    bool found = false;
+    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
+        const sli_eye_ray a = sli_eye_ray_through(eye, sides[i].start);
+        const sli_eye_ray b = sli_eye_ray_through(eye, sides[sides[i].next].start);
+        const int turn = sli_eye_turn_within(eye, ray, &a, limit);
+        if (turn == 0 || sli_eye_turn(eye, &a, &b) <= 0) return false;
+        if (turn > 0 || sli_eye_turn_within(eye, ray, &b, limit) <= 0) continue;
+        *at = i;
+        found = true;
+    }
+    return found;
+}
+
+/// Follows the segment as long as it passes within sides.
+static finding follow_within(const sl_outline *o, uint32_t room, sl_point eye, sl_point point) {
+    const sl_side *sides = o->sides;
+    const sli_eye_place place = sli_eye_place_at(eye);
+    const sli_eye_ray ray = sli_eye_ray_through(&place, point);
+    const sl_view view = {.eye = eye, .left = point, .right = point};
+    const double limit = sli_eye_limit(o->space, &view);
+    uint32_t at;
+    if (!leave_start(o, &place, &ray, limit, room, &at)) return TOUCHES;
+    for (bool within = true;;) {
+        const int before = sli_orient(sides[at].start, sides[sides[at].next].start, point);
+        if (before) {
+            if (before > 0) return SEEN;
+            if (!sl_side_is_portal(&sides[at])) return HIDDEN;
+        }
+        if (!before ||
+            !sli_region_find_first(o, &place, limit, sides[at].neighbour, &ray, &at, &within) ||
+            !within)
+            return TOUCHES;
+    }
+}
+
+// --- two points, all rooms that the segment may go to
 
 typedef struct seer {
     const sl_outline *outline;
@@ -90,25 +142,33 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     return SL_OK;
 }
 
+static bool in_bounds(const sl_space *space, sl_point p) {
+    const sl_box *b = &space->bounds;
+    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+}
+
 sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
                   sl_sight sight, bool *out) {
     const sl_space *space = outline->space;
     const uint32_t start = sli_eye_cell(space, eye);
-    if (start == SL_NO_CELL || sl_space_locate(space, point) == SL_NO_CELL) {
-        *out = false;
-        return SL_OK;
-    }
+    *out = false;
+    if (start == SL_NO_CELL || !in_bounds(space, point)) return SL_OK;
+    const uint32_t room = sl_outline_room(outline, start, eye);
+    const finding found = space->loose ? TOUCHES : follow_within(outline, room, eye, point);
+    *out = found == SEEN;
+    if (found != TOUCHES || sl_space_locate(space, point) == SL_NO_CELL) return SL_OK;
     seer s = {.outline = outline, .eye = eye, .point = point, .cell = start};
     bool arrives = false;
     s.entered = sl_alloc_array(context, sl_bits_words(outline->room_count), sizeof *s.entered);
-    sl_status status =
-        s.entered ? enter(context, &s, sl_outline_room(outline, start, eye)) : SL_NO_MEMORY;
+    sl_status status = s.entered ? enter(context, &s, room) : SL_NO_MEMORY;
     if (status == SL_OK) status = follow(context, &s, &arrives);
     sl_free(context, s.entered);
     sl_free(context, s.waiting.items);
     if (status == SL_OK) *out = arrives && (sight == SL_CLOSED || !s.touches);
     return status;
 }
+
+// --- rays
 
 /// Finds the wall or border that the ray meets, starting at a side of the fan. False where the
 /// boundary of a room is not closed, by rounding.

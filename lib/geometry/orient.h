@@ -3,7 +3,7 @@
 #ifndef SL_ORIENT_H
 #define SL_ORIENT_H
 
-#include "geometry/wide.h"
+#include "base/wide.h"
 #include "sightline/geometry.h"
 
 #include <float.h>

@@ -12,8 +12,10 @@
 /// with the node; portals are the free pieces between them (portals.c). Every split position is the
 /// coordinate of a wall, so no coordinate is computed.
 ///
-/// Walls are sorted by line. So the candidates of a region are runs in its list, and two binary
-/// searches count the walls on either side of a candidate. Time O(n log n) for each level.
+/// Walls are sorted by line, so the candidates of a region are runs in its list. They are also
+/// sorted by their low and by their high ends. On the way along both orders, the walls on either
+/// side of each candidate are counted. Cutting walls keeps all three orders, so they are sorted
+/// once. Time O(n) for each level.
 #include "space/kd_tree.h"
 
 #include "sightline/support.h"
@@ -106,13 +108,16 @@ bool sli_wall_lines_cover(const sli_piece *pieces, size_t count, int axis, doubl
 
 // --- the tree
 
-/// A region still to be divided, with the walls inside it, sorted by line. The stack owns it.
+/// The orders of the walls of a region; within each, those of axis 0 come first.
+typedef enum order { BY_LINE, BY_LOW, BY_HIGH, ORDERS } order;
+
+/// A region still to be divided, with the walls inside it. The stack owns it.
 typedef struct region {
     sl_box box;
-    sli_piece *pieces;
-    size_t count;
-    int32_t parent; ///< the node that leads here, -1 for none
-    bool above;     ///< which child of that node
+    sli_piece *pieces;     ///< `count` by line, then the same in the other orders
+    size_t count, upright; ///< `upright`: of axis 0
+    int32_t parent;        ///< the node that leads here, -1 for none
+    bool above;            ///< which child of that node
     uint32_t depth;
 } region;
 
@@ -131,7 +136,6 @@ typedef struct candidate {
 typedef struct chooser {
     const sl_subdivide_options *options;
     SL_ARRAY(candidate) candidates;
-    SL_ARRAY(double) lows[2], highs[2]; ///< the ends of the pieces by axis, sorted
 } chooser;
 
 static double low_of(const sl_box *box, int axis) {
@@ -165,61 +169,26 @@ static sl_status add_candidates(sl_context *context, chooser *choice, const regi
     return SL_OK;
 }
 
-static int compare_doubles(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-/// The number of sorted values below `limit`.
-static size_t count_below(const double *values, size_t count, double limit) {
-    size_t first = 0;
-    while (first < count) {
-        const size_t middle = first + (count - first) / 2;
-        if (values[middle] < limit)
-            first = middle + 1;
-        else
-            count = middle;
-    }
-    return first;
-}
-
-static size_t count_not_above(const double *values, size_t count, double limit) {
-    return count_below(values, count, nextafter(limit, INFINITY));
-}
-
-static sl_status sort_ends(sl_context *context, chooser *choice, const region *r) {
-    for (int axis = 0; axis < 2; axis++) {
-        SL_TRY(SL_ARRAY_ROOM(context, &choice->lows[axis], r->count));
-        SL_TRY(SL_ARRAY_ROOM(context, &choice->highs[axis], r->count));
-        choice->lows[axis].count = choice->highs[axis].count = 0;
-    }
-    for (size_t i = 0; i < r->count; i++) {
-        const sli_piece *p = &r->pieces[i];
-        choice->lows[p->axis].items[choice->lows[p->axis].count++] = p->lo;
-        choice->highs[p->axis].items[choice->highs[p->axis].count++] = p->hi;
-    }
-    for (int axis = 0; axis < 2; axis++) {
-        qsort(choice->lows[axis].items, choice->lows[axis].count, sizeof(double), compare_doubles);
-        qsort(choice->highs[axis].items, choice->highs[axis].count, sizeof(double),
-              compare_doubles);
-    }
-    return SL_OK;
-}
-
 /// Counts the walls that each candidate would cut, and those on either side.
 static void count_sides(chooser *choice, const region *r) {
-    size_t on_axis[2] = {choice->lows[0].count, choice->lows[1].count};
+    const size_t of_axis[2] = {r->upright, r->count - r->upright};
+    const sli_piece *lows = NULL, *highs = NULL;
+    size_t starting = 0, ended = 0;
     for (size_t i = 0; i < choice->candidates.count; i++) {
         candidate *c = &choice->candidates.items[i];
         const sli_piece *line = &r->pieces[c->first];
         const int across = !line->axis;
-        const size_t base = line->axis ? on_axis[0] : 0;
-        const size_t starting = count_below(choice->lows[across].items, on_axis[across], line->at);
-        const size_t ended =
-            count_not_above(choice->highs[across].items, on_axis[across], line->at);
+        if (i == 0 || r->pieces[c[-1].first].axis != line->axis) {
+            lows = r->pieces + BY_LOW * r->count + (across ? r->upright : 0);
+            highs = r->pieces + BY_HIGH * r->count + (across ? r->upright : 0);
+            starting = ended = 0;
+        }
+        while (starting < of_axis[across] && lows[starting].lo < line->at) starting++;
+        while (ended < of_axis[across] && highs[ended].hi <= line->at) ended++;
+        const size_t base = line->axis ? r->upright : 0;
         c->cleaved = starting - ended;
         c->below = c->first - base + starting;
-        c->above = base + on_axis[line->axis] - c->end + on_axis[across] - ended;
+        c->above = base + of_axis[line->axis] - c->end + of_axis[across] - ended;
     }
 }
 
@@ -271,7 +240,6 @@ static sl_status choose_split(sl_context *context, chooser *choice, const region
                               candidate *out) {
     const sl_subdivide_options *rules = choice->options;
     SL_TRY(add_candidates(context, choice, r));
-    SL_TRY(sort_ends(context, choice, r));
     count_sides(choice, r);
     if (rules->spanning && any_spanning(choice))
         filter(choice, is_spanning, 0);
@@ -315,18 +283,27 @@ static sli_piece clip_piece(const sli_piece *p, int axis, double at, bool above)
     return part;
 }
 
-static sl_status push_child(sl_context *context, region_stack *stack, const region *r,
+/// The child below takes over the region's memory, so the one above comes first.
+static sl_status push_child(sl_context *context, region_stack *stack, region *r,
                             const candidate *split, int32_t node, bool above) {
-    const sli_piece *line = &r->pieces[split->first];
+    const sli_piece line = r->pieces[split->first];
     SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
     region child = {.box = r->box, .parent = node, .above = above, .depth = r->depth + 1};
     sl_point *corner = above ? &child.box.min : &child.box.max;
-    *(line->axis ? &corner->y : &corner->x) = line->at;
-    child.pieces = sl_alloc_array(context, above ? split->above : split->below, sizeof *line);
+    *(line.axis ? &corner->y : &corner->x) = line.at;
+    child.count = above ? split->above : split->below;
+    child.pieces = above ? sl_alloc(context, (ORDERS * child.count + 1) * sizeof line) : r->pieces;
     if (!child.pieces) return SL_NO_MEMORY;
-    for (size_t i = 0; i < r->count; i++) {
-        const sli_piece part = clip_piece(&r->pieces[i], line->axis, line->at, above);
-        if (part.lo < part.hi) child.pieces[child.count++] = part;
+    sli_piece *to = child.pieces;
+    for (size_t i = 0; i < ORDERS * r->count; i++) {
+        const sli_piece part = clip_piece(&r->pieces[i], line.axis, line.at, above);
+        if (part.lo < part.hi) *to++ = part;
+    }
+    while (child.upright < child.count && child.pieces[child.upright].axis == 0) child.upright++;
+    if (!above) {
+        size_t room = ORDERS * r->count;
+        sl_shrink(context, &child.pieces, &room, ORDERS * child.count, sizeof line);
+        r->pieces = NULL;
     }
     stack->items[stack->count++] = child;
     return SL_OK;
@@ -341,7 +318,7 @@ static void link_child(sli_kd_tree *tree, const region *r, int32_t child) {
         tree->nodes.items[r->parent].below = child;
 }
 
-static sl_status divide(sl_context *context, chooser *choice, region_stack *stack, const region *r,
+static sl_status divide(sl_context *context, chooser *choice, region_stack *stack, region *r,
                         sli_kd_tree *tree) {
     if (r->count == 0) {
         if (tree->cells.count == INT32_MAX) return sl_fail_memory(context);
@@ -360,17 +337,33 @@ static sl_status divide(sl_context *context, chooser *choice, region_stack *stac
     return push_child(context, stack, r, &split, node, false);
 }
 
+static int compare_lows(const void *left, const void *right) {
+    const sli_piece *a = left, *b = right;
+    return a->axis != b->axis ? a->axis - b->axis : compare_numbers(a->lo, b->lo);
+}
+
+static int compare_highs(const void *left, const void *right) {
+    const sli_piece *a = left, *b = right;
+    return a->axis != b->axis ? a->axis - b->axis : compare_numbers(a->hi, b->hi);
+}
+
 /// The root: the walls inside the bounds, without those on the border.
 static sl_status push_root(sl_context *context, region_stack *stack, const sli_piece *walls,
                            size_t count, sl_box bounds) {
     SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
     region root = {.box = bounds, .parent = -1};
-    root.pieces = sl_alloc_array(context, count, sizeof *walls);
+    root.pieces = sl_alloc_array(context, count, ORDERS * sizeof *walls);
     if (!root.pieces) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
         const int axis = walls[i].axis;
-        if (walls[i].at > low_of(&bounds, axis) && walls[i].at < high_of(&bounds, axis))
-            root.pieces[root.count++] = walls[i];
+        if (walls[i].at <= low_of(&bounds, axis) || walls[i].at >= high_of(&bounds, axis)) continue;
+        root.upright += axis == 0;
+        root.pieces[root.count++] = walls[i];
+    }
+    for (order k = BY_LOW; k < ORDERS; k++) {
+        sli_piece *copy = root.pieces + k * root.count;
+        memcpy(copy, root.pieces, root.count * sizeof *copy);
+        qsort(copy, root.count, sizeof *copy, k == BY_LOW ? compare_lows : compare_highs);
     }
     stack->items[stack->count++] = root;
     return SL_OK;
@@ -379,7 +372,7 @@ static sl_status push_root(sl_context *context, region_stack *stack, const sli_p
 static sl_status divide_all(sl_context *context, chooser *choice, region_stack *stack,
                             sli_kd_tree *tree) {
     while (stack->count) {
-        const region r = stack->items[--stack->count];
+        region r = stack->items[--stack->count];
         sl_status status = sl_check_cancelled(context);
         if (status == SL_OK) status = divide(context, choice, stack, &r, tree);
         sl_free(context, r.pieces);
@@ -398,10 +391,6 @@ sl_status sli_kd_build(sl_context *context, const sli_piece *walls, size_t count
     for (size_t i = 0; i < stack.count; i++) sl_free(context, stack.items[i].pieces);
     sl_free(context, stack.items);
     sl_free(context, choice.candidates.items);
-    for (int axis = 0; axis < 2; axis++) {
-        sl_free(context, choice.lows[axis].items);
-        sl_free(context, choice.highs[axis].items);
-    }
     return status;
 }
 

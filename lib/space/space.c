@@ -133,9 +133,15 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
 bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sli_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
-            return false;
+    sl_point from = corners[cell->vertex_count - 1];
+    sl_point offset = {from.x - point.x, from.y - point.y};
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point to = corners[i], next = {to.x - point.x, to.y - point.y};
+        const int turn = sli_turn_filter(offset, next);
+        if (turn < 0 || (turn == 0 && sli_orient_exact(from, to, point) < 0)) return false;
+        from = to;
+        offset = next;
+    }
     return true;
 }
 

@@ -1,10 +1,12 @@
-// What a visible region costs, whole: location, region and polygon. Each query once, over a
-// shuffled set of random eyes in cells that are inside.
+// What a visible region costs, whole: location, region and polygon; and whether two points see each
+// other. Each query once, over a shuffled set of random eyes in cells that are inside.
 //   bench_region MAP [Z]   CSV: machine, map, walls, cells, rooms of the outline, queries,
-//   nanoseconds
-//                          a query, of them for the location, points of a region, portals passed
+//                          nanoseconds a region, of them for the location, points of a region,
+//                          portals passed, nanoseconds for two points, and the share that see each
+//                          other
 #include "read_space.h"
 
+#include "sightline/sees.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -57,12 +59,23 @@ static void measure(sl_context *context, const char *path, const sl_space *space
         passed += region.portals_passed;
     }
     const double whole = now() - start;
+    int seen = 0;
+    start = now();
+    for (int i = 0; i < QUERIES; i++) {
+        bool sees = false;
+        must(context,
+             sl_sees(context, &outline, eyes[i], eyes[(i + 1) % QUERIES], SL_CLOSED, &sees));
+        seen += sees;
+    }
+    const double pairs = now() - start;
     struct utsname machine;
     uname(&machine);
-    puts("machine,map,walls,cells,rooms,queries,ns_a_query,ns_to_locate,points,portals");
-    printf("%s %s,%s,%u,%u,%u,%d,%.0f,%.0f,%.1f,%.1f\n", machine.sysname, machine.machine, path,
-           space->wall_count, space->cell_count, outline.room_count, QUERIES, 1e9 * whole / QUERIES,
-           sum ? 1e9 * locate / QUERIES : 0, (double)points / QUERIES, (double)passed / QUERIES);
+    puts("machine,map,walls,cells,rooms,queries,ns_a_query,ns_to_locate,points,portals,"
+         "ns_two_points,share_seen");
+    printf("%s %s,%s,%u,%u,%u,%d,%.0f,%.0f,%.1f,%.1f,%.0f,%.3f\n", machine.sysname, machine.machine,
+           path, space->wall_count, space->cell_count, outline.room_count, QUERIES,
+           1e9 * whole / QUERIES, sum ? 1e9 * locate / QUERIES : 0, (double)points / QUERIES,
+           (double)passed / QUERIES, 1e9 * pairs / QUERIES, (double)seen / QUERIES);
     sl_region_destroy(context, &region);
     sl_outline_destroy(context, &outline);
 }

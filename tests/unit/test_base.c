@@ -48,6 +48,40 @@ static void numbers_are_short(void **state) {
     }
 }
 
+/// Numbers are those of printf, 15 to 17 digits: the first text that reads back.
+static void check_number(double value) {
+    char text[SL_NUMBER_TEXT], expected[SL_NUMBER_TEXT];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(expected, sizeof expected, "%.*g", digits, value);
+        if (strtod(expected, NULL) == value) break;
+    }
+    sl_number_write(value, text);
+    assert_string_equal(text, expected);
+}
+
+static void numbers_are_those_of_printf(void **state) {
+    (void)state;
+    sl_random random = {2};
+    const double wholes[] = {0, 1e-5, 1e-4, 1, 10, 1e14, 1e15, 1e16, 0x1p49, 0x1p50};
+    for (size_t i = 0; i < sizeof wholes / sizeof *wholes; i++) {
+        check_number(wholes[i]);
+        check_number(nextafter(wholes[i], 0));
+        check_number(-nextafter(wholes[i], INFINITY));
+        check_number(-wholes[i]);
+    }
+    for (int exponent = -20; exponent <= 55; exponent++) { // steps between doubles change here
+        check_number(ldexp(1, exponent));
+        check_number(nextafter(ldexp(1, exponent), 0));
+    }
+    for (int i = 0; i < 300000; i++) {
+        const double unit = sl_random_unit(&random);
+        const int exponent = (int)sl_random_below(&random, 70) - 16;
+        check_number(ldexp(unit, exponent));
+        check_number(-round(unit * 1e6) / pow(10, (double)(i % 9))); // few digits
+        check_number(round(unit * 0x1p53) / 0x1p8);                  // ties between 15 digits
+    }
+}
+
 static void only_decimals_are_numbers(void **state) {
     (void)state;
     const char *good[] = {"0", "-0", "+1", "1.", ".5", "1e3", "1E-3", "00012", "1e999"};
@@ -204,6 +238,7 @@ int main(void) {
         cmocka_unit_test(one_version_everywhere),
         cmocka_unit_test(numbers_read_back_to_the_same_double),
         cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(numbers_are_those_of_printf),
         cmocka_unit_test(only_decimals_are_numbers),
         cmocka_unit_test(a_failed_write_leaves_the_old_file),
         cmocka_unit_test(a_file_larger_than_memory_is_refused_unread),

@@ -183,6 +183,40 @@ static void beside_a_crossing(void **state) {
     sl_context_destroy(context);
 }
 
+/// Where a segment passes within sides alone, and where it ends at a wall: no room is remembered.
+static void plain_pairs_take_no_memory(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_map map = {0};
+    sl_space space = {0};
+    sl_outline outline = {0};
+    testing_space(context, "walls 0 0 8 0 8 8 0 8 0 0\nwall 2 0 2 4\nwall 4 4 4 8\nwall 5 1 7 2\n",
+                  &map, &space);
+    assert_ok(context, sl_outline_make(context, &space, &outline));
+    const struct {
+        sl_point eye, point;
+        bool seen;
+    } pairs[] = {{{1.3, 3.3}, {3.7, 6.9}, true},  {{1.3, 1.1}, {6.2, 1.3}, false},
+                 {{3.1, 0.7}, {7.7, 1.9}, false}, {{3.1, 0.7}, {6.1, 2.1}, true},
+                 {{3.1, 0.7}, {7.7, 0.9}, true},  {{6.3, 3.6}, {3.1, 3.4}, true}};
+    const long calls = memory.calls;
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        bool seen = !pairs[i].seen;
+        assert_ok(context,
+                  sl_sees(context, &outline, pairs[i].eye, pairs[i].point, SL_OPEN, &seen));
+        assert_int_equal(seen, pairs[i].seen);
+        assert_ok(context,
+                  sl_sees(context, &outline, pairs[i].point, pairs[i].eye, SL_CLOSED, &seen));
+        assert_int_equal(seen, pairs[i].seen);
+    }
+    assert_int_equal(memory.calls, calls);
+    sl_outline_destroy(context, &outline);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void corners_and_slits(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -227,9 +261,8 @@ static void corners_and_slits(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_every_wall_says),
-        cmocka_unit_test(among_oblique_walls),
-        cmocka_unit_test(beside_a_crossing),
+        cmocka_unit_test(as_every_wall_says), cmocka_unit_test(among_oblique_walls),
+        cmocka_unit_test(beside_a_crossing),  cmocka_unit_test(plain_pairs_take_no_memory),
         cmocka_unit_test(corners_and_slits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

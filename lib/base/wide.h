@@ -32,6 +32,11 @@ static inline sli_wide sli_wide_shifted(sli_wide a, int shift) {
     return (sli_wide){a.high << shift | a.low >> (64 - shift), a.low << shift};
 }
 
+/// a - b, where b is not the larger.
+static inline sli_wide sli_wide_difference(sli_wide a, sli_wide b) {
+    return (sli_wide){a.high - b.high - (a.low < b.low), a.low - b.low};
+}
+
 /// -1, 0 or 1.
 static inline int sli_wide_compare(sli_wide a, sli_wide b) {
     if (a.high != b.high) return a.high < b.high ? -1 : 1;
