@@ -17,10 +17,11 @@
 #include "sightline/sightline.h"
 
 /// An allocator that counts live blocks, of all threads, and can be told to fail from its Nth call
-/// on (0: never).
+/// on (0: never), or at that call alone.
 typedef struct testing_memory {
     atomic_long live, calls;
     long fail_at;
+    bool once;
 } testing_memory;
 
 static inline void *testing_resize(void *user, void *block, size_t bytes) {
@@ -30,7 +31,9 @@ static inline void *testing_resize(void *user, void *block, size_t bytes) {
         free(block);
         return NULL;
     }
-    if (++memory->calls >= memory->fail_at && memory->fail_at) return NULL;
+    const long call = ++memory->calls;
+    if (memory->once ? call == memory->fail_at : call >= memory->fail_at && memory->fail_at)
+        return NULL;
     void *resized = realloc(block, bytes);
     memory->live += !block && resized;
     return resized;

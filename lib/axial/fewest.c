@@ -188,6 +188,7 @@ static sl_status drop_spare(sl_context *context, chooser *c) {
     sl_status status = sl_line_graph_make(context, c->all->lines, n, &graph);
     if (status == SL_OK) status = SL_ARRAY_ROOM(context, &c->queue, (size_t)n + 1);
     if (status != SL_OK) {
+        sl_line_graph_destroy(context, &graph);
         sl_free(context, times);
         return status;
     }

@@ -24,8 +24,13 @@ static sl_status read_to_end(sl_context *context, FILE *stream, const char *path
         const size_t more = data->count < 65536 ? 65536 : data->count;
         SL_TRY(sl_check_cancelled(context));
         SL_TRY(SL_ARRAY_ROOM(context, data, more + 1));
+        errno = 0;
         const size_t got = fread(data->items + data->count, 1, more, stream);
         data->count += got;
+        if (ferror(stream) && errno == EINTR) {
+            clearerr(stream);
+            continue;
+        }
         if (ferror(stream)) {
             const sl_status status = errno == EISDIR ? SL_BAD_ARGUMENT : SL_IO;
             return sl_fail(context, status, "%s: cannot read: %s", path, strerror(errno));
@@ -52,10 +57,21 @@ static sl_status read_stream(sl_context *context, FILE *stream, const char *path
     return status;
 }
 
+/// Opens a file, or gives NULL and errno. A pipe may wait here, which a signal of the caller's ends
+/// early.
+static sl_status open_to_read(sl_context *context, const char *path, FILE **out) {
+    for (;;) {
+        errno = 0;
+        *out = sli_file_open(path, "rb");
+        if (*out || errno != EINTR) return SL_OK;
+        SL_TRY(sl_check_cancelled(context));
+    }
+}
+
 sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out) {
     if (strcmp(path, "-") == 0) return read_stream(context, stdin, "standard input", out);
-    errno = 0;
-    FILE *stream = sli_file_open(path, "rb");
+    FILE *stream = NULL;
+    SL_TRY(open_to_read(context, path, &stream));
     if (!stream) {
         // A file that is not there is a mistake in the arguments; one that cannot be read is not.
         const sl_status status = errno == ENOENT || errno == ENOTDIR ? SL_BAD_ARGUMENT : SL_IO;

@@ -90,7 +90,10 @@ FILE *sli_file_make_beside(const char *path, char *temporary) {
 }
 
 bool sli_file_to_disk(FILE *stream) {
-    return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+    int failed;
+    do failed = fsync(fileno(stream));
+    while (failed && errno == EINTR);
+    return !failed || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
 }
 
 bool sli_file_replace(const char *from, const char *to) {

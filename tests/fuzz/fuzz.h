@@ -5,8 +5,10 @@
 #include "geometry/orient.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
+#include "sightline/support.h"
 #include "unit/map_same.h"
 
+#include <math.h>
 #include <stdio.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -19,6 +21,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
             abort();                                                                               \
         }                                                                                          \
     } while (0)
+
+/// A number that some check may have forgotten.
+static inline double odd_real(sl_random *random) {
+    static const double reals[] = {0,      -0.0,  1,      -1,     1e150, 1.5e150, 3e150,
+                                   -3e150, 1e200, 1e-150, 1e-300, NAN,   INFINITY};
+    return reals[sl_random_below(random, sizeof reals / sizeof *reals)];
+}
+
+static inline uint32_t odd_count(sl_random *random) {
+    static const uint32_t counts[] = {0, 1, 2, 3, 4, 0x7fffffff, 0x80000000, 0xffffffff};
+    return counts[sl_random_below(random, sizeof counts / sizeof *counts)];
+}
 
 static inline sl_context *fuzz_context(void) {
     sl_context *context = sl_context_create(NULL);

@@ -168,18 +168,6 @@ static void mutate_bytes(part *p) {
     p->size -= p->size % p->item_bytes;
 }
 
-/// A number that some check may have forgotten.
-static double odd_real(sl_random *random) {
-    static const double reals[] = {0,      -0.0,  1,      -1,     1e150, 1.5e150, 3e150,
-                                   -3e150, 1e200, 1e-150, 1e-300, NAN,   INFINITY};
-    return reals[sl_random_below(random, sizeof reals / sizeof *reals)];
-}
-
-static uint32_t odd_count(sl_random *random) {
-    static const uint32_t counts[] = {0, 1, 2, 3, 4, 0x7fffffff, 0x80000000, 0xffffffff};
-    return counts[sl_random_below(random, sizeof counts / sizeof *counts)];
-}
-
 static void set_number(part *p, sl_random *random) {
     const size_t places = p->size / 8;
     if (!places) return;

@@ -1,0 +1,275 @@
+/// Calls of every function of the runtime on an open file. Whatever the file holds, none reads or
+/// writes out of bounds (the sanitizers watch), comes to no end, or breaks what the header says.
+#ifndef SL_RUNTIME_CALLS_H
+#define SL_RUNTIME_CALLS_H
+
+#include "fuzz.h"
+
+#include "sightline/support.h"
+
+#include <math.h>
+
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime/sightline_runtime.h"
+
+/// Buffers of just the size that the header asks for, so that a byte more is found out.
+typedef struct buffers {
+    unsigned char *bits, *seen;
+    uint32_t *scratch, *cells;
+} buffers;
+
+static void *room(size_t bytes) {
+    void *block = malloc(bytes ? bytes : 1);
+    FUZZ_CHECK(block);
+    return block;
+}
+
+static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
+    uint32_t count = 0, end = 0;
+    sl_runtime_row_bits(r, cell, b->bits);
+    sl_runtime_run run = sl_runtime_row(r, cell);
+    while (sl_runtime_next(&run)) {
+        FUZZ_CHECK(run.first < run.end && run.end <= r->cell_count && (!end || run.first > end));
+        end = run.end;
+        count += run.end - run.first;
+    }
+    FUZZ_CHECK(sl_runtime_row_count(r, cell) == count);
+    FUZZ_CHECK(sl_runtime_has_row(r, cell) == (count > 0));
+    FUZZ_CHECK(sl_runtime_can_see(r, cell, cell) == (count > 0));
+    for (uint32_t to = 0; to < r->cell_count; to++) {
+        const bool sees = sl_runtime_can_see(r, cell, to);
+        FUZZ_CHECK(sees == (b->bits[to / 8] >> to % 8 & 1));
+        count -= sees;
+    }
+    FUZZ_CHECK(count == 0);
+    run = sl_runtime_mirrored_row(r, cell);
+    while (sl_runtime_next(&run)) FUZZ_CHECK(run.first < run.end && run.end <= r->cell_count);
+    const uint32_t seen = sl_runtime_seen_from_mirrored(r, &cell, 1, NULL, b->bits);
+    for (uint32_t to = 0; to < r->cell_count; to++)
+        count += sl_runtime_can_see_mirrored(r, cell, to, NULL);
+    FUZZ_CHECK(seen == count);
+}
+
+/// By mirror no cell of `seen` is lost, and none comes twice. Leaves `seen` as it was.
+static void check_mirrored(const sl_runtime *r, const sl_runtime_view *view, uint32_t seen,
+                           const buffers *b) {
+    uint32_t direct = 0;
+    const uint32_t count =
+        sl_runtime_look_mirrored(r, view, NULL, 0, b->scratch, b->cells, r->cell_count, &direct);
+    FUZZ_CHECK(direct == seen && count >= direct && count <= r->cell_count);
+    FUZZ_CHECK(r->mirrors || count == direct);
+    for (uint32_t i = 0; i < count; i++)
+        FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]] == (i < direct));
+}
+
+static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
+    const uint32_t cell = sl_runtime_locate(r, slrt_no_dust(view->x), slrt_no_dust(view->y));
+    const uint32_t count = sl_runtime_look(r, view, b->scratch, b->cells, r->cell_count);
+    const bool looks = cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(r, cell);
+    FUZZ_CHECK((count > 0) == looks && count <= r->cell_count);
+    FUZZ_CHECK(!count || b->cells[0] == cell);
+    memset(b->seen, 0, r->cell_count);
+    for (uint32_t i = 0; i < count; i++) {
+        FUZZ_CHECK(b->cells[i] < r->cell_count && !b->seen[b->cells[i]]++);
+        FUZZ_CHECK(!sl_runtime_has_row(r, cell) || sl_runtime_can_see(r, cell, b->cells[i]));
+    }
+    check_mirrored(r, view, count, b);
+}
+
+/// Past doors and within a range no more is seen; `seen` is what check_look has left.
+static void check_look_past(const sl_runtime *r, const sl_runtime_view *view, double range,
+                            const buffers *b) {
+    unsigned char shut[64];
+    for (size_t i = 0; i < sizeof shut; i++) shut[i] = i % 3 == 0;
+    const bool few = r->door_count <= sizeof shut;
+    const uint32_t count = sl_runtime_look_past(r, view, few ? shut : NULL, range, b->scratch,
+                                                b->cells, r->cell_count);
+    for (uint32_t i = 0; i < count; i++)
+        FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]]);
+    // Whoever has a row sees at least itself.
+    const uint32_t seen = sl_runtime_seen_from(r, b->cells, count, few ? shut : NULL, b->bits);
+    FUZZ_CHECK(seen <= r->cell_count);
+    for (uint32_t i = 0; i < count && !r->door_count; i++)
+        FUZZ_CHECK(!sl_runtime_can_see(r, b->cells[i], b->cells[i]) ||
+                   b->bits[b->cells[i] / 8] >> b->cells[i] % 8 & 1);
+}
+
+/// The polygon has finite points, the same number of them for any room, and writes no more.
+static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, double range,
+                          const buffers *b) {
+    unsigned char shut[64];
+    for (size_t i = 0; i < sizeof shut; i++) shut[i] = i % 3 == 0;
+    const unsigned char *doors = r->door_count <= sizeof shut ? shut : NULL;
+    const uint32_t count = sl_runtime_visible_polygon(r, view, doors, range, b->scratch, NULL, 0);
+    FUZZ_CHECK(count == 0 || count >= 3);
+    if (count > 1 << 20) return;
+    double *points = room(2 * (size_t)count * sizeof *points);
+    FUZZ_CHECK(sl_runtime_visible_polygon(r, view, doors, range, b->scratch, points, count) ==
+               count);
+    for (uint32_t i = 0; i < 2 * count; i++) FUZZ_CHECK(isfinite(points[i]));
+    free(points);
+}
+
+static void check_place(const sl_runtime *r, double x, double y, sl_random *random,
+                        const buffers *b) {
+    const uint32_t cell = sl_runtime_locate(r, x, y);
+    const bool within = x >= r->min_x && x <= r->max_x && y >= r->min_y && y <= r->max_y;
+    const bool found = cell < r->cell_count;
+    FUZZ_CHECK(found || cell == SL_RUNTIME_NO_CELL);
+    FUZZ_CHECK(within ? found || r->grid_cells || r->loose : !found);
+    const sl_runtime_view round = sl_runtime_view_all_round(x, y);
+    check_look(r, &round, b);
+    check_polygon(r, &round, 0, b);
+    check_polygon(r, &round, odd_real(random), b);
+    check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
+    sl_runtime_view cone = round;
+    cone.all_round = false;
+    for (int i = 0; i < 2; i++) {
+        cone.left[i] = sl_random_below(random, 4) ? sl_random_unit(random) - 0.5 : odd_real(random);
+        cone.right[i] =
+            sl_random_below(random, 4) ? sl_random_unit(random) - 0.5 : odd_real(random);
+    }
+    check_look(r, &cone, b);
+    check_polygon(r, &cone, sl_random_unit(random) * (r->max_x - r->min_x), b);
+}
+
+static void check_places(const sl_runtime *r, sl_random *random, const buffers *b) {
+    for (int i = 0; i < 2; i++) {
+        double x, y;
+        sl_runtime_get_vertex(r, (uint32_t)sl_random_below(random, r->vertex_count), &x, &y);
+        check_place(r, x, y, random, b);
+        check_place(r, r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
+                    r->min_y + sl_random_unit(random) * (r->max_y - r->min_y), random, b);
+        if (!r->directed_count) continue;
+        const sl_runtime_directed_portal e =
+            sl_runtime_get_directed_portal(r, (uint32_t)sl_random_below(random, r->directed_count));
+        FUZZ_CHECK(e.cell < r->cell_count && e.portal < r->portal_count);
+        check_place(r, e.left[0] / 2 + e.right[0] / 2, e.left[1] / 2 + e.right[1] / 2, random, b);
+    }
+    check_place(r, odd_real(random), odd_real(random), random, b);
+}
+
+/// Doors and starts of the map text, whose bytes are in the block.
+static void check_text(const sl_runtime *r) {
+    const uint32_t doors = r->door_count < 64 ? r->door_count : 64;
+    const uint32_t starts = sl_runtime_start_count(r);
+    for (uint32_t i = 0; i < doors; i++) {
+        const sl_runtime_name name = sl_runtime_door_name(r, i);
+        char copy[256];
+        sl_runtime_segment at[2];
+        FUZZ_CHECK(name.length > 0);
+        sl_runtime_door_open(r, i);
+        sl_runtime_door_segments(r, i, at, 2);
+        if (name.length >= sizeof copy || memchr(name.text, 0, name.length)) continue;
+        memcpy(copy, name.text, name.length);
+        copy[name.length] = '\0';
+        FUZZ_CHECK(sl_runtime_find_door(r, copy) <= i);
+    }
+    for (uint32_t i = 0; i < starts && i < 64; i++) {
+        sl_runtime_viewpoint start;
+        FUZZ_CHECK(sl_runtime_start(r, i, &start) && isfinite(start.heading));
+    }
+}
+
+/// What a view cell sees, and what cells see past doors.
+static void check_views(const sl_runtime *r, const unsigned char *shut, const buffers *b) {
+    for (uint32_t view = 0; view < r->view_cell_count; view++) {
+        sl_runtime_view_bits(r, view, b->bits);
+        for (uint32_t to = 0; to < r->cell_count; to++)
+            FUZZ_CHECK(sl_runtime_view_can_see(r, view, to) == (b->bits[to / 8] >> to % 8 & 1));
+    }
+    FUZZ_CHECK(!sl_runtime_view_can_see(r, r->view_cell_count, 0));
+    for (uint32_t cell = 0; cell < r->cell_count; cell++) {
+        const uint32_t view = sl_runtime_view_cell(r, cell);
+        FUZZ_CHECK(view < r->view_cell_count || view == SL_RUNTIME_NO_CELL);
+        sl_runtime_is_inside(r, cell);
+        const uint32_t to = r->cell_count - 1 - cell;
+        FUZZ_CHECK(!sl_runtime_can_see_past(r, cell, to, shut) || sl_runtime_can_see(r, cell, to));
+    }
+}
+
+/// A box about a place of the map, or anywhere.
+static sl_runtime_box some_box(const sl_runtime *r, sl_random *random) {
+    const double x = r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
+                 y = r->min_y + sl_random_unit(random) * (r->max_y - r->min_y);
+    const double wide = (r->max_x - r->min_x) * sl_random_unit(random) / 2,
+                 high = (r->max_y - r->min_y) * sl_random_unit(random) / 2;
+    sl_runtime_box box = {x, y, x + wide, y + high, sl_random_below(random, 2)};
+    if (!sl_random_below(random, 8)) box.min_x = odd_real(random);
+    if (!sl_random_below(random, 8)) box.max_y = odd_real(random);
+    return box;
+}
+
+static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, sl_random *random,
+                      const buffers *b) {
+    const sl_runtime *r = boxes->runtime;
+    uint32_t *scratch = room(sl_runtime_boxes_scratch_count(boxes) * sizeof *scratch);
+    unsigned char *seen = room(boxes->count);
+    for (int i = 0; i < 2; i++) {
+        const double x = r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
+                     y = r->min_y + sl_random_unit(random) * (r->max_y - r->min_y);
+        sl_runtime_view view = sl_runtime_view_all_round(x, y);
+        if (i)
+            view = sl_runtime_view_toward(x, y, odd_real(random), sl_random_unit(random) - 0.5,
+                                          sl_random_unit(random) * 4);
+        const double range = i ? sl_random_unit(random) * (r->max_x - r->min_x) : 0;
+        uint32_t count = sl_runtime_boxes_seen(boxes, &view, shut, range, scratch, seen);
+        for (uint32_t k = 0; k < boxes->count; k++) count -= seen[k];
+        FUZZ_CHECK(count == 0);
+        const uint32_t cells = sl_runtime_look_past_boxes(boxes, &view, shut, range, scratch, seen,
+                                                          b->cells, r->cell_count);
+        FUZZ_CHECK(cells <= r->cell_count);
+        for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
+    }
+    free(scratch);
+    free(seen);
+}
+
+/// Boxes that move, with so little room at times that some have none.
+static void check_boxes(const sl_runtime *r, const unsigned char *shut, sl_random *random,
+                        const buffers *b) {
+    enum { BOXES = 4 };
+    const uint32_t pairs = (uint32_t)sl_random_below(random, 3) * 8;
+    sl_runtime_box list[BOXES];
+    uint32_t *memory = room(sl_runtime_boxes_count(r, BOXES, pairs) * sizeof *memory);
+    sl_runtime_boxes boxes;
+    sl_runtime_boxes_start(&boxes, r, list, BOXES, pairs, memory);
+    for (uint32_t i = 0; i < 2 * BOXES; i++) {
+        const sl_runtime_box box = some_box(r, random);
+        const uint32_t count = sl_runtime_box_cells(r, box.min_x, box.min_y, box.max_x, box.max_y,
+                                                    b->cells, r->cell_count);
+        FUZZ_CHECK(count <= r->cell_count);
+        sl_runtime_boxes_move(&boxes, i % BOXES, &box);
+    }
+    ask_boxes(&boxes, shut, random, b);
+    free(memory);
+}
+
+static void check_open(const sl_runtime *r, sl_random *random) {
+    const buffers b = {.bits = room((r->cell_count + 7) / 8),
+                       .seen = room(r->cell_count),
+                       .scratch = room(sl_runtime_scratch_count(r) * sizeof *b.scratch),
+                       .cells = room(r->cell_count * sizeof *b.cells)};
+    for (uint32_t cell = 0; cell < r->cell_count; cell++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(r, cell);
+        FUZZ_CHECK((uint64_t)c.first_directed + c.directed_count <= r->directed_count);
+        FUZZ_CHECK((uint64_t)c.first_vertex + c.vertex_count <= r->vertex_count);
+        check_row(r, cell, &b);
+    }
+    FUZZ_CHECK(!sl_runtime_can_see(r, r->cell_count, 0) &&
+               !sl_runtime_can_see(r, 0, r->cell_count));
+    check_text(r);
+    check_places(r, random, &b);
+    unsigned char *shut = NULL;
+    if (r->door_count && r->door_count <= 64) shut = room(r->door_count);
+    for (uint32_t i = 0; shut && i < r->door_count; i++) shut[i] = i % 3 != 0;
+    check_views(r, shut, &b);
+    check_boxes(r, shut, random, &b);
+    free(shut);
+    free(b.bits);
+    free(b.seen);
+    free(b.scratch);
+    free(b.cells);
+}
+
+#endif
