@@ -18,6 +18,7 @@ const chapters = {
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
     program: [['unknowns', 10, 3], ['negative', 0, 1], ['widen', [[9, 5.5], [9, 3]], [[9, 8], [9, 4]]]],
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
+    rounding: [['bits', 53, 106], ['epsilon', 0, 1], ['flips', [[0, 2], [20, 4]], [[0, 3.1], [20, 7.4]]]],
     hidden: [['ends', 3, 4], ['proves', 0, 1], ['shut', [[9, 7], [9, 6.5]], [[9, 11.5], [9, 10]]]],
     view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 9]]]],
     regions: [['passes', 4, 8], ['reason', 0, 1], ['first', [[2, 2]], [[30, 18]]]],
@@ -202,6 +203,36 @@ for (const name of wanted)
                 return seen.size === 3 ? wrong : -1;
             });
             assert.equal(wrong, 0);
+            await close();
+        });
+
+        test('rounding: its exact signs agree with the library, where doubles do not', async () => {
+            const { page, close } = await open('rounding');
+            const counts = await page.evaluate(async () => {
+                const [{ tipsOf, portalsOf, verdictOf }, { arithmetics }, { Lab }] =
+                    await Promise.all([import('./rounding.js'), import('./exact.js'), import('./lab.js')]);
+                const { core } = await Lab.open(), wrong = Object.fromEntries(Object.keys(arithmetics).map((name) => [name, 0]));
+                for (let k = 0; k < 600; k++) {
+                    const tips = tipsOf(1 + 0.05 * (k % 23), 9 - 0.05 * (k % 71), 3 + (k % 5));
+                    if (k % 3 === 0) tips[k % tips.length][1] *= 1e-290;
+                    const { verdict } = core.conflict(portalsOf(tips));
+                    for (const name of Object.keys(wrong)) if (verdictOf(tips, arithmetics[name]) !== verdict) wrong[name]++;
+                }
+                return wrong;
+            });
+            assert.equal(counts.exact, 0);
+            for (const name of ['doubles', 'fused', 'epsilon']) assert.ok(counts[name] > 20, `${name}: ${counts[name]}`);
+            await close();
+        });
+
+        test('rounding: a fused multiply-add rounds once', async () => {
+            const { page, close } = await open('rounding');
+            const values = await page.evaluate(async () => {
+                const { fused, nearest, unitOf } = await import('./exact.js');
+                return [fused(0.1, 10, -1), fused(0.1, 0.3, 0) - 0.1 * 0.3, fused(0, 1, 0), nearest(2n ** 54n + 2n, 0) - 2 ** 54,
+                    nearest(2n ** 54n + 6n, 0) - 2 ** 54, unitOf(1), unitOf(0.75)];
+            });
+            assert.deepEqual(values, [2 ** -54, 0, 0, 0, 8, 2 ** -52, 2 ** -53]);
             await close();
         });
 
