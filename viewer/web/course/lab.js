@@ -63,4 +63,22 @@ export function planLine(dual, { slope, height }) {
     return [...place(-4), ...place(4)];
 }
 
+/** The part of a line within some convex cells and between them. */
+export function within(scene, [ax, ay, bx, by], cells) {
+    let first = Infinity, last = -Infinity;
+    for (const cell of cells) {
+        const p = scene.corners(cell), n = p.length;
+        let from = 0, to = 1;
+        for (let k = 0; k < n; k += 2) {
+            const ex = p[(k + 2) % n] - p[k], ey = p[(k + 3) % n] - p[k + 1];
+            const at = ex * (ay - p[k + 1]) - ey * (ax - p[k]), change = ex * (by - ay) - ey * (bx - ax);
+            if (change > 0) from = Math.max(from, -at / change);
+            else if (change < 0) to = Math.min(to, -at / change);
+        }
+        [first, last] = [Math.min(first, from), Math.max(last, to)];
+    }
+    const at = (t) => [ax + t * (bx - ax), ay + t * (by - ay)];
+    return [...at(first), ...at(last)];
+}
+
 export const round = (v, digits = 1) => Number(v.toFixed(digits));

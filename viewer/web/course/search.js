@@ -2,7 +2,7 @@
 import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
-import { cellAt, middleOf, planLine, round } from './lab.js';
+import { cellAt, middleOf, planLine, round, within } from './lab.js';
 import { drawWalls, flat, hall, house, itemsOf } from './maps.js';
 
 const houseItems = itemsOf(house.text);
@@ -24,24 +24,6 @@ function sequenceOf(steps, at) {
     const list = [], last = steps[at];
     for (let step = last.kind === 'leave' ? steps[last.parent] : last; step.directed >= 0; step = steps[step.parent]) list.unshift(step.directed);
     return list;
-}
-
-/** The part of a line within some convex cells and between them. */
-function within(scene, [ax, ay, bx, by], cells) {
-    let first = Infinity, last = -Infinity;
-    for (const cell of cells) {
-        const p = scene.corners(cell), n = p.length;
-        let from = 0, to = 1;
-        for (let k = 0; k < n; k += 2) {
-            const ex = p[(k + 2) % n] - p[k], ey = p[(k + 3) % n] - p[k + 1];
-            const at = ex * (ay - p[k + 1]) - ey * (ax - p[k]), change = ex * (by - ay) - ey * (bx - ax);
-            if (change > 0) from = Math.max(from, -at / change);
-            else if (change < 0) to = Math.min(to, -at / change);
-        }
-        [first, last] = [Math.min(first, from), Math.max(last, to)];
-    }
-    const at = (t) => [ax + t * (bx - ax), ay + t * (by - ay)];
-    return [...at(first), ...at(last)];
 }
 
 const said = {

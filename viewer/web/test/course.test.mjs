@@ -20,6 +20,7 @@ const chapters = {
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
     rounding: [['bits', 53, 106], ['epsilon', 0, 1], ['flips', [[0, 2], [20, 4]], [[0, 3.1], [20, 7.4]]]],
     hidden: [['ends', 3, 4], ['proves', 0, 1], ['shut', [[9, 7], [9, 6.5]], [[9, 11.5], [9, 10]]]],
+    sweep: [['corners', 8, 4], ['event', 0, 1], ['joins', [[13, 5]], [[9, 8]]]],
     view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 9]]]],
     regions: [['passes', 4, 8], ['reason', 0, 1], ['first', [[2, 2]], [[30, 18]]]],
     frames: [['tests', 15, 7], ['safe', 0, 1], ['costly', [[3, 11.5]], [[8, 8]]]],
@@ -233,6 +234,19 @@ for (const name of wanted)
                     nearest(2n ** 54n + 6n, 0) - 2 ** 54, unitOf(1), unitOf(0.75)];
             });
             assert.deepEqual(values, [2 ** -54, 0, 0, 0, 8, 2 ** -52, 2 ** -53]);
+            await close();
+        });
+
+        test('sweep: the rotating line finds the pairs of the library', async () => {
+            const { page, close } = await open('sweep');
+            const found = await page.evaluate(async () => {
+                const [{ comparePairs }, maps, { Lab }] = await Promise.all([import('./sweep.js'), import('./maps.js'), import('./lab.js')]);
+                const lab = await Lab.open();
+                return [maps.flat.text, maps.house.text, maps.pillars.text, maps.hall(2), maps.grid(4, 3)].map((text) => comparePairs(lab, text));
+            });
+            assert.deepEqual(found.map(({ wrong }) => wrong), [0, 0, 0, 0, 0]);
+            assert.deepEqual(found.map(({ pairs }) => pairs), [30, 62, 64, 290, 65]);
+            assert.ok(found.some(({ late }) => late > 0), 'the second step is not needed');
             await close();
         });
 
