@@ -46,6 +46,13 @@ export function cellAt(scene, [x, y]) {
     return cell >= 0 && scene.cellTable[6 * cell + 4] ? cell : -1;
 }
 
+/** Puts the baked map and the cell of a place into the state of a figure. @returns the map */
+export function stand(state, lab, text, place) {
+    state.scene = lab.scene(text);
+    state.cell = cellAt(state.scene, place);
+    return state.scene;
+}
+
 /** The middle of a cell. */
 export function middleOf(scene, cell) {
     const p = scene.corners(cell);

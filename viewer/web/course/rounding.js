@@ -3,17 +3,12 @@ import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { svg } from '../parts/dual.js';
 import { arithmetics, determinantOf, nearest, roundedOf, unitOf } from './exact.js';
-import { element } from './figure.js';
+import { element, table } from './figure.js';
 import { round } from './lab.js';
 import { drawWalls } from './maps.js';
 
 const side = { '1': 'left', '0': 'on the line', '-1': 'right' };
 const names = [['doubles', 'doubles'], ['fused', 'doubles, fused'], ['epsilon', 'doubles, epsilon 1e-9'], ['exact', 'exact']];
-
-const table = (head, rows) => {
-    const row = (cells, tag) => element('tr', {}, ...cells.map((cell) => element(tag, {}, cell)));
-    return element('table', {}, element('thead', {}, row(head, 'th')), element('tbody', {}, ...rows.map((cells) => row(cells, 'td'))));
-};
 
 /** Points about (0.5, 0.5), 2^-53 apart, against the diagonal, which is given by two places on it. */
 const GRID = 40, STEP = 2 ** -53;
@@ -134,8 +129,8 @@ const slits = {
         strokeLines(surface, camera, [[...state.a, ...state.b]], tones.sourceEdge, 2, [6, 4]);
         drawWalls(surface, camera, [frame, ...slitWalls(state.tips)], tones);
     },
-    beside: (state, tones) => element('div', {}, magnifier(state, tones), table(['arithmetic', 'the far end is', ''], names.map(([, name], i) =>
-        [name, state.verdicts[i], isSeen(state.verdicts[i]) === isSeen(state.truth) ? '' : 'wrong']))),
+    beside: (state, tones) => element('div', {}, magnifier(state, tones), table(['arithmetic', 'the far end is', 'right?'], names.map(([, name], i) =>
+        [name, state.verdicts[i], isSeen(state.verdicts[i]) === isSeen(state.truth) ? 'yes' : 'no']))),
     tell(state) {
         const wrong = names.filter((_, i) => isSeen(state.verdicts[i]) !== isSeen(state.truth)).map(([, name]) => name);
         return `Line from ${state.a[1]} to ${state.b[1]}, ${plural(state.tips.length, 'slit')}. Exact: ${state.truth}. Doubles: ${state.verdicts[0]}. ` +

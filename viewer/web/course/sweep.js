@@ -2,7 +2,7 @@
 import { plural } from '../formats/words.js';
 import { svg } from '../parts/dual.js';
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
-import { element } from './figure.js';
+import { table } from './figure.js';
 import { cellAt, middleOf, round, within } from './lab.js';
 import { drawWalls, flat, hall, house, itemsOf } from './maps.js';
 import { Pairs, joinAll, pivotsOf, rotate, seenFrom } from './rotate.js';
@@ -152,11 +152,7 @@ const growth = {
         drawWalls(surface, camera, itemsOf(state.text), tones);
         drawDot(surface, camera, state.corner, 5, tones.start, tones.page);
     },
-    beside(state) {
-        const row = (cells, tag) => element('tr', {}, ...cells.map((cell) => element(tag, {}, String(cell))));
-        return element('table', {}, element('thead', {}, row(['columns', 'cells', 'edges', 'sweep', 'search'], 'th')),
-            element('tbody', {}, ...state.rows.map((cells) => row(cells, 'td'))));
-    },
+    beside: (state) => table(['columns', 'cells', 'edges', 'sweep', 'search'], state.rows),
     tell(state) {
         const [columns, cells, edges, pieces, nodes] = state.row;
         return `${plural(columns, 'column')}, ${plural(cells, 'cell')}, ${plural(edges, 'edge')} of the visibility graph, ${state.own.length} of them at this corner. ` +
