@@ -4,22 +4,27 @@
  * A figure is data: `handles` are places to drag, `controls` are fields below the picture. Whenever one
  * changes, `update(state, lab)` computes, `draw(surface, camera, tones, state)` draws, and `tell(state)`
  * says it in words. `beside(state, tones)` may give a second picture. Mouse, touch and keys all move handles.
+ * A control of kind 'map' chooses a plan or a map of the reader's own (own.js); `update` then puts `box` into the state.
+ * `start(figure)` is called once: work beside the page calls `figure.change()` when it has something new.
  */
 import { Camera } from '../parts/camera.js';
 import { drawDot } from '../parts/plan.js';
 import { watchTones } from '../parts/tones.js';
+import { mapField } from './own.js';
 
 /**
  * @typedef {Object} Spec
  * @property {string} title @property {string} about what the reader can do
  * @property {number[]} box of the map: x0, y0, x1, y1
  * @property {{name: string, at: number[], tone?: string}[]} handles
- * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice', value: any,
+ * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice' | 'map', value: any,
  *   min?: number, max?: number, step?: number, options?: string[][]}[]} [controls]
  * @property {(state: any, lab: import('./lab.js').Lab) => void} update
  * @property {(surface: any, camera: Camera, tones: any, state: any) => void} draw
  * @property {(state: any) => string} tell
  * @property {(state: any, tones: any) => Element} [beside]
+ * @property {boolean} [wide] `beside` stands below the picture
+ * @property {(figure: Figure) => void} [start]
  */
 
 /** @returns {any} an element with properties, attributes (data-, aria-, role) and children */
@@ -30,6 +35,12 @@ export function element(tag, properties = {}, ...children) {
         else node.setAttribute(key, value);
     node.append(...children);
     return node;
+}
+
+/** A table for the place beside a picture. @param {string[]} head @param {(string | number)[][]} rows */
+export function table(head, rows) {
+    const row = (cells, tag) => element('tr', {}, ...cells.map((cell) => element(tag, {}, String(cell))));
+    return element('table', {}, element('thead', {}, row(head, 'th')), element('tbody', {}, ...rows.map((cells) => row(cells, 'td'))));
 }
 
 /** How near a pointer must be to a handle to take it, in pixels. */
@@ -48,6 +59,7 @@ export class Figure {
         for (const handle of spec.handles) this.state[handle.name] = [...handle.at];
         for (const control of spec.controls ?? []) this.state[control.name] = control.value;
         this.build(host);
+        spec.start?.(this);
         watchTones((tones) => {
             this.tones = tones;
             this.change();
@@ -55,12 +67,17 @@ export class Figure {
         new ResizeObserver(() => this.resize()).observe(this.canvas);
     }
 
+    /** The box of the map: that of the state, where `update` gives one. */
+    get box() {
+        return this.state.box ?? this.spec.box;
+    }
+
     build(host) {
         const { spec } = this, id = `figure-${++count}`;
         const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
             : spec.handles.length ? ' Arrows move the dot.' : '';
         this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
-        this.beside = element('div', { className: 'beside' });
+        this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
         const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}${keys}`);
         this.controls = element('div', { className: 'controls' });
@@ -77,6 +94,7 @@ export class Figure {
             this.state[control.name] = value;
             this.change();
         };
+        if (control.kind === 'map') return mapField(name, control, set, this.lab);
         if (control.kind === 'choice') {
             const list = element('select', { id: name }, ...control.options.map(([value, text]) =>
                 element('option', { value, selected: value === control.value }, text)));
@@ -134,7 +152,7 @@ export class Figure {
         const handles = this.spec.handles;
         if (!handles.length || event.ctrlKey || event.metaKey || event.altKey) return;
         if (by) {
-            const [x0, , x1] = this.spec.box, step = ((x1 - x0) / 80) * (event.shiftKey ? 5 : 1);
+            const [x0, , x1] = this.box, step = ((x1 - x0) / 80) * (event.shiftKey ? 5 : 1);
             const [x, y] = this.state[handles[this.active].name];
             this.moveTo([x + by[0] * step, y + by[1] * step]);
         } else if (event.key.toLowerCase() === 'n' && handles.length > 1) {
@@ -146,7 +164,7 @@ export class Figure {
     }
 
     moveTo([x, y]) {
-        const [x0, y0, x1, y1] = this.spec.box, name = this.spec.handles[this.active].name;
+        const [x0, y0, x1, y1] = this.box, name = this.spec.handles[this.active].name;
         this.state[name] = [Math.min(x1, Math.max(x0, x)), Math.min(y1, Math.max(y0, y))];
         this.change();
     }
@@ -157,14 +175,20 @@ export class Figure {
         this.canvas.width = Math.round(width * ratio);
         this.canvas.height = Math.round(height * ratio);
         this.camera.resize(width, height);
-        this.camera.fit(this.spec.box, 16);
+        this.fit();
         this.draw();
+    }
+
+    fit() {
+        this.shown = this.box;
+        this.camera.fit(this.shown, 16);
     }
 
     /** Computes, says and draws. `frame` is the time that it took, in milliseconds. */
     change() {
         const begin = performance.now();
         this.spec.update(this.state, this.lab);
+        if (this.box !== this.shown) this.fit();
         this.says.textContent = this.spec.tell(this.state);
         if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));
         this.draw();
