@@ -87,6 +87,8 @@ function writePages(site) {
             const [file, anchor] = posix.join(posix.dirname(path), target).split('#');
             if (!existsSync(join(root, file))) throw new Error(`${path}: the link ${target} leads nowhere`);
             if (documents[file]) return `${documents[file]}.html${anchor ? `#${anchor}` : ''}`;
+            const inCourse = /^viewer\/web\/(course\/[\w-]+)\.md$/.exec(file);
+            if (inCourse) return `../${inCourse[1]}.html${anchor ? `#${anchor}` : ''}`;
             if (!picture) return null;
             const copy = file.replaceAll('/', '-');
             cpSync(join(root, file), join(site, 'pages', copy));

@@ -6,8 +6,8 @@
  * says it in words. `beside(state, tones)` may give a second picture. Mouse, touch and keys all move handles.
  */
 import { Camera } from '../parts/camera.js';
-import { drawDot } from '../parts/plan.js';
 import { watchTones } from '../parts/tones.js';
+import { drawFigure, firstState, paper, stillOf } from './still.js';
 
 /**
  * @typedef {Object} Spec
@@ -44,15 +44,15 @@ export class Figure {
         this.lab = lab;
         this.camera = new Camera();
         this.active = 0;
-        this.state = {};
-        for (const handle of spec.handles) this.state[handle.name] = [...handle.at];
-        for (const control of spec.controls ?? []) this.state[control.name] = control.value;
+        this.state = firstState(spec);
         this.build(host);
         watchTones((tones) => {
             this.tones = tones;
             this.change();
         });
         new ResizeObserver(() => this.resize()).observe(this.canvas);
+        window.addEventListener('beforeprint', () => this.onPaper());
+        window.addEventListener('afterprint', () => this.change());
     }
 
     build(host) {
@@ -60,12 +60,13 @@ export class Figure {
         const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
             : spec.handles.length ? ' Arrows move the dot.' : '';
         this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
+        this.still = element('div', { className: 'still' });
         this.beside = element('div', { className: 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
-        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}${keys}`);
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}`, element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
         for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
-        host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, ...(spec.beside ? [this.beside] : [])),
+        host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, this.still, ...(spec.beside ? [this.beside] : [])),
             ...(spec.controls?.length ? [this.controls] : []), this.says, caption);
         host.figure = this;
         this.listen();
@@ -174,10 +175,12 @@ export class Figure {
     draw() {
         const surface = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1, { tones } = this;
         surface.setTransform(ratio, 0, 0, ratio, 0, 0);
-        this.spec.draw(surface, this.camera, tones, this.state);
-        this.spec.handles.forEach(({ name, tone }, i) => {
-            const isActive = this.spec.handles.length > 1 && i === this.active;
-            drawDot(surface, this.camera, this.state[name], isActive ? 9 : 7, tones[tone ?? 'sourceEdge'], isActive ? tones.ink : tones.page);
-        });
+        drawFigure(surface, this.camera, tones, this.spec, this.state, this.active);
+    }
+
+    /** For print: what is on the screen now, as vectors and in light colours. */
+    onPaper() {
+        this.still.replaceChildren(stillOf(this.spec, this.state));
+        if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, paper));
     }
 }

@@ -1,0 +1,62 @@
+/**
+ * What teachers take from the course: handouts as PDF. SITE, TOOLS and QUICK as in playground.test.mjs;
+ * without Chromium there is nothing to test.
+ */
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { inflateSync } from 'node:zlib';
+import { programOf } from './site.mjs';
+
+const { SITE } = process.env, web = dirname(dirname(fileURLToPath(import.meta.url)));
+
+const run = (...given) => new Promise((resolve) => execFile(process.execPath, [join(web, 'handouts.mjs'), ...given],
+    (error, out, words) => resolve({ status: error?.code ?? 0, out, words })));
+
+/** What is in a PDF of Chromium: pages and their sizes, pictures of pixels, and lines that are drawn. */
+function readPdf(path) {
+    const text = readFileSync(path, 'latin1');
+    const sizes = [...text.matchAll(/\/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]/g)].map(([, w, h]) => [Number(w), Number(h)]);
+    const streams = [...text.matchAll(/\/Filter \/FlateDecode[^>]*>>\s*stream\r?\n([\s\S]*?)\r?\nendstream/g)]
+        .map(([, bytes]) => inflateSync(Buffer.from(bytes, 'latin1')).toString('latin1'));
+    const strokes = streams.reduce((sum, stream) => sum + (stream.match(/^(S|s|f|f\*)$/gm)?.length ?? 0), 0);
+    const images = [...text.matchAll(/\/Subtype \/Image/g)].length;
+    const isWhole = text.startsWith('%PDF') && text.trimEnd().endsWith('%%EOF'), pages = [...text.matchAll(/\/Type \/Page\b/g)].length;
+    return { isWhole, pages, sizes, images, strokes };
+}
+
+describe('handouts', { skip: programOf('chromium') ? false : 'Chromium is missing' }, () => {
+    let folder;
+    before(() => (folder = mkdtempSync(join(tmpdir(), 'handouts-test-'))));
+    after(() => rmSync(folder, { recursive: true }));
+
+    test('a chapter is a PDF of either size, and its figures are vectors', async () => {
+        const { status, words } = await run('--site', SITE, '--out', folder, '--only', 'lines');
+        assert.equal(status, 0, words);
+        assert.deepEqual(readdirSync(join(folder, 'students')).sort(), ['03-lines-a4.pdf', '03-lines-letter.pdf']);
+        for (const [size, width, height] of [['a4', 595, 842], ['letter', 612, 792]]) {
+            const pdf = readPdf(join(folder, `students/03-lines-${size}.pdf`));
+            assert.ok(pdf.isWhole && pdf.pages >= 3 && pdf.pages <= 6, `${size}: ${pdf.pages} pages`);
+            assert.equal(pdf.sizes.length, pdf.pages);
+            for (const [w, h] of pdf.sizes) assert.ok(Math.abs(w - width) < 1.5 && Math.abs(h - height) < 1.5, `${w} x ${h}`);
+            assert.equal(pdf.images, 0, 'a figure is a picture of pixels');
+            assert.ok(pdf.strokes > 80, `only ${pdf.strokes} lines and areas`);
+        }
+    });
+
+    test('what it cannot do it says, and it writes nothing', async () => {
+        for (const [given, status, about] of [
+            [['--site', SITE], 2, /--out/], [['--site', SITE, '--out', folder, '--paper', 'a5'], 2, /a5/],
+            [['--site', folder, '--out', folder], 2, /no built site/], [['--site', SITE, '--out', folder, '--only', 'nothing'], 2, /nothing/],
+            [['--what', 'x'], 2, /--what/]]) {
+            const done = await run(...given);
+            assert.equal(done.status, status);
+            assert.match(done.words, about);
+        }
+        assert.ok(!existsSync(join(folder, 'teachers')));
+    });
+});
