@@ -176,6 +176,7 @@ export const exercises = {
     shut: {
         kind: 'place',
         question: 'Move the middle portal until no line passes all three.',
+        solution: [[9, 11.5], [9, 10]],
         figure: {
             title: 'Shut out the light.', about: 'Drag the ends of the middle portal up and down, then press Check.', box,
             handles: [{ name: 'l1', at: [9, 7.5], tone: 'glass' }, { name: 'r1', at: [9, 6], tone: 'to' }],

@@ -5,7 +5,7 @@
 import { Camera } from '../parts/camera.js';
 import { drawDot } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
-import { makeTones } from '../parts/tones.js';
+import { makeTones, watchTones } from '../parts/tones.js';
 
 export const paper = makeTones(false);
 
@@ -43,6 +43,14 @@ export function picture(title, box, draw, { width = 640, most = 400, margin = 16
     return node;
 }
 
-/** A figure in some state, for paper. */
-export const stillOf = (spec, state, options) =>
-    picture(spec.title, spec.box, (surface, camera) => drawFigure(surface, camera, paper, spec, state), options);
+/** A figure in some state; for paper, if nothing else is said. */
+export const stillOf = (spec, state, tones = paper) =>
+    picture(spec.title, spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
+
+/** Keeps a picture in a place, in the colours of the page, and of paper for print. @param {(tones: any) => Element} draw */
+export function keepPicture(host, draw) {
+    let last = paper;
+    watchTones((tones) => host.replaceChildren(draw((last = tones))));
+    window.addEventListener('beforeprint', () => host.replaceChildren(draw(paper)));
+    window.addEventListener('afterprint', () => host.replaceChildren(draw(last)));
+}

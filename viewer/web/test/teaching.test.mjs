@@ -1,6 +1,6 @@
 /**
- * What teachers take from the course: handouts as PDF. SITE, TOOLS and QUICK as in playground.test.mjs;
- * without Chromium there is nothing to test.
+ * What teachers take from the course: solutions, and handouts as PDF. SITE, TOOLS, SHOTS and QUICK as in
+ * playground.test.mjs; without Chromium there is nothing to test.
  */
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
@@ -10,9 +10,10 @@ import { dirname, join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { inflateSync } from 'node:zlib';
-import { programOf } from './site.mjs';
+import { launch, programOf, serve } from './site.mjs';
 
-const { SITE } = process.env, web = dirname(dirname(fileURLToPath(import.meta.url)));
+const { SITE, SHOTS, TOOLS, QUICK } = process.env, hasChromium = Boolean(programOf('chromium'));
+const web = dirname(dirname(fileURLToPath(import.meta.url)));
 
 const run = (...given) => new Promise((resolve) => execFile(process.execPath, [join(web, 'handouts.mjs'), ...given],
     (error, out, words) => resolve({ status: error?.code ?? 0, out, words })));
@@ -29,7 +30,7 @@ function readPdf(path) {
     return { isWhole, pages, sizes, images, strokes };
 }
 
-describe('handouts', { skip: programOf('chromium') ? false : 'Chromium is missing' }, () => {
+describe('handouts', { skip: hasChromium ? false : 'Chromium is missing' }, () => {
     let folder;
     before(() => (folder = mkdtempSync(join(tmpdir(), 'handouts-test-'))));
     after(() => rmSync(folder, { recursive: true }));
@@ -58,5 +59,59 @@ describe('handouts', { skip: programOf('chromium') ? false : 'Chromium is missin
             assert.match(done.words, about);
         }
         assert.ok(!existsSync(join(folder, 'teachers')));
+    });
+});
+
+describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missing' }, () => {
+    let site, browser;
+    before(async () => {
+        site = await serve(SITE);
+        browser = await launch('chromium');
+    });
+    after(async () => {
+        await browser?.close();
+        site?.close();
+    });
+
+    async function open(name, options = {}) {
+        const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options }), page = await context.newPage(), errors = [];
+        page.on('pageerror', (error) => errors.push(error.message));
+        await page.goto(`${site.address}/course/${name}.html`);
+        await page.waitForSelector('main[data-ready], body:not([data-chapter])', { timeout: 20000 });
+        const close = async () => {
+            await context.close();
+            assert.deepEqual(errors, []);
+        };
+        return { page, close };
+    }
+
+    test('each exercise of each chapter has its solution, with a reason', async () => {
+        const { page, close } = await open('solutions');
+        const shown = await page.locator('section[data-solutions]').evaluateAll((sections) => sections.map((section) => [section.dataset.solutions,
+            [...section.children].map((node) => [node.dataset.solution, node.querySelector('strong').textContent,
+                node.querySelector('strong').parentElement.textContent.length, node.querySelectorAll('svg').length, node.querySelectorAll('li').length])]));
+        const chapters = await page.evaluate(async (names) => Object.fromEntries(await Promise.all(names.map(async (name) =>
+            [name, Object.entries((await import(`./${name}.js`)).exercises).map(([key, { kind }]) => [key, kind])]))), shown.map(([name]) => name));
+        const listed = [...readFileSync(join(SITE, 'course/index.html'), 'utf8').matchAll(/<td><a href="([\w-]+)\.html">/g)].map(([, name]) => name);
+        assert.deepEqual(shown.map(([name]) => name), listed);
+        for (const [name, solutions] of shown) {
+            assert.deepEqual(solutions.map(([key]) => key), chapters[name].map(([key]) => key));
+            for (const [i, [key, answer, length, pictures, remarks]] of solutions.entries()) {
+                const kind = chapters[name][i][1];
+                assert.doesNotMatch(answer, /undefined|NaN|no example/, `${name}, ${key}`);
+                assert.ok(length > answer.length + 20, `${name}, ${key}: why?`);
+                assert.deepEqual([pictures, remarks], kind === 'place' ? [1, 0] : [0, 2], `${name}, ${key}`);
+            }
+        }
+        assert.match(await page.locator('[data-solution=count] strong').textContent(), /^Answer: 14\.$/);
+        await close();
+    });
+
+    test('teachers are led to the solutions, and students are not', () => {
+        for (const folder of ['course', 'pages'])
+            for (const file of readdirSync(join(SITE, folder)).filter((name) => name.endsWith('.html'))) {
+                const links = /href="[^"]*solutions\.html/.test(readFileSync(join(SITE, folder, file), 'utf8'));
+                assert.equal(links, ['teaching.html', 'weeks.html'].includes(file), file);
+            }
     });
 });
