@@ -22,7 +22,7 @@ function hull(points) {
 }
 
 /** A hull as a filled polygon, or as a line where it has no area. */
-function drawHull(surface, camera, points, colour) {
+export function drawHull(surface, camera, points, colour) {
     const corners = hull(points);
     if (corners.length > 2) fillPolygons(surface, camera, [corners.flat()], colour, 0.18);
     const next = (i) => corners[(i + 1) % corners.length];

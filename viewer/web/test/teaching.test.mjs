@@ -107,6 +107,68 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
         await close();
     });
 
+    test('the glossary has a picture and a chapter for each term, and chapters lead there', async () => {
+        const { page, close } = await open('glossary');
+        const terms = await page.locator('main h3').evaluateAll((list) => list.map((term) => {
+            const host = term.nextElementSibling, text = host.nextElementSibling, svg = host.querySelector('svg');
+            return { term: term.textContent, picture: [...(svg?.children ?? [])].filter((node) => node.tagName !== 'title').map((node) => node.outerHTML).join(''), words: svg?.getAttribute('aria-label') ?? '', text: text.textContent };
+        }));
+        assert.ok(terms.length >= 40);
+        for (const { term, picture, words, text } of terms) {
+            assert.ok(picture.length > 200 && words.length > 12, `${term}: a picture, and words for it`);
+            assert.match(text, /^[A-Z][^]{30,}\(chapter\s\d+(,\schapter\s\d+)?\)\./, term);
+        }
+        assert.equal(new Set(terms.map(({ picture }) => picture)).size, terms.length, 'a picture stands twice');
+        const unused = await page.evaluate(async () => Object.keys((await import('./glossary.js')).pictures)
+            .filter((name) => !document.querySelector(`[data-picture=${name}]`)));
+        assert.deepEqual(unused, []);
+        const index = await page.locator('.terms a').allTextContents();
+        assert.deepEqual([...index].sort(), terms.map(({ term }) => term).sort());
+        const leading = readdirSync(join(SITE, 'course')).filter((file) => file.endsWith('.html') &&
+            /href="glossary\.html#/.test(readFileSync(join(SITE, 'course', file), 'utf8')));
+        assert.ok(leading.length >= 10, `${leading.length} chapters lead to terms`);
+        await close();
+    });
+
+    test('the picture of a guarantee is what the method gives', async () => {
+        const { page, close } = await open('glossary');
+        const rings = await page.evaluate(() => ['exact', 'conservative', 'aggressive'].map((name) =>
+            document.querySelectorAll(`[data-picture=${name}] path[stroke-width="1.5"]`).length));
+        assert.deepEqual(rings, [0, 2, 2]);
+        await close();
+    });
+
+    test('no link of the course and of its documents leads nowhere', () => {
+        let count = 0;
+        for (const folder of ['course', 'pages'])
+            for (const file of readdirSync(join(SITE, folder)).filter((name) => name.endsWith('.html'))) {
+                const here = join(SITE, folder, file);
+                for (const [, path, anchor] of readFileSync(here, 'utf8').matchAll(/(?:href|src)="([^"#]*)(?:#([^"]*))?"/g)) {
+                    if (/^[a-z]+:/.test(path)) continue;
+                    const target = path ? join(SITE, folder, path) : here;
+                    assert.ok(existsSync(target), `${folder}/${file}: ${path}`);
+                    if (anchor) assert.ok(readFileSync(target, 'utf8').includes(`id="${anchor}"`), `${folder}/${file}: ${path}#${anchor}`);
+                    count++;
+                }
+            }
+        assert.ok(count > 200);
+    });
+
+    for (const name of ['glossary', 'solutions', 'weeks'])
+        test(`${name}: fits a phone, and axe-core finds nothing`, { skip: existsSync(join(SITE ?? '', `course/${name}.html`)) ? false : 'not there' }, async () => {
+            for (const colorScheme of ['light', 'dark']) {
+                const { page, close } = await open(name, { viewport: { width: 390, height: 844 }, colorScheme, bypassCSP: true });
+                assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
+                if (SHOTS) await page.screenshot({ path: join(SHOTS, `${name}-${colorScheme}-phone.png`), fullPage: true });
+                if (!QUICK) {
+                    await page.evaluate(readFileSync(join(TOOLS, 'node_modules/axe-core/axe.min.js'), 'utf8'));
+                    const { violations } = await page.evaluate(() => window.axe.run());
+                    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(' ')}`), [], colorScheme);
+                }
+                await close();
+            }
+        });
+
     test('teachers are led to the solutions, and students are not', () => {
         for (const folder of ['course', 'pages'])
             for (const file of readdirSync(join(SITE, folder)).filter((name) => name.endsWith('.html'))) {
