@@ -186,7 +186,7 @@ export const pictures = {
         const space = p.lab.scene(house.text);
         drawMap(p, 'house', { space, from: 0, seen: new Set(space.row(0)) });
     }],
-    stabtree: figure('From one cell, lines lead from portal to portal.', search.tree),
+    'stab-tree': figure('From one cell, lines lead from portal to portal.', search.tree),
     conservative: guarantee('More cells are blue than are seen. Dots mark those too many.', { method: 'flood' }),
     exact: guarantee('The blue cells are those that are seen.', {}),
     aggressive: guarantee('Fewer cells are blue than are seen. Dots mark the missing ones.', { method: 'sampling', samples: 8, seed: 1 }),
@@ -230,8 +230,8 @@ export const pictures = {
 
     culling: figure('An eye with its cone. Blue cells are kept, outlined ones are dropped.', view.cull),
     pieces: figure('The cone of an eye gets narrower at each portal.', view.cones),
-    viewcell: figure('Rooms of a grid; one is the view cell.', regions.order, { step: 1 }),
-    directedset: figure('What a view cell sees to the right and upwards is blue.', regions.sets),
+    'view-cell': figure('Rooms of a grid; one is the view cell.', regions.order, { step: 1 }),
+    'directed-set': figure('What a view cell sees to the right and upwards is blue.', regions.sets),
     hierarchy: figure('Boxes of the tree at which the test of visibility ends.', frames.hierarchy),
     merged: figure('Cells of one colour are one view cell.', frames.cells),
 
