@@ -1,12 +1,14 @@
 #!/bin/sh
 # The npm package and the site, in a folder: sh tools/web.sh --build DIR
 # gives DIR/package (the package `sightline`) and, where viewer/web is there, DIR/site.
-# --package DIR stops after the package. Without either it serves the site of build/web, which it builds first.
+# --package DIR stops after the package. --handouts DIR writes the course as PDF, for paper of A4 and of Letter size.
+# Without any of them it serves the site of build/web, which it builds first.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=$root/build/web
 serve=yes
 site=yes
+handouts=
 while [ $# -gt 0 ]; do
     case $1 in
     --build | --package)
@@ -16,8 +18,15 @@ while [ $# -gt 0 ]; do
         serve=no
         shift
         ;;
+    --handouts)
+        [ $# -gt 1 ] || { echo "web: $1 needs a folder" >&2; exit 2; }
+        mkdir -p "$2"
+        handouts=$(cd "$2" && pwd)
+        serve=no
+        shift
+        ;;
     *)
-        echo "web: unknown: $1; usage: sh tools/web.sh [--build DIR | --package DIR]" >&2
+        echo "web: unknown: $1; usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR]" >&2
         exit 2
         ;;
     esac
@@ -63,6 +72,10 @@ echo "web: $folder/package"
 if [ $site = yes ] && [ -f "$root/viewer/web/build.mjs" ]; then
     node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site"
     echo "web: $folder/site"
+fi
+if [ -n "$handouts" ]; then
+    [ -d "$folder/site" ] || { echo "web: there is no site to print" >&2; exit 1; }
+    node "$root/viewer/web/handouts.mjs" --site "$folder/site" --out "$handouts"
 fi
 
 if [ $serve = yes ]; then

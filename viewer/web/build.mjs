@@ -7,7 +7,7 @@
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, posix, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { titleOf, toHtml } from './markdown.mjs';
+import { anchorOf, anchorsOf, titleOf, toHtml } from './markdown.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url)), root = join(here, '../..');
 
@@ -51,11 +51,11 @@ function writeGallery(site) {
 }
 
 /** A page in a folder of the site; `chapter` is the name of a chapter of the course. */
-const page = (title, body, { chapter = '', isCourse = Boolean(chapter) } = {}) => `<!doctype html>
+const page = (title, body, { chapter = '', isCourse = Boolean(chapter), isSecret = false } = {}) => `<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="viewport" content="width=device-width, initial-scale=1">${isSecret ? '\n<meta name="robots" content="noindex">' : ''}
 <meta http-equiv="Content-Security-Policy" content="default-src 'self'${chapter ? "; script-src 'self' 'wasm-unsafe-eval'" : ''}">
 <title>${title} - Sightline</title>
 <link rel="icon" href="../icon.svg">
@@ -87,6 +87,8 @@ function writePages(site) {
             const [file, anchor] = posix.join(posix.dirname(path), target).split('#');
             if (!existsSync(join(root, file))) throw new Error(`${path}: the link ${target} leads nowhere`);
             if (documents[file]) return `${documents[file]}.html${anchor ? `#${anchor}` : ''}`;
+            const inCourse = /^viewer\/web\/(course\/[\w-]+)\.md$/.exec(file);
+            if (inCourse) return `../${inCourse[1]}.html${anchor ? `#${anchor}` : ''}`;
             if (!picture) return null;
             const copy = file.replaceAll('/', '-');
             cpSync(join(root, file), join(site, 'pages', copy));
@@ -96,24 +98,44 @@ function writePages(site) {
     }
 }
 
+/** Links to all headings of level 3, by the alphabet. */
+function listTerms(text) {
+    const terms = [...text.matchAll(/^### (.*)$/gm)].map(([, term]) => term).sort((a, b) => a.localeCompare(b, 'en'));
+    return `<ul class="terms">\n${terms.map((term) => `<li><a href="#${anchorOf(term)}">${term}</a></li>`).join('\n')}\n</ul>`;
+}
+
 /**
  * The course: index.md lists the chapters, and each has its text and a module of one name. Lines such as
- * {figure: eye} and {exercise: eye} are places that the module fills.
+ * {figure: eye}, {exercise: eye} and {picture: eye} are places that the module fills. {solutions} is a place for
+ * each chapter, {chapter: 3} names one and links to it if it is listed, and {terms} lists the headings of
+ * level 3. A link or an anchor that leads nowhere ends the build.
  */
 function writeCourse(site) {
     const folder = join(here, 'course');
+    const chapters = [...readFileSync(join(folder, 'index.md'), 'utf8').matchAll(/^\| \[([^\]]+)\]\(([\w-]+)\.md\)/gm)];
+    const solutions = chapters.map(([, title, name]) =>
+        `<h2 id="${name}">${title}</h2>\n<section data-solutions="${name}" aria-labelledby="${name}"></section>`).join('\n');
     for (const file of readdirSync(folder).filter((name) => name.endsWith('.md'))) {
-        const name = file.slice(0, -3), text = readFileSync(join(folder, file), 'utf8');
+        const name = file.slice(0, -3), text = readFileSync(join(folder, file), 'utf8').replace(/\{chapter: (\d+)\}/g, (_, number) => {
+            const [, , chapter] = chapters.find(([, title]) => title.startsWith(`${number}. `)) ?? [];
+            return chapter ? `[chapter ${number}](${chapter}.md)` : `chapter ${number}`;
+        });
         const chapter = existsSync(join(folder, `${name}.js`)) ? name : '';
         const link = (target) => {
-            if (!existsSync(join(folder, target))) throw new Error(`course/${file}: the link ${target} leads nowhere`);
-            const document = documents[posix.join('viewer/web/course', target)];
-            return document ? `../pages/${document}.html` : target.replace(/\.md$/, '.html');
+            const [path, anchor = ''] = target.split('#'), end = anchor && `#${anchor}`, other = join(folder, path);
+            const isThere = existsSync(other) && (!anchor || anchorsOf(readFileSync(other, 'utf8')).includes(anchor));
+            if (!isThere) throw new Error(`course/${file}: the link ${target} leads nowhere`);
+            const document = documents[posix.join('viewer/web/course', path)];
+            return document ? `../pages/${document}.html${end}` : path.replace(/\.md$/, '.html') + end;
         };
         const body = toHtml(text, link)
             .replace(/<p>\{figure: ([\w-]+)\}<\/p>/g, '<figure data-figure="$1"></figure>')
-            .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>');
-        writeFileSync(join(site, 'course', `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true }));
+            .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>')
+            .replace(/<p>\{picture: ([\w-]+)\}<\/p>/g, '<figure data-picture="$1"></figure>')
+            .replace(/<h3 [^]*?<\/figure>\n<p>[^]*?<\/p>/g, (entry) => (entry.includes('data-picture') ? `<div class="term">${entry}</div>` : entry))
+            .replace('<p>{terms}</p>', () => listTerms(text))
+            .replace('<p>{solutions}</p>', () => solutions);
+        writeFileSync(join(site, 'course', `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true, isSecret: name === 'solutions' }));
         rmSync(join(site, 'course', file));
     }
 }

@@ -84,3 +84,6 @@ export function toHtml(markdown, link) {
 
 /** The first heading, for the title of the page. */
 export const titleOf = (markdown) => /^# (.*)$/m.exec(markdown)?.[1] ?? 'Sightline';
+
+/** The anchors of all headings. */
+export const anchorsOf = (markdown) => [...markdown.matchAll(/^#{1,6} (.*)$/gm)].map(([, title]) => anchorOf(title.replaceAll('`', '')));

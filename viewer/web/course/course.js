@@ -1,4 +1,4 @@
-/** A chapter: puts figures and exercises where its text has places for them. */
+/** A chapter, or a page beside the chapters: puts figures, exercises and more where its text has places for them. */
 import { exerciseForm } from './exercise.js';
 import { Figure } from './figure.js';
 import { Lab } from './lab.js';
@@ -11,6 +11,7 @@ async function begin() {
     for (const host of main.querySelectorAll('figure[data-figure]')) new Figure(host, chapter.figures[host.dataset.figure], lab);
     for (const host of main.querySelectorAll('div[data-exercise]'))
         host.replaceWith(exerciseForm({ ...chapter.exercises[host.dataset.exercise], name: host.dataset.exercise }, lab));
+    await chapter.fill?.(main, lab);
     lectureMode(main);
     main.dataset.ready = 'yes';
 }

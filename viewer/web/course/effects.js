@@ -190,6 +190,7 @@ export const exercises = {
     corner: {
         kind: 'place',
         question: 'Somebody stands at the square behind the wall. Put the eye where it sees this place in the mirror on the right, but not directly.',
+        solution: [[4, 9]],
         figure: { title: 'Around the corner.', about: 'Drag the eye, then press Check.', box: BOX, handles: [{ name: 'eye', at: [14, 4] }],
             update(state, lab) {
                 state.isIn = cellAt(lab.scene(mirrorMap), state.eye) >= 0;

@@ -8,9 +8,9 @@
  * `start(figure)` is called once: work beside the page calls `figure.change()` when it has something new.
  */
 import { Camera } from '../parts/camera.js';
-import { drawDot } from '../parts/plan.js';
 import { watchTones } from '../parts/tones.js';
 import { mapField } from './own.js';
+import { drawFigure, firstState, paper, stillOf } from './still.js';
 
 /**
  * @typedef {Object} Spec
@@ -55,9 +55,7 @@ export class Figure {
         this.lab = lab;
         this.camera = new Camera();
         this.active = 0;
-        this.state = {};
-        for (const handle of spec.handles) this.state[handle.name] = [...handle.at];
-        for (const control of spec.controls ?? []) this.state[control.name] = control.value;
+        this.state = firstState(spec);
         this.build(host);
         spec.start?.(this);
         watchTones((tones) => {
@@ -65,6 +63,8 @@ export class Figure {
             this.change();
         });
         new ResizeObserver(() => this.resize()).observe(this.canvas);
+        window.addEventListener('beforeprint', () => this.onPaper());
+        window.addEventListener('afterprint', () => this.change());
     }
 
     /** The box of the map: that of the state, where `update` gives one. */
@@ -77,12 +77,13 @@ export class Figure {
         const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
             : spec.handles.length ? ' Arrows move the dot.' : '';
         this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
+        this.still = element('div', { className: 'still' });
         this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
-        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}${keys}`);
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}`, element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
         for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
-        host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, ...(spec.beside ? [this.beside] : [])),
+        host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, this.still, ...(spec.beside ? [this.beside] : [])),
             ...(spec.controls?.length ? [this.controls] : []), this.says, caption);
         host.figure = this;
         this.listen();
@@ -198,10 +199,12 @@ export class Figure {
     draw() {
         const surface = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1, { tones } = this;
         surface.setTransform(ratio, 0, 0, ratio, 0, 0);
-        this.spec.draw(surface, this.camera, tones, this.state);
-        this.spec.handles.forEach(({ name, tone }, i) => {
-            const isActive = this.spec.handles.length > 1 && i === this.active;
-            drawDot(surface, this.camera, this.state[name], isActive ? 9 : 7, tones[tone ?? 'sourceEdge'], isActive ? tones.ink : tones.page);
-        });
+        drawFigure(surface, this.camera, tones, this.spec, this.state, this.active);
+    }
+
+    /** For print: what is on the screen now, as vectors and in light colours. */
+    onPaper() {
+        this.still.replaceChildren(stillOf(this.spec, this.state));
+        if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, paper));
     }
 }

@@ -279,6 +279,7 @@ export const exercises = {
     costly: {
         kind: 'place',
         question: 'The house has five view cells, merged by cost. Put the dot into the one that sees the most cells.',
+        solution: [[8, 8]],
         figure: { title: 'The most costly view cell.', about: 'Drag the dot, then press Check.', box: house.box, handles: [{ name: 'dot', at: [3, 12] }],
             update: viewCells, draw: (surface, camera, tones, state) => drawGroups(surface, camera, tones, { ...state, group: null }),
             tell: ({ group }) => (group ? `The view cell of the dot has ${plural(group.cells.length, 'cell')}.` : 'There is no cell here.') },

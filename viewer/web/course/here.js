@@ -136,6 +136,7 @@ export const exercises = {
     guard: {
         kind: 'place',
         question: 'Put the eye where it sees at least 60 % of the floor.',
+        solution: [[7.1, 8]],
         figure: { ...eye, title: 'A place for a guard.', about: 'Drag the dot, then press Check.', handles: [{ name: 'eye', at: [2, 10] }], controls: undefined,
             update(state, lab) {
                 Object.assign(state, { field: 360, edges: false });

@@ -22,7 +22,7 @@ function hull(points) {
 }
 
 /** A hull as a filled polygon, or as a line where it has no area. */
-function drawHull(surface, camera, points, colour) {
+export function drawHull(surface, camera, points, colour) {
     const corners = hull(points);
     if (corners.length > 2) fillPolygons(surface, camera, [corners.flat()], colour, 0.18);
     const next = (i) => corners[(i + 1) % corners.length];
@@ -176,6 +176,7 @@ export const exercises = {
     shut: {
         kind: 'place',
         question: 'Move the middle portal until no line passes all three.',
+        solution: [[9, 11.5], [9, 10]],
         figure: {
             title: 'Shut out the light.', about: 'Drag the ends of the middle portal up and down, then press Check.', box,
             handles: [{ name: 'l1', at: [9, 7.5], tone: 'glass' }, { name: 'r1', at: [9, 6], tone: 'to' }],

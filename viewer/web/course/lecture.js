@@ -6,7 +6,7 @@ import { element } from './figure.js';
 
 /** @param {HTMLElement} main whose children are headings, text, figures and exercises */
 export function lectureMode(main) {
-    const slides = [...main.querySelectorAll(':scope > figure, :scope > form')];
+    const slides = [...main.querySelectorAll(':scope > figure[data-figure], :scope > form')];
     if (!slides.length) return;
     let at = -1;
     const where = element('span', { role: 'status' });

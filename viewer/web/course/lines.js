@@ -148,6 +148,7 @@ export const exercises = {
     through: {
         kind: 'place',
         question: 'Put the line through all three portals.',
+        solution: [[1, 5.5], [17, 5.6]],
         figure: { ...line, title: 'Three portals.', about: 'Drag both dots, then press Check.', handles: [{ name: 'a', at: [1, 2], tone: 'from' }, { name: 'b', at: [17, 10], tone: 'from' }] },
         judge({ wrong }) {
             if (!wrong.length) return { right: true, text: 'All left ends lie to the left of the line, and all right ends to its right.' };

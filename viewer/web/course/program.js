@@ -147,6 +147,7 @@ export const exercises = {
     widen: {
         kind: 'place',
         question: 'Only the middle portal can be moved. Reach a margin of 1.2 m or more.',
+        solution: [[9, 8], [9, 4]],
         figure: {
             ...steps, title: 'The middle portal.', about: 'Drag its ends up and down, then press Check. The best line is shown.', controls: [],
             handles: [{ name: 'l1', at: [9, 5], tone: 'glass' }, { name: 'r1', at: [9, 2], tone: 'to' }],

@@ -145,6 +145,7 @@ export const exercises = {
     first: {
         kind: 'place',
         question: 'A pass takes the directions right and up. Put the dot into the view cell that can be done first, before all others.',
+        solution: [[30, 18]],
         figure: { ...sets, title: 'Where does the pass begin?', about: 'Drag the dot, then press Check.', controls: [],
             update(state, lab) {
                 state.plan = roomsOf(lab, COLUMNS, ROWS);

@@ -115,6 +115,7 @@ export const exercises = {
     most: {
         kind: 'place',
         question: 'Put the dot into a cell that has more portals than any other cell, or as many as the best one.',
+        solution: [[10, 6.5]],
         figure: { ...beside, title: 'The busiest cell.', about: 'Drag the dot, then press Check.', handles: [{ name: 'dot', at: [2, 2] }] },
         judge({ cell }, lab) {
             const scene = lab.scene(flat.text), has = neighbours(scene, cell).length;

@@ -146,6 +146,7 @@ export const exercises = {
     largest: {
         kind: 'place',
         question: 'Put the dot into a cell with the largest stab tree of this plan.',
+        solution: [[4, 10]],
         figure: { title: 'Where does the search take longest?', about: 'Drag the dot, then press Check.', box: flat.box, handles: [{ name: 'dot', at: [2, 2] }],
             update(state, lab) {
                 stand(state, lab, flat.text, state.dot);

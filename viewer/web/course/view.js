@@ -198,6 +198,7 @@ export const exercises = {
     fewer: {
         kind: 'place',
         question: 'The eye looks all round. Put it where the exact method keeps at most half of the cells that its cell sees.',
+        solution: [[2, 10.5]],
         figure: { title: 'Where is exactness worth most?', about: 'Drag the eye, then press Check.', box: house.box, handles: [{ name: 'eye', at: [13, 8] }],
             update(state, lab) {
                 stand(state, lab, house.text, state.eye);
