@@ -23,28 +23,47 @@ export const methods = [
 /** After this many seconds a method is stopped. */
 const LIMIT = 10;
 
+/** By map text: what was found so far. One job runs at a time; those that no figure shows any more are dropped. */
 const jobs = new Map(), figuresHere = new Set();
-let worker = null;
 
-/** The results for a map; a worker fills them. Another map ends what is still running. */
+function tellFigures() {
+    for (const figure of figuresHere) figure.change();
+}
+
+/** Drops what no figure shows, and starts the next job. */
+function goOn() {
+    const wanted = new Set([...figuresHere].map((figure) => mapNamed(figure.state.plan).text));
+    for (const [text, job] of jobs)
+        if (!job.done && !wanted.has(text)) {
+            job.worker?.terminate();
+            jobs.delete(text);
+        }
+    const open = [...jobs].filter(([, job]) => !job.done);
+    if (open.length && !open.some(([, job]) => job.worker)) start(...open[0]);
+}
+
+function start(text, job) {
+    const end = (trouble) => {
+        job.worker.terminate();
+        Object.assign(job, { done: true, trouble });
+        goOn();
+        tellFigures();
+    };
+    job.worker = new Worker(new URL('./cost-worker.js', import.meta.url), { type: 'module' });
+    job.worker.onerror = (event) => end(`The methods cannot be run: ${event.message}`);
+    job.worker.onmessage = ({ data }) => {
+        if (data.done) return end('');
+        job.results[data.number] = data;
+        tellFigures();
+    };
+    job.worker.postMessage({ text, methods, seconds: LIMIT });
+}
+
+/** The results for a map, as far as they are there. */
 function resultsOf(text) {
-    if (jobs.has(text)) return jobs.get(text);
-    worker?.terminate();
-    for (const [key, job] of jobs) if (!job.done) jobs.delete(key);
-    const job = { results: methods.map(() => null), done: false, trouble: '' };
-    jobs.set(text, job);
-    worker = new Worker(new URL('./cost-worker.js', import.meta.url), { type: 'module' });
-    worker.onmessage = ({ data }) => {
-        if (data.done) job.done = true;
-        else job.results[data.number] = data;
-        for (const figure of figuresHere) figure.change();
-    };
-    worker.onerror = (event) => {
-        Object.assign(job, { done: true, trouble: `The methods cannot be run: ${event.message}` });
-        for (const figure of figuresHere) figure.change();
-    };
-    worker.postMessage({ text, methods, seconds: LIMIT });
-    return job;
+    if (!jobs.has(text)) jobs.set(text, { results: methods.map(() => null), done: false, trouble: '', worker: null });
+    goOn();
+    return jobs.get(text);
 }
 
 const milliseconds = (seconds) => (seconds < 1e-3 ? (1000 * seconds).toFixed(2) : String(Number((1000 * seconds).toPrecision(3))));
@@ -86,7 +105,7 @@ function drawAxes(surface, chart, tones) {
     surface.strokeStyle = tones.outline;
     surface.lineWidth = 1;
     surface.fillStyle = tones.ink;
-    surface.font = '12px system-ui, sans-serif';
+    surface.font = `${right > 800 ? 15 : 12}px system-ui, sans-serif`;
     surface.textAlign = 'center';
     const line = (x0, y0, x1, y1) => {
         surface.beginPath();

@@ -267,8 +267,12 @@ for (const name of wanted)
             assert.ok(rows.some(([, , , , missed]) => Number(missed) > 10) && rows.some(([, , , , , added]) => Number(added) > 0));
             const dots = () => figure.evaluate((host) => host.figure.state.points.length);
             assert.equal(await dots(), 9);
+            const other = page.locator('main > figure').nth(1);
+            await other.locator('select').first().selectOption('house');
             await figure.locator('select').selectOption('long hall');
             assert.ok((await dots()) < 9, 'another map begins anew');
+            await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
+            await other.locator('.says').getByText(/10 lines finds \d+: /).waitFor({ timeout: 60000 });
             const glass = `${'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n'}oneway 4 0 4 10\nmirror 20 2 20 8\n`;
             await figure.locator('input[type=file]').setInputFiles({ name: 'glass.map', mimeType: 'text/plain', buffer: Buffer.from(glass) });
             await figure.locator('td').getByText(/mirrors and one-way glass, which 'multipass' does not know$/).waitFor();
