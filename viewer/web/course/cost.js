@@ -1,5 +1,5 @@
 /** What accuracy costs: all methods of the package on one map, a chart of time against pairs, and where they differ. */
-import { parseMap } from '../formats/map-text.js';
+import { parseMap, writeMap } from '../formats/map-text.js';
 import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element, table } from './figure.js';
@@ -23,6 +23,21 @@ export const methods = [
 /** After this many seconds a method is stopped. */
 const LIMIT = 10;
 
+const standing = new Map();
+
+/** A map with its doors as they stand, as walls or nothing: some methods know no others, and all shall have one map. */
+function standingText(text) {
+    if (!standing.has(text))
+        standing.set(text, !/^\s*door\b/m.test(text) ? text : writeMap(parseMap(text).flatMap((item) =>
+            (item.kind !== 'door' ? [item] : item.state === 'shut' ? [{ kind: 'wall', points: item.points }] : []))));
+    return standing.get(text);
+}
+
+const planOf = (value) => {
+    const { text, box } = mapNamed(value);
+    return { text: standingText(text), box };
+};
+
 /** By map text: what was found so far. One job runs at a time; those that no figure shows any more are dropped. */
 const jobs = new Map(), figuresHere = new Set();
 
@@ -32,7 +47,7 @@ function tellFigures() {
 
 /** Drops what no figure shows, and starts the next job. */
 function goOn() {
-    const wanted = new Set([...figuresHere].map((figure) => mapNamed(figure.state.plan).text));
+    const wanted = new Set([...figuresHere].map((figure) => planOf(figure.state.plan).text));
     for (const [text, job] of jobs)
         if (!job.done && !wanted.has(text)) {
             job.worker?.terminate();
@@ -144,7 +159,7 @@ const chart = {
     ],
     start: (figure) => figuresHere.add(figure),
     update(state) {
-        state.job = resultsOf(mapNamed(state.plan).text);
+        state.job = resultsOf(planOf(state.plan).text);
         const { results } = state.job, all = results[0]?.pairs;
         state.points = results.flatMap((r, i) => (r && !r.refused && all !== undefined ? [{ ...r, number: i + 1, share: all ? (100 * r.pairs) / all : 100 }] : []));
     },
@@ -213,7 +228,7 @@ const where = {
     ],
     start: (figure) => figuresHere.add(figure),
     update(state, lab) {
-        const { text, box } = mapNamed(state.plan), [x0, y0, x1, y1] = box;
+        const { text, box } = planOf(state.plan), [x0, y0, x1, y1] = box;
         if (state.box && state.box !== box) state.dot = [x0 + 0.1 * (x1 - x0), y0 + 0.5 * (y1 - y0)];
         state.box = box;
         state.items = state.text === text ? state.items : parseMap(text);
