@@ -98,7 +98,7 @@ function mark(surface, guarantee, x, y, size) {
 }
 
 /** Places of the results in the chart, in pixels; those that would lie on one another move up. */
-function placesOf(points, width, height) {
+export function placesOf(points, width, height) {
     const [left, right, top, bottom] = [48, width - 24, 46, height - 44], times = points.map((p) => Math.log10(Math.max(p.seconds, 1e-6)));
     const shares = points.map((p) => p.share), low = Math.min(90, ...shares.map((share) => share - 3)), high = Math.max(101, ...shares) + 1;
     const [t0, t1] = [Math.floor(Math.min(-4, ...times)), Math.ceil(Math.max(-2, ...times))];
@@ -149,7 +149,7 @@ const colourOf = (guarantee, tones) => ({ exact: tones.glass, conservative: tone
 
 const chart = {
     title: 'What accuracy costs, on your map.',
-    about: 'Numbers are those of the table. Circles are exact, triangles that point up conservative, those that point down aggressive. The slider chooses one.',
+    about: 'Numbers are those of the table. Circles are exact, triangles that point up conservative, those that point down aggressive. A press on one, or the slider, chooses it.',
     box: [0, 0, 1, 1],
     handles: [],
     wide: true,
@@ -158,6 +158,10 @@ const chart = {
         { name: 'shown', label: 'method', kind: 'range', value: 1, min: 1, max: methods.length },
     ],
     start: (figure) => figuresHere.add(figure),
+    press(state, [x, y], { width, height }) {
+        const far = (m) => Math.hypot(m.x - x, m.markY - y), marks = placesOf(state.points, width, height).marks.filter((m) => far(m) < 28);
+        if (marks.length) state.shown = marks.reduce((best, m) => (far(m) < far(best) ? m : best)).number;
+    },
     update(state) {
         state.job = resultsOf(planOf(state.plan).text);
         const { results } = state.job, all = results[0]?.pairs;

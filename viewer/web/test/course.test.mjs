@@ -267,6 +267,14 @@ for (const name of wanted)
             assert.ok(rows.some(([, , , , missed]) => Number(missed) > 10) && rows.some(([, , , , , added]) => Number(added) > 0));
             const dots = () => figure.evaluate((host) => host.figure.state.points.length);
             assert.equal(await dots(), 9);
+            const at = await figure.evaluate(async (host) => {
+                const { placesOf } = await import('./cost.js'), { state, camera } = host.figure;
+                const { x, markY } = placesOf(state.points, camera.width, camera.height).marks.find(({ number }) => number === 7);
+                return { x, y: markY };
+            });
+            await figure.locator('canvas').click({ position: at });
+            assert.match(await figure.locator('.says').textContent(), / 10 lines: aggressive/);
+            assert.equal(await figure.locator('input[type=range]').inputValue(), '7');
             const other = page.locator('main > figure').nth(1);
             await other.locator('select').first().selectOption('house');
             await figure.locator('select').selectOption('long hall');
