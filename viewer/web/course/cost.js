@@ -297,6 +297,7 @@ export const exercises = {
     misses: {
         kind: 'place',
         question: 'Ten random lines from each cell miss something. Put the dot into a cell for which nothing is missed.',
+        solution: [[4, 6.3]],
         figure: { title: 'A cell that is easy to see.', about: 'Drag the dot, then press Check.', box: plans.hall.box, handles: [{ name: 'dot', at: [6, 6] }],
             update: (state, lab) => stand(state, lab, hallText, state.dot),
             draw(surface, camera, tones, state) {

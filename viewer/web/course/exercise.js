@@ -3,7 +3,7 @@
  *
  * kind 'choice': `options` are pairs of an answer and what is to be said about it.
  * kind 'number': a number is typed; `low` and `high` say what a wrong one has missed.
- * kind 'place':  handles of `figure` are put somewhere.
+ * kind 'place':  handles of `figure` are put somewhere; `solution` has right places of them, for the teachers' page.
  * `right(lab)` gives the index or the number, computed by the library where it can be; for places,
  * `judge(state, lab)` gives whether it is right and what is to be said.
  */
