@@ -1,5 +1,5 @@
 /** What accuracy costs: all methods of the package on one map, a chart of time against pairs, and where they differ. */
-import { parseMap } from '../formats/map-text.js';
+import { parseMap, writeMap } from '../formats/map-text.js';
 import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element, table } from './figure.js';
@@ -23,28 +23,62 @@ export const methods = [
 /** After this many seconds a method is stopped. */
 const LIMIT = 10;
 
-const jobs = new Map(), figuresHere = new Set();
-let worker = null;
+const standing = new Map();
 
-/** The results for a map; a worker fills them. Another map ends what is still running. */
+/** A map with its doors as they stand, as walls or nothing: some methods know no others, and all shall have one map. */
+function standingText(text) {
+    if (!standing.has(text))
+        standing.set(text, !/^\s*door\b/m.test(text) ? text : writeMap(parseMap(text).flatMap((item) =>
+            (item.kind !== 'door' ? [item] : item.state === 'shut' ? [{ kind: 'wall', points: item.points }] : []))));
+    return standing.get(text);
+}
+
+const planOf = (value) => {
+    const { text, box } = mapNamed(value);
+    return { text: standingText(text), box };
+};
+
+/** By map text: what was found so far. One job runs at a time; those that no figure shows any more are dropped. */
+const jobs = new Map(), figuresHere = new Set();
+
+function tellFigures() {
+    for (const figure of figuresHere) figure.change();
+}
+
+/** Drops what no figure shows, and starts the next job. */
+function goOn() {
+    const wanted = new Set([...figuresHere].map((figure) => planOf(figure.state.plan).text));
+    for (const [text, job] of jobs)
+        if (!job.done && !wanted.has(text)) {
+            job.worker?.terminate();
+            jobs.delete(text);
+        }
+    const open = [...jobs].filter(([, job]) => !job.done);
+    if (open.length && !open.some(([, job]) => job.worker)) start(...open[0]);
+}
+
+function start(text, job) {
+    const end = (trouble) => {
+        job.worker.terminate();
+        Object.assign(job, { done: true, trouble });
+        goOn();
+        tellFigures();
+    };
+    job.worker = new Worker(new URL('./cost-worker.js', import.meta.url), { type: 'module' });
+    job.worker.onerror = (event) => end(`The methods cannot be run: ${event.message}`);
+    job.worker.onmessage = ({ data }) => {
+        if (data.done) return end('');
+        job.results[data.number] = data;
+        tellFigures();
+    };
+    job.worker.postMessage({ text, methods, seconds: LIMIT });
+}
+
+/** The results for a map, as far as they are there. */
 function resultsOf(text) {
-    if (jobs.has(text)) return jobs.get(text);
-    worker?.terminate();
-    for (const [key, job] of jobs) if (!job.done) jobs.delete(key);
-    const job = { results: methods.map(() => null), done: false, trouble: '' };
-    jobs.set(text, job);
-    worker = new Worker(new URL('./cost-worker.js', import.meta.url), { type: 'module' });
-    worker.onmessage = ({ data }) => {
-        if (data.done) job.done = true;
-        else job.results[data.number] = data;
-        for (const figure of figuresHere) figure.change();
-    };
-    worker.onerror = (event) => {
-        Object.assign(job, { done: true, trouble: `The methods cannot be run: ${event.message}` });
-        for (const figure of figuresHere) figure.change();
-    };
-    worker.postMessage({ text, methods, seconds: LIMIT });
-    return job;
+    if (!jobs.has(text)) jobs.set(text, { results: methods.map(() => null), done: false, trouble: '', worker: null });
+    goOn();
+    return jobs.get(text);
 }
 
 const milliseconds = (seconds) => (seconds < 1e-3 ? (1000 * seconds).toFixed(2) : String(Number((1000 * seconds).toPrecision(3))));
@@ -64,7 +98,7 @@ function mark(surface, guarantee, x, y, size) {
 }
 
 /** Places of the results in the chart, in pixels; those that would lie on one another move up. */
-function placesOf(points, width, height) {
+export function placesOf(points, width, height) {
     const [left, right, top, bottom] = [48, width - 24, 46, height - 44], times = points.map((p) => Math.log10(Math.max(p.seconds, 1e-6)));
     const shares = points.map((p) => p.share), low = Math.min(90, ...shares.map((share) => share - 3)), high = Math.max(101, ...shares) + 1;
     const [t0, t1] = [Math.floor(Math.min(-4, ...times)), Math.ceil(Math.max(-2, ...times))];
@@ -86,7 +120,7 @@ function drawAxes(surface, chart, tones) {
     surface.strokeStyle = tones.outline;
     surface.lineWidth = 1;
     surface.fillStyle = tones.ink;
-    surface.font = '12px system-ui, sans-serif';
+    surface.font = `${right > 800 ? 15 : 12}px system-ui, sans-serif`;
     surface.textAlign = 'center';
     const line = (x0, y0, x1, y1) => {
         surface.beginPath();
@@ -115,7 +149,7 @@ const colourOf = (guarantee, tones) => ({ exact: tones.glass, conservative: tone
 
 const chart = {
     title: 'What accuracy costs, on your map.',
-    about: 'Numbers are those of the table. Circles are exact, triangles that point up conservative, those that point down aggressive. The slider chooses one.',
+    about: 'Numbers are those of the table. Circles are exact, triangles that point up conservative, those that point down aggressive. A press on one, or the slider, chooses it.',
     box: [0, 0, 1, 1],
     handles: [],
     wide: true,
@@ -124,8 +158,12 @@ const chart = {
         { name: 'shown', label: 'method', kind: 'range', value: 1, min: 1, max: methods.length },
     ],
     start: (figure) => figuresHere.add(figure),
+    press(state, [x, y], { width, height }) {
+        const far = (m) => Math.hypot(m.x - x, m.markY - y), marks = placesOf(state.points, width, height).marks.filter((m) => far(m) < 28);
+        if (marks.length) state.shown = marks.reduce((best, m) => (far(m) < far(best) ? m : best)).number;
+    },
     update(state) {
-        state.job = resultsOf(mapNamed(state.plan).text);
+        state.job = resultsOf(planOf(state.plan).text);
         const { results } = state.job, all = results[0]?.pairs;
         state.points = results.flatMap((r, i) => (r && !r.refused && all !== undefined ? [{ ...r, number: i + 1, share: all ? (100 * r.pairs) / all : 100 }] : []));
     },
@@ -194,7 +232,7 @@ const where = {
     ],
     start: (figure) => figuresHere.add(figure),
     update(state, lab) {
-        const { text, box } = mapNamed(state.plan), [x0, y0, x1, y1] = box;
+        const { text, box } = planOf(state.plan), [x0, y0, x1, y1] = box;
         if (state.box && state.box !== box) state.dot = [x0 + 0.1 * (x1 - x0), y0 + 0.5 * (y1 - y0)];
         state.box = box;
         state.items = state.text === text ? state.items : parseMap(text);
@@ -259,6 +297,7 @@ export const exercises = {
     misses: {
         kind: 'place',
         question: 'Ten random lines from each cell miss something. Put the dot into a cell for which nothing is missed.',
+        solution: [[4, 6.3]],
         figure: { title: 'A cell that is easy to see.', about: 'Drag the dot, then press Check.', box: plans.hall.box, handles: [{ name: 'dot', at: [6, 6] }],
             update: (state, lab) => stand(state, lab, hallText, state.dot),
             draw(surface, camera, tones, state) {

@@ -5,6 +5,7 @@
  * changes, `update(state, lab)` computes, `draw(surface, camera, tones, state)` draws, and `tell(state)`
  * says it in words. `beside(state, tones)` may give a second picture. Mouse, touch and keys all move handles.
  * A control of kind 'map' chooses a plan or a map of the reader's own (own.js); `update` then puts `box` into the state.
+ * `press(state, place, camera)` is called for a press of the mouse or a finger, before handles move; it may set controls.
  * `start(figure)` is called once: work beside the page calls `figure.change()` when it has something new.
  */
 import { Camera } from '../parts/camera.js';
@@ -25,6 +26,7 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @property {(state: any, tones: any) => Element} [beside]
  * @property {boolean} [wide] `beside` stands below the picture
  * @property {(figure: Figure) => void} [start]
+ * @property {(state: any, place: number[], camera: Camera) => void} [press] `place` in pixels
  */
 
 /** @returns {any} an element with properties, attributes (data-, aria-, role) and children */
@@ -55,6 +57,7 @@ export class Figure {
         this.lab = lab;
         this.camera = new Camera();
         this.active = 0;
+        this.inputs = {};
         this.state = firstState(spec);
         this.build(host);
         spec.start?.(this);
@@ -105,6 +108,7 @@ export class Figure {
         const isCheck = control.kind === 'check';
         const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: control.value }
             : { id: name, type: 'range', min: control.min, max: control.max, step: control.step ?? 1 });
+        if (!isCheck) this.inputs[control.name] = input;
         if (!isCheck) input.value = control.value;
         input.addEventListener('input', () => set(isCheck ? input.checked : Number(input.value)));
         const label = element('label', { htmlFor: name }, control.label);
@@ -117,6 +121,7 @@ export class Figure {
             return [event.clientX - box.left, event.clientY - box.top];
         };
         this.canvas.addEventListener('pointerdown', (event) => {
+            if (this.spec.press) this.press(at(event));
             const { handle } = this.nearest(at(event));
             if (handle < 0) return;
             this.active = handle;
@@ -137,6 +142,12 @@ export class Figure {
             if (this.nearest(at(event.touches[0])).distance < NEAR) event.preventDefault();
         }, { passive: false });
         this.canvas.addEventListener('keydown', (event) => this.key(event));
+    }
+
+    press(place) {
+        this.spec.press(this.state, place, this.camera);
+        for (const [name, input] of Object.entries(this.inputs)) input.value = this.state[name];
+        this.change();
     }
 
     nearest([px, py]) {

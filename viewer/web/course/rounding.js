@@ -200,6 +200,7 @@ export const exercises = {
     flips: {
         kind: 'place',
         question: 'Drag the ends of the line, until doubles are wrong about whether the far end of the corridor is seen.',
+        solution: [[0, 3.1], [LONG, 7.4]],
         figure: { ...slits, title: 'Make the doubles wrong.', about: 'Drag the two ends, then press Check.', controls: undefined, handles: [{ name: 'a', at: [0, 2], tone: 'from' }, { name: 'b', at: [LONG, 4], tone: 'to' }],
             beside: undefined, tell: (state) => `The line goes from ${state.a[1]} to ${state.b[1]}.` },
         judge({ verdicts: [doubles], truth, heights }) {

@@ -189,6 +189,7 @@ export const exercises = {
     joins: {
         kind: 'place',
         question: 'Put the dot on a corner about which the line joins the two marked cells.',
+        solution: [[9, 8]],
         figure: { title: 'Which corner joins them?', about: 'Drag the dot, then press Check. The nearest corner counts.', box: flat.box, handles: [{ name: 'dot', at: [13, 5] }],
             update(state, lab) {
                 state.scene = lab.scene(flat.text, { sight: 'open' });

@@ -267,8 +267,27 @@ for (const name of wanted)
             assert.ok(rows.some(([, , , , missed]) => Number(missed) > 10) && rows.some(([, , , , , added]) => Number(added) > 0));
             const dots = () => figure.evaluate((host) => host.figure.state.points.length);
             assert.equal(await dots(), 9);
+            const at = await figure.evaluate(async (host) => {
+                const { placesOf } = await import('./cost.js'), { state, camera } = host.figure;
+                const { x, markY } = placesOf(state.points, camera.width, camera.height).marks.find(({ number }) => number === 7);
+                return { x, y: markY };
+            });
+            await figure.locator('canvas').click({ position: at });
+            assert.match(await figure.locator('.says').textContent(), / 10 lines: aggressive/);
+            assert.equal(await figure.locator('input[type=range]').inputValue(), '7');
+            const other = page.locator('main > figure').nth(1);
+            await other.locator('select').first().selectOption('house');
             await figure.locator('select').selectOption('long hall');
             assert.ok((await dots()) < 9, 'another map begins anew');
+            await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
+            await other.locator('.says').getByText(/10 lines finds \d+: /).waitFor({ timeout: 60000 });
+            const doors = 'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 4 0 4 6\ndoor a 4 6 4 8 open\nwall 10 0 10 1\n' +
+                'door b 10 1 10 4 open\ndoor c 17 0 17 2 open\ndoor d 14 0 14 9 shut\n';
+            await figure.locator('input[type=file]').setInputFiles({ name: 'doors.map', mimeType: 'text/plain', buffer: Buffer.from(doors) });
+            await page.waitForFunction(() => document.querySelector('main > figure').figure.state.plan === 'own');
+            await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
+            assert.ok(await figure.evaluate((host) => host.figure.state.points.every(({ guarantee, missed, added }) =>
+                (guarantee === 'aggressive' || !missed.length) && (guarantee === 'conservative' || !added.length))), 'doors keep promises');
             const glass = `${'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n'}oneway 4 0 4 10\nmirror 20 2 20 8\n`;
             await figure.locator('input[type=file]').setInputFiles({ name: 'glass.map', mimeType: 'text/plain', buffer: Buffer.from(glass) });
             await figure.locator('td').getByText(/mirrors and one-way glass, which 'multipass' does not know$/).waitFor();
