@@ -19,7 +19,7 @@ const chapters = {
     program: [['unknowns', 10, 3], ['negative', 0, 1], ['widen', [[9, 5.5], [9, 3]], [[9, 8], [9, 4]]]],
     search: [['stop', 0, 1], ['row', 4, 3], ['largest', [[2, 2.5]], [[4, 10]]]],
     hidden: [['ends', 3, 4], ['proves', 0, 1], ['shut', [[9, 7], [9, 6.5]], [[9, 11.5], [9, 10]]]],
-    view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 10.5]]]],
+    view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 9]]]],
     regions: [['passes', 4, 8], ['reason', 0, 1], ['first', [[2, 2]], [[30, 18]]]],
     frames: [['tests', 15, 7], ['safe', 0, 1], ['costly', [[3, 11.5]], [[8, 8]]]],
     effects: [['states', 20, 1024], ['turned', 0, 1], ['corner', [[10, 9]], [[4, 9]]]],
