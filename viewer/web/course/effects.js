@@ -2,7 +2,7 @@
 import { plural } from '../formats/words.js';
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
-import { cellAt, round } from './lab.js';
+import { cellAt, round, stand } from './lab.js';
 
 /** Walls, doors, mirrors and glass of a map, as plan.js draws them. */
 const itemsOf = (text) => text.split('\n').flatMap((line) => {
@@ -26,8 +26,7 @@ const doors = {
     handles: [{ name: 'dot', at: [2, 2.3] }],
     controls: Object.keys(doorLines).map((name) => ({ name, label: `door ${name} is open`, kind: 'check', value: name !== 'c' })),
     update(state, lab) {
-        const scene = (state.scene = lab.scene(withDoors));
-        state.cell = cellAt(scene, state.dot);
+        const scene = stand(state, lab, withDoors, state.dot);
         const row = () => (state.cell < 0 ? [] : [...scene.row(state.cell)]);
         for (const name of Object.keys(doorLines)) scene.setDoor(name, true);
         state.most = row().length;

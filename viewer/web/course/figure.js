@@ -4,9 +4,13 @@
  * A figure is data: `handles` are places to drag, `controls` are fields below the picture. Whenever one
  * changes, `update(state, lab)` computes, `draw(surface, camera, tones, state)` draws, and `tell(state)`
  * says it in words. `beside(state, tones)` may give a second picture. Mouse, touch and keys all move handles.
+ * A control of kind 'map' chooses a plan or a map of the reader's own (own.js); `update` then puts `box` into the state.
+ * `press(state, place, camera)` is called for a press of the mouse or a finger, before handles move; it may set controls.
+ * `start(figure)` is called once: work beside the page calls `figure.change()` when it has something new.
  */
 import { Camera } from '../parts/camera.js';
 import { watchTones } from '../parts/tones.js';
+import { mapField } from './own.js';
 import { drawFigure, firstState, paper, stillOf } from './still.js';
 
 /**
@@ -14,12 +18,16 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @property {string} title @property {string} about what the reader can do
  * @property {number[]} box of the map: x0, y0, x1, y1
  * @property {{name: string, at: number[], tone?: string}[]} handles
- * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice', value: any,
+ * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice' | 'map', value: any,
  *   min?: number, max?: number, step?: number, options?: string[][]}[]} [controls]
  * @property {(state: any, lab: import('./lab.js').Lab) => void} update
  * @property {(surface: any, camera: Camera, tones: any, state: any) => void} draw
  * @property {(state: any) => string} tell
  * @property {(state: any, tones: any) => Element} [beside]
+ * @property {boolean} [wide] `beside` stands below the picture
+ * @property {(state: any) => boolean} [isReady] false while work beside the page goes on; handouts wait for it
+ * @property {(figure: Figure) => void} [start]
+ * @property {(state: any, place: number[], camera: Camera) => void} [press] `place` in pixels
  */
 
 /** @returns {any} an element with properties, attributes (data-, aria-, role) and children */
@@ -30,6 +38,12 @@ export function element(tag, properties = {}, ...children) {
         else node.setAttribute(key, value);
     node.append(...children);
     return node;
+}
+
+/** A table for the place beside a picture. @param {string[]} head @param {(string | number)[][]} rows */
+export function table(head, rows) {
+    const row = (cells, tag) => element('tr', {}, ...cells.map((cell) => element(tag, {}, String(cell))));
+    return element('table', {}, element('thead', {}, row(head, 'th')), element('tbody', {}, ...rows.map((cells) => row(cells, 'td'))));
 }
 
 /** How near a pointer must be to a handle to take it, in pixels. */
@@ -44,8 +58,10 @@ export class Figure {
         this.lab = lab;
         this.camera = new Camera();
         this.active = 0;
+        this.inputs = {};
         this.state = firstState(spec);
         this.build(host);
+        spec.start?.(this);
         watchTones((tones) => {
             this.tones = tones;
             this.change();
@@ -55,13 +71,18 @@ export class Figure {
         window.addEventListener('afterprint', () => this.change());
     }
 
+    /** The box of the map: that of the state, where `update` gives one. */
+    get box() {
+        return this.state.box ?? this.spec.box;
+    }
+
     build(host) {
         const { spec } = this, id = `figure-${++count}`;
         const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
             : spec.handles.length ? ' Arrows move the dot.' : '';
         this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
         this.still = element('div', { className: 'still' });
-        this.beside = element('div', { className: 'beside' });
+        this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
         const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}`, element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
@@ -78,6 +99,7 @@ export class Figure {
             this.state[control.name] = value;
             this.change();
         };
+        if (control.kind === 'map') return mapField(name, control, set, this.lab);
         if (control.kind === 'choice') {
             const list = element('select', { id: name }, ...control.options.map(([value, text]) =>
                 element('option', { value, selected: value === control.value }, text)));
@@ -87,6 +109,7 @@ export class Figure {
         const isCheck = control.kind === 'check';
         const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: control.value }
             : { id: name, type: 'range', min: control.min, max: control.max, step: control.step ?? 1 });
+        if (!isCheck) this.inputs[control.name] = input;
         if (!isCheck) input.value = control.value;
         input.addEventListener('input', () => set(isCheck ? input.checked : Number(input.value)));
         const label = element('label', { htmlFor: name }, control.label);
@@ -99,6 +122,7 @@ export class Figure {
             return [event.clientX - box.left, event.clientY - box.top];
         };
         this.canvas.addEventListener('pointerdown', (event) => {
+            if (this.spec.press) this.press(at(event));
             const { handle } = this.nearest(at(event));
             if (handle < 0) return;
             this.active = handle;
@@ -121,6 +145,12 @@ export class Figure {
         this.canvas.addEventListener('keydown', (event) => this.key(event));
     }
 
+    press(place) {
+        this.spec.press(this.state, place, this.camera);
+        for (const [name, input] of Object.entries(this.inputs)) input.value = this.state[name];
+        this.change();
+    }
+
     nearest([px, py]) {
         let best = { handle: -1, distance: Infinity };
         this.spec.handles.forEach(({ name }, handle) => {
@@ -135,7 +165,7 @@ export class Figure {
         const handles = this.spec.handles;
         if (!handles.length || event.ctrlKey || event.metaKey || event.altKey) return;
         if (by) {
-            const [x0, , x1] = this.spec.box, step = ((x1 - x0) / 80) * (event.shiftKey ? 5 : 1);
+            const [x0, , x1] = this.box, step = ((x1 - x0) / 80) * (event.shiftKey ? 5 : 1);
             const [x, y] = this.state[handles[this.active].name];
             this.moveTo([x + by[0] * step, y + by[1] * step]);
         } else if (event.key.toLowerCase() === 'n' && handles.length > 1) {
@@ -147,7 +177,7 @@ export class Figure {
     }
 
     moveTo([x, y]) {
-        const [x0, y0, x1, y1] = this.spec.box, name = this.spec.handles[this.active].name;
+        const [x0, y0, x1, y1] = this.box, name = this.spec.handles[this.active].name;
         this.state[name] = [Math.min(x1, Math.max(x0, x)), Math.min(y1, Math.max(y0, y))];
         this.change();
     }
@@ -158,14 +188,20 @@ export class Figure {
         this.canvas.width = Math.round(width * ratio);
         this.canvas.height = Math.round(height * ratio);
         this.camera.resize(width, height);
-        this.camera.fit(this.spec.box, 16);
+        this.fit();
         this.draw();
+    }
+
+    fit() {
+        this.shown = this.box;
+        this.camera.fit(this.shown, 16);
     }
 
     /** Computes, says and draws. `frame` is the time that it took, in milliseconds. */
     change() {
         const begin = performance.now();
         this.spec.update(this.state, this.lab);
+        if (this.box !== this.shown) this.fit();
         this.says.textContent = this.spec.tell(this.state);
         if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));
         this.draw();

@@ -46,6 +46,13 @@ export function cellAt(scene, [x, y]) {
     return cell >= 0 && scene.cellTable[6 * cell + 4] ? cell : -1;
 }
 
+/** Puts the baked map and the cell of a place into the state of a figure. @returns the map */
+export function stand(state, lab, text, place) {
+    state.scene = lab.scene(text);
+    state.cell = cellAt(state.scene, place);
+    return state.scene;
+}
+
 /** The middle of a cell. */
 export function middleOf(scene, cell) {
     const p = scene.corners(cell);
@@ -61,6 +68,24 @@ export function planLine(dual, { slope, height }) {
         return [dual.origin[0] + dual.scale * (x * ax - y * ay), dual.origin[1] + dual.scale * (x * ay + y * ax)];
     };
     return [...place(-4), ...place(4)];
+}
+
+/** The part of a line within some convex cells and between them. */
+export function within(scene, [ax, ay, bx, by], cells) {
+    let first = Infinity, last = -Infinity;
+    for (const cell of cells) {
+        const p = scene.corners(cell), n = p.length;
+        let from = 0, to = 1;
+        for (let k = 0; k < n; k += 2) {
+            const ex = p[(k + 2) % n] - p[k], ey = p[(k + 3) % n] - p[k + 1];
+            const at = ex * (ay - p[k + 1]) - ey * (ax - p[k]), change = ex * (by - ay) - ey * (bx - ax);
+            if (change > 0) from = Math.max(from, -at / change);
+            else if (change < 0) to = Math.min(to, -at / change);
+        }
+        [first, last] = [Math.min(first, from), Math.max(last, to)];
+    }
+    const at = (t) => [ax + t * (bx - ax), ay + t * (by - ay)];
+    return [...at(first), ...at(last)];
 }
 
 export const round = (v, digits = 1) => Number(v.toFixed(digits));

@@ -1,80 +1,58 @@
 /** Maps of the course, as text. Their units are metres. */
 import { fillPolygons, itemLine, strokeLines } from '../parts/plan.js';
 
-/** Three rooms on a corridor. */
-export const flat = {
-    box: [0, 0, 20, 12],
-    text: `sightline 1
-walls 0 0 20 0 20 12 0 12 0 0
-wall 0 5 4 5
-wall 6 5 11 5
-wall 13 5 20 5
-wall 8 0 8 5
-wall 0 8 7 8
-wall 9 8 20 8
-wall 13 8 13 9.5
-wall 13 10.5 13 12
-`,
+/** A plan with an outer wall, and more lines of map text. */
+const plan = (width, height, ...lines) => ({
+    box: [0, 0, width, height],
+    text: ['sightline 1', `walls 0 0 ${width} 0 ${width} ${height} 0 ${height} 0 0`, ...lines, ''].join('\n'),
+});
+const wall = (x0, y0, x1, y1) => `wall ${x0} ${y0} ${x1} ${y1}`;
+const pillar = (x, y, side) => {
+    const [x1, y1] = [x + side, y + side].map((v) => Number(v.toFixed(2)));
+    return `solid ${x} ${y} ${x1} ${y} ${x1} ${y1} ${x} ${y1}`;
 };
+
+/** Three rooms on a corridor. */
+export const flat = plan(20, 12, wall(0, 5, 4, 5), wall(6, 5, 11, 5), wall(13, 5, 20, 5), wall(8, 0, 8, 5),
+    wall(0, 8, 7, 8), wall(9, 8, 20, 8), wall(13, 8, 13, 9.5), wall(13, 10.5, 13, 12));
 
 /** A house whose rooms do not line up. */
-export const house = {
-    box: [0, 0, 24, 14],
-    text: `sightline 1
-walls 0 0 24 0 24 14 0 14 0 0
-wall 6 0 6 5
-wall 6 7 6 14
-wall 0 8 4 8
-wall 2 3 6 3
-wall 6 5 10 5
-wall 12 5 18 5
-wall 14 0 14 3
-wall 18 5 18 9
-wall 18 11 18 14
-wall 10 9 16 9
-wall 10 9 10 12
-wall 13 11 13 14
-wall 20 5 24 5
-wall 20 9 24 9
-wall 16 7 18 7
-`,
-};
+export const house = plan(24, 14, wall(6, 0, 6, 5), wall(6, 7, 6, 14), wall(0, 8, 4, 8), wall(2, 3, 6, 3), wall(6, 5, 10, 5),
+    wall(12, 5, 18, 5), wall(14, 0, 14, 3), wall(18, 5, 18, 9), wall(18, 11, 18, 14), wall(10, 9, 16, 9), wall(10, 9, 10, 12),
+    wall(13, 11, 13, 14), wall(20, 5, 24, 5), wall(20, 9, 24, 9), wall(16, 7, 18, 7));
 
 /** A hall with four pillars. */
-export const pillars = {
-    box: [0, 0, 16, 12],
-    text: `sightline 1
-walls 0 0 16 0 16 12 0 12 0 0
-solid 4 3 5 3 5 4 4 4
-solid 11 3 12 3 12 4 11 4
-solid 4 8 5 8 5 9 4 9
-solid 11 8 12 8 12 9 11 9
-`,
-};
+export const pillars = plan(16, 12, pillar(4, 3, 1), pillar(11, 3, 1), pillar(4, 8, 1), pillar(11, 8, 1));
+
+/** Three rooms in a row, with doors that line up. */
+export const threeRooms = plan(12, 4, wall(4, 0, 4, 1), wall(4, 3, 4, 4), wall(8, 0, 8, 1), wall(8, 3, 8, 4));
 
 /** A hall with rows of thin pillars that do not line up. */
 export function hall(columns) {
-    let text = `sightline 1\nwalls 0 0 ${4 * columns} 0 ${4 * columns} 12 0 12 0 0\n`;
+    const lines = [];
     for (let i = 0; i < columns; i++)
-        for (let j = 0; j < 4; j++) {
-            const [x0, y0] = [4 * i + 1 + 0.37 * j, 3 * j + 1 + 0.29 * i].map((v) => Number(v.toFixed(2)));
-            const [x1, y1] = [x0 + 0.4, y0 + 0.4].map((v) => Number(v.toFixed(2)));
-            text += `solid ${x0} ${y0} ${x1} ${y0} ${x1} ${y1} ${x0} ${y1}\n`;
-        }
-    return text;
+        for (let j = 0; j < 4; j++)
+            lines.push(pillar(...[4 * i + 1 + 0.37 * j, 3 * j + 1 + 0.29 * i].map((v) => Number(v.toFixed(2))), 0.4));
+    return plan(4 * columns, 12, ...lines).text;
 }
 
 /** Rooms in a grid; the doors of neighbouring rooms do not line up. */
 export function grid(columns, rows) {
-    let text = `sightline 1\nwalls 0 0 ${4 * columns} 0 ${4 * columns} ${4 * rows} 0 ${4 * rows} 0 0\n`;
+    const lines = [];
     for (let i = 0; i < columns; i++)
         for (let j = 0; j < rows; j++) {
             const x = 4 * i, y = 4 * j, at = 0.5 + ((3 * i + 5 * j) % 4) * 0.5;
-            if (j) text += `wall ${x} ${y} ${x + at} ${y}\nwall ${x + at + 1.5} ${y} ${x + 4} ${y}\n`;
-            if (i) text += `wall ${x} ${y} ${x} ${y + at}\nwall ${x} ${y + at + 1.5} ${x} ${y + 4}\n`;
+            if (j) lines.push(wall(x, y, x + at, y), wall(x + at + 1.5, y, x + 4, y));
+            if (i) lines.push(wall(x, y, x, y + at), wall(x, y + at + 1.5, x, y + 4));
         }
-    return text;
+    return plan(4 * columns, 4 * rows, ...lines).text;
 }
+
+/** Plans that figures offer for a choice. */
+export const plans = {
+    flat, house, pillars, hall: { text: hall(3), box: [0, 0, 12, 12] },
+    'long hall': { text: hall(6), box: [0, 0, 24, 12] }, rooms: { text: grid(6, 5), box: [0, 0, 24, 20] },
+};
 
 /** The walls of a map of the course, as plan.js draws them. */
 export const itemsOf = (text) => text.split('\n').flatMap((line) => {

@@ -1,7 +1,7 @@
 /** Chapter 2: cells, portals, the kd-tree and oblique walls. */
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { plural } from '../formats/words.js';
-import { cellAt } from './lab.js';
+import { cellAt, stand } from './lab.js';
 import { axialWalls, kdTree, portalsOf } from './kdtree.js';
 import { drawWalls, flat, house, itemsOf } from './maps.js';
 
@@ -50,8 +50,7 @@ const beside = {
     box: flat.box,
     handles: [{ name: 'dot', at: [12, 6.5] }],
     update(state, lab) {
-        state.scene = lab.scene(flat.text);
-        state.cell = cellAt(state.scene, state.dot);
+        stand(state, lab, flat.text, state.dot);
         state.next = neighbours(state.scene, state.cell);
     },
     draw(surface, camera, tones, state) {

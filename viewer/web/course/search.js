@@ -2,8 +2,8 @@
 import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
-import { cellAt, middleOf, planLine, round } from './lab.js';
-import { drawWalls, flat, hall, house, itemsOf } from './maps.js';
+import { middleOf, planLine, round, stand, within } from './lab.js';
+import { drawWalls, flat, hall, house, itemsOf, threeRooms } from './maps.js';
 
 const houseItems = itemsOf(house.text);
 
@@ -26,24 +26,6 @@ function sequenceOf(steps, at) {
     return list;
 }
 
-/** The part of a line within some convex cells and between them. */
-function within(scene, [ax, ay, bx, by], cells) {
-    let first = Infinity, last = -Infinity;
-    for (const cell of cells) {
-        const p = scene.corners(cell), n = p.length;
-        let from = 0, to = 1;
-        for (let k = 0; k < n; k += 2) {
-            const ex = p[(k + 2) % n] - p[k], ey = p[(k + 3) % n] - p[k + 1];
-            const at = ex * (ay - p[k + 1]) - ey * (ax - p[k]), change = ex * (by - ay) - ey * (bx - ax);
-            if (change > 0) from = Math.max(from, -at / change);
-            else if (change < 0) to = Math.min(to, -at / change);
-        }
-        [first, last] = [Math.min(first, from), Math.max(last, to)];
-    }
-    const at = (t) => [ax + t * (bx - ax), ay + t * (by - ay)];
-    return [...at(first), ...at(last)];
-}
-
 const said = {
     enter: (step) => `a line stabs the sequence, so cell ${step.cell} is seen`,
     backwards: (step) => `this portal leads back to cell ${step.cell}`,
@@ -58,8 +40,7 @@ const walk = {
     handles: [{ name: 'dot', at: [3, 12] }],
     controls: [{ name: 'at', label: 'step', kind: 'range', value: 5, min: 0, max: 78 }],
     update(state, lab) {
-        const scene = (state.scene = lab.scene(house.text));
-        state.cell = cellAt(scene, state.dot);
+        const scene = stand(state, lab, house.text, state.dot);
         state.steps = state.cell < 0 ? [] : scene.steps(state.cell).steps;
         if (!state.steps.length) return;
         state.now = Math.min(state.at, state.steps.length - 1);
@@ -98,8 +79,7 @@ const tree = {
     box: house.box,
     handles: [{ name: 'dot', at: [12, 7] }],
     update(state, lab) {
-        const scene = (state.scene = lab.scene(house.text));
-        state.cell = cellAt(scene, state.dot);
+        const scene = stand(state, lab, house.text, state.dot);
         state.nodes = state.cell < 0 ? [] : scene.stabTree(state.cell).nodes;
         state.seen = new Set(state.nodes.map((node) => node.cell));
         state.places = state.nodes.map((node) => (node.directed < 0 ? middleOf(scene, state.cell) : middle(scene.directed(node.directed))));
@@ -127,8 +107,7 @@ const growth = {
     controls: [{ name: 'columns', label: 'columns', kind: 'range', value: 3, min: 1, max: 6 }],
     update(state, lab) {
         state.text = hall(state.columns);
-        const scene = (state.scene = lab.scene(state.text));
-        state.cell = cellAt(scene, state.dot);
+        const scene = stand(state, lab, state.text, state.dot);
         state.steps = state.cell < 0 ? 0 : scene.steps(state.cell, { most: 20000 }).steps.length;
         state.seen = new Set(state.cell < 0 ? [] : scene.row(state.cell));
     },
@@ -142,9 +121,6 @@ const growth = {
 };
 
 export const figures = { walk, tree, growth };
-
-/** Three rooms in a row, with doors that line up. */
-const row = 'sightline 1\nwalls 0 0 12 0 12 4 0 4 0 0\nwall 4 0 4 1\nwall 4 3 4 4\nwall 8 0 8 1\nwall 8 3 8 4\n';
 
 const treeSize = (scene, cell) => scene.stabTree(cell).nodes.length;
 
@@ -162,7 +138,7 @@ export const exercises = {
     row: {
         kind: 'number',
         question: 'Three rooms lie in a row, and their two doors line up. How many nodes has the stab tree of the first room? Count its root.',
-        right: (lab) => treeSize(lab.scene(row), { x: 2, y: 2 }),
+        right: (lab) => treeSize(lab.scene(threeRooms.text), { x: 2, y: 2 }),
         why: 'The root is the first room. One door leads to the second room, the next door to the third. All are one branch.',
         low: 'The root counts, and a straight line passes both doors.',
         high: 'There is one way only: each door leads to one new room, and the search never turns back.',
@@ -173,8 +149,7 @@ export const exercises = {
         solution: [[4, 10]],
         figure: { title: 'Where does the search take longest?', about: 'Drag the dot, then press Check.', box: flat.box, handles: [{ name: 'dot', at: [2, 2] }],
             update(state, lab) {
-                state.scene = lab.scene(flat.text);
-                state.cell = cellAt(state.scene, state.dot);
+                stand(state, lab, flat.text, state.dot);
             },
             draw(surface, camera, tones, state) {
                 drawPlan(surface, camera, { space: state.scene, from: state.cell }, tones);

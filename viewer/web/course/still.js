@@ -45,7 +45,7 @@ export function picture(title, box, draw, { width = 640, most = 400, margin = 16
 
 /** A figure in some state; for paper, if nothing else is said. */
 export const stillOf = (spec, state, tones = paper) =>
-    picture(spec.title, spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
+    picture(spec.title, state.box ?? spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
 
 /** Keeps a picture in a place, in the colours of the page, and of paper for print. @param {(tones: any) => Element} draw */
 export function keepPicture(host, draw) {

@@ -1,9 +1,11 @@
 /** Chapter 9: culling the visible set of a cell for one eye, and the table of 1991. */
+import { parseMap } from '../formats/map-text.js';
 import { plural } from '../formats/words.js';
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
-import { element } from './figure.js';
-import { cellAt, floorArea, round } from './lab.js';
-import { drawWalls, flat, hall, house, itemsOf, pillars } from './maps.js';
+import { table } from './figure.js';
+import { cellAt, floorArea, round, stand } from './lab.js';
+import { drawWalls, flat, house, itemsOf, threeRooms } from './maps.js';
+import { mapNamed } from './own.js';
 
 /** The methods, each of which keeps no more than the one before. */
 const methods = [
@@ -32,8 +34,7 @@ const cull = {
         { name: 'direction', label: 'direction', kind: 'range', value: 150, min: 0, max: 345, step: 15 },
     ],
     update(state, lab) {
-        const scene = (state.scene = lab.scene(house.text));
-        state.cell = cellAt(scene, state.eye);
+        const scene = stand(state, lab, house.text, state.eye);
         const look = (method) => (state.cell < 0 ? [] : [...scene.look(...state.eye, { method, ...viewOf(state.direction, state.field) })]);
         state.kept = new Set(look(state.method));
         state.dropped = look('cell_to_cell').filter((cell) => !state.kept.has(cell));
@@ -93,8 +94,7 @@ const cones = {
     handles: [{ name: 'eye', at: [8, 6.4] }],
     controls: [{ name: 'most', label: 'portals', kind: 'range', value: 2, min: 0, max: 8 }],
     update(state, lab) {
-        const scene = (state.scene = lab.scene(house.text));
-        state.cell = cellAt(scene, state.eye);
+        const scene = stand(state, lab, house.text, state.eye);
         Object.assign(state, state.cell < 0 ? { pieces: [], portals: [] } : conesOf(scene, state.eye, state.cell, state.most));
         state.cells = new Set(state.pieces.map((piece) => piece.cell)).size;
         state.exact = state.cell < 0 ? 0 : scene.look(...state.eye, { method: 'exact' }).length;
@@ -111,8 +111,6 @@ const cones = {
             `The exact method of the library keeps ${plural(state.exact, 'cell')}.`),
 };
 
-const plans = { flat, house, pillars, hall: { text: hall(3), box: [0, 0, 12, 12] } };
-
 /** What was measured in 1991, for 360 and for 60 degrees: the mean share of the area, in percent. */
 const of1991 = [[8.1, 8.1], [8.1, 3.1], [8.1, 2.4], [8.1, 2.2], [4.9, 1.8], [2.1, 0.3]];
 
@@ -120,7 +118,7 @@ const of1991 = [[8.1, 8.1], [8.1, 3.1], [8.1, 2.4], [8.1, 2.2], [4.9, 1.8], [2.1
 const EYES = 6;
 
 function sharesOf(scene, [x0, y0, x1, y1]) {
-    const whole = floorArea(scene), sums = of1991.map(() => [0, 0]), areas = [];
+    const whole = floorArea(scene) || 1, sums = of1991.map(() => [0, 0]), areas = [];
     for (let i = 0; i < scene.cellCount; i++) {
         const p = pairsOf(scene.corners(i));
         areas.push(p.reduce((sum, q, k) => sum + cross(q, p[(k + 1) % p.length]) / 2, 0));
@@ -140,40 +138,43 @@ function sharesOf(scene, [x0, y0, x1, y1]) {
     return { eyes, rows: sums.map((row) => row.map((sum) => (100 * sum) / whole / Math.max(1, eyes))) };
 }
 
-const table = {
+const soda = {
     title: 'The table of 1991, beside your own map.',
-    about: 'Choose a plan, and drag the two ends of one more wall. The table has the mean share of the floor in percent, over many eyes.',
-    box: house.box,
+    about: 'Choose a plan, or drop a file with one of your own. Drag the two ends of one more wall. The table has the mean share of the floor in percent, over many eyes.',
+    box: flat.box,
     handles: [{ name: 'a', at: [6, 6.2], tone: 'from' }, { name: 'b', at: [11, 6.2], tone: 'to' }],
-    controls: [{ name: 'plan', label: 'plan', kind: 'choice', value: 'flat', options: Object.keys(plans).map((name) => [name, name]) }],
+    controls: [{ name: 'plan', label: 'plan', kind: 'map', value: 'flat' }],
     update(state, lab) {
-        const plan = plans[state.plan], ends = [...state.a, ...state.b].map((v) => round(v));
-        state.text = `${plan.text}${ends[0] === ends[2] && ends[1] === ends[3] ? '' : `wall ${ends.join(' ')}\n`}`;
-        state.scene = lab.scene(state.text);
-        state.shares = sharesOf(state.scene, plan.box);
+        const { text, box } = mapNamed(state.plan), [x0, y0, x1, y1] = box, digits = Math.max(0, Math.min(12, 2 - Math.floor(Math.log10(Math.hypot(x1 - x0, y1 - y0)))));
+        if (state.box && state.box !== box)
+            [state.a, state.b] = [0.3, 0.55].map((share) => [x0 + share * (x1 - x0), y0 + 0.52 * (y1 - y0)]);
+        state.box = box;
+        const ends = [...state.a, ...state.b].map((v) => round(v, digits));
+        state.text = `${text}${ends[0] === ends[2] && ends[1] === ends[3] ? '' : `wall ${ends.join(' ')}\n`}`;
+        try {
+            state.scene = lab.scene(state.text);
+            state.refused = '';
+        } catch (error) {
+            Object.assign(state, { text, scene: lab.scene(text), refused: `The wall cannot stand there: ${error.message}. ` });
+        }
+        state.shares = sharesOf(state.scene, box);
     },
     draw(surface, camera, tones, state) {
-        drawPlan(surface, camera, { space: state.scene }, tones);
-        drawWalls(surface, camera, itemsOf(state.text), tones);
+        drawPlan(surface, camera, { space: state.scene, items: parseMap(state.text) }, tones);
     },
     beside(state) {
-        const row = (cells, tag) => element('tr', {}, ...cells.map((cell) => element(tag, {}, cell)));
         const names = [...methods.map(([, name]) => name), 'visible region'];
-        return element('table', {}, element('thead', {}, row(['kept', '360°', '1991', '60°', '1991'], 'th')),
-            element('tbody', {}, ...names.map((name, m) => row([name, ...[0, 1].flatMap((k) =>
-                [state.shares.rows[m][k].toFixed(1), String(of1991[m][k])])], 'td'))));
+        return table(['kept', '360°', '1991', '60°', '1991'], names.map((name, m) =>
+            [name, ...[0, 1].flatMap((k) => [state.shares.rows[m][k].toFixed(1), of1991[m][k]])]));
     },
     tell(state) {
         const { rows, eyes } = state.shares;
-        return `${plural(state.scene.insideCount, 'cell')}, ${plural(eyes, 'eye')}. With 60° incident portals keep ` +
+        return `${state.refused}${plural(state.scene.insideCount, 'cell')}, ${plural(eyes, 'eye')}. With 60° incident portals keep ` +
             `${round(rows[3][1])} % of the floor, the exact method ${round(rows[4][1])} %, and the region is ${round(rows[5][1])} %.`;
     },
 };
 
-export const figures = { cull, cones, table };
-
-/** Three rooms in a row, with doors that line up. */
-const row = 'sightline 1\nwalls 0 0 12 0 12 4 0 4 0 0\nwall 4 0 4 1\nwall 4 3 4 4\nwall 8 0 8 1\nwall 8 3 8 4\n';
+export const figures = { cull, cones, table: soda };
 
 export const exercises = {
     around: {
@@ -189,7 +190,7 @@ export const exercises = {
     away: {
         kind: 'number',
         question: 'Three rooms lie in a row, and their doors line up. An eye in the middle of the first room looks away from the door, with 60°. How many of the three cells does the disjoint cell method keep?',
-        right: (lab) => lab.scene(row).look(2, 2, { method: 'disjoint_cell', direction: 180, fieldOfView: 60 }).length,
+        right: (lab) => lab.scene(threeRooms.text).look(2, 2, { method: 'disjoint_cell', direction: 180, fieldOfView: 60 }).length,
         why: 'Its own cell meets the cone, and the others lie behind the eye. All later methods keep this one cell as well.',
         low: 'The eye stands in a cell, and that cell meets the cone.',
         high: 'Draw the cone. Only cells that meet it are kept, and two rooms lie behind the eye.',
@@ -200,8 +201,7 @@ export const exercises = {
         solution: [[2, 10.5]],
         figure: { title: 'Where is exactness worth most?', about: 'Drag the eye, then press Check.', box: house.box, handles: [{ name: 'eye', at: [13, 8] }],
             update(state, lab) {
-                state.scene = lab.scene(house.text);
-                state.cell = cellAt(state.scene, state.eye);
+                stand(state, lab, house.text, state.eye);
             },
             draw(surface, camera, tones, state) {
                 const seen = new Set(state.cell < 0 ? [] : state.scene.row(state.cell));
