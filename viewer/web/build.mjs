@@ -122,10 +122,12 @@ function writeCourse(site) {
         });
         const chapter = existsSync(join(folder, `${name}.js`)) ? name : '';
         const link = (target) => {
-            const [path, anchor = ''] = target.split('#'), end = anchor && `#${anchor}`, other = join(folder, path);
+            const [path, anchor = ''] = target.split('#'), end = anchor && `#${anchor}`, other = join(folder, path || file);
             const isThere = existsSync(other) && (!anchor || anchorsOf(readFileSync(other, 'utf8')).includes(anchor));
             if (!isThere) throw new Error(`course/${file}: the link ${target} leads nowhere`);
-            const document = documents[posix.join('viewer/web/course', path)];
+            if (!path) return end;
+            const source = posix.join('viewer/web/course', path), document = documents[source];
+            if (!document && source.endsWith('.md') && posix.dirname(source) !== 'viewer/web/course') return null;
             return document ? `../pages/${document}.html${end}` : path.replace(/\.md$/, '.html') + end;
         };
         const body = toHtml(text, link)

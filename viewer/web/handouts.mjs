@@ -106,11 +106,12 @@ class Browser {
 
 /** Waits until all figures of the page are there, and says its title. */
 const READY = `new Promise((resolve, reject) => {
-    const end = Date.now() + ${PATIENCE - 5000};
+    const end = Date.now() + ${PATIENCE - 5000}, figures = () => [...document.querySelectorAll('main > figure')].flatMap((host) => host.figure ?? []);
+    const isReady = () => document.querySelector('main[data-ready]') && figures().every(({ spec, state }) => spec.isReady?.(state) ?? true);
     const look = () => {
         const alert = document.querySelector('main [role=alert]');
         if (alert) reject(new Error(alert.textContent));
-        else if (document.querySelector('main') && (!document.body.dataset.chapter || document.querySelector('main[data-ready]')))
+        else if (document.querySelector('main') && (!document.body.dataset.chapter || isReady()))
             resolve(document.querySelector('h1').textContent);
         else if (Date.now() > end) reject(new Error('its figures do not come'));
         else setTimeout(look, 50);

@@ -35,8 +35,8 @@ function list(lines, put) {
     for (const line of lines)
         if (/^(-|\*|\d+\.) /.test(line)) items.push(line.replace(/^(-|\*|\d+\.) +/, ''));
         else items[items.length - 1] += ` ${line.trim()}`;
-    const tag = ordered ? 'ol' : 'ul';
-    return `<${tag}>\n${items.map((item) => `<li>${put(item)}</li>`).join('\n')}\n</${tag}>`;
+    const tag = ordered ? 'ol' : 'ul', first = ordered ? parseInt(lines[0], 10) : 1;
+    return `<${tag}${first === 1 ? '' : ` start="${first}"`}>\n${items.map((item) => `<li>${put(item)}</li>`).join('\n')}\n</${tag}>`;
 }
 
 function table(lines, put) {

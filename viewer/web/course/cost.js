@@ -158,6 +158,7 @@ const chart = {
         { name: 'shown', label: 'method', kind: 'range', value: 1, min: 1, max: methods.length },
     ],
     start: (figure) => figuresHere.add(figure),
+    isReady: ({ job }) => job.done,
     press(state, [x, y], { width, height }) {
         const far = (m) => Math.hypot(m.x - x, m.markY - y), marks = placesOf(state.points, width, height).marks.filter((m) => far(m) < 28);
         if (marks.length) state.shown = marks.reduce((best, m) => (far(m) < far(best) ? m : best)).number;

@@ -25,6 +25,7 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @property {(state: any) => string} tell
  * @property {(state: any, tones: any) => Element} [beside]
  * @property {boolean} [wide] `beside` stands below the picture
+ * @property {(state: any) => boolean} [isReady] false while work beside the page goes on; handouts wait for it
  * @property {(figure: Figure) => void} [start]
  * @property {(state: any, place: number[], camera: Camera) => void} [press] `place` in pixels
  */

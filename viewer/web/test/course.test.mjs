@@ -21,7 +21,7 @@ const chapters = {
     rounding: [['bits', 53, 106], ['epsilon', 0, 1], ['flips', [[0, 2], [20, 4]], [[0, 3.1], [20, 7.4]]]],
     hidden: [['ends', 3, 4], ['proves', 0, 1], ['shut', [[9, 7], [9, 6.5]], [[9, 11.5], [9, 10]]]],
     sweep: [['corners', 8, 4], ['event', 0, 1], ['joins', [[13, 5]], [[9, 8]]]],
-    view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 10.5]]]],
+    view: [['around', 1, 0], ['away', 3, 1], ['fewer', [[12, 7.1]], [[2, 9]]]],
     regions: [['passes', 4, 8], ['reason', 0, 1], ['first', [[2, 2]], [[30, 18]]]],
     frames: [['tests', 15, 7], ['safe', 0, 1], ['costly', [[3, 11.5]], [[8, 8]]]],
     effects: [['states', 20, 1024], ['turned', 0, 1], ['corner', [[10, 9]], [[4, 9]]]],
