@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """The same bytes everywhere: builds the core for other machines and compares what it computes.
 
-    python3 tests/everywhere/everywhere.py [TARGET...] [--build DIR] [--install] [--tests NAMES]
+    python3 tests/everywhere/everywhere.py [TARGET...] [--build DIR] [--install] [--quick] [--tests NAMES]
 
-For each target it builds the library, the command and `same_bytes`. Every corpus map is baked there,
-and one hash stands for the bytes of the baked file, one for the answers of the runtime header and one
-for the maps that are generated. They must be those of this machine's gcc. The unit tests run where
-Debian has the packages that they need for that machine. Other machines are emulated (qemu-user, Wine).
+For each target it builds the library and `same_bytes`. Every corpus map is baked there, and generated
+ones too. One hash stands for the bytes of a baked file, one for the answers of the runtime header.
+They must be those of this machine's gcc. The unit tests run where Debian has the packages that they
+need for that machine. Other machines are emulated (qemu-user, Wine, node).
+
+On Windows the command is tried too: windows.py. --quick runs no unit tests, and compiles with -O1.
 
 Without a target all of them are tried. One whose compiler or emulator is missing is skipped, and
 says so; --install asks apt-get for them first (as root). The exit status is 0 when all agree, 77 when
@@ -21,6 +23,8 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+
+import windows
 
 SOURCE = Path(__file__).resolve().parents[2]
 LIBRARIES = ["libcmocka-dev", "libgmp-dev", "libjansson-dev", "libpng-dev", "libxml2-dev",
@@ -39,15 +43,20 @@ class Target:
     processor: str = ""
     emulator: tuple = ()
     debian: str = ""          # Debian's name of the machine, for the libraries of the unit tests
-    triple: str = ""
+    folder: str = ""          # where Debian keeps them, below usr/lib
+    ending: str = ""          # of programs
     packages: tuple = ()
     options: tuple = ()
 
 
-def linux(name, triple, debian="", qemu="", flags=""):
+def linux(name, triple, debian="", qemu="", flags="", folder=""):
     qemu = f"qemu-{qemu or name}"
     return Target(name, f"{triple}-gcc", flags, "Linux", name, (qemu, "-L", f"/usr/{triple}"), debian,
-                  triple, (f"gcc-{triple}", f"libc6-dev-{debian or name}-cross", "qemu-user"))
+                  folder or triple, packages=(f"gcc-{triple}", f"libc6-dev-{debian or name}-cross", "qemu-user"))
+
+
+I386_LOADER = "/usr/i686-linux-gnu/lib/ld-linux.so.2"  # this machine's own processor
+WASI = ("node", "--no-warnings", str(SOURCE / "tests" / "everywhere" / "wasi.mjs"))
 
 
 TARGETS = [
@@ -59,15 +68,21 @@ TARGETS = [
     Target("clang-O2", "clang", "-O2", packages=("clang",)),
     Target("clang-O3-native", "clang", "-O3 -march=native", packages=("clang",)),
     # Not by gcc -m32, whose package Debian does not install beside the other compilers.
-    linux("i386", "i686-linux-gnu", "i386", flags="-msse2 -mfpmath=sse"),
+    Target("i386", "i686-linux-gnu-gcc", "-msse2 -mfpmath=sse", "Linux", "i386",
+           (I386_LOADER, "--library-path", "/usr/i686-linux-gnu/lib"), "i386", "i386-linux-gnu",
+           packages=("gcc-i686-linux-gnu", "libc6-dev-i386-cross")),
     linux("aarch64", "aarch64-linux-gnu", "arm64"),
     linux("armhf", "arm-linux-gnueabihf", "armhf", "arm"),
     linux("riscv64", "riscv64-linux-gnu"),
     linux("ppc64el", "powerpc64le-linux-gnu", "ppc64el", "ppc64le"),
     linux("s390x", "s390x-linux-gnu", "s390x"),
     Target("musl", "musl-gcc", packages=("musl-tools",), options=("-DSIGHTLINE_IO=OFF",)),
-    Target("windows", "x86_64-w64-mingw32-gcc", "", "Windows", "x86_64", ("wine",), "", "",
-           ("gcc-mingw-w64-x86-64", "wine", "wine64")),
+    Target("windows", "x86_64-w64-mingw32-gcc", "", "Windows", "x86_64", ("wine",), ending=".exe",
+           packages=("gcc-mingw-w64-x86-64", "wine", "wine64")),
+    Target("wasm", "clang", "-O2", "WASI", "wasm32", WASI, ending=".wasm",
+           packages=("clang", "lld", "wasi-libc", "libclang-rt-dev-wasm32", "nodejs"),
+           options=(f"-DCMAKE_TOOLCHAIN_FILE={SOURCE / 'lib' / 'cmake' / 'wasi.cmake'}",
+                    f"-DCMAKE_C_COMPILER={shutil.which('clang')}", "-DSIGHTLINE_WASM=ON", "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG")),
 ]
 REFERENCE = Target("gcc", "gcc", "-O2")
 
@@ -158,38 +173,57 @@ def configure(target, folder, root):
         command.append("-DCMAKE_C_COMPILER_LAUNCHER=ccache")
     environment = dict(os.environ)
     flags = target.flags
-    if target.system:
+    if target.system and target.system != "WASI":
         command += [f"-DCMAKE_SYSTEM_NAME={target.system}", f"-DCMAKE_SYSTEM_PROCESSOR={target.processor}",
-                    "-DCMAKE_CROSSCOMPILING_EMULATOR=" + ";".join(target.emulator)]
+                    "-DCMAKE_CROSSCOMPILING_EMULATOR=" + ";".join(emulator(target, root))]
         if root:
-            libraries = root / "usr/lib" / target.triple
-            flags += f" -isystem {root}/usr/include/{target.triple}"
+            libraries = root / "usr/lib" / target.folder
+            flags += f" -isystem {root}/usr/include/{target.folder}"
             environment |= {"PKG_CONFIG_LIBDIR": f"{libraries}/pkgconfig:{root}/usr/share/pkgconfig",
                             "PKG_CONFIG_SYSROOT_DIR": str(root)}
             command += [f"-DCMAKE_FIND_ROOT_PATH={root}", "-DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER",
                         "-DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY",
                         "-DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY",
-                        f"-DCMAKE_LIBRARY_ARCHITECTURE={target.triple}",
+                        f"-DCMAKE_LIBRARY_ARCHITECTURE={target.folder}",
                         f"-DCMAKE_EXE_LINKER_FLAGS=-L{libraries} "
-                        f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.triple}"]
+                        f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.folder}"]
     if not root:
         command += ["-DSIGHTLINE_IO=OFF", "-DSIGHTLINE_TESTS=OFF"]
     run([*command, f"-DCMAKE_C_FLAGS={flags}"], folder / "build.log", env=environment)
     return build
 
 
+def build_targets(target, build, folder, root):
+    """What runs afterwards, and no more."""
+    programs = ["same_bytes"]
+    if target.system == "Windows":
+        programs.append("sightline_command")
+    if root:
+        listed = subprocess.run(["ctest", "--test-dir", str(build), "-N", "-R", "^test_", "-E", SLOW],
+                                capture_output=True, text=True, check=True).stdout
+        programs += [line.split()[-1] for line in listed.splitlines() if ": test_" in line]
+    run(["cmake", "--build", str(build), "--target", *programs], folder / "build.log")
+
+
+def emulator(target, root):
+    """What runs a program; the loader itself is told where libraries lie."""
+    if root and target.emulator[:1] == (I386_LOADER,):
+        libraries = f"{target.emulator[2]}:{root}/usr/lib/{target.folder}:{root}/lib/{target.folder}"
+        return (*target.emulator[:2], libraries)
+    return target.emulator
+
+
 def library_path(target, root):
     if not root:
         return {}
-    return {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={root}/usr/lib/{target.triple}:"
-                            f"{root}/lib/{target.triple}"}
+    return {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={root}/usr/lib/{target.folder}:"
+                            f"{root}/lib/{target.folder}"}
 
 
 def hashes(target, build, corpus, root):
-    ending = ".exe" if target.system == "Windows" else ""
-    program = build / "tests" / "everywhere" / f"same_bytes{ending}"
+    program = build / "tests" / "everywhere" / f"same_bytes{target.ending}"
     environment = dict(os.environ, WINEDEBUG="-all", **library_path(target, root))
-    done = subprocess.run([*target.emulator, str(program), *map(str, corpus)], capture_output=True,
+    done = subprocess.run([*emulator(target, root), str(program), *map(str, corpus)], capture_output=True,
                           text=True, env=environment)
     if done.returncode:
         raise Failure(f"{program} ended with {done.returncode}: {done.stderr[-600:]}")
@@ -210,7 +244,27 @@ def unit_tests(target, build, folder, root, wanted):
     return total - failed, total
 
 
-def try_target(target, base, corpus, expected, wanted):
+def compare(expected, got):
+    """(What the table says, whether all is the same): a map is a line, the same on both sides."""
+    wanted, lines = expected.splitlines(), got.splitlines()
+    if [line.split()[-1] for line in wanted] != [line.split()[-1] for line in lines]:
+        return "not the same maps", False
+    same = sum(a == b for a, b in zip(wanted, lines))
+    return f"{same} of {len(wanted)} same", same == len(wanted) > 0
+
+
+def self_test():
+    """What is not the same is found."""
+    good = "9 ab cd a.map\n8 ef 01 b.map\n"
+    assert compare(good, good) == ("2 of 2 same", True)
+    for bad in (good.replace("ab", "aa"), good.replace("01", "02"), good.replace("9", "8")):
+        assert compare(good, bad) == ("1 of 2 same", False)
+    for bad in ("", good[:14], good + "1 2 3 c.map\n", good.replace("b.map", "c.map")):
+        assert not compare(good, bad)[1]
+    assert not compare("", "")[1]
+
+
+def try_target(target, base, corpus, expected, arguments):
     """A row of the table: its cells, and whether all is well (None: skipped)."""
     folder = base / target.name
     folder.mkdir(parents=True, exist_ok=True)
@@ -218,23 +272,23 @@ def try_target(target, base, corpus, expected, wanted):
     if missing or not (target.system or can_compile(target, folder)):
         what = ", ".join(missing) or f"libraries for {target.flags}"
         return [target.name, target.compiler, target.flags, "skipped", f"not here: {what}"], None
-    root = fetch_libraries(target, folder) if target.debian else None
+    root = fetch_libraries(target, folder) if target.debian and not arguments.quick else None
     build = configure(target, folder, root)
-    run(["cmake", "--build", str(build)], folder / "build.log")
+    build_targets(target, build, folder, root)
     got = hashes(target, build, corpus, root)
-    different = [line.split()[-1] for line in got.splitlines() if line not in expected.splitlines()]
-    count = len(expected.splitlines())
-    same = f"{count - len(different)} of {count} same" if got.count("\n") == count else "list differs"
+    text, same = compare(expected, got)
     (folder / "hashes.txt").write_text(got)
-    passed, total = unit_tests(target, build, folder, root, wanted) if root else (0, 0)
-    tests = f"{passed} of {total}" if total else "not built"
-    return [target.name, version(target.compiler), target.flags, tests, same], \
-        got == expected and passed == total
+    passed, total = unit_tests(target, build, folder, root, arguments.tests) if root else (0, 0)
+    if target.system == "Windows":
+        passed, total = windows.run_all(build / "tools" / "sightline.exe", folder, SOURCE)
+    tests = f"{passed} of {total}" if total else "none"
+    return [target.name, version(target.compiler), target.flags, tests, text], \
+        same and passed == total
 
 
 def version(compiler):
     first = subprocess.run([compiler, "--version"], capture_output=True, text=True).stdout.splitlines()
-    number = [word for word in first[0].split() if word[0].isdigit()]
+    number = [word.strip("()") for word in first[0].split() if word[0].isdigit()]
     return f"{'clang' if 'clang' in first[0] else 'gcc'} {number[0] if number else ''}".strip()
 
 
@@ -250,6 +304,8 @@ def parse():
     parser.add_argument("target", nargs="*", help="of " + ", ".join(names))
     parser.add_argument("--build", default=str(SOURCE / "build" / "everywhere"), metavar="DIR")
     parser.add_argument("--install", action="store_true", help="install compilers and emulators")
+    parser.add_argument("--quick", action="store_true", help="no unit tests, and little optimization")
+    parser.add_argument("--self-test", action="store_true", help="tries that a difference is found")
     parser.add_argument("--tests", default="", metavar="NAMES", help="unit tests: a regular expression")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.target if name not in names]
@@ -260,15 +316,21 @@ def parse():
 
 def main():
     arguments = parse()
+    if arguments.self_test:
+        self_test()
+        return 0
     base = Path(arguments.build).resolve()
     wanted = [t for t in TARGETS if not arguments.target or t.name in arguments.target]
+    for target in [REFERENCE, *wanted] if arguments.quick else []:
+        if target.system != "WASI":
+            target.flags = f"{target.flags} -O1".strip()
     if arguments.install:
         install(wanted)
     corpus = sorted([*SOURCE.glob("maps/*.map"), *SOURCE.glob("maps/*/*.map"),
                      *SOURCE.glob("tests/cases/*.map")])
     (base / REFERENCE.name).mkdir(parents=True, exist_ok=True)
     build = configure(REFERENCE, base / REFERENCE.name, None)
-    run(["cmake", "--build", str(build)], base / REFERENCE.name / "build.log")
+    build_targets(REFERENCE, build, base / REFERENCE.name, None)
     expected = hashes(REFERENCE, build, corpus, None)
     lines = expected.splitlines()
     print(f"{len(lines)} lines of {len(corpus)} maps by {version('gcc')}; all of it as one hash: "
@@ -278,7 +340,7 @@ def main():
     for target in wanted:
         start = time.time()
         try:
-            row, good = try_target(target, base, corpus, expected, arguments.tests)
+            row, good = try_target(target, base, corpus, expected, arguments)
         except Failure as failure:
             row, good = [target.name, target.compiler, target.flags, "failed", "failed"], False
             print(failure, file=sys.stderr)
