@@ -67,6 +67,10 @@ TARGETS = [
     Target("clang-O0", "clang", "-O0", packages=("clang",)),
     Target("clang-O2", "clang", "-O2", packages=("clang",)),
     Target("clang-O3-native", "clang", "-O3 -march=native", packages=("clang",)),
+    # A number that changes where it is stored ends the program. Unsigned ones wrap on purpose: hashes,
+    # random numbers, and the limbs of exact arithmetic.
+    Target("sanitized", "clang", "-O1 -fsanitize=undefined,integer -fno-sanitize-recover=all "
+           "-fno-sanitize=unsigned-integer-overflow,unsigned-shift-base", packages=("clang", "libclang-rt-dev")),
     # Not by gcc -m32, whose package Debian does not install beside the other compilers.
     Target("i386", "i686-linux-gnu-gcc", "-msse2 -mfpmath=sse", "Linux", "i386",
            (I386_LOADER, "--library-path", "/usr/i686-linux-gnu/lib"), "i386", "i386-linux-gnu",
