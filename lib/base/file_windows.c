@@ -110,8 +110,8 @@ void sli_file_remove(const char *path) {
     if (widen(path, wide)) _wunlink(wide);
 }
 
-/// Windows has no streams to memory: a temporary file stands for it. Not by tmpfile(), which makes
-/// it in the root of the drive, where users may not write.
+/// Windows has no streams to memory: a temporary file stands for it. The C library would make it in
+/// the root of the drive, where users may not write.
 bool sli_memory_open(sli_memory_stream *memory) {
     wchar_t folder[MAX_PATH + 1], path[MAX_PATH + 1];
     *memory = (sli_memory_stream){0};
