@@ -8,7 +8,8 @@ ones too. One hash stands for the bytes of a baked file, one for the answers of 
 They must be those of this machine's gcc. The unit tests run where Debian has the packages that they
 need for that machine. Other machines are emulated (qemu-user, Wine, node).
 
-On Windows the command is tried too: windows.py. --quick runs no unit tests, and compiles with -O1.
+On Windows the command is tried too: windows.py. --quick compiles with -O1, and runs no unit tests but
+those that are named.
 
 Without a target all of them are tried. One whose compiler or emulator is missing is skipped, and
 says so; --install asks apt-get for them first (as root). The exit status is 0 when all agree, 77 when
@@ -191,19 +192,24 @@ def configure(target, folder, root):
                         f"-DCMAKE_LIBRARY_ARCHITECTURE={target.folder}",
                         f"-DCMAKE_EXE_LINKER_FLAGS=-L{libraries} "
                         f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.folder}"]
-    if not root:
-        command += ["-DSIGHTLINE_IO=OFF", "-DSIGHTLINE_TESTS=OFF"]
+    parts = "ON" if root else "OFF"
+    command += [f"-DSIGHTLINE_IO={parts}", f"-DSIGHTLINE_TESTS={parts}"]
     run([*command, f"-DCMAKE_C_FLAGS={flags}"], folder / "build.log", env=environment)
     return build
 
 
-def build_targets(target, build, folder, root):
+def chosen_tests(wanted):
+    """ctest's options for the unit tests of these names; all but the slow ones where none are named."""
+    return ["-R", f"^test_({wanted})$"] if wanted else ["-R", "^test_", "-E", SLOW]
+
+
+def build_targets(target, build, folder, root, wanted=""):
     """What runs afterwards, and no more."""
     programs = ["same_bytes"]
     if target.system == "Windows":
         programs.append("sightline_command")
     if root:
-        listed = subprocess.run(["ctest", "--test-dir", str(build), "-N", "-R", "^test_", "-E", SLOW],
+        listed = subprocess.run(["ctest", "--test-dir", str(build), "-N", *chosen_tests(wanted)],
                                 capture_output=True, text=True, check=True).stdout
         programs += [line.split()[-1] for line in listed.splitlines() if ": test_" in line]
     run(["cmake", "--build", str(build), "--target", *programs], folder / "build.log")
@@ -228,7 +234,7 @@ def hashes(target, build, corpus, root):
     program = build / "tests" / "everywhere" / f"same_bytes{target.ending}"
     environment = dict(os.environ, WINEDEBUG="-all", **library_path(target, root))
     done = subprocess.run([*emulator(target, root), str(program), *map(str, corpus)], capture_output=True,
-                          text=True, env=environment)
+                          text=True, env=environment, cwd=build)  # where it writes its file
     if done.returncode:
         raise Failure(f"{program} ended with {done.returncode}: {done.stderr[-600:]}")
     return done.stdout.replace("\r", "")
@@ -236,8 +242,8 @@ def hashes(target, build, corpus, root):
 
 def unit_tests(target, build, folder, root, wanted):
     """How many unit tests passed, of how many."""
-    command = ["ctest", "--test-dir", str(build), "-R", f"^test_({wanted})" if wanted else "^test_",
-               "-E", SLOW, "--timeout", "900", "-j", str(os.cpu_count())]
+    command = ["ctest", "--test-dir", str(build), *chosen_tests(wanted), "--timeout", "900",
+               "-j", str(os.cpu_count())]
     environment = dict(os.environ, **library_path(target, root))
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     (folder / "tests.log").write_text(done.stdout + done.stderr)
@@ -276,9 +282,10 @@ def try_target(target, base, corpus, expected, arguments):
     if missing or not (target.system or can_compile(target, folder)):
         what = ", ".join(missing) or f"libraries for {target.flags}"
         return [target.name, target.compiler, target.flags, "skipped", f"not here: {what}"], None
-    root = fetch_libraries(target, folder) if target.debian and not arguments.quick else None
+    root = fetch_libraries(target, folder) if target.debian and (arguments.tests or not arguments.quick) \
+        else None
     build = configure(target, folder, root)
-    build_targets(target, build, folder, root)
+    build_targets(target, build, folder, root, arguments.tests)
     got = hashes(target, build, corpus, root)
     text, same = compare(expected, got)
     (folder / "hashes.txt").write_text(got)
@@ -296,6 +303,12 @@ def version(compiler):
     return f"{'clang' if 'clang' in first[0] else 'gcc'} {number[0] if number else ''}".strip()
 
 
+def processor_time():
+    """What compilers and programs that ended took, in seconds."""
+    times = os.times()
+    return times.children_user + times.children_system
+
+
 def install(targets):
     packages = sorted({package for target in targets for package in target.packages})
     subprocess.run(["apt-get", "install", "-q", "-y", "--no-install-recommends", *packages], check=True)
@@ -308,7 +321,7 @@ def parse():
     parser.add_argument("target", nargs="*", help="of " + ", ".join(names))
     parser.add_argument("--build", default=str(SOURCE / "build" / "everywhere"), metavar="DIR")
     parser.add_argument("--install", action="store_true", help="install compilers and emulators")
-    parser.add_argument("--quick", action="store_true", help="no unit tests, and little optimization")
+    parser.add_argument("--quick", action="store_true", help="-O1, and no unit tests but those named")
     parser.add_argument("--self-test", action="store_true", help="tries that a difference is found")
     parser.add_argument("--tests", default="", metavar="NAMES", help="unit tests: a regular expression")
     arguments = parser.parse_args()
@@ -342,7 +355,7 @@ def main():
     print("| target | compiler | flags | unit tests | hashes |\n| --- | --- | --- | --- | --- |", flush=True)
     results = []
     for target in wanted:
-        start = time.time()
+        start, begun = time.time(), processor_time()
         try:
             row, good = try_target(target, base, corpus, expected, arguments)
         except Failure as failure:
@@ -350,7 +363,7 @@ def main():
             print(failure, file=sys.stderr)
         results.append(good)
         print("| " + " | ".join(row) + " |", flush=True)
-        print(f"{target.name}: {time.time() - start:.0f} s", file=sys.stderr, flush=True)
+        print(f"{target.name}: {time.time() - start:.0f} s, of processors {processor_time() - begun:.0f} s", file=sys.stderr, flush=True)
     if all(good is None for good in results):
         return 77
     return 1 if False in results else 0
