@@ -14,9 +14,8 @@ void heat_map_words(const char *measure, char *text, size_t size) {
 
 void heat_map_title(const char *input, const char *map, const char *measure, char *text,
                     size_t size) {
-    const char *slash = strrchr(input, '/');
     char name[256], readable[256];
-    snprintf(name, sizeof name, "%s", slash ? slash + 1 : input);
+    snprintf(name, sizeof name, "%s", sl_path_name(input));
     char *ending = strrchr(name, '.');
     if (ending && ending != name && !map) *ending = '\0';
     text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);

@@ -15,8 +15,7 @@ bool input_ends_with(const char *path, const char *ending) {
 }
 
 const char *input_base_name(const char *path, size_t *length) {
-    const char *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path;
+    const char *base = sl_path_name(path);
     const char *dot = strrchr(base, '.');
     *length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     return base;

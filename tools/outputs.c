@@ -67,8 +67,7 @@ sl_status output_fail_ending(sl_context *context, const char *option, const char
 
 /// Whether the last part of a path has a dot behind its first character.
 static bool has_some_ending(const char *path) {
-    const char *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path;
+    const char *base = sl_path_name(path);
     const char *dot = strrchr(base, '.');
     return dot && dot > base;
 }

@@ -3,9 +3,10 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node, aspell,
-# groff, abidw, the Python package jsonschema, what the tests of our own Python package use, and Chromium and
-# npm for the tests of the pages. --web adds what tools/web.sh needs: clang, lld, wasi-libc,
-# compiler-rt for WebAssembly, binaryen and node.
+# groff, abidw, the Python package jsonschema, what the tests of our own Python package use, and
+# Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
+# machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
+# binaryen and node.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -16,7 +17,7 @@ for argument in "$@"; do
     case $argument in
     --ci) ci=yes ;;
     --web) web=yes ;;
-    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown argument $argument (there are --ci and --web)" >&2; exit 2 ;;
     esac
 done
@@ -110,6 +111,8 @@ is_there() {
     numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | wheel) python_has "$1" ;;
     pip) python_has pip ;;
     wasm) wasm_compiles ;;
+    aarch64) has aarch64-linux-gnu-gcc && has qemu-aarch64 ;;
+    windows) has x86_64-w64-mingw32-gcc && has wine ;;
     binaryen) has wasm-opt ;;
     jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
@@ -136,6 +139,8 @@ package() { # system thing
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
+    apt:aarch64) echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user ;;
+    apt:windows) echo gcc-mingw-w64-x86-64 wine wine64 ;;
     apt:wasm) echo lld wasi-libc libclang-rt-dev-wasm32 ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:abidw) echo abigail-tools ;;
@@ -234,6 +239,7 @@ install_packages() { # system package...
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
 [ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
+[ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 
 missing=

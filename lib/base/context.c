@@ -146,6 +146,18 @@ uint64_t sl_machine_memory(void) {
 #endif
 }
 
+const char *sl_path_name(const char *path) {
+#ifdef _WIN32
+    static const char separators[] = "/\\:";
+#else
+    static const char separators[] = "/";
+#endif
+    const char *name = path;
+    for (; *path; path++)
+        if (strchr(separators, *path)) name = path + 1;
+    return name;
+}
+
 char *sl_copy_text(sl_context *context, const char *text, size_t length) {
     char *copy = sl_alloc(context, length + 1);
     if (!copy) return NULL;

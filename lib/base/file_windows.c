@@ -110,9 +110,17 @@ void sli_file_remove(const char *path) {
     if (widen(path, wide)) _wunlink(wide);
 }
 
-/// Windows has no streams to memory: a temporary file stands for it.
+/// Windows has no streams to memory: a temporary file stands for it. The C library would make it in
+/// the root of the drive, where users may not write.
 bool sli_memory_open(sli_memory_stream *memory) {
-    *memory = (sli_memory_stream){.stream = tmpfile()};
+    wchar_t folder[MAX_PATH + 1], path[MAX_PATH + 1];
+    *memory = (sli_memory_stream){0};
+    const DWORD length = GetTempPathW(MAX_PATH + 1, folder);
+    if (!length || length > MAX_PATH || !GetTempFileNameW(folder, L"slv", 0, path)) return false;
+    const int file = _wopen(path, _O_RDWR | _O_BINARY | _O_TEMPORARY | _O_SHORT_LIVED);
+    if (file < 0) _wunlink(path);
+    memory->stream = file < 0 ? NULL : _fdopen(file, "w+b");
+    if (file >= 0 && !memory->stream) _close(file);
     return memory->stream != NULL;
 }
 

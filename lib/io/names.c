@@ -157,8 +157,7 @@ sli_door_state sli_says_state(const char *name) {
 #define MOST_BYTES ((off_t)1 << 30)
 
 char *sli_beside_path(sl_context *context, const char *name, const char *relative) {
-    const char *slash = strrchr(name, '/');
-    const size_t folder = slash && relative[0] != '/' ? (size_t)(slash + 1 - name) : 0;
+    const size_t folder = relative[0] != '/' ? (size_t)(sl_path_name(name) - name) : 0;
     const size_t length = strlen(relative);
     char *path = sl_alloc(context, folder + length + 1);
     if (!path) return NULL;

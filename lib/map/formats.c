@@ -187,7 +187,7 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
 static sl_status tell_of_formats(sl_context *context, const char *path, sl_status status) {
     size_t count;
     const sl_map_format *known = sl_map_formats(context, &count);
-    const char *slash = strrchr(path, '/'), *ending = strrchr(slash ? slash : path, '.');
+    const char *ending = strrchr(sl_path_name(path), '.');
     char message[sizeof context->message];
     if (status != SL_BAD_INPUT || context->map_formats.items || !ending) return status;
     for (size_t i = 0; i < count; i++)

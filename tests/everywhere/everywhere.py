@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """The same bytes everywhere: builds the core for other machines and compares what it computes.
 
-    python3 tests/everywhere/everywhere.py [TARGET...] [--build DIR] [--install] [--tests NAMES]
+    python3 tests/everywhere/everywhere.py [TARGET...] [--build DIR] [--install] [--quick] [--tests NAMES]
 
-For each target it builds the library, the command and `same_bytes`. Every corpus map is baked there,
-and one hash stands for the bytes of the baked file, one for the answers of the runtime header and one
-for the maps that are generated. They must be those of this machine's gcc. The unit tests run where
-Debian has the packages that they need for that machine. Other machines are emulated (qemu-user, Wine).
+For each target it builds the library and `same_bytes`. Every corpus map is baked there, and generated
+ones too. One hash stands for the bytes of a baked file, one for the answers of the runtime header.
+They must be those of this machine's gcc. The unit tests run where Debian has the packages that they
+need for that machine. Other machines are emulated (qemu-user, Wine, node).
+
+On Windows the command is tried too: windows.py. --quick compiles with -O1, and runs no unit tests but
+those that are named.
 
 Without a target all of them are tried. One whose compiler or emulator is missing is skipped, and
 says so; --install asks apt-get for them first (as root). The exit status is 0 when all agree, 77 when
@@ -21,6 +24,8 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+
+import windows
 
 SOURCE = Path(__file__).resolve().parents[2]
 LIBRARIES = ["libcmocka-dev", "libgmp-dev", "libjansson-dev", "libpng-dev", "libxml2-dev",
@@ -39,15 +44,20 @@ class Target:
     processor: str = ""
     emulator: tuple = ()
     debian: str = ""          # Debian's name of the machine, for the libraries of the unit tests
-    triple: str = ""
+    folder: str = ""          # where Debian keeps them, below usr/lib
+    ending: str = ""          # of programs
     packages: tuple = ()
     options: tuple = ()
 
 
-def linux(name, triple, debian="", qemu="", flags=""):
+def linux(name, triple, debian="", qemu="", flags="", folder=""):
     qemu = f"qemu-{qemu or name}"
     return Target(name, f"{triple}-gcc", flags, "Linux", name, (qemu, "-L", f"/usr/{triple}"), debian,
-                  triple, (f"gcc-{triple}", f"libc6-dev-{debian or name}-cross", "qemu-user"))
+                  folder or triple, packages=(f"gcc-{triple}", f"libc6-dev-{debian or name}-cross", "qemu-user"))
+
+
+I386_LOADER = "/usr/i686-linux-gnu/lib/ld-linux.so.2"  # this machine's own processor
+WASI = ("node", "--no-warnings", str(SOURCE / "tests" / "everywhere" / "wasi.mjs"))
 
 
 TARGETS = [
@@ -58,16 +68,26 @@ TARGETS = [
     Target("clang-O0", "clang", "-O0", packages=("clang",)),
     Target("clang-O2", "clang", "-O2", packages=("clang",)),
     Target("clang-O3-native", "clang", "-O3 -march=native", packages=("clang",)),
+    # A number that changes where it is stored ends the program. Unsigned ones wrap on purpose: hashes,
+    # random numbers, and the limbs of exact arithmetic.
+    Target("sanitized", "clang", "-O1 -fsanitize=undefined,integer -fno-sanitize-recover=all "
+           "-fno-sanitize=unsigned-integer-overflow,unsigned-shift-base", packages=("clang", "libclang-rt-dev")),
     # Not by gcc -m32, whose package Debian does not install beside the other compilers.
-    linux("i386", "i686-linux-gnu", "i386", flags="-msse2 -mfpmath=sse"),
+    Target("i386", "i686-linux-gnu-gcc", "-msse2 -mfpmath=sse", "Linux", "i386",
+           (I386_LOADER, "--library-path", "/usr/i686-linux-gnu/lib"), "i386", "i386-linux-gnu",
+           packages=("gcc-i686-linux-gnu", "libc6-dev-i386-cross")),
     linux("aarch64", "aarch64-linux-gnu", "arm64"),
     linux("armhf", "arm-linux-gnueabihf", "armhf", "arm"),
     linux("riscv64", "riscv64-linux-gnu"),
     linux("ppc64el", "powerpc64le-linux-gnu", "ppc64el", "ppc64le"),
     linux("s390x", "s390x-linux-gnu", "s390x"),
     Target("musl", "musl-gcc", packages=("musl-tools",), options=("-DSIGHTLINE_IO=OFF",)),
-    Target("windows", "x86_64-w64-mingw32-gcc", "", "Windows", "x86_64", ("wine",), "", "",
-           ("gcc-mingw-w64-x86-64", "wine", "wine64")),
+    Target("windows", "x86_64-w64-mingw32-gcc", "", "Windows", "x86_64", ("wine",), ending=".exe",
+           packages=("gcc-mingw-w64-x86-64", "wine", "wine64")),
+    Target("wasm", "clang", "-O2", "WASI", "wasm32", WASI, ending=".wasm",
+           packages=("clang", "lld", "wasi-libc", "libclang-rt-dev-wasm32", "nodejs"),
+           options=(f"-DCMAKE_TOOLCHAIN_FILE={SOURCE / 'lib' / 'cmake' / 'wasi.cmake'}",
+                    f"-DCMAKE_C_COMPILER={shutil.which('clang')}", "-DSIGHTLINE_WASM=ON", "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG")),
 ]
 REFERENCE = Target("gcc", "gcc", "-O2")
 
@@ -158,39 +178,63 @@ def configure(target, folder, root):
         command.append("-DCMAKE_C_COMPILER_LAUNCHER=ccache")
     environment = dict(os.environ)
     flags = target.flags
-    if target.system:
+    if target.system and target.system != "WASI":
         command += [f"-DCMAKE_SYSTEM_NAME={target.system}", f"-DCMAKE_SYSTEM_PROCESSOR={target.processor}",
-                    "-DCMAKE_CROSSCOMPILING_EMULATOR=" + ";".join(target.emulator)]
+                    "-DCMAKE_CROSSCOMPILING_EMULATOR=" + ";".join(emulator(target, root))]
         if root:
-            libraries = root / "usr/lib" / target.triple
-            flags += f" -isystem {root}/usr/include/{target.triple}"
+            libraries = root / "usr/lib" / target.folder
+            flags += f" -isystem {root}/usr/include/{target.folder}"
             environment |= {"PKG_CONFIG_LIBDIR": f"{libraries}/pkgconfig:{root}/usr/share/pkgconfig",
                             "PKG_CONFIG_SYSROOT_DIR": str(root)}
             command += [f"-DCMAKE_FIND_ROOT_PATH={root}", "-DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER",
                         "-DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY",
                         "-DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY",
-                        f"-DCMAKE_LIBRARY_ARCHITECTURE={target.triple}",
+                        f"-DCMAKE_LIBRARY_ARCHITECTURE={target.folder}",
                         f"-DCMAKE_EXE_LINKER_FLAGS=-L{libraries} "
-                        f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.triple}"]
-    if not root:
-        command += ["-DSIGHTLINE_IO=OFF", "-DSIGHTLINE_TESTS=OFF"]
+                        f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.folder}"]
+    parts = "ON" if root else "OFF"
+    command += [f"-DSIGHTLINE_IO={parts}", f"-DSIGHTLINE_TESTS={parts}"]
     run([*command, f"-DCMAKE_C_FLAGS={flags}"], folder / "build.log", env=environment)
     return build
+
+
+def chosen_tests(wanted):
+    """ctest's options for the unit tests of these names; all but the slow ones where none are named."""
+    return ["-R", f"^test_({wanted})$"] if wanted else ["-R", "^test_", "-E", SLOW]
+
+
+def build_targets(target, build, folder, root, wanted=""):
+    """What runs afterwards, and no more."""
+    programs = ["same_bytes"]
+    if target.system == "Windows":
+        programs.append("sightline_command")
+    if root:
+        listed = subprocess.run(["ctest", "--test-dir", str(build), "-N", *chosen_tests(wanted)],
+                                capture_output=True, text=True, check=True).stdout
+        programs += [line.split()[-1] for line in listed.splitlines() if ": test_" in line]
+    run(["cmake", "--build", str(build), "--target", *programs], folder / "build.log")
+
+
+def emulator(target, root):
+    """What runs a program; the loader itself is told where libraries lie."""
+    if root and target.emulator[:1] == (I386_LOADER,):
+        libraries = f"{target.emulator[2]}:{root}/usr/lib/{target.folder}:{root}/lib/{target.folder}"
+        return (*target.emulator[:2], libraries)
+    return target.emulator
 
 
 def library_path(target, root):
     if not root:
         return {}
-    return {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={root}/usr/lib/{target.triple}:"
-                            f"{root}/lib/{target.triple}"}
+    return {"QEMU_SET_ENV": f"LD_LIBRARY_PATH={root}/usr/lib/{target.folder}:"
+                            f"{root}/lib/{target.folder}"}
 
 
 def hashes(target, build, corpus, root):
-    ending = ".exe" if target.system == "Windows" else ""
-    program = build / "tests" / "everywhere" / f"same_bytes{ending}"
+    program = build / "tests" / "everywhere" / f"same_bytes{target.ending}"
     environment = dict(os.environ, WINEDEBUG="-all", **library_path(target, root))
-    done = subprocess.run([*target.emulator, str(program), *map(str, corpus)], capture_output=True,
-                          text=True, env=environment)
+    done = subprocess.run([*emulator(target, root), str(program), *map(str, corpus)], capture_output=True,
+                          text=True, env=environment, cwd=build)  # where it writes its file
     if done.returncode:
         raise Failure(f"{program} ended with {done.returncode}: {done.stderr[-600:]}")
     return done.stdout.replace("\r", "")
@@ -198,8 +242,8 @@ def hashes(target, build, corpus, root):
 
 def unit_tests(target, build, folder, root, wanted):
     """How many unit tests passed, of how many."""
-    command = ["ctest", "--test-dir", str(build), "-R", f"^test_({wanted})" if wanted else "^test_",
-               "-E", SLOW, "--timeout", "900", "-j", str(os.cpu_count())]
+    command = ["ctest", "--test-dir", str(build), *chosen_tests(wanted), "--timeout", "900",
+               "-j", str(os.cpu_count())]
     environment = dict(os.environ, **library_path(target, root))
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     (folder / "tests.log").write_text(done.stdout + done.stderr)
@@ -210,7 +254,27 @@ def unit_tests(target, build, folder, root, wanted):
     return total - failed, total
 
 
-def try_target(target, base, corpus, expected, wanted):
+def compare(expected, got):
+    """(What the table says, whether all is the same): a map is a line, the same on both sides."""
+    wanted, lines = expected.splitlines(), got.splitlines()
+    if [line.split()[-1] for line in wanted] != [line.split()[-1] for line in lines]:
+        return "not the same maps", False
+    same = sum(a == b for a, b in zip(wanted, lines))
+    return f"{same} of {len(wanted)} same", same == len(wanted) > 0
+
+
+def self_test():
+    """What is not the same is found."""
+    good = "9 ab cd a.map\n8 ef 01 b.map\n"
+    assert compare(good, good) == ("2 of 2 same", True)
+    for bad in (good.replace("ab", "aa"), good.replace("01", "02"), good.replace("9", "8")):
+        assert compare(good, bad) == ("1 of 2 same", False)
+    for bad in ("", good[:14], good + "1 2 3 c.map\n", good.replace("b.map", "c.map")):
+        assert not compare(good, bad)[1]
+    assert not compare("", "")[1]
+
+
+def try_target(target, base, corpus, expected, arguments):
     """A row of the table: its cells, and whether all is well (None: skipped)."""
     folder = base / target.name
     folder.mkdir(parents=True, exist_ok=True)
@@ -218,24 +282,31 @@ def try_target(target, base, corpus, expected, wanted):
     if missing or not (target.system or can_compile(target, folder)):
         what = ", ".join(missing) or f"libraries for {target.flags}"
         return [target.name, target.compiler, target.flags, "skipped", f"not here: {what}"], None
-    root = fetch_libraries(target, folder) if target.debian else None
+    root = fetch_libraries(target, folder) if target.debian and (arguments.tests or not arguments.quick) \
+        else None
     build = configure(target, folder, root)
-    run(["cmake", "--build", str(build)], folder / "build.log")
+    build_targets(target, build, folder, root, arguments.tests)
     got = hashes(target, build, corpus, root)
-    different = [line.split()[-1] for line in got.splitlines() if line not in expected.splitlines()]
-    count = len(expected.splitlines())
-    same = f"{count - len(different)} of {count} same" if got.count("\n") == count else "list differs"
+    text, same = compare(expected, got)
     (folder / "hashes.txt").write_text(got)
-    passed, total = unit_tests(target, build, folder, root, wanted) if root else (0, 0)
-    tests = f"{passed} of {total}" if total else "not built"
-    return [target.name, version(target.compiler), target.flags, tests, same], \
-        got == expected and passed == total
+    passed, total = unit_tests(target, build, folder, root, arguments.tests) if root else (0, 0)
+    if target.system == "Windows":
+        passed, total = windows.run_all(build / "tools" / "sightline.exe", folder, SOURCE)
+    tests = f"{passed} of {total}" if total else "none"
+    return [target.name, version(target.compiler), target.flags, tests, text], \
+        same and passed == total
 
 
 def version(compiler):
     first = subprocess.run([compiler, "--version"], capture_output=True, text=True).stdout.splitlines()
-    number = [word for word in first[0].split() if word[0].isdigit()]
+    number = [word.strip("()") for word in first[0].split() if word[0].isdigit()]
     return f"{'clang' if 'clang' in first[0] else 'gcc'} {number[0] if number else ''}".strip()
+
+
+def processor_time():
+    """What compilers and programs that ended took, in seconds."""
+    times = os.times()
+    return times.children_user + times.children_system
 
 
 def install(targets):
@@ -250,6 +321,8 @@ def parse():
     parser.add_argument("target", nargs="*", help="of " + ", ".join(names))
     parser.add_argument("--build", default=str(SOURCE / "build" / "everywhere"), metavar="DIR")
     parser.add_argument("--install", action="store_true", help="install compilers and emulators")
+    parser.add_argument("--quick", action="store_true", help="-O1, and no unit tests but those named")
+    parser.add_argument("--self-test", action="store_true", help="tries that a difference is found")
     parser.add_argument("--tests", default="", metavar="NAMES", help="unit tests: a regular expression")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.target if name not in names]
@@ -260,15 +333,21 @@ def parse():
 
 def main():
     arguments = parse()
+    if arguments.self_test:
+        self_test()
+        return 0
     base = Path(arguments.build).resolve()
     wanted = [t for t in TARGETS if not arguments.target or t.name in arguments.target]
+    for target in [REFERENCE, *wanted] if arguments.quick else []:
+        if target.system != "WASI":
+            target.flags = f"{target.flags} -O1".strip()
     if arguments.install:
         install(wanted)
     corpus = sorted([*SOURCE.glob("maps/*.map"), *SOURCE.glob("maps/*/*.map"),
                      *SOURCE.glob("tests/cases/*.map")])
     (base / REFERENCE.name).mkdir(parents=True, exist_ok=True)
     build = configure(REFERENCE, base / REFERENCE.name, None)
-    run(["cmake", "--build", str(build)], base / REFERENCE.name / "build.log")
+    build_targets(REFERENCE, build, base / REFERENCE.name, None)
     expected = hashes(REFERENCE, build, corpus, None)
     lines = expected.splitlines()
     print(f"{len(lines)} lines of {len(corpus)} maps by {version('gcc')}; all of it as one hash: "
@@ -276,15 +355,15 @@ def main():
     print("| target | compiler | flags | unit tests | hashes |\n| --- | --- | --- | --- | --- |", flush=True)
     results = []
     for target in wanted:
-        start = time.time()
+        start, begun = time.time(), processor_time()
         try:
-            row, good = try_target(target, base, corpus, expected, arguments.tests)
+            row, good = try_target(target, base, corpus, expected, arguments)
         except Failure as failure:
             row, good = [target.name, target.compiler, target.flags, "failed", "failed"], False
             print(failure, file=sys.stderr)
         results.append(good)
         print("| " + " | ".join(row) + " |", flush=True)
-        print(f"{target.name}: {time.time() - start:.0f} s", file=sys.stderr, flush=True)
+        print(f"{target.name}: {time.time() - start:.0f} s, of processors {processor_time() - begun:.0f} s", file=sys.stderr, flush=True)
     if all(good is None for good in results):
         return 77
     return 1 if False in results else 0

@@ -16,6 +16,9 @@
 #include "sightline/generate.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
+#ifdef __wasm__
+#include "bindings/js/src/bindings.h"
+#endif
 
 enum { PLACES = 12, SEEDS = 9 };
 static const char *const file_name = "same_bytes.slv";
@@ -51,6 +54,33 @@ static void must(sl_context *context, sl_status status, const char *what) {
 static void *must_have(void *memory) {
     if (!memory) abort();
     return memory;
+}
+
+/// Not by the library: its module for WebAssembly has no files.
+static void read_map(sl_context *context, const char *path, sl_map *map) {
+    enum { ROOM = 1 << 20 };
+    char *text = must_have(malloc(ROOM));
+    FILE *file = fopen(path, "rb");
+    const size_t size = file ? fread(text, 1, ROOM, file) : 0;
+    if (!size || size == ROOM || fclose(file)) {
+        fprintf(stderr, "same_bytes: %s: not read\n", path);
+        exit(1);
+    }
+    must(context, sl_map_read_text(context, path, text, size, map), path);
+    free(text);
+}
+
+/// What is written as a baked file: at NULL, or to be freed.
+static void take_file(sl_context *context, const sl_baked *baked, sl_bytes *file) {
+    must(context, sl_baked_write(context, baked, file_name), file_name);
+#ifdef __wasm__
+    size_t size;
+    const char *written = sli_written(&size);
+    *file = (sl_bytes){.data = must_have(sl_alloc(context, size)), .size = size};
+    memcpy(file->data, written, size);
+#else
+    must(context, sl_file_read(context, file_name, file), file_name);
+#endif
 }
 
 typedef struct answers {
@@ -136,8 +166,7 @@ static void print_map(sl_context *context, const char *name, sl_map *map) {
     sl_baked baked = {0};
     sl_bytes file = {0};
     must(context, sl_bake(context, map, NULL, &baked, NULL), name);
-    must(context, sl_baked_write(context, &baked, file_name), name);
-    must(context, sl_file_read(context, file_name, &file), name);
+    take_file(context, &baked, &file);
     printf("%zu %016" PRIx64 " %016" PRIx64 " %s\n", file.size,
            add_bytes(empty_hash, file.data, file.size), hash_answers(&file, name), name);
     sl_free(context, file.data);
@@ -160,6 +189,35 @@ static void print_generated(sl_context *context, const sl_map_kind *kind, uint64
     print_map(context, name, &map);
 }
 
+/// The same walls, but for some that are doors, mirrors and one-way glass.
+static void put_effects(sl_context *context, const sl_map *from, sl_map *map) {
+    for (size_t i = 0; i < from->wall_count; i++) {
+        const sl_wall *wall = &from->walls[i];
+        const sl_segment at = {wall->a, wall->b};
+        char door[24];
+        snprintf(door, sizeof door, "d%zu", i % 5);
+        const sl_status status = i % 13 == 2   ? sl_map_add_door(context, map, door, at, i % 2, 0)
+                                 : i % 13 == 6 ? sl_map_add_mirror(context, map, at, 0)
+                                 : i % 13 == 9 ? sl_map_add_oneway(context, map, at, 0)
+                                               : sl_map_add_wall(context, map, wall->a, wall->b, 0);
+        must(context, status, "effects");
+    }
+}
+
+static void print_effects(sl_context *context, const sl_map_kind *kind, uint64_t seed) {
+    sl_generate_options options = sl_generate_options_default();
+    options.seed = seed;
+    options.walls = 100;
+    options.turned = seed % 2 ? 0 : 28.1;
+    char name[80];
+    snprintf(name, sizeof name, "%s:%" PRIu64 ":effects", kind->name, seed);
+    sl_map walls = {0}, map = {0};
+    must(context, sl_generate(context, kind, &options, &walls), name);
+    put_effects(context, &walls, &map);
+    sl_map_destroy(context, &walls);
+    print_map(context, name, &map);
+}
+
 /// The name of a file without its folders.
 static const char *base_name(const char *path) {
     const char *name = path;
@@ -172,7 +230,7 @@ int main(int argc, char **argv) {
     sl_context *context = must_have(sl_context_create(NULL));
     for (int i = 1; i < argc; i++) {
         sl_map map = {0};
-        must(context, sl_map_read(context, argv[i], NULL, &map), argv[i]);
+        read_map(context, argv[i], &map);
         print_map(context, base_name(argv[i]), &map);
     }
     size_t count;
@@ -181,6 +239,7 @@ int main(int argc, char **argv) {
         for (uint64_t seed = 1; seed <= SEEDS; seed++) {
             print_generated(context, &kinds[i], seed, 0, false);
             print_generated(context, &kinds[i], seed, 17.3, seed % 2);
+            print_effects(context, &kinds[i], seed);
         }
     remove(file_name);
     sl_context_destroy(context);

@@ -233,9 +233,23 @@ static void of_failures_that_of_the_lowest_unit_is_told(void **state) {
     }
 }
 
+static void a_path_ends_in_a_name(void **state) {
+    (void)state;
+    assert_string_equal(sl_path_name("/maps/a.b/office.map"), "office.map");
+    assert_string_equal(sl_path_name("office.map"), "office.map");
+    assert_string_equal(sl_path_name("maps/"), "");
+#ifdef _WIN32
+    assert_string_equal(sl_path_name("C:\\maps/a.b\\office.map"), "office.map");
+    assert_string_equal(sl_path_name("C:office.map"), "office.map");
+#else
+    assert_string_equal(sl_path_name("a/C:\\office.map"), "C:\\office.map");
+#endif
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_version_everywhere),
+        cmocka_unit_test(a_path_ends_in_a_name),
         cmocka_unit_test(numbers_read_back_to_the_same_double),
         cmocka_unit_test(numbers_are_short),
         cmocka_unit_test(numbers_are_those_of_printf),

@@ -189,6 +189,9 @@ typedef enum sl_path_kind {
     SL_PATH_STREAM ///< a device or a pipe
 } sl_path_kind;
 
+/// The last part of a path: the name of a file without its folders, and on Windows without a drive.
+SL_API const char *sl_path_name(const char *path);
+
 /// What a path, or the link there, leads to.
 SL_API sl_path_kind sl_path_look(const char *path);
 
