@@ -13,9 +13,9 @@ static bool in_parts(const bake_parts *parts) {
 }
 
 /// Whether units of the work are told apart: with --previous alone they are only if it is of use.
-static bool by_units(const bake_parts *parts) {
+static bool by_units(const bake_parts *parts, unsigned effects) {
     bake_parts others = *parts;
-    others.previous = NULL;
+    if (effects & ~(unsigned)(SL_EFFECT_ONEWAY | SL_EFFECT_RANGE)) others.previous = NULL;
     return in_parts(&others);
 }
 
@@ -61,7 +61,9 @@ option_table bake_parts_option_table(bake_parts *parts) {
          .flag = &parts->keep_partial},
         {"resume", 0, "FILE.slv", "go on with a partial file of the same map and options",
          .text = &parts->resume},
-        {"previous", 0, "FILE.slv", "take from an older bake what the changed walls cannot affect",
+        {"previous", 0, "FILE.slv",
+         "take from an older bake what the changed walls cannot affect (nothing if the map has "
+         "doors or mirrors)",
          .text = &parts->previous},
         {"shard", 0, "K/N", "compute part K of N (1 <= K <= N), for 'sightline merge'",
          .text = &parts->shard_text},
@@ -161,8 +163,10 @@ static sl_status take_over(sl_context *context, const char *path, const sl_see_m
                            const sl_see_options *see, const sl_baked *baked, sl_baked *before,
                            sl_partial *partial) {
     SL_TRY(sl_baked_read(context, path, before));
-    if (sl_plan_make(&before->map).effects) {
-        sl_note(context, "nothing is taken over from %s: it has effects", path);
+    const sl_plan then = sl_plan_make(&before->map);
+    if (then.effects != see->plan->effects || then.range != see->plan->range) {
+        sl_note(context, "nothing is taken over from %s: it has other effects or another range",
+                path);
         return SL_OK;
     }
     const sl_status status = sl_partial_reuse(context, &before->space, &before->visibility,
@@ -172,13 +176,22 @@ static sl_status take_over(sl_context *context, const char *path, const sl_see_m
     return SL_OK;
 }
 
-/// An older bake that is of no use, as the map has effects. It has to be one.
-static sl_status pass_over(sl_context *context, const char *path) {
+/// An older bake that is of no use. It has to be one.
+static sl_status pass_over(sl_context *context, const char *path, const char *why) {
     sl_baked before = {0};
     SL_TRY(sl_baked_read(context, path, &before));
     sl_baked_destroy(context, &before);
-    sl_note(context, "nothing is taken over from %s: the map has effects", path);
+    sl_note(context, "nothing is taken over from %s: %s", path, why);
     return SL_OK;
+}
+
+/// Why --previous is of no use; NULL if it may be of some.
+static const char *no_use(const bake_parts *parts, const sl_see_method *method, unsigned effects) {
+    if (effects && !by_units(parts, effects))
+        return "the map has doors or mirrors, and a baked file does not keep with how many sets of "
+               "doors and reflections it was made";
+    return effects && method && !method->stabs ? "with effects this method bakes a map as a whole"
+                                               : NULL;
 }
 
 static sl_status take_known(sl_context *context, const bake_parts *parts,
@@ -188,7 +201,7 @@ static sl_status take_known(sl_context *context, const bake_parts *parts,
     sl_status status = SL_OK;
     if (parts->resume)
         status = take_begun(context, parts->resume, see, baked, &before, partial);
-    else if (parts->previous && !see->plan->effects)
+    else if (parts->previous && !no_use(parts, method, see->plan->effects))
         status = take_over(context, parts->previous, method, see, baked, &before, partial);
     sl_baked_destroy(context, &before);
     return status;
@@ -232,18 +245,21 @@ static sl_status see_parts(sl_context *context, const bake_parts *parts,
 }
 
 void bake_parts_choose(const bake_parts *parts, const sl_map *map, sl_bake_options *options) {
-    if (by_units(parts) && !options->method && !options->see.solver && sl_plan_make(map).effects)
+    const unsigned effects = sl_plan_make(map).effects;
+    if (effects && by_units(parts, effects) && !options->method && !options->see.solver)
         options->method = sl_see_method_named("prune");
 }
 
 sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
                          const sl_bake_options *options, sl_baked *baked,
                          bake_parts_account *account) {
-    const bool has_effects = sl_plan_make(&baked->map).effects;
-    if (parts->previous && has_effects && crew_rank() == 0)
-        SL_TRY(pass_over(context, parts->previous));
-    if (has_effects ? !by_units(parts) : !in_parts(parts))
-        return sl_bake_see(context, options, baked, NULL);
+    const unsigned effects = sl_plan_make(&baked->map).effects;
+    const char *why = no_use(parts, options->method, effects);
+    if (parts->previous && why && crew_rank() == 0)
+        SL_TRY(pass_over(context, parts->previous, why));
+    bake_parts useful = *parts;
+    if (why) useful.previous = NULL;
+    if (!in_parts(&useful)) return sl_bake_see(context, options, baked, NULL);
     if (parts->keep_partial) console_ask_first();
     const sl_see_method *method = options->method;
     const sl_plan plan = sl_bake_plan(options, baked);

@@ -18,6 +18,11 @@
 ///
 /// The numbers of cells do not matter, nor does the subdivision: a split line that moves only makes
 /// more cells count as changed.
+///
+/// The same holds with one-way glass, if an unchanged cell also has the same glass on its directed
+/// portals; and with a view range that is the same, as the same line has the same length. Doors and
+/// mirrors take no part: a baked file does not keep how many sets of doors and how many reflections
+/// it was made with.
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 
@@ -29,6 +34,7 @@
 typedef struct reusing {
     const sl_space *before, *space;
     const sl_pvs *seen;
+    bool glass;        ///< there is one-way glass
     uint32_t *now;     ///< by cell of the space before: the same cell, or NO_CELL
     uint32_t *then;    ///< by cell of the space: the same cell before, or NO_CELL
     sl_bits *kept;     ///< cells whose rows are as they were
@@ -76,6 +82,9 @@ static bool same_directed(const reusing *c, uint32_t then, uint32_t now) {
         const sl_directed_portal *f = &c->space->directed[b->first_directed + i];
         if (e->left.x != f->left.x || e->left.y != f->left.y || e->right.x != f->right.x ||
             e->right.y != f->right.y)
+            return false;
+        if (c->glass && sl_portal_is_blocked(c->before, then, a->first_directed + i) !=
+                            sl_portal_is_blocked(c->space, now, b->first_directed + i))
             return false;
     }
     return true;
@@ -193,8 +202,15 @@ static sl_status check_same_question(sl_context *context, const sl_space *before
     if (!method->reuse || wanted != SL_EXACT)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "only what an exact method looks for can be taken over");
-    if (options->plan && options->plan->effects)
-        return sl_fail(context, SL_BAD_ARGUMENT, "the map has effects");
+    const unsigned effects = options->plan ? options->plan->effects : 0;
+    if (effects & ~(unsigned)(SL_EFFECT_ONEWAY | SL_EFFECT_RANGE))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the map has doors or mirrors, and a baked file does not keep with how many "
+                       "sets of doors and reflections it was made");
+    if (effects && !method->stabs)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "with effects '%s' looks at the map as a whole; prune takes over cells",
+                       method->name);
     if (seen->guarantee != SL_EXACT)
         return sl_fail(context, SL_BAD_ARGUMENT, "it is not exact, but %s",
                        sl_guarantee_name(seen->guarantee));
@@ -231,7 +247,8 @@ sl_status sl_partial_reuse(sl_context *context, const sl_space *before, const sl
                            const sl_space *space, const sl_see_method *method,
                            const sl_see_options *options, sl_partial *partial) {
     SL_TRY(check_same_question(context, before, seen, method, options));
-    reusing c = {.before = before, .space = space, .seen = &seen->pvs};
+    const bool glass = options->plan && options->plan->effects & SL_EFFECT_ONEWAY;
+    reusing c = {.before = before, .space = space, .seen = &seen->pvs, .glass = glass};
     sl_partial reused = {0};
     const sl_status status = reuse_rows(context, &c, method, options, &reused);
     sl_free(context, c.now);

@@ -2128,7 +2128,8 @@ typedef struct slrt_search {
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
-    uint32_t *blockers, blocker_count; ///< with room for as many behind them
+    uint32_t *blockers, blocker_count; ///< those that hide something
+    uint32_t *chosen;                  ///< room for as many as there are boxes
     bool gave_up;                      ///< the search took too long
 } slrt_search;
 
@@ -2644,7 +2645,7 @@ static bool slrt_find_shadow(const slrt_search *s, const slrt_target *target, co
 /// Leaves out blockers that hide nothing between two directions.
 static void slrt_choose_blockers(const slrt_search *s, slrt_target *target, const slrt_arm *from,
                                  const slrt_arm *to) {
-    uint32_t *chosen = s->blockers + s->blocker_count;
+    uint32_t *chosen = s->chosen;
     uint32_t i, count = 0;
     for (i = 0; i < target->blocker_count; i++) {
         slrt_arm right, left;
@@ -2979,11 +2980,64 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
     return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
 }
 
+/// Twice the distance from the eye to a box's middle, squared.
+static double slrt_away(const slrt_search *s, uint32_t box) {
+    const sl_runtime_box *at = &s->boxes->boxes[box];
+    const double x = at->min_x + at->max_x - 2 * s->x, y = at->min_y + at->max_y - 2 * s->y;
+    return x * x + y * y;
+}
+
+/// Sorts boxes, the nearest first (Shell 1959).
+static void slrt_sort_by_distance(const slrt_search *s, uint32_t *boxes, uint32_t count) {
+    uint32_t gap, i, k;
+    for (gap = count / 2; gap; gap = gap == 2 ? 1 : (uint32_t)(gap / 2.2))
+        for (i = gap; i < count; i++) {
+            const uint32_t box = boxes[i];
+            const double away = slrt_away(s, box);
+            for (k = i; k >= gap && slrt_away(s, boxes[k - gap]) > away; k -= gap)
+                boxes[k] = boxes[k - gap];
+            boxes[k] = box;
+        }
+}
+
+/// Whether boxes hide all of another one: the first `front` blockers, or all of them.
+static bool slrt_is_hidden_by(slrt_search *s, uint32_t box, uint32_t front) {
+    const uint32_t all = s->blocker_count;
+    bool hidden;
+    if (s->box_marks[box] != SLRT_BOX_PAST_WALLS) return false;
+    s->blocker_count = front;
+    hidden = slrt_is_hidden_box(s, box);
+    s->blocker_count = all;
+    return hidden || slrt_is_hidden_box(s, box);
+}
+
+/// Marks the boxes that others hide wholly, walls aside. Few boxes near the eye hide most of a
+/// crowd. So boxes are asked the nearest first, against those that are not hidden themselves, and
+/// only then against all. Blockers that are not hidden gather at the front of the list, and are
+/// what is left: what hides a box wholly also hides what is behind that box.
+static void slrt_hide_boxes(slrt_search *s) {
+    uint32_t i, front = 0;
+    slrt_sort_by_distance(s, s->blockers, s->blocker_count);
+    for (i = 0; i < s->blocker_count; i++) {
+        const uint32_t box = s->blockers[i];
+        if (slrt_is_hidden_by(s, box, front)) {
+            s->box_marks[box] = SLRT_BOX_HIDDEN;
+        } else {
+            s->blockers[i] = s->blockers[front];
+            s->blockers[front++] = box;
+        }
+    }
+    for (i = 0; i < s->boxes->count; i++)
+        if (!s->boxes->boxes[i].blocks && slrt_is_hidden_by(s, i, front))
+            s->box_marks[i] = SLRT_BOX_HIDDEN;
+    s->blocker_count = front;
+}
+
 /// The first search finds the boxes that are seen past walls. If some of them block, a second one
 /// asks which of these are seen past the others, and leaves out cells that are hidden.
 static void slrt_look_at_boxes(slrt_search *s) {
     const sl_runtime_boxes *boxes = s->boxes;
-    uint32_t i, count;
+    uint32_t i;
     for (i = 0; i < boxes->count; i++)
         if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
     slrt_run_search(s);
@@ -2991,15 +3045,7 @@ static void slrt_look_at_boxes(slrt_search *s) {
         if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
     if (!s->blocker_count) return;
     s->is_hidden = slrt_is_hidden_portal;
-    for (i = 0; i < boxes->count; i++)
-        if (s->box_marks[i] == SLRT_BOX_PAST_WALLS && slrt_is_hidden_box(s, i))
-            s->box_marks[i] = SLRT_BOX_HIDDEN;
-    // What hides a box wholly also hides what is behind that box.
-    count = s->blocker_count;
-    s->blocker_count = 0;
-    for (i = 0; i < count; i++)
-        if (s->box_marks[s->blockers[i]] != SLRT_BOX_HIDDEN)
-            s->blockers[s->blocker_count++] = s->blockers[i];
+    slrt_hide_boxes(s);
     slrt_run_search(s);
 }
 
@@ -3019,6 +3065,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
     s.boxes = boxes;
     s.box_marks = seen;
     s.blockers = scratch + sl_runtime_scratch_count(boxes->runtime);
+    s.chosen = s.blockers + boxes->count;
     slrt_look_at_boxes(&s);
     wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
     for (i = 0; i < boxes->count; i++)

@@ -12,8 +12,9 @@
 ///
 /// Portals of untouched cells stay. Others are found again between the parts on both sides of the
 /// old portal, and between the parts of one cell. Sides of boxes that block are left out of them.
-/// No coordinate is computed. Time: linear in the space, which is copied, plus the parts squared by
-/// cell.
+/// No coordinate is computed. To find what lies beside a part, the parts of a cell are sorted by
+/// their lower sides: one behind the other on a line. Time: linear in the space, which is copied,
+/// plus the parts times the sides in their cell.
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
@@ -202,6 +203,12 @@ typedef struct made_portal {
     uint32_t of;
 } made_portal;
 
+/// The lower side of a part of a cell: on the line `at`, from `lo` on.
+typedef struct low_side {
+    double at, lo;
+    uint32_t part;
+} low_side;
+
 typedef struct maker {
     sl_context *context;
     const sli_box_ground *ground;
@@ -217,6 +224,7 @@ typedef struct maker {
     SL_ARRAY(int32_t) stack;
     SL_ARRAY(made_portal) portals;
     SL_ARRAY(uint32_t) of_cut; ///< the parts of cells that are cut, cell after cell
+    low_side *low_sides[2];    ///< by axis: those of the parts in of_cut, sorted within a cell
     uint32_t *first_part;      ///< by cell of the ground: in of_cut; UINT32_MAX: it is whole
     uint32_t *part_count;
     bool *touched; ///< by cell of the ground: a box lies in it or beside it
@@ -392,6 +400,67 @@ static const uint32_t *parts_of(const maker *m, const uint32_t *cell, uint32_t *
     return first == UINT32_MAX ? cell : m->of_cut.items + first;
 }
 
+static int compare_low_sides(const void *left, const void *right) {
+    const low_side *a = left, *b = right;
+    if (a->at != b->at) return a->at < b->at ? -1 : 1;
+    return (a->lo > b->lo) - (a->lo < b->lo);
+}
+
+static sl_status sort_low_sides(maker *m) {
+    for (int axis = 0; axis < 2; axis++) {
+        low_side *sides = sl_alloc_array(m->context, m->of_cut.count, sizeof *sides);
+        m->low_sides[axis] = sides;
+        if (!sides) return SL_NO_MEMORY;
+        for (size_t i = 0; i < m->of_cut.count; i++) {
+            const sl_point low = m->boxes.items[m->of_cut.items[i]].min;
+            sides[i] = (low_side){axis ? low.y : low.x, axis ? low.x : low.y, m->of_cut.items[i]};
+        }
+        for (uint32_t i = 0; i < m->from->cell_count; i++)
+            if (m->first_part[i] != UINT32_MAX)
+                qsort(sides + m->first_part[i], m->part_count[i], sizeof *sides, compare_low_sides);
+    }
+    return SL_OK;
+}
+
+/// The first of sorted lower sides that may reach beyond `lo` on the line `at`. Those on one line
+/// do not overlap, so at most one begins before `lo` and does.
+static uint32_t first_beyond(const low_side *sides, uint32_t count, double at, double lo) {
+    uint32_t first = 0, end = count;
+    const low_side wanted = {.at = at, .lo = lo};
+    while (first < end) {
+        const uint32_t middle = first + (end - first) / 2;
+        if (compare_low_sides(&sides[middle], &wanted) < 0)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first && sides[first - 1].at == at ? first - 1 : first;
+}
+
+/// Adds the portals, within limits, between a part and those parts of a cell that lie above it.
+static sl_status join_part(maker *m, uint32_t below, uint32_t cell, int axis, sl_point limits,
+                           uint32_t of) {
+    const sl_box box = m->boxes.items[below];
+    const double at = axis ? box.max.y : box.max.x;
+    const double lo = axis ? box.min.x : box.min.y, hi = axis ? box.max.x : box.max.y;
+    const sl_point low = m->boxes.items[cell].min;
+    const low_side whole = {axis ? low.y : low.x, axis ? low.x : low.y, cell}, *sides = &whole;
+    uint32_t count = 1;
+    if (m->first_part[cell] != UINT32_MAX) {
+        sides = m->low_sides[axis] + m->first_part[cell];
+        count = m->part_count[cell];
+    }
+    for (uint32_t k = first_beyond(sides, count, at, lo);
+         k < count && sides[k].at == at && sides[k].lo < hi; k++) {
+        sli_piece piece;
+        if (!share(&box, &m->boxes.items[sides[k].part], axis, &piece)) continue;
+        piece.lo = fmax(piece.lo, limits.x);
+        piece.hi = fmin(piece.hi, limits.y);
+        if (piece.lo < piece.hi) SL_TRY(add_portals(m, below, sides[k].part, piece, of));
+    }
+    return SL_OK;
+}
+
 /// The portals between parts of cells that a portal of the ground becomes.
 static sl_status take_portal(maker *m, uint32_t number) {
     const sl_portal *p = &m->from->portals[number];
@@ -405,18 +474,10 @@ static sl_status take_portal(maker *m, uint32_t number) {
     const double hi = axis ? fmax(p->left.x, p->right.x) : fmax(p->left.y, p->right.y);
     // Crossed upwards, the left hand is at high y or at low x.
     const bool up = axis ? p->left.x < p->right.x : p->left.y > p->right.y;
-    uint32_t below_count, above_count;
+    uint32_t below_count;
     const uint32_t *below = parts_of(m, &p->cell[up ? 0 : 1], &below_count);
-    const uint32_t *above = parts_of(m, &p->cell[up ? 1 : 0], &above_count);
     for (uint32_t i = 0; i < below_count; i++)
-        for (uint32_t k = 0; k < above_count; k++) {
-            sli_piece piece;
-            if (!share(&m->boxes.items[below[i]], &m->boxes.items[above[k]], axis, &piece))
-                continue;
-            piece.lo = fmax(piece.lo, lo);
-            piece.hi = fmin(piece.hi, hi);
-            if (piece.lo < piece.hi) SL_TRY(add_portals(m, below[i], above[k], piece, number));
-        }
+        SL_TRY(join_part(m, below[i], p->cell[up ? 1 : 0], axis, (sl_point){lo, hi}, number));
     return SL_OK;
 }
 
@@ -426,12 +487,8 @@ static sl_status join_parts(maker *m, uint32_t cell) {
     const uint32_t *parts = parts_of(m, &cell, &count);
     for (uint32_t i = 0; i < count; i++) {
         SL_TRY(sl_check_cancelled(m->context));
-        for (uint32_t k = 0; k < count; k++)
-            for (int axis = 0; axis < 2; axis++) {
-                sli_piece piece;
-                if (share(&m->boxes.items[parts[i]], &m->boxes.items[parts[k]], axis, &piece))
-                    SL_TRY(add_portals(m, parts[i], parts[k], piece, UINT32_MAX));
-            }
+        for (int axis = 0; axis < 2; axis++)
+            SL_TRY(join_part(m, parts[i], cell, axis, (sl_point){-INFINITY, INFINITY}, UINT32_MAX));
     }
     return SL_OK;
 }
@@ -477,6 +534,7 @@ static sl_status write_portals(maker *m) {
 }
 
 static sl_status make_portals(maker *m) {
+    SL_TRY(sort_low_sides(m));
     for (uint32_t i = 0; i < m->from->portal_count; i++) SL_TRY(take_portal(m, i));
     for (uint32_t i = 0; i < m->from->cell_count; i++)
         if (m->first_part[i] != UINT32_MAX) SL_TRY(join_parts(m, i));
@@ -588,7 +646,7 @@ static sl_status put_axial(sl_context *context, const sli_box_ground *ground,
     void *const scratch[] = {m.blocking.items, m.sides.items,   m.cuts.items,  m.parts.items,
                              m.boxes.items,    m.parents.items, m.nodes.items, m.stack.items,
                              m.portals.items,  m.of_cut.items,  m.first_part,  m.part_count,
-                             m.touched};
+                             m.touched,        m.low_sides[0],  m.low_sides[1]};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
     return status;
 }

@@ -199,7 +199,8 @@ def notes_of(text):
     """What is noted of effects that are taken in part."""
     text = re.sub(r"taken over from \S+:", "taken over:", text)
     return re.findall(r"^note: (doors stand as the map has them|mirrors are walls here.*"
-                      r"|one-way glass is open.*|nothing is taken over: the map has effects|the walk's own methods.*)", text, re.M)
+                      r"|one-way glass is open.*|nothing is taken over: the map has.*"
+                      r"|the walk's own methods.*)", text, re.M)
 
 
 def spelled_out(table):

@@ -337,6 +337,17 @@ static void decided_pairs_are_told_from_others(void **state) {
 // --- a map that is changed
 
 /// Takes a wall away, moves one a little, or adds one.
+/// Glass and range of the map stay, but some glass is turned round.
+static void keep_effects(sl_context *context, const place *from, sl_random *random, place *to) {
+    const sl_map *map = &from->map;
+    to->map.range = map->range;
+    for (size_t i = 0; i < map->oneway_count; i++) {
+        sl_segment at = map->oneways[i].segment;
+        if (sl_random_below(random, 8) == 0) at = (sl_segment){at.b, at.a};
+        assert_ok(context, sl_map_add_oneway(context, &to->map, at, 0));
+    }
+}
+
 static place edited(sl_context *context, const place *from, bool oblique, sl_random *random) {
     place p = {0};
     const sl_space *space = &from->space;
@@ -356,6 +367,7 @@ static place edited(sl_context *context, const place *from, bool oblique, sl_ran
         const sl_point end = {upright || oblique ? a.x + unit : a.x, upright ? a.y : a.y + unit};
         assert_ok(context, sl_map_add_wall(context, &p.map, a, end, 0));
     }
+    keep_effects(context, from, random, &p);
     subdivide(context, oblique, &p);
     return p;
 }
@@ -364,12 +376,15 @@ static place edited(sl_context *context, const place *from, bool oblique, sl_ran
 static uint32_t check_edit(sl_context *context, const place *before, const place *after,
                            sl_random *random) {
     uint32_t kept = 0;
-    for (size_t m = 0; m < NAMES; m++)
+    const sl_plan plan = sl_plan_make(&after->map), plan_before = sl_plan_make(&before->map);
+    assert_int_equal(plan.effects, plan_before.effects);
+    for (size_t m = plan.effects ? 1 : 0; m < NAMES; m++) // with effects not the sweep
         for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
             const sl_see_method *method = testing_method(names[m]);
             const bool inside = sl_random_below(random, 4) == 0;
             const unsigned threads = 1 + (unsigned)sl_random_below(random, 2);
-            const sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
+            sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
+            options.plan = &plan;
             sl_visibility old, plain, again;
             sl_partial partial = {0};
             assert_ok(context, method->see(context, &before->space, &options, &old));
@@ -379,7 +394,7 @@ static uint32_t check_edit(sl_context *context, const place *before, const place
             kept += partial.done_count;
             sl_visibility bound;
             assert_ok(context, method->finish(context, &after->space, &options, &partial, &bound));
-            if (!sl_partial_complete(&partial)) assert_misses_nothing(&bound, &plain, NULL);
+            if (!sl_partial_complete(&partial)) assert_misses_nothing(&bound, &plain, &plan);
             assert_ok(context, method->run(context, &after->space, &options, &partial));
             assert_ok(context, method->finish(context, &after->space, &options, &partial, &again));
             assert_same(&again, &plain);
@@ -427,6 +442,40 @@ static void what_a_change_cannot_affect_is_kept(void **state) {
     }
     print_message("%u units were taken over\n", kept);
     assert_true(kept > 1000);
+    sl_context_destroy(context);
+}
+
+/// Glass in some doorways, and a view range.
+static place office_with_effects(sl_context *context, unsigned effects, sl_random *random) {
+    place bare = generated(context, "office", 300, 0, false), p = {0};
+    for (uint32_t i = 0; i < bare.space.wall_count; i++)
+        assert_ok(context, sl_map_add_wall(context, &p.map, bare.space.walls[i].a,
+                                           bare.space.walls[i].b, 0));
+    for (uint32_t i = 0; i < bare.space.portal_count && effects & SL_EFFECT_ONEWAY; i++) {
+        const sl_portal *portal = &bare.space.portals[i];
+        const sl_segment at = {portal->left, portal->right};
+        if (sl_random_below(random, 6) == 0)
+            assert_ok(context, sl_map_add_oneway(context, &p.map, at, 0));
+    }
+    if (effects & SL_EFFECT_RANGE) p.map.range = 20;
+    subdivide(context, false, &p);
+    destroy(context, &bare);
+    return p;
+}
+
+static void effects_that_a_change_cannot_affect_are_kept(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {9};
+    for (unsigned effects = 1; effects < 4; effects++) {
+        const unsigned wanted =
+            (effects & 1 ? SL_EFFECT_ONEWAY : 0u) | (effects & 2 ? SL_EFFECT_RANGE : 0u);
+        place p = office_with_effects(context, wanted, &random);
+        assert_int_equal(sl_plan_make(&p.map).effects, wanted);
+        const uint32_t kept = check_edits(context, &p, false, EDITS / 3, &random);
+        print_message("effects %u: %u units were taken over\n", wanted, kept);
+        assert_true(kept > 50);
+    }
     sl_context_destroy(context);
 }
 
@@ -613,6 +662,7 @@ int main(void) {
 #endif
         cmocka_unit_test(decided_pairs_are_told_from_others),
         cmocka_unit_test(what_a_change_cannot_affect_is_kept),
+        cmocka_unit_test(effects_that_a_change_cannot_affect_are_kept),
         cmocka_unit_test(other_questions_take_nothing_over),
         cmocka_unit_test(what_does_not_belong_together_is_refused),
         cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),

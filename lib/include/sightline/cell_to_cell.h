@@ -192,9 +192,11 @@ SL_API sl_status sl_see_check(sl_context *context, const sl_see_method *method,
 
 /// Makes partial results for a space from what was seen in another one, before some walls were
 /// changed: of all pairs that no changed cell can have a part in. The rest is for `run`; the
-/// result is the same as without them. `seen` must have been made without effects, and the plan
-/// have none. SL_BAD_ARGUMENT, and a message that says why, where nothing can be taken over: the
-/// sets seen are not exact or were made with other options, or what is asked for is not exact.
+/// result is the same as without them. `seen` must have been made with the effects of the plan, and
+/// its range: one-way glass and a range by the methods that stab, none by the others.
+/// SL_BAD_ARGUMENT, and a message that says why, where nothing can be taken over: the plan has
+/// other effects, the sets seen are not exact or were made with other options, or what is asked for
+/// is not exact.
 /// `partial` is zeroed before.
 SL_API sl_status sl_partial_reuse(sl_context *context, const sl_space *before,
                                   const sl_visibility *seen, const sl_space *space,
