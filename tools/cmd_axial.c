@@ -134,15 +134,16 @@ static sl_status measure(sl_context *context, const axial_plan *plan, axial_work
     return SL_OK;
 }
 
-/// A table holds drawn lines, and these pass doors as they pass walls.
+/// Some files hold drawn lines only, and these pass doors as they pass walls.
 static sl_status check_lines(sl_context *context, axial_plan *plan) {
-    const bool table = input_ends_with(plan->input, ".csv");
+    const bool table = lines_are_drawn(plan->input);
     if (table && !plan->lines_given) plan->lines = LINES_DRAWN;
     if (plan->lines != LINES_DRAWN)
-        return table ? sl_fail(context, SL_BAD_ARGUMENT,
-                               "--lines %s: a table holds drawn lines, and no plan to find some "
-                               "in; give the map",
-                               kinds[plan->lines].name)
+        return table ? sl_fail(
+                           context, SL_BAD_ARGUMENT,
+                           "--lines %s: a .csv or .geojson holds drawn lines, and no plan to find "
+                           "some in; give the map",
+                           kinds[plan->lines].name)
                      : SL_OK;
     if (!plan->doors.shut && !plan->doors.open) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
@@ -209,8 +210,9 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
         .name = "axial",
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Finds the axial lines of a plan (space syntax), or reads drawn ones: a map, or a "
-                ".csv with the columns x1,y1,x2,y2. Writes a table of their measures under the "
+        .what = "Finds the axial lines of a plan (space syntax), or reads drawn ones: a map, "
+                "GeoJSON, or a .csv with the columns x1,y1,x2,y2. Writes a table of their measures "
+                "under the "
                 "names of depthmapX.",
         .examples = "  sightline axial office.map -o axial.csv --picture axial.png\n"
                     "  sightline axial drawn.dxf --lines drawn --radius n --radius 3 -o axial.csv",

@@ -169,7 +169,7 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Computes angular segment analysis (space syntax) of a network: street centre "
-                "lines or axial lines, as a drawing, a map, or a .csv with the columns "
+                "lines or axial lines, as a drawing, a map, GeoJSON, or a .csv with the columns "
                 "x1,y1,x2,y2. Lines are cut where they cross.",
         .examples = "  sightline segments streets.dxf -o streets.csv --picture choice.png\n"
                     "  sightline segments axial.csv --metric-radius 400 --metric-radius n -o "

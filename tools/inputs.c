@@ -161,16 +161,20 @@ static sl_status parse_map_of_baked(sl_context *context, const char *path, const
     return status;
 }
 
+sl_status input_parse_either(sl_context *context, const char *path, const sl_bytes *bytes,
+                             const input_options *input, sl_map *map) {
+    if (!input_is_baked(path, bytes))
+        return sl_map_parse(context, path, bytes->data, bytes->size, &input->import, map);
+    SL_TRY(input_refuse_options(context, path, input));
+    return parse_map_of_baked(context, path, bytes, map);
+}
+
 sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
                             sl_map *map) {
     sl_bytes bytes;
     if (is_baked_name(path)) SL_TRY(input_refuse_options(context, path, input));
     SL_TRY(sl_file_read(context, path, &bytes));
-    const bool baked = input_is_baked(path, &bytes);
-    sl_status status = baked ? input_refuse_options(context, path, input) : SL_OK;
-    if (status == SL_OK)
-        status = baked ? parse_map_of_baked(context, path, &bytes, map)
-                       : sl_map_parse(context, path, bytes.data, bytes.size, &input->import, map);
+    const sl_status status = input_parse_either(context, path, &bytes, input, map);
     sl_free(context, bytes.data);
     return status;
 }

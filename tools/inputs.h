@@ -51,6 +51,10 @@ sl_status input_read_either(sl_context *context, const char *path, const input_o
 sl_status input_parse_baked(sl_context *context, const char *path, const sl_bytes *bytes,
                             sl_baked *baked);
 
+/// The same as input_read_either() from memory; `path` is for messages, and for its ending.
+sl_status input_parse_either(sl_context *context, const char *path, const sl_bytes *bytes,
+                             const input_options *input, sl_map *map);
+
 /// Prints the formats of maps that can be read.
 void input_print_formats(void);
 

@@ -3,6 +3,7 @@
 #include "heat_map.h"
 #include "number_table.h"
 #include "sightline/geojson.h"
+#include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -188,9 +189,10 @@ sl_status line_table_draw(sl_context *context, const line_table *table, const li
 
 // --- lines as they are drawn
 
-static sl_status read_table(sl_context *context, const char *path, sl_map *map) {
+static sl_status parse_table(sl_context *context, const char *path, const sl_bytes *text,
+                             sl_map *map) {
     number_table table;
-    SL_TRY(number_table_read(context, path, &table));
+    SL_TRY(number_table_parse(context, path, text->data, text->size, &table));
     static const char *const names[4] = {"x1", "y1", "x2", "y2"};
     size_t columns[4];
     sl_status status = SL_OK;
@@ -211,18 +213,32 @@ static sl_status read_table(sl_context *context, const char *path, sl_map *map) 
                 sl_fail_at(context, path, table.lines[i], "four numbers are needed: x1,y1,x2,y2");
     }
     number_table_destroy(context, &table);
+    if (status != SL_OK) sl_map_destroy(context, map);
     return status;
+}
+
+bool lines_are_drawn(const char *path) {
+    return input_ends_with(path, ".csv") || input_ends_with(path, ".geojson");
+}
+
+static sl_status parse_lines(sl_context *context, const char *path, const sl_bytes *bytes,
+                             const input_options *input, sl_map *map) {
+    const bool piped = strcmp(path, "-") == 0;
+    if (input_ends_with(path, ".geojson"))
+        return sl_lines_read_geojson(context, path, bytes->data, bytes->size, map);
+    if (input_ends_with(path, ".csv") ||
+        (piped && number_table_begins(bytes->data, bytes->size, 4)))
+        return parse_table(context, path, bytes, map);
+    return input_parse_either(context, path, bytes, input, map);
 }
 
 sl_status lines_read(sl_context *context, const char *path, const input_options *input,
                      sl_map *map) {
-    if (!input_ends_with(path, ".csv")) {
-        SL_TRY(input_read_either(context, path, input, map));
-    } else {
-        const sl_status status = read_table(context, path, map);
-        if (status != SL_OK) sl_map_destroy(context, map);
-        SL_TRY(status);
-    }
+    sl_bytes bytes;
+    SL_TRY(sl_file_read(context, path, &bytes));
+    const sl_status status = parse_lines(context, path, &bytes, input, map);
+    sl_free(context, bytes.data);
+    SL_TRY(status);
     size_t count = 0; // lines without length are none
     for (size_t i = 0; i < map->wall_count; i++)
         if (map->walls[i].a.x != map->walls[i].b.x || map->walls[i].a.y != map->walls[i].b.y)

@@ -52,8 +52,12 @@ sl_status line_table_draw(sl_context *context, const line_table *table, const li
                           const sl_baked *baked, const char *input, const char *map,
                           const sl_draw_options *drawing, const char *path);
 
-/// Lines as they are drawn: the walls of a map in any format, or a table with the columns x1, y1,
-/// x2, y2 (a name that ends in .csv). Only `walls` of the map are filled.
+/// Whether a file holds drawn lines, and no plan, by its name: .csv or .geojson.
+bool lines_are_drawn(const char *path);
+
+/// Lines as they are drawn: the walls of a map in any format, GeoJSON (.geojson), or a table with
+/// the columns x1, y1, x2, y2 (.csv). "-" is stdin: a table or a map. Only `walls` of the map are
+/// filled.
 sl_status lines_read(sl_context *context, const char *path, const input_options *input,
                      sl_map *map);
 

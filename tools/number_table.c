@@ -93,8 +93,10 @@ static sl_status read_row(reader *r, const char *line, size_t length) {
     return SL_OK;
 }
 
+/// The mark of UTF-8 that some spreadsheets write first.
+static const char mark[] = {'\xef', '\xbb', '\xbf'};
+
 static sl_status read_lines(reader *r, const char *text, size_t size) {
-    static const char mark[] = {'\xef', '\xbb', '\xbf'}; // of UTF-8, by some spreadsheets
     number_table *to = r->to;
     const bool marked = size >= sizeof mark && memcmp(text, mark, sizeof mark) == 0;
     for (size_t at = marked ? sizeof mark : 0; at < size;) {
@@ -116,13 +118,26 @@ static sl_status read_lines(reader *r, const char *text, size_t size) {
     return SL_OK;
 }
 
+bool number_table_begins(const char *text, size_t size, size_t columns) {
+    const size_t marked = size >= sizeof mark && memcmp(text, mark, sizeof mark) == 0 ? 3 : 0;
+    const char *line = text + marked;
+    const size_t length = strcspn(line, "\r\n");
+    return length && !strchr("#{[<", *line) && count_fields(line, length) >= columns;
+}
+
+sl_status number_table_parse(sl_context *context, const char *path, const char *text, size_t size,
+                             number_table *out) {
+    *out = (number_table){.path = path};
+    reader r = {.context = context, .to = out};
+    const sl_status status = read_lines(&r, text, size);
+    if (status != SL_OK) number_table_destroy(context, out);
+    return status;
+}
+
 sl_status number_table_read(sl_context *context, const char *path, number_table *out) {
     sl_bytes text;
     SL_TRY(sl_file_read(context, path, &text));
-    *out = (number_table){.path = path};
-    reader r = {.context = context, .to = out};
-    const sl_status status = read_lines(&r, text.data, text.size);
+    const sl_status status = number_table_parse(context, path, text.data, text.size, out);
     sl_free(context, text.data);
-    if (status != SL_OK) number_table_destroy(context, out);
     return status;
 }

@@ -16,6 +16,14 @@ typedef struct number_table {
 /// Reads a table, "-" from stdin. The first line may hold names. SL_BAD_INPUT, with file and line,
 /// for a field that is neither empty nor a finite number, and for a row of another length.
 sl_status number_table_read(sl_context *context, const char *path, number_table *out);
+/// As number_table_read, from memory. `path` is for messages.
+sl_status number_table_parse(sl_context *context, const char *path, const char *text, size_t size,
+                             number_table *out);
+
+/// Whether the first line of a text is that of a table with so many columns or more, and not that
+/// of a map. A 0 stands behind the text.
+bool number_table_begins(const char *text, size_t size, size_t columns);
+
 void number_table_destroy(sl_context *context, number_table *table);
 
 /// The column of a name; `columns` for none.

@@ -58,6 +58,11 @@ sl_status cmd_reject(command_console *console, int argc, char **argv) {
     return sl_fail(console->context, SL_UNSUPPORTED, "%s", refusal);
 }
 
+sl_status sl_lines_read_geojson(sl_context *context, const char *name, const char *text,
+                                size_t size, sl_map *map) {
+    return refuse_map(context, name, text, size, NULL, map);
+}
+
 sl_status sl_image_read(sl_context *context, const char *name, const char *bytes, size_t size,
                         sl_image *out) {
     (void)bytes, (void)size, (void)out;

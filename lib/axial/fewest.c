@@ -155,27 +155,31 @@ static sl_status rejoin(sl_context *context, chooser *c) {
 }
 
 /// Whether the kept lines that touch a line reach each other without it; false for the last line of
-/// its part of the plan. `graph`: of all lines.
+/// its part of the plan. `graph`: of all lines. The search ends when it has found them all, mostly
+/// after few steps. `stamp` marks those to be found, and the one after it those that are reached.
 static bool stays_joined(chooser *c, const sl_line_graph *graph, uint32_t line, uint32_t stamp) {
-    const uint32_t *touched = graph->others + graph->first[line];
+    const uint32_t *touched = graph->others + graph->first[line], reached = stamp + 1;
     const size_t count = graph->first[line + 1] - graph->first[line];
-    size_t head = 0, tail = 0;
-    for (size_t i = 0; i < count && !tail; i++)
-        if (c->kept[touched[i]]) c->queue.items[tail++] = touched[i];
-    if (!tail) return false;
-    c->stamps[c->queue.items[0]] = stamp;
-    while (head < tail) {
+    size_t head = 0, tail = 0, missing = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!c->kept[touched[i]]) continue;
+        c->stamps[touched[i]] = stamp;
+        if (!missing++) c->queue.items[tail++] = touched[i];
+    }
+    if (!missing) return false;
+    c->stamps[c->queue.items[0]] = reached;
+    missing--;
+    while (missing && head < tail) {
         const uint32_t at = c->queue.items[head++];
         for (size_t i = graph->first[at]; i < graph->first[at + 1]; i++) {
             const uint32_t next = graph->others[i];
-            if (!c->kept[next] || c->stamps[next] == stamp) continue;
-            c->stamps[next] = stamp;
+            if (!c->kept[next] || c->stamps[next] == reached) continue;
+            missing -= c->stamps[next] == stamp;
+            c->stamps[next] = reached;
             c->queue.items[tail++] = next;
         }
     }
-    for (size_t i = 0; i < count; i++)
-        if (c->kept[touched[i]] && c->stamps[touched[i]] != stamp) return false;
-    return true;
+    return !missing;
 }
 
 /// Shortest first: a line goes where nothing is missing without it.
@@ -202,7 +206,8 @@ static sl_status drop_spare(sl_context *context, chooser *c) {
             goes = !sl_bits_has(covers_of(c, line), k) || times[k] > 1;
         if (!goes) continue;
         c->kept[line] = false;
-        goes = stays_joined(c, &graph, line, stamp++);
+        goes = stays_joined(c, &graph, line, stamp);
+        stamp += 2;
         c->kept[line] = !goes;
         for (uint32_t k = 0; k < probes && goes; k++)
             times[k] -= sl_bits_has(covers_of(c, line), k);

@@ -30,12 +30,7 @@
 
 #include <string.h>
 
-typedef struct entry {
-    float key;
-    uint32_t number; ///< of the point
-    uint32_t slot, before;
-    uint32_t next; ///< in its bucket, or none
-} entry;
+typedef sli_vga_entry entry; ///< of slots
 
 /// Keys of a bucket share their whole number of parts of a right angle. No turn is over two right
 /// angles, so that no two buckets that wait share a place.
@@ -64,7 +59,7 @@ typedef struct walker {
     uint32_t *before;        ///< by slot: the point before, for which its ways on are kept, or none
     size_t *kept;            ///< by slot: where its turns begin, or 0: in the room that all share
     float *turns;            ///< with its sign: a bound
-    SL_ARRAY(entry) heap;    ///< of the bucket that is reached
+    sli_vga_heap heap;       ///< of the bucket that is reached
     SL_ARRAY(entry) entries; ///< of the buckets after it
     size_t waiting;          ///< entries that are not taken yet
     uint64_t reached;
@@ -73,22 +68,9 @@ typedef struct walker {
 
 // --- the queue: buckets of keys, and a small heap for the one that is reached
 
-static inline bool is_before(const entry *a, const entry *b) {
-    return a->key < b->key || (a->key == b->key && a->number < b->number);
-}
-
-static sl_status push_reached(sl_context *context, walker *w, const entry *e) {
-    SL_TRY(SL_ARRAY_ROOM(context, &w->heap, 1));
-    size_t i = w->heap.count++;
-    for (; i && is_before(e, &w->heap.items[(i - 1) / 2]); i = (i - 1) / 2)
-        w->heap.items[i] = w->heap.items[(i - 1) / 2];
-    w->heap.items[i] = *e;
-    return SL_OK;
-}
-
 static sl_status push(sl_context *context, walker *w, entry e) {
     const uint64_t bucket = (uint64_t)(e.key * PARTS);
-    if (bucket == w->reached) return push_reached(context, w, &e);
+    if (bucket == w->reached) return sli_vga_push(context, &w->heap, e);
     SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
     e.next = w->buckets[bucket % BUCKETS];
     w->buckets[bucket % BUCKETS] = (uint32_t)w->entries.count;
@@ -104,27 +86,11 @@ static sl_status reach_next(sl_context *context, walker *w) {
         for (uint32_t i = *bucket; i != SLI_VGA_NONE; i = w->entries.items[i].next) {
             const entry *e = &w->entries.items[i];
             w->waiting--;
-            if (e->key <= w->turn[e->slot]) SL_TRY(push_reached(context, w, e));
+            if (e->key <= w->turn[e->at]) SL_TRY(sli_vga_push(context, &w->heap, *e));
         }
         *bucket = SLI_VGA_NONE;
     }
     return SL_OK;
-}
-
-static entry pop(walker *w) {
-    entry *items = w->heap.items;
-    const entry first = items[0], moved = items[--w->heap.count];
-    size_t i = 0;
-    for (;;) {
-        size_t child = 2 * i + 1;
-        if (child >= w->heap.count) break;
-        if (child + 1 < w->heap.count && is_before(&items[child + 1], &items[child])) child++;
-        if (!is_before(&items[child], &moved)) break;
-        items[i] = items[child];
-        i = child;
-    }
-    items[i] = moved;
-    return first;
 }
 
 // --- ways on
@@ -143,7 +109,7 @@ static inline float bound_turn(float ax, float ay, float bx, float by) {
 static void bound_word(const walker *w, const entry *at, uint32_t bundle, ways_on *ways,
                        float *turns) {
     const sli_vga_sights *s = w->sights;
-    const float x = s->x[at->slot], y = s->y[at->slot];
+    const float x = s->x[at->at], y = s->y[at->at];
     const float bx = x - s->x[at->before], by = y - s->y[at->before];
     float least = 2;
     for (uint64_t rest = ways->fresh; rest; rest &= rest - 1) {
@@ -163,14 +129,14 @@ static void split_row(walker *w, const entry *at) {
     size_t k = first ? 0 : s->first[at->before];
     const size_t end = first ? 0 : s->first[at->before + 1];
     uint32_t count = 0;
-    for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
+    for (size_t i = s->first[at->at]; i < s->first[at->at + 1]; i++) {
         uint64_t fresh = words[i].seen;
         while (k < end && words[k].bundle < words[i].bundle) k++;
         if (k < end && words[k].bundle == words[i].bundle) fresh &= ~words[k].seen;
         w->ways[i] = (ways_on){fresh, count, -1};
         for (; fresh; fresh &= fresh - 1) count++;
     }
-    w->before[at->slot] = w->kept[at->slot] ? at->before : SLI_VGA_NONE;
+    w->before[at->at] = w->kept[at->at] ? at->before : SLI_VGA_NONE;
 }
 
 // --- paths
@@ -188,7 +154,7 @@ static sl_status gain(sl_context *context, walker *w, const entry *at, uint32_t 
     w->turn[q] = turn;
     // Only straight ahead, and beside walls, are points expanded.
     if (turn > 0 && !sl_bits_has(s->turning, q)) return SL_OK;
-    return push(context, w, (entry){turn, s->points[q], q, at->slot, SLI_VGA_NONE});
+    return push(context, w, (entry){turn, s->points[q], q, at->at, SLI_VGA_NONE});
 }
 
 static sl_status try_word(sl_context *context, walker *w, const entry *at, uint32_t bundle,
@@ -198,7 +164,7 @@ static sl_status try_word(sl_context *context, walker *w, const entry *at, uint3
         const uint32_t q = bundle * 64 + (uint32_t)__builtin_ctzll(fresh);
         if (at->key + fabsf(*turns) >= w->turn[q]) continue;
         if (signbit(*turns)) {
-            *turns = sli_vga_turn(sli_vga_cosine(w->sights, at->before, at->slot, q));
+            *turns = sli_vga_turn(sli_vga_cosine(w->sights, at->before, at->at, q));
             if (at->key + *turns >= w->turn[q]) continue;
         }
         SL_TRY(gain(context, w, at, q, at->key + *turns));
@@ -210,9 +176,9 @@ static sl_status try_word(sl_context *context, walker *w, const entry *at, uint3
 
 static sl_status expand(sl_context *context, walker *w, const entry *at) {
     const sli_vga_sights *s = w->sights;
-    float *turns = w->turns + w->kept[at->slot];
-    if (w->before[at->slot] == SLI_VGA_NONE || w->before[at->slot] != at->before) split_row(w, at);
-    for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
+    float *turns = w->turns + w->kept[at->at];
+    if (w->before[at->at] == SLI_VGA_NONE || w->before[at->at] != at->before) split_row(w, at);
+    for (size_t i = s->first[at->at]; i < s->first[at->at + 1]; i++) {
         const uint32_t bundle = s->words.items[i].bundle;
         ways_on *ways = &w->ways[i];
         if (!(ways->fresh & ~w->done[bundle]) || at->key + ways->least >= w->most[bundle]) continue;
@@ -258,15 +224,16 @@ static sl_status find_straightest(sl_context *context, walker *w, uint32_t from)
     for (;;) {
         if (!w->heap.count) SL_TRY(reach_next(context, w));
         if (!w->heap.count) return SL_OK;
-        const entry e = pop(w);
+        const entry e = sli_vga_pop(&w->heap);
         if (radius > 0 && e.key > radius) return SL_OK;
-        if (e.key > w->turn[e.slot]) continue; // a better path has come since
+        if (e.key > w->turn[e.at]) continue; // a better path has come since
         SL_TRY(expand(context, w, &e));
-        sl_bits_add(w->done, e.slot);
+        sl_bits_add(w->done, e.at);
     }
 }
 
-static sl_status measure(sl_context *context, walker *w, uint32_t from) {
+static sl_status measure(sl_context *context, void *state, uint32_t from) {
+    walker *w = state;
     const sli_vga_sights *s = w->sights;
     const double radius = s->job->options->angular_radius;
     double turn = 0, nodes = 0;
@@ -286,8 +253,7 @@ static sl_status measure(sl_context *context, walker *w, uint32_t from) {
 
 // --- all points
 
-static void end(sl_context *context, void *all, void *state) {
-    (void)all;
+static void end(sl_context *context, void *state) {
     walker *w = state;
     void *parts[] = {w->turn, w->most,  w->done,       w->ways,          w->before,
                      w->kept, w->turns, w->heap.items, w->entries.items, w};
@@ -318,8 +284,8 @@ static size_t place_turns(walker *w) {
     return used;
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
-    const sli_vga_sights *s = all;
+static sl_status begin(sl_context *context, const sli_vga_searches *searches, void **state) {
+    const sli_vga_sights *s = searches->sights;
     const size_t slots = s->bundles * 64;
     walker *w = sl_alloc_array(context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
@@ -332,7 +298,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     w->kept = sl_alloc_array(context, slots, sizeof *w->kept);
     if (w->kept) w->turns = sl_alloc_array(context, place_turns(w), sizeof *w->turns);
     if (!w->turn || !w->most || !w->done || !w->ways || !w->before || !w->turns) {
-        end(context, all, w);
+        end(context, w);
         return SL_NO_MEMORY;
     }
     memset(w->before, 0xff, slots * sizeof *w->before); // none
@@ -340,22 +306,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     return SL_OK;
 }
 
-static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const sli_vga_sights *s = all;
-    for (size_t slot = unit * 64; slot < s->count && slot < unit * 64 + 64; slot++) {
-        SL_TRY(sl_check_cancelled(context));
-        SL_TRY(measure(context, state, (uint32_t)slot));
-    }
-    return SL_OK;
-}
-
 sl_status sli_vga_measure_angular(sl_context *context, const sli_vga_sights *sights) {
-    sli_vga_sights mine = *sights;
-    const sl_work work = {.job = &mine,
-                          .begin = begin,
-                          .unit = measure_unit,
-                          .end = end,
-                          .stage = "straightest paths",
-                          .units = "bundles of points"};
-    return sl_work_run(context, &work, sights->bundles, sights->job->options->threads);
+    const sli_vga_searches searches = {sights, NULL, begin, measure, end, "straightest paths"};
+    return sli_vga_search_all(context, &searches);
 }

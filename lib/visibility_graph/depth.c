@@ -16,14 +16,13 @@
 /// Cost: O(pairs that see each other, from points beside walls) for each start. Invariant: lengths
 /// leave the heap in ascending order.
 #include "geometry/length.h"
+#include "visibility_graph/heap.h"
 #include "visibility_graph/measures.h"
 
 #include <math.h>
 #include <string.h>
 
 #define RIGHT_ANGLE 1.5707963267948966
-
-enum { NONE = -1 };
 
 // --- places: points that are linked
 
@@ -61,10 +60,7 @@ static sl_status find_places(sl_context *context, uint32_t count, const sl_vga_l
 
 // --- one search
 
-typedef struct entry {
-    float key;
-    int32_t point, before; ///< before: the point of the path before it, or NONE
-} entry;
+typedef sli_vga_entry entry; ///< of points
 
 typedef struct walker {
     const sli_vga_job *job;
@@ -73,36 +69,11 @@ typedef struct walker {
     float *turn;     ///< by point: along its shortest path, in right angles
     sl_bits *done;   ///< points whose paths are final
     sl_bits *second; ///< points of a place that has been counted already
-    SL_ARRAY(entry) heap;
+    sli_vga_heap heap;
 } walker;
 
-static bool is_before(entry a, entry b) {
-    return a.key < b.key || (a.key == b.key && a.point < b.point);
-}
-
-static sl_status push(sl_context *context, walker *w, entry e) {
-    SL_TRY(SL_ARRAY_ROOM(context, &w->heap, 1));
-    size_t i = w->heap.count++;
-    for (; i && is_before(e, w->heap.items[(i - 1) / 2]); i = (i - 1) / 2)
-        w->heap.items[i] = w->heap.items[(i - 1) / 2];
-    w->heap.items[i] = e;
-    return SL_OK;
-}
-
-static entry pop(walker *w) {
-    entry *items = w->heap.items;
-    const entry first = items[0], moved = items[--w->heap.count];
-    size_t i = 0;
-    for (;;) {
-        size_t child = 2 * i + 1;
-        if (child >= w->heap.count) break;
-        if (child + 1 < w->heap.count && is_before(items[child + 1], items[child])) child++;
-        if (!is_before(items[child], moved)) break;
-        items[i] = items[child];
-        i = child;
-    }
-    items[i] = moved;
-    return first;
+static sl_status push(sl_context *context, walker *w, float key, uint32_t point, uint32_t before) {
+    return sli_vga_push(context, &w->heap, (entry){key, point, point, before, SLI_VGA_NONE});
 }
 
 static sl_point square_of(const walker *w, uint32_t point) {
@@ -111,9 +82,9 @@ static sl_point square_of(const walker *w, uint32_t point) {
 }
 
 /// The turn of the path before, at, to, in right angles.
-static float turn_at(const walker *w, int32_t before, uint32_t at, uint32_t to) {
-    if (before == NONE) return 0;
-    const sl_point p = square_of(w, (uint32_t)before), q = square_of(w, at), r = square_of(w, to);
+static float turn_at(const walker *w, uint32_t before, uint32_t at, uint32_t to) {
+    if (before == SLI_VGA_NONE) return 0;
+    const sl_point p = square_of(w, before), q = square_of(w, at), r = square_of(w, to);
     const double ax = r.x - q.x, ay = r.y - q.y, bx = q.x - p.x, by = q.y - p.y;
     const double cosine = (ax * bx + ay * by) / sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
     return (float)(acos(fmin(fmax(cosine, -1), 1)) / RIGHT_ANGLE);
@@ -124,30 +95,30 @@ static bool leads_on(const walker *w, uint32_t point) {
 }
 
 static sl_status try_length(sl_context *context, walker *w, entry at, uint32_t to) {
-    const sl_point a = square_of(w, (uint32_t)at.point), b = square_of(w, to);
+    const sl_point a = square_of(w, at.at), b = square_of(w, to);
     const double dx = a.x - b.x, dy = a.y - b.y, step = sqrt(dx * dx + dy * dy);
     const float old = w->length[to];
     if (at.key + step >= old) return SL_OK;
     w->length[to] = at.key + (float)step;
-    w->turn[to] = w->turn[at.point] + turn_at(w, at.before, (uint32_t)at.point, to);
+    w->turn[to] = w->turn[at.at] + turn_at(w, at.before, at.at, to);
     if (w->length[to] == old || !leads_on(w, to)) return SL_OK;
-    return push(context, w, (entry){w->length[to], (int32_t)to, at.point});
+    return push(context, w, w->length[to], to, at.at);
 }
 
 static sl_status try_turn(sl_context *context, walker *w, entry at, uint32_t to) {
     if (at.key >= w->length[to]) return SL_OK;
-    const float turn = at.key + turn_at(w, at.before, (uint32_t)at.point, to);
+    const float turn = at.key + turn_at(w, at.before, at.at, to);
     if (turn >= w->length[to]) return SL_OK;
     w->length[to] = turn;
     if (turn > 0 && !leads_on(w, to)) return SL_OK;
-    return push(context, w, (entry){turn, (int32_t)to, at.point});
+    return push(context, w, turn, to, at.at);
 }
 
 typedef sl_status try_way(sl_context *context, walker *w, entry at, uint32_t to);
 
 static sl_status expand(sl_context *context, walker *w, try_way *try, entry at) {
-    const sl_bits *row = sli_vga_row(w->job->graph, (uint32_t)at.point);
-    sl_bits_add(w->done, (size_t)at.point);
+    const sl_bits *row = sli_vga_row(w->job->graph, at.at);
+    sl_bits_add(w->done, at.at);
     for (size_t k = 0; k < w->job->graph->words; k++)
         for (sl_bits rest = row[k] & ~w->done[k]; rest; rest &= rest - 1)
             SL_TRY(try(context, w, at, (uint32_t)(k * 64) + (uint32_t)__builtin_ctzll(rest)));
@@ -156,7 +127,7 @@ static sl_status expand(sl_context *context, walker *w, try_way *try, entry at) 
 
 /// Who comes to a point of a place goes on from all of them.
 static sl_status expand_place(sl_context *context, walker *w, try_way *try, entry at) {
-    const uint32_t point = (uint32_t)at.point;
+    const uint32_t point = at.at;
     for (uint32_t p = w->joined->next[point]; p != point; p = w->joined->next[p]) {
         w->length[p] = at.key;
         w->turn[p] = w->turn[point];
@@ -165,7 +136,7 @@ static sl_status expand_place(sl_context *context, walker *w, try_way *try, entr
     }
     SL_TRY(expand(context, w, try, at));
     for (uint32_t p = w->joined->next[point]; p != point; p = w->joined->next[p])
-        SL_TRY(expand(context, w, try, (entry){at.key, (int32_t)p, NONE}));
+        SL_TRY(expand(context, w, try, (entry){at.key, p, p, SLI_VGA_NONE, SLI_VGA_NONE}));
     return SL_OK;
 }
 
@@ -179,12 +150,12 @@ static sl_status search(sl_context *context, walker *w, try_way *try, const uint
     for (uint32_t p = 0; p < graph->count; p++) w->length[p] = w->turn[p] = INFINITY;
     for (size_t i = 0; i < from_count; i++) {
         w->length[from[i]] = w->turn[from[i]] = 0;
-        SL_TRY(push(context, w, (entry){0, (int32_t)from[i], NONE}));
+        SL_TRY(push(context, w, 0, from[i], SLI_VGA_NONE));
     }
     while (w->heap.count) {
-        const entry e = pop(w);
+        const entry e = sli_vga_pop(&w->heap);
         if (most > 0 && e.key > most) break;
-        if (e.key > w->length[e.point] || sl_bits_has(w->done, (size_t)e.point)) continue;
+        if (e.key > w->length[e.at] || sl_bits_has(w->done, e.at)) continue;
         SL_TRY(sl_check_cancelled(context));
         SL_TRY(expand_place(context, w, try, e));
     }

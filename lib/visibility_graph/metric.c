@@ -290,7 +290,8 @@ static sl_status find_paths(sl_context *context, walker *w, uint32_t from) {
     return status;
 }
 
-static sl_status measure(sl_context *context, walker *w, uint32_t from) {
+static sl_status measure(sl_context *context, void *state, uint32_t from) {
+    walker *w = state;
     const sli_vga_sights *s = w->sights;
     const sl_vga_options *options = s->job->options;
     const double step = s->job->grid->step;
@@ -503,44 +504,22 @@ static sl_status ways_make(sl_context *context, const sli_vga_sights *s, all_way
 
 // --- all points
 
-typedef struct metric_job {
-    const sli_vga_sights *sights;
-    all_ways ways;
-} metric_job;
-
-static void end(sl_context *context, void *all, void *state) {
-    (void)all;
+static void end(sl_context *context, void *state) {
     walker_destroy(context, state);
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
-    const metric_job *j = all;
+static sl_status begin(sl_context *context, const sli_vga_searches *searches, void **state) {
     walker *w;
-    SL_TRY(walker_make(context, j->sights, &j->ways, &w));
+    SL_TRY(walker_make(context, searches->sights, searches->shared, &w));
     *state = w;
     return SL_OK;
 }
 
-static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const sli_vga_sights *s = ((const metric_job *)all)->sights;
-    for (size_t slot = unit * 64; slot < s->count && slot < unit * 64 + 64; slot++) {
-        SL_TRY(sl_check_cancelled(context));
-        SL_TRY(measure(context, state, (uint32_t)slot));
-    }
-    return SL_OK;
-}
-
 sl_status sli_vga_measure_metric(sl_context *context, const sli_vga_sights *sights) {
-    metric_job job = {.sights = sights};
-    const sl_work work = {.job = &job,
-                          .begin = begin,
-                          .unit = measure_unit,
-                          .end = end,
-                          .stage = "shortest paths",
-                          .units = "bundles of points"};
-    sl_status status = ways_make(context, sights, &job.ways);
-    if (status == SL_OK)
-        status = sl_work_run(context, &work, sights->bundles, sights->job->options->threads);
-    ways_destroy(context, &job.ways);
+    all_ways ways;
+    const sli_vga_searches searches = {sights, &ways, begin, measure, end, "shortest paths"};
+    sl_status status = ways_make(context, sights, &ways);
+    if (status == SL_OK) status = sli_vga_search_all(context, &searches);
+    ways_destroy(context, &ways);
     return status;
 }

@@ -136,6 +136,39 @@ sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_v
     return status;
 }
 
+// --- searches from all points
+
+static sl_status begin(sl_context *context, void *all, void **walker) {
+    const sli_vga_searches *searches = all;
+    return searches->begin(context, searches, walker);
+}
+
+static void end(sl_context *context, void *all, void *walker) {
+    ((const sli_vga_searches *)all)->end(context, walker);
+}
+
+static sl_status measure_unit(sl_context *context, void *all, void *walker, size_t unit) {
+    const sli_vga_searches *searches = all;
+    const uint32_t count = searches->sights->count;
+    for (uint32_t slot = (uint32_t)unit * 64; slot < count && slot < unit * 64 + 64; slot++) {
+        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(searches->measure(context, walker, slot));
+    }
+    return SL_OK;
+}
+
+sl_status sli_vga_search_all(sl_context *context, const sli_vga_searches *searches) {
+    const sli_vga_sights *s = searches->sights;
+    sli_vga_searches mine = *searches;
+    const sl_work work = {.job = &mine,
+                          .begin = begin,
+                          .unit = measure_unit,
+                          .end = end,
+                          .stage = searches->stage,
+                          .units = "bundles of points"};
+    return sl_work_run(context, &work, s->bundles, s->job->options->threads);
+}
+
 sl_status sli_vga_measure_paths(sl_context *context, const sli_vga_job *job) {
     sli_vga_sights sights;
     sl_status status = sli_vga_sights_make(context, job, &sights);

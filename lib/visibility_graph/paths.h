@@ -2,15 +2,13 @@
 #ifndef SL_VGA_PATHS_H
 #define SL_VGA_PATHS_H
 
+#include "visibility_graph/heap.h"
 #include "visibility_graph/measures.h"
 #include "visibility_graph/tiles.h"
 
 #include <math.h>
 
 #define SLI_RIGHT_ANGLE 1.5707963267948966
-
-/// No slot.
-#define SLI_VGA_NONE UINT32_MAX
 
 /// What a point sees of a bundle of 64 points.
 typedef struct sli_vga_word {
@@ -62,6 +60,18 @@ static inline double sli_vga_cosine(const sli_vga_sights *s, uint32_t before, ui
 static inline float sli_vga_turn(double cosine) {
     return (float)(acos(fmin(fmax(cosine, -1), 1)) / SLI_RIGHT_ANGLE);
 }
+
+/// A search from each point. Threads take bundles; each has a walker of its own.
+typedef struct sli_vga_searches {
+    const sli_vga_sights *sights;
+    const void *shared; ///< what the walkers read
+    sl_status (*begin)(sl_context *context, const struct sli_vga_searches *searches, void **walker);
+    sl_status (*measure)(sl_context *context, void *walker, uint32_t slot);
+    void (*end)(sl_context *context, void *walker);
+    const char *stage;
+} sli_vga_searches;
+
+sl_status sli_vga_search_all(sl_context *context, const sli_vga_searches *searches);
 
 /// Measures lengths of shortest paths, and turns along them.
 sl_status sli_vga_measure_metric(sl_context *context, const sli_vga_sights *sights);

@@ -32,6 +32,8 @@ seeds_of() {
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
     fuzz_image) echo pgm ;;
+    fuzz_geojson_lines) echo geojson ;;
+    fuzz_number_table) echo csv ;;
     fuzz_ros) echo yaml ;;
     fuzz_uvtt) echo dd2vtt ;;
     *) echo "${1#fuzz_}" ;;

@@ -115,6 +115,11 @@ SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, cons
 SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
                                     size_t size, const sl_import_options *options, sl_map *map);
 
+/// Drawn lines of GeoJSON, as walls: lines, and outlines of polygons. It is no map, so sl_map_read
+/// does not read it. Coordinates are taken as they are, in a plane.
+SL_API sl_status sl_lines_read_geojson(sl_context *context, const char *name, const char *text,
+                                       size_t size, sl_map *map);
+
 /// Reads a map of a Doom WAD: lumps of Doom's or Hexen's records, or a TEXTMAP (UDMF). Lines with
 /// one side are walls; those with two are seen through, and so are doors, shut ones too: what a
 /// player may open hides nothing. With options->doors each line between a door sector (one whose
