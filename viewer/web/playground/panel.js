@@ -39,6 +39,19 @@ export function showDoors(names, shut, set) {
     }));
 }
 
+/** The sides of a chosen mirror or glass. @param {any} item what is chosen, if anything is */
+export function showChosen(item) {
+    const isMirror = item?.kind === 'mirror', one = item?.state === 'one';
+    get('chosen').hidden = !isMirror && item?.kind !== 'oneway';
+    if (get('chosen').hidden) return;
+    get('chosen-title').textContent = isMirror ? 'Chosen mirror' : 'Chosen glass';
+    get('one-sided-label').hidden = !isMirror;
+    get('one-sided').checked = one;
+    document.querySelector('[data-do=turn]').disabled = isMirror && !one;
+    get('chosen-text').textContent = !isMirror ? 'Ticks are on the dark side: who is there sees a wall.'
+        : one ? 'Ticks are on the back, which is a wall.' : 'Both sides reflect.';
+}
+
 /** @param {[string, string][]} entries name and colour */
 export function showKey(entries) {
     const ns = 'http://www.w3.org/2000/svg';
