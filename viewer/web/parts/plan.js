@@ -33,14 +33,17 @@
 /** @typedef {import('./camera.js').Camera} Camera */
 /** @typedef {import('./tones.js').Tones} Tones */
 
-/** @param {Camera} camera @param {ArrayLike<number>} flat x, y, x, y ... */
+/**
+ * Closes by a line: closePath() of Chromium measures the whole path at each call.
+ * @param {Camera} camera @param {ArrayLike<number>} flat x, y, x, y ...
+ */
 function trace(surface, camera, flat, closed) {
     for (let i = 0; i + 1 < flat.length; i += 2) {
         const [x, y] = camera.toScreen(flat[i], flat[i + 1]);
         if (i) surface.lineTo(x, y);
         else surface.moveTo(x, y);
     }
-    if (closed && flat.length > 2) surface.closePath();
+    if (closed && flat.length > 2) surface.lineTo(...camera.toScreen(flat[0], flat[1]));
 }
 
 /** From so many lines on, lines that would lie on one another are left out. */
@@ -91,7 +94,7 @@ export function strokeLines(surface, camera, lines, colour, width, dash = [], cl
 export function fillPolygons(surface, camera, polygons, colour, alpha = 1) {
     if (!polygons.length) return;
     surface.beginPath();
-    for (const polygon of thinOut(camera, polygons)) trace(surface, camera, polygon, true);
+    for (const polygon of thinOut(camera, polygons)) trace(surface, camera, polygon, false);
     surface.globalAlpha = alpha;
     surface.fillStyle = colour;
     surface.fill();
