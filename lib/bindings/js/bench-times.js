@@ -22,24 +22,24 @@ export function leastStages(bake) {
 export const eyesOf = ({ minX, minY, maxX, maxY }) => Array.from({ length: 1000 }, (_, i) => [
   minX + ((i * 0.618034) % 1) * (maxX - minX), minY + ((i * 0.414214) % 1) * (maxY - minY)])
 
-/** Milliseconds of a call. */
-function timed(call) {
-  const from = performance.now()
-  call()
-  return performance.now() - from
-}
-
 /**
  * @param {any} core of `load()` @param {any} Level @param {Uint8Array} text of a map @param {Uint8Array} slv its native bake
+ * @param {() => number} clock in milliseconds
  * @returns {Promise<{walls: number, same: boolean, bake: number, step: number, cells: number, polygon: number, region: number}>}
  */
-export async function measure(core, Level, text, slv) {
+export async function measure(core, Level, text, slv, clock) {
+  const timed = (call) => {
+    const from = clock()
+    call()
+    return clock() - from
+  }
   const options = { name: 'bench.map' }
   const made = core.bake(text, options), same = made.length === slv.length && made.every((byte, i) => byte === slv[i])
-  const bake = leastStages(() => {
-    const scene = core.open(text, options), { seconds } = scene.account
+  const bake = least(() => {
+    let scene
+    const time = timed(() => (scene = core.open(text, options)))
     scene.close()
-    return seconds
+    return time
   })
   const level = await Level.open(slv), scene = core.open(slv), eyes = eyesOf(level.bounds)
   const each = (ask) => (1000 * least(() => timed(() => { for (const [x, y] of eyes) ask(x, y) }))) / eyes.length

@@ -9,6 +9,7 @@ import { isPlan, parsePlan } from './plan-text.js';
 import { readSvg } from './svg.js';
 import { readTabletop } from './tabletop.js';
 import { readTiled } from './tiled.js';
+import { tiledFromXml } from './tiled-xml.js';
 
 /**
  * @typedef {Object} Reading
@@ -42,7 +43,7 @@ export async function readMapFile(bytes, describe) {
         text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
     } catch {
         throw new FormatError('this file is not text. The page reads map text, ASCII plans, .slv, Tiled ' +
-            'JSON, LDtk, Universal VTT, SVG and GeoJSON; the sightline command reads more');
+            'maps, LDtk, Universal VTT, SVG and GeoJSON; the sightline command reads more');
     }
     const start = text.trimStart();
     if (start.startsWith('{') || start.startsWith('[')) {
@@ -61,8 +62,8 @@ export async function readMapFile(bytes, describe) {
         }
     }
     if (start.startsWith('<') && /<svg[\s>]/i.test(start.slice(0, 4000))) return { format: 'SVG', ...readSvg(text) };
-    if (start.startsWith('<'))
-        throw new FormatError('XML files but SVG are not read here. In Tiled, save the map as JSON (.tmj)');
+    if (start.startsWith('<') && /<map[\s>]/.test(start.slice(0, 4000))) return { format: 'Tiled', ...(await readTiled(tiledFromXml(text))) };
+    if (start.startsWith('<')) throw new FormatError('XML files but SVG and Tiled maps are not read here');
     if (isPlan(text)) return { format: 'an ASCII plan', items: parsePlan(text), notes: [] };
     return { format: 'map text', items: parseMap(text), notes: [] };
 }

@@ -33,10 +33,11 @@ function shape(node) {
 const skipped = new Set(['defs', 'symbol', 'clipPath', 'mask', 'pattern', 'marker', 'metadata', 'title',
     'desc', 'style', 'script', 'linearGradient', 'radialGradient', 'filter']);
 
+/** Whether attributes or the style of an element hide it, as lib/io/svg.c reads them. */
 function isHidden(node) {
-    const style = node.getAttribute('style') ?? '';
-    return node.getAttribute('display') === 'none' || node.getAttribute('visibility') === 'hidden' ||
-        /display\s*:\s*none|visibility\s*:\s*hidden/.test(style);
+    const says = (property, value) => node.getAttribute(property) === value || (node.getAttribute('style') ?? '')
+        .replace(/[ \t\r\n]/g, '').split(';').some((part) => part.replace(/!.*/, '') === `${property}:${value}`);
+    return says('display', 'none') || says('visibility', 'hidden');
 }
 
 const layerName = (node) => {
@@ -112,6 +113,8 @@ export function readSvg(text) {
     const notes = [];
     if (counts.left) notes.push(plural(counts.left, 'text or picture', 'texts and pictures'));
     if (counts.hidden) notes.push(plural(counts.hidden, 'hidden element'));
+    if ([...page.querySelectorAll('style')].some((sheet) => /display\s*:\s*none|visibility\s*:\s*hidden/.test(sheet.textContent)))
+        notes.push('what the style sheet hides is drawn: hide it by display="none" instead');
     const range = Number(root.getAttribute('data-sightline-range'));
     if (range > 0) items.push({ kind: 'range', points: [], value: range });
     if (!items.length) throw new FormatError('the drawing has no lines or outlines');

@@ -1,5 +1,5 @@
 /**
- * Tiled maps as JSON (.tmj): orthogonal maps, fixed or in chunks. A simpler reader than that of the
+ * Tiled maps as JSON (.tmj), or as XML (tiled-xml.js): orthogonal maps, fixed or in chunks. A simpler reader than that of the
  * `sightline` command; the rules for what is solid are the same in order, and it says what it left.
  */
 import { doorItems } from './grid-doors.js';
@@ -109,7 +109,9 @@ export async function readTiled(map) {
     const { tilewidth: tw, tileheight: th } = map;
     if (tw !== th) throw new FormatError('tiles that are not square are not read here');
     const height = map.height * th, counts = { ellipses: 0 }, doors = [];
-    const cells = new Map(), boxes = [0, 0, map.width, map.height], items = [];
+    const cells = new Map(), items = [];
+    // A map without bounds is as large as its chunks.
+    const boxes = map.infinite ? [Infinity, Infinity, -Infinity, -Infinity] : [0, 0, map.width, map.height];
     const tileLayers = layers.filter(({ layer }) => layer.type === 'tilelayer');
     const spoken = says.size || layers.some((l) => l.says);
     let guessed = false, grid = null;

@@ -33,14 +33,17 @@
 /** @typedef {import('./camera.js').Camera} Camera */
 /** @typedef {import('./tones.js').Tones} Tones */
 
-/** @param {Camera} camera @param {ArrayLike<number>} flat x, y, x, y ... */
+/**
+ * Closes by a line: closePath() of Chromium measures the whole path at each call.
+ * @param {Camera} camera @param {ArrayLike<number>} flat x, y, x, y ...
+ */
 function trace(surface, camera, flat, closed) {
     for (let i = 0; i + 1 < flat.length; i += 2) {
         const [x, y] = camera.toScreen(flat[i], flat[i + 1]);
         if (i) surface.lineTo(x, y);
         else surface.moveTo(x, y);
     }
-    if (closed && flat.length > 2) surface.closePath();
+    if (closed && flat.length > 2) surface.lineTo(...camera.toScreen(flat[0], flat[1]));
 }
 
 /** From so many lines on, lines that would lie on one another are left out. */
@@ -91,7 +94,7 @@ export function strokeLines(surface, camera, lines, colour, width, dash = [], cl
 export function fillPolygons(surface, camera, polygons, colour, alpha = 1) {
     if (!polygons.length) return;
     surface.beginPath();
-    for (const polygon of thinOut(camera, polygons)) trace(surface, camera, polygon, true);
+    for (const polygon of thinOut(camera, polygons)) trace(surface, camera, polygon, false);
     surface.globalAlpha = alpha;
     surface.fillStyle = colour;
     surface.fill();
@@ -172,6 +175,16 @@ export function itemLine(item) {
     return isPolygon[item.kind] ? [...p, p[0], p[1]] : p;
 }
 
+/** Short strokes on a side of a line (1: the left one), for what only one side does. */
+function ticks([x0, y0, x1, y1], side, camera) {
+    const length = Math.hypot(x1 - x0, y1 - y0), [dx, dy] = [(x1 - x0) / length, (y1 - y0) / length];
+    const high = 8 / camera.scale, count = Math.min(200, Math.floor((length * camera.scale) / 9));
+    return Array.from({ length: count }, (_, i) => {
+        const along = ((i + 0.5) * length) / count, x = x0 + dx * along, y = y0 + dy * along;
+        return [x, y, x + high * (dx / 2 - side * dy), y + high * (dy / 2 + side * dx)];
+    });
+}
+
 const grouped = new WeakMap();
 
 /** Items by kind; lists of items are never changed in place, so this is kept with the list. */
@@ -197,6 +210,9 @@ function drawItems(surface, camera, scene, tones, wall) {
     strokeLines(surface, camera, lines('wall', 'walls', 'solid', 'open'), tones.wall, wall);
     strokeLines(surface, camera, lines('mirror'), tones.mirrored, wall + 1);
     strokeLines(surface, camera, lines('oneway'), tones.glass, wall, [6, 4]);
+    const backs = of('mirror').filter((item) => item.state === 'one').map((item) => item.points);
+    strokeLines(surface, camera, backs.flatMap((points) => ticks(points, -1, camera)), tones.mirrored, 1.5);
+    strokeLines(surface, camera, of('oneway').flatMap((item) => ticks(item.points, 1, camera)), tones.glass, 1.5);
     const doors = of('door'), isShut = (item) => scene.shut?.has(item.name) ?? item.state === 'shut';
     strokeLines(surface, camera, doors.filter(isShut).map(itemLine), tones.door, wall + 2);
     surface.lineCap = 'butt';

@@ -48,6 +48,8 @@ class Playground extends Sight {
             get(id).addEventListener('change', () => this.redraw());
         get('range').addEventListener('change', () => this.setRange(Number(get('range').value)));
         get('sight').addEventListener('change', () => this.bake());
+        get('one-sided').addEventListener('change', () =>
+            this.changeChosen(({ state, ...item }) => (get('one-sided').checked ? { ...item, state: 'one' } : item)));
         get('file').addEventListener('change', () => {
             if (get('file').files[0]) this.openFile(get('file').files[0]);
             get('file').value = '';
@@ -75,6 +77,12 @@ class Playground extends Sight {
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
+    }
+
+    /** @param {(item: any) => any} make what is chosen, changed */
+    changeChosen(make) {
+        const { items, selected } = this.doc;
+        if (selected >= 0) this.doc.change(items.map((item, i) => (i === selected ? make(item) : item)));
     }
 
     /** The view range is a statement of the map: 0 takes it out. @param {number} value */
@@ -199,6 +207,7 @@ class Playground extends Sight {
     redraw() {
         for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.doc.selected >= 0]])
             document.querySelector(`[data-do=${name}]`).disabled = !able;
+        panel.showChosen(this.doc.items[this.doc.selected]);
         this.view.draw();
     }
 
@@ -259,6 +268,7 @@ class Playground extends Sight {
             undo: () => this.doc.undo(),
             redo: () => this.doc.redo(),
             remove: () => this.doc.selected >= 0 && this.doc.remove(this.doc.selected),
+            turn: () => this.changeChosen((item) => ({ ...item, points: [...item.points.slice(2), ...item.points.slice(0, 2)] })),
             zoomIn: () => this.view.zoom(1.4),
             zoomOut: () => this.view.zoom(1 / 1.4),
             fit: () => (this.view.fitTo(), this.redraw()),

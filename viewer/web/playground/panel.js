@@ -2,19 +2,28 @@
 
 const get = (id) => document.getElementById(id);
 
-const number = (v, digits = 0) => v.toLocaleString('en', { maximumFractionDigits: digits });
+const numbers = new Intl.NumberFormat('en', { maximumFractionDigits: 2 });
 
-/** @param {[string, string | number | null | undefined][]} rows those without a value are left out */
+/**
+ * What has not changed stays as it is: this is called at each step of a drag.
+ * @param {[string, string | number | null | undefined][]} rows those without a value are left out
+ */
 export function showFacts(rows) {
-    const list = get('facts'), parts = [];
-    for (const [name, value] of rows) {
-        if (value === null || value === undefined) continue;
-        const term = document.createElement('dt'), text = document.createElement('dd');
-        term.textContent = name;
-        text.textContent = typeof value === 'number' ? number(value, 2) : value;
-        parts.push(term, text);
+    const list = get('facts'), shown = rows.filter(([, value]) => value !== null && value !== undefined);
+    const names = shown.map(([name]) => name).join('\n');
+    if (list.dataset.names !== names) {
+        list.dataset.names = names;
+        list.replaceChildren(...shown.flatMap(([name]) => {
+            const term = document.createElement('dt');
+            term.textContent = name;
+            return [term, document.createElement('dd')];
+        }));
     }
-    list.replaceChildren(...parts);
+    const places = list.querySelectorAll('dd');
+    for (const [i, [, value]] of shown.entries()) {
+        const text = typeof value === 'number' ? numbers.format(value) : value;
+        if (places[i].textContent !== text) places[i].textContent = text;
+    }
 }
 
 /** @param {string[]} names @param {Set<string>} shut @param {(name: string, open: boolean) => void} set */
@@ -37,6 +46,19 @@ export function showDoors(names, shut, set) {
         item.append(label);
         return item;
     }));
+}
+
+/** The sides of a chosen mirror or glass. @param {any} item what is chosen, if anything is */
+export function showChosen(item) {
+    const isMirror = item?.kind === 'mirror', one = item?.state === 'one';
+    get('chosen').hidden = !isMirror && item?.kind !== 'oneway';
+    if (get('chosen').hidden) return;
+    get('chosen-title').textContent = isMirror ? 'Chosen mirror' : 'Chosen glass';
+    get('one-sided-label').hidden = !isMirror;
+    get('one-sided').checked = one;
+    document.querySelector('[data-do=turn]').disabled = isMirror && !one;
+    get('chosen-text').textContent = !isMirror ? 'Ticks are on the dark side: who is there sees a wall.'
+        : one ? 'Ticks are on the back, which is a wall.' : 'Both sides reflect.';
 }
 
 /** @param {[string, string][]} entries name and colour */

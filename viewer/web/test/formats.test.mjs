@@ -1,8 +1,6 @@
 /** The readers and small parts that need no browser. */
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -18,33 +16,13 @@ import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
 import { packMap, unpackMap } from '../playground/share.js';
+import { bakeNative, needsNative, shapes } from './native.mjs';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
-const native = process.env.SIGHTLINE;
-const needsNative = { skip: native ? false : 'SIGHTLINE does not name the program' };
 const read = (text) => readMapFile(new TextEncoder().encode(text), () => assert.fail('not a .slv file'));
 
 const maps = ['maps', 'maps/effects', 'maps/oblique'].flatMap((folder) =>
     readdirSync(join(root, folder)).filter((f) => /\.(map|txt)$/.test(f)).map((f) => join(root, folder, f)));
-
-/** What the program makes of a map in a folder of its own. */
-function bakeNative(files) {
-    const folder = mkdtempSync(join(tmpdir(), 'sightline-web-'));
-    try {
-        return files.map(([name, content, ...options]) => {
-            writeFileSync(join(folder, name), content);
-            const out = join(folder, 'x.json'), slv = join(folder, 'x.slv');
-            execFileSync(native, ['bake', join(folder, name), '-o', slv, '--quiet', ...options], { stdio: 'pipe' });
-            execFileSync(native, ['export', slv, '--format', 'json', '-o', out], { stdio: 'pipe' });
-            return JSON.parse(readFileSync(out, 'utf8'));
-        });
-    } finally {
-        rmSync(folder, { recursive: true });
-    }
-}
-
-/** Cells as sets of corners, so that their order does not matter. */
-const shapes = (plan) => plan.cells.filter((c) => c.inside).map((c) => c.polygon.map(String).sort().join(' ')).sort();
 
 test('a map text that is read and written again bakes to the same', needsNative, () => {
     for (const path of maps.filter((p) => p.endsWith('.map'))) {

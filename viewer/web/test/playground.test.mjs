@@ -8,6 +8,8 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
+import { deflateSync } from 'node:zlib';
+import { bakeNative, needsNative, shapes } from './native.mjs';
 import { launch, programOf, serve, tool } from './site.mjs';
 
 const { SITE, SIGHTLINE, SHOTS } = process.env;
@@ -225,6 +227,90 @@ for (const name of wanted)
             await settled(page);
             const bounds = await page.evaluate(() => window.playground.doc.bounds());
             assert.deepEqual(bounds, [1, 1, 9, 9]);
+            await context.close();
+        });
+
+        test('a mirror reflects at one side, and is turned round', async () => {
+            const page = await open(), last = () => page.evaluate(() => window.playground.doc.text().trimEnd().split('\n').pop());
+            const images = () => page.evaluate(() => window.playground.seen.mirrored.length);
+            assert.ok(await page.locator('#chosen').isHidden());
+            await page.check('input[value=mirror]');
+            await page.mouse.move(...(await screen(page, 2, 2)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 2, 8)), { steps: 4 });
+            await page.mouse.up();
+            await settled(page);
+            assert.equal(await last(), 'mirror 2 2 2 8');
+            const both = await images();
+            assert.ok(both > 0);
+            assert.ok(await page.locator('[data-do=turn]').isDisabled());
+            await page.check('#one-sided'); // going up, its left side looks away from the eye
+            await settled(page);
+            assert.equal(await last(), 'mirror 2 2 2 8 one');
+            assert.equal(await images(), 0);
+            await shot(page, `${name}-mirror`);
+            await page.click('[data-do=turn]');
+            await settled(page);
+            assert.equal(await last(), 'mirror 2 8 2 2 one');
+            assert.equal(await images(), both);
+            await page.click('[data-do=undo]');
+            assert.equal(await last(), 'mirror 2 2 2 8 one');
+            await page.click('[data-do=undo]');
+            assert.equal(await last(), 'mirror 2 2 2 8');
+            assert.ok(await page.locator('#chosen').isHidden());
+            await context.close();
+        });
+
+        /** What the page and the program make of a file: equal cells, doors and starts. */
+        async function comparesWithNative(page, file, content, ...options) {
+            await drop(page, file, content);
+            await page.waitForFunction((f) => document.getElementById('message').textContent.startsWith(`${f} was`), file);
+            assert.match(await message(page), /was read as/);
+            await settled(page);
+            const text = await page.evaluate(() => window.playground.doc.text());
+            const [a, b] = bakeNative([[file, content, ...options], ['b.map', text]]);
+            assert.deepEqual(shapes(b), shapes(a), file);
+            assert.deepEqual(b.starts, a.starts, file);
+            const doorsOf = (plan) => (plan.doors ?? []).map((door) => [door.segments, door.open]);
+            assert.deepEqual(doorsOf(b), doorsOf(a), file);
+            return b;
+        }
+
+        test('Tiled XML becomes the same cells as in the program', needsNative, async () => {
+            const page = await open(), grid = [1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1, 1];
+            const bytes = Buffer.from(Uint32Array.from(grid).buffer), layer = (data, more = '') => `<layer id="1" name="Walls" width="5" height="3"${more}>${data}</layer>`;
+            const things = '<group name="g" offsetx="0"><objectgroup name="things"><object id="1" name="Player" x="20" y="20" width="8" height="8"/>' +
+                '<object id="2" name="back_door" x="32" y="16" width="16" height="16"><properties><property name="open" type="bool" value="false"/></properties></object>' +
+                '<object id="3" class="wall" x="20" y="18"><polyline points="0,0 4,0 4,4"/></object></objectgroup></group>';
+            const map = (layers, sets = '', more = '') => `<?xml version="1.0" encoding="UTF-8"?>\n<map version="1.10" orientation="orthogonal" width="5" height="3" ` +
+                `tilewidth="16" tileheight="16"${more}>${sets}${layers}</map>`;
+            const csv = layer(`<data encoding="csv">\n${grid}\n</data>`), packed = deflateSync(bytes).toString('base64');
+            for (const layers of [csv, layer(`<data>${grid.map((gid) => `<tile gid="${gid}"/>`).join('')}</data>`),
+                layer(`<data encoding="base64">${bytes.toString('base64')}</data>`), layer(`<data encoding="base64" compression="zlib">\n  ${packed}\n</data>`)]) {
+                const made = await comparesWithNative(page, 'a.tmx', map(layers + things), '--doors');
+                assert.equal(made.doors.length, 1);
+                assert.equal(made.starts.length, 1);
+            }
+            const tiles = '<tileset firstgid="1" name="t" tilewidth="16" tileheight="16" tilecount="2"><tile id="0"><properties><property name="solid" type="bool" value="true"/></properties></tile></tileset>';
+            await comparesWithNative(page, 'b.tmx', map(csv.replace('Walls', 'floor'), tiles));
+            await comparesWithNative(page, 'c.tmx', map(layer(`<data encoding="csv"><chunk x="-2" y="0" width="5" height="3">${grid}</chunk></data>`), '', ' infinite="1"'));
+            await drop(page, 'd.tmx', map(layer('<data encoding="csv">1,2,x</data>')));
+            await page.waitForFunction(() => /d\.tmx was not opened.*found 'x'/.test(document.getElementById('message').textContent));
+            await context.close();
+        });
+
+        test('styles of SVG hide what they hide in the program', needsNative, async () => {
+            const page = await open(), rect = (more) => `<rect x="6" y="2" width="3" height="3" ${more}/>`;
+            const svg = (inner) => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><rect width="12" height="8"/>${inner}</svg>`;
+            let shown = 0;
+            for (const [i, more] of ['display="none"', 'style="fill:red; display : none"', 'style="display:none !important"', 'visibility="hidden"', 'style="visibility:hidden"',
+                'style="-x-display:none"', 'style="display:none-such"', 'style="display:inline"', 'class="no"'].entries()) {
+                const { cells } = await comparesWithNative(page, `s${i}.svg`, svg(rect(more)));
+                shown += cells.length > 1;
+            }
+            assert.equal(shown, 4);
+            await drop(page, 'sheet.svg', svg(`<style>.no { display: none }</style>${rect('class="no"')}`));
+            await page.waitForFunction(() => /sheet\.svg was read.*style sheet/.test(document.getElementById('message').textContent));
             await context.close();
         });
 

@@ -1,0 +1,101 @@
+/**
+ * How long a step of a drag takes: native code, Node and Chromium in one run, as a table. It is no test.
+ * SITE names the built site, TOOLS a folder with playwright-core, SIGHTLINE the native program.
+ *
+ *     sh viewer/web/test/run.sh frame FOLDER PROGRAM
+ *
+ * A wall of the map is moved a little, again and again. Native: the least of the stages of a bake. Node: the
+ * least processor time of a bake and of a look from the eye. Chromium: the processor time of a step on average,
+ * of the page alone (it draws) and with its worker and all that the browser does; and the time from the move to
+ * the picture, the median.
+ */
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { launch, serve } from './site.mjs';
+
+const { SITE, SIGHTLINE } = process.env, STEPS = 30;
+const kinds = [['office'], ['office', '--turned', '30'], ['maze'], ['city'], ['city', '--turned', '30'], ['pillars'], ['pillars', '--turned', '30']];
+const folder = mkdtempSync(join(tmpdir(), 'sightline-frame-'));
+const path = (name) => join(folder, name);
+const native = (...words) => execFileSync(SIGHTLINE, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+
+/** Milliseconds of a native bake, without reading and writing files. */
+function nativeBake(map) {
+    const least = {};
+    for (let i = 0; i < 20; i++) {
+        const { read, write, ...stages } = JSON.parse(native('bake', map, '--threads', '1', '--json', '-o', path('x.slv'))).seconds;
+        for (const [stage, seconds] of Object.entries(stages)) least[stage] = Math.min(least[stage] ?? Infinity, 1000 * seconds);
+    }
+    return Object.values(least).reduce((sum, time) => sum + time, 0);
+}
+
+/** Processor milliseconds of a call, the least so far by name. */
+function spend(least, name, call) {
+    const before = process.cpuUsage(), result = call(), { user, system } = process.cpuUsage(before);
+    least[name] = Math.min(least[name] ?? Infinity, (user + system) / 1000);
+    return result;
+}
+
+async function inNode(text, eye) {
+    const { Core } = await import(pathToFileURL(join(SITE, 'core/core.js')).href), core = await Core.load(), least = {};
+    for (let i = 0; i < STEPS; i++) {
+        spend(least, 'bake', () => core.bake(text, {}));
+        spend(least, 'look', () => core.look(eye));
+    }
+    return least;
+}
+
+/** Moves the first wall that is inside, in the page itself; what a step takes. */
+async function inPage(page, session, text) {
+    await page.evaluate((map) => {
+        const { playground } = /** @type {any} */ (window), data = new DataTransfer();
+        data.items.add(new File([map], 'frame.map'));
+        playground.plan = null;
+        document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    }, text);
+    await page.waitForFunction(() => window.playground.plan && window.playground.seen);
+    const drag = (steps) => page.evaluate(async (count) => {
+        const { playground } = /** @type {any} */ (window), { doc } = playground, items = doc.items, step = {}, times = [];
+        const index = items.findIndex((item) => item.kind === 'wall') + 7;
+        for (let i = 1; i <= count; i++) {
+            const from = performance.now(), move = (i % 2 ? 1 : -1) * 1e-3 * i;
+            doc.change(items.map((item, k) => (k === index ? { ...item, points: item.points.map((v) => v + move) } : item)), step);
+            while (playground.bakes.running || playground.looks.running) await new Promise((done) => setTimeout(done, 0));
+            await new Promise(requestAnimationFrame);
+            times.push(performance.now() - from);
+        }
+        return times.sort((a, b) => a - b)[count >> 1];
+    }, steps);
+    const spent = async () => {
+        const { metrics } = await session.send('Performance.getMetrics');
+        return ['ThreadTime', 'ProcessTime'].map((wanted) => (1000 * metrics.find(({ name }) => name === wanted).value) / STEPS);
+    };
+    await drag(STEPS / 2);
+    const before = await spent(), median = await drag(STEPS), after = await spent();
+    return { page: after[0] - before[0], all: after[1] - before[1], median, eye: await page.evaluate(() => window.playground.eye),
+        cells: await page.evaluate(() => window.playground.plan.cellCount), walls: await page.evaluate(() => window.playground.doc.items.filter((item) => item.kind === 'wall').length) };
+}
+
+const site = await serve(SITE), browser = await launch('chromium');
+try {
+    const page = await (await browser.newContext({ viewport: { width: 1280, height: 800 } })).newPage();
+    const session = await page.context().newCDPSession(page);
+    await session.send('Performance.setTimeDomain', { timeDomain: 'threadTicks' });
+    await session.send('Performance.enable');
+    await page.goto(site.address);
+    await page.waitForFunction(() => window.playground?.plan);
+    console.log(`| map | walls | cells | native bake | Node: bake | Node: look | Chromium: page | Chromium: all | move to picture |\n|${' --- |'.repeat(9)}`);
+    for (const [kind, ...turn] of kinds) {
+        native('generate', kind, '--walls', '1000', '-o', path('x.map'), ...turn);
+        const text = readFileSync(path('x.map'), 'utf8'), shown = await inPage(page, session, text), node = await inNode(text, shown.eye);
+        const times = [nativeBake(path('x.map')), node.bake, node.look, shown.page, shown.all, shown.median].map((time) => time.toPrecision(3));
+        console.log(`| ${kind}${turn.length ? ', turned' : ''} | ${shown.walls} | ${shown.cells} | ${times.join(' | ')} |`);
+    }
+} finally {
+    await browser.close();
+    site.close();
+    rmSync(folder, { recursive: true });
+}
