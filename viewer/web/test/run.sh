@@ -3,11 +3,8 @@
 #   formats     what needs no browser, in node
 #   playground  the built site, with the course, in Chromium and Firefox, as far as they are installed
 #   quick       the same in one browser, without axe-core
-<<<<<<< HEAD
 #   effects     the rows of the playground in tools/EFFECTS.md, by the built site in node
-=======
 #   frame       no test: a table of what a step of a drag takes, in Chromium, in node and natively
->>>>>>> web
 # FOLDER is for the built site and for tools; PROGRAM is the native `sightline`.
 # BROWSERS=chromium chooses one. SHOTS=DIR keeps pictures of the page. SITE=DIR takes a built site.
 set -eu
@@ -43,16 +40,13 @@ if [ -z "${SITE:-}" ]; then
     SITE=$folder/site
 fi
 export SITE
-<<<<<<< HEAD
 [ "$what" != effects ] ||
     exec "${4:-python3}" -B "$here/../../../tests/command/test_effects.py" "$SIGHTLINE" --site "$SITE" --only
-=======
 if [ "$what" = frame ]; then
     command -v chromium >/dev/null || skip "Chromium is missing"
     [ -n "${SIGHTLINE:-}" ] || { echo "playground: frame needs the native program" >&2; exit 2; }
     exec node "$here/frame.mjs"
 fi
->>>>>>> web
 if [ "$what" = quick ]; then
     if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
     export BROWSERS QUICK=1
