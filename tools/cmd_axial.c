@@ -213,7 +213,8 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
         .what = "Finds the axial lines of a plan (space syntax), or reads drawn ones: a map, "
                 "GeoJSON, or a .csv with the columns x1,y1,x2,y2. Writes a table of their measures "
                 "under the "
-                "names of depthmapX.",
+                "names of depthmapX. Corners are in line only where they are so exactly. So a plan "
+                "that is turned by any angle has up to three times as many lines.",
         .examples = "  sightline axial office.map -o axial.csv --picture axial.png\n"
                     "  sightline axial drawn.dxf --lines drawn --radius n --radius 3 -o axial.csv",
         .options = options,

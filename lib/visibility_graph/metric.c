@@ -17,6 +17,9 @@
 /// (`detour`), or the search is done again with all ways on. Thus the result is that of trying all
 /// ways on, to the last bit.
 ///
+/// A search begins with bounds: the paths from the point beside it, moved to the new start. A way
+/// on that is longer than the bound by more than `detour` is passed over.
+///
 /// Cost: for each point about O(points + ways on in the lists of points beside walls). The lists
 /// take O(pairs of points that are two steps apart), up to a limit; what has no list tries all.
 /// Keys are at least 1 apart along a path, so a bucket of keys near each other is sorted once, when
@@ -271,10 +274,13 @@ static sl_status find_shortest(sl_context *context, walker *w, uint32_t from) {
     return SL_OK;
 }
 
+/// The longest path. Points that are not reached count by their bounds.
 static float longest_of(const walker *w) {
     float longest = 0;
-    for (uint32_t q = 0; q < w->sights->count; q++)
-        if (w->length[q] < INFINITY && w->length[q] > longest) longest = w->length[q];
+    for (uint32_t q = 0; q < w->sights->count; q++) {
+        const float length = w->length[q] < INFINITY ? w->length[q] : w->bound[q];
+        if (length < INFINITY && length > longest) longest = length;
+    }
     return longest;
 }
 
