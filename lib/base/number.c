@@ -10,7 +10,7 @@
 /// drops is exact. The text reads back to the same double where this is less than half of the step
 /// to the next double, 5^k in the same unit. Below a power of two that step is half as long, but
 /// all such powers here are written exactly. (Both Steele and White 1990, How to Print
-/// Floating-Point Numbers Accurately, with numbers small enough to need no bignums.) Other numbers
+/// Floating-Point Numbers Accurately, with numbers of at most 128 bits.) Other numbers
 /// are left to printf and strtod.
 #include "base/wide.h"
 #include "sightline/support.h"

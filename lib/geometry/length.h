@@ -1,6 +1,6 @@
-/// The length of a vector, the same to the last bit on every machine. The hypot of mathematical
-/// libraries is not: they round differently, some by the processor they find. A difference of one
-/// bit is enough to cut a map another way.
+/// Lengths, and the lesser and the greater of two numbers. A length is the same to the last bit on
+/// every machine. The hypot of mathematical libraries is not: they round differently, some by the
+/// processor they find. A difference of one bit is enough to cut a map another way.
 #ifndef SLI_LENGTH_H
 #define SLI_LENGTH_H
 
@@ -18,6 +18,15 @@ static inline double sli_length(double x, double y) {
     frexp(most, &exponent); // powers of 2 are exact
     const double u = ldexp(x, -exponent), v = ldexp(y, -exponent);
     return ldexp(sqrt(u * u + v * v), exponent);
+}
+
+/// fmin and fmax for numbers, without a call of the C library.
+static inline double sli_lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double sli_greater(double a, double b) {
+    return a > b ? a : b;
 }
 
 #endif

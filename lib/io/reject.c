@@ -120,11 +120,11 @@ static bool is_before(const hit *a, const hit *b, double point_x) {
     return side ? side > 0 : b->sector == SLI_NO_SECTOR;
 }
 
-/// The sector that the nearest line to the right of a point says that the point is in.
-static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *sector) {
-    const sl_box ray = {point, {HUGE_VAL, point.y}};
+/// The line that a ray to the right meets first, of the lines within reach; at HUGE_VAL for none.
+static sl_status meet_first(finder *find, sl_point point, double reach, hit *nearest) {
+    const sl_box ray = {point, {point.x + reach, point.y}};
     SL_TRY(sli_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
-    hit nearest = {.x = HUGE_VAL, .sector = SLI_NO_SECTOR};
+    *nearest = (hit){.x = HUGE_VAL, .sector = SLI_NO_SECTOR};
     for (size_t i = 0; i < find->nearby.count; i++) {
         const sli_doom_line *line = &find->level->lines[find->nearby.items[i]];
         if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
@@ -134,7 +134,23 @@ static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *se
         if (sli_orient(met.low, met.high, point) <= 0) continue;
         const double slope = (met.high.x - met.low.x) / (met.high.y - met.low.y);
         met.x = met.low.x + (point.y - met.low.y) * slope;
-        if (nearest.x == HUGE_VAL || is_before(&met, &nearest, point.x)) nearest = met;
+        if (nearest->x == HUGE_VAL || is_before(&met, nearest, point.x)) *nearest = met;
+    }
+    return SL_OK;
+}
+
+/// The sector that the nearest line to the right of a point says that the point is in. Lines out of
+/// reach are met beyond it. So a line that is met in the nearer half of the reach is the nearest:
+/// no two places are too close there, since a reach is far longer than what is too close.
+static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *sector) {
+    hit nearest = {.sector = SLI_NO_SECTOR};
+    if (find->tree.levels) {
+        const sl_box *all = &find->tree.boxes[find->tree.first[find->tree.levels - 1]];
+        double reach =
+            (all->max.x - all->min.x) / 64 + 1e-6 * (fabs(all->min.x) + fabs(all->max.x));
+        SL_TRY(meet_first(find, point, reach, &nearest));
+        for (; point.x + reach < all->max.x && nearest.x >= point.x + reach / 2; reach *= 4)
+            SL_TRY(meet_first(find, point, 4 * reach, &nearest));
     }
     *sector = nearest.sector;
     return SL_OK;

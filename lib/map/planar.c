@@ -257,8 +257,8 @@ static bool strictly_between(sl_point a, sl_point b, sl_point v) {
 /// Whether an edge must go through a point that is none of its ends.
 static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
     const double reach = p->weld / 2;
-    if (v.x < fmin(a.x, b.x) - reach || v.x > fmax(a.x, b.x) + reach ||
-        v.y < fmin(a.y, b.y) - reach || v.y > fmax(a.y, b.y) + reach)
+    if (v.x < sli_lesser(a.x, b.x) - reach || v.x > sli_greater(a.x, b.x) + reach ||
+        v.y < sli_lesser(a.y, b.y) - reach || v.y > sli_greater(a.y, b.y) + reach)
         return false;
     const double dx = (b.x - a.x) * p->scale, dy = (b.y - a.y) * p->scale;
     const double vx = (v.x - a.x) * p->scale, vy = (v.y - a.y) * p->scale;
@@ -324,10 +324,10 @@ static sl_status meet(planer *p, uint32_t edge, uint32_t other) {
 
 static bool apart(const planer *p, const piece *s, const piece *t) {
     const double slack = p->slack;
-    return fmax(s->p.x, s->q.x) + slack < fmin(t->p.x, t->q.x) ||
-           fmax(t->p.x, t->q.x) + slack < fmin(s->p.x, s->q.x) ||
-           fmax(s->p.y, s->q.y) + slack < fmin(t->p.y, t->q.y) ||
-           fmax(t->p.y, t->q.y) + slack < fmin(s->p.y, s->q.y);
+    return sli_greater(s->p.x, s->q.x) + slack < sli_lesser(t->p.x, t->q.x) ||
+           sli_greater(t->p.x, t->q.x) + slack < sli_lesser(s->p.x, s->q.x) ||
+           sli_greater(s->p.y, s->q.y) + slack < sli_lesser(t->p.y, t->q.y) ||
+           sli_greater(t->p.y, t->q.y) + slack < sli_lesser(s->p.y, s->q.y);
 }
 
 static sl_status compare_all(planer *p, size_t first, size_t count) {
@@ -382,8 +382,8 @@ static spread spread_of(const planer *p, size_t first, size_t count, int axis) {
     for (size_t i = first; i < first + count; i++) {
         const piece *at = &p->pieces.items[i];
         const double from = axis ? at->p.y : at->p.x, to = axis ? at->q.y : at->q.x;
-        s.low = fmin(s.low, fmin(from, to));
-        s.high = fmax(s.high, fmax(from, to));
+        s.low = sli_lesser(s.low, sli_lesser(from, to));
+        s.high = sli_greater(s.high, sli_greater(from, to));
         s.middle += (from + to) / 2 / (double)count;
     }
     return s;

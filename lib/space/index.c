@@ -23,6 +23,7 @@
 #include "space/index.h"
 
 #include "base/size.h"
+#include "geometry/length.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -33,21 +34,14 @@
 
 enum { FAN = 8 };
 
-static double lesser(double a, double b) {
-    return a < b ? a : b;
-}
-
-static double greater(double a, double b) {
-    return a > b ? a : b;
-}
-
 sl_box sli_box_around(sl_point a, sl_point b) {
-    return (sl_box){{lesser(a.x, b.x), lesser(a.y, b.y)}, {greater(a.x, b.x), greater(a.y, b.y)}};
+    return (sl_box){{sli_lesser(a.x, b.x), sli_lesser(a.y, b.y)},
+                    {sli_greater(a.x, b.x), sli_greater(a.y, b.y)}};
 }
 
 static sl_box joined(sl_box a, sl_box b) {
-    return (sl_box){{lesser(a.min.x, b.min.x), lesser(a.min.y, b.min.y)},
-                    {greater(a.max.x, b.max.x), greater(a.max.y, b.max.y)}};
+    return (sl_box){{sli_lesser(a.min.x, b.min.x), sli_lesser(a.min.y, b.min.y)},
+                    {sli_greater(a.max.x, b.max.x), sli_greater(a.max.y, b.max.y)}};
 }
 
 sl_box sli_box_with(sl_box box, sl_point point) {
@@ -71,7 +65,7 @@ static uint32_t spread_bits(uint32_t value) {
 /// The step, of 65,536, of a place between two limits. Rounding only changes the order of boxes.
 static uint32_t step_at(double at, double low, double high) {
     const double share = (at / 2 - low / 2) / (high / 2 - low / 2);
-    return share > 0 ? (uint32_t)lesser(share * 65536, 65535) : 0;
+    return share > 0 ? (uint32_t)sli_lesser(share * 65536, 65535) : 0;
 }
 
 static int compare_places(const void *left, const void *right) {
@@ -302,15 +296,16 @@ static void add_side(const filler *f, sl_point p, sl_point q) {
     }
     const uint32_t first = clamp(p.y - f->slack, rows), last = clamp(q.y + f->slack, rows);
     for (uint32_t row = first; row <= last; row++) {
-        const double low = fmax(p.y, row - f->slack), high = fmin(q.y, row + 1 + f->slack);
+        const double low = sli_greater(p.y, row - f->slack),
+                     high = sli_lesser(q.y, row + 1 + f->slack);
         const double rise = q.y - p.y;
         double a = p.x, b = q.x;
         if (rise > 0 && first != last) {
-            a = p.x + (q.x - p.x) * fmin(1, fmax(0, (low - p.y) / rise));
-            b = p.x + (q.x - p.x) * fmin(1, fmax(0, (high - p.y) / rise));
+            a = p.x + (q.x - p.x) * sli_lesser(1, sli_greater(0, (low - p.y) / rise));
+            b = p.x + (q.x - p.x) * sli_lesser(1, sli_greater(0, (high - p.y) / rise));
         }
-        f->rows[row].low = fmin(f->rows[row].low, fmin(a, b));
-        f->rows[row].high = fmax(f->rows[row].high, fmax(a, b));
+        f->rows[row].low = sli_lesser(f->rows[row].low, sli_lesser(a, b));
+        f->rows[row].high = sli_greater(f->rows[row].high, sli_greater(a, b));
     }
 }
 
@@ -322,8 +317,8 @@ static void enter(filler *f, uint32_t number, uint32_t *cells) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const double y = in_buckets(f, corners[i]).y;
-        low = fmin(low, y);
-        high = fmax(high, y);
+        low = sli_lesser(low, y);
+        high = sli_greater(high, y);
     }
     const uint32_t first = clamp(low - f->slack, g->rows), last = clamp(high + f->slack, g->rows);
     for (uint32_t row = first; row <= last; row++) f->rows[row] = (span){HUGE_VAL, -HUGE_VAL};
@@ -387,8 +382,8 @@ static double shape_of_cells(const sl_space *s) {
         const sl_point *v = s->vertices + s->cells[i].first_vertex;
         sl_point min = v[0], max = v[0];
         for (uint32_t k = 1; k < s->cells[i].vertex_count; k++) {
-            min = (sl_point){fmin(min.x, v[k].x), fmin(min.y, v[k].y)};
-            max = (sl_point){fmax(max.x, v[k].x), fmax(max.y, v[k].y)};
+            min = (sl_point){sli_lesser(min.x, v[k].x), sli_lesser(min.y, v[k].y)};
+            max = (sl_point){sli_greater(max.x, v[k].x), sli_greater(max.y, v[k].y)};
         }
         wide += (max.x - min.x) / (b->max.x - b->min.x);
         high += (max.y - min.y) / (b->max.y - b->min.y);
@@ -397,7 +392,7 @@ static double shape_of_cells(const sl_space *s) {
 }
 
 static uint32_t steps(double share) {
-    return share >= 1 ? (uint32_t)fmin(share, MOST_STEPS) : 1;
+    return share >= 1 ? (uint32_t)sli_lesser(share, MOST_STEPS) : 1;
 }
 
 sl_status sli_cell_grid_make(sl_context *context, sl_space *space) {
@@ -408,7 +403,7 @@ sl_status sli_cell_grid_make(sl_context *context, sl_space *space) {
     sl_status status = SL_OK;
     for (; status == SL_OK && !g->cells; buckets /= 4) {
         sli_cell_grid_destroy(context, g);
-        g->columns = steps(fmin(buckets, sqrt(buckets / shape)));
+        g->columns = steps(sli_lesser(buckets, sqrt(buckets / shape)));
         g->rows = steps(buckets / g->columns);
         status = fill(context, space, CELL_SLACK, most < UINT32_MAX ? most : UINT32_MAX, g);
     }

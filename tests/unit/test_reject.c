@@ -237,6 +237,40 @@ static void hides_nothing_that_is_seen(void **state) {
     sl_context_destroy(context);
 }
 
+/// Three sectors side by side, and boxes of walls that no line of the level touches: what is within
+/// them is known by the nearest line alone, however far away that is.
+static void the_nearest_line_may_be_far(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sli_doom_line lines[] = {{{0, 0}, {0, 1024}, .right = 0, .left = SLI_NO_SECTOR},
+                             {{100, 0}, {100, 1024}, .right = 1, .left = 0},
+                             {{900, 0}, {900, 1024}, .right = 2, .left = 1},
+                             {{1024, 0}, {1024, 1024}, .right = SLI_NO_SECTOR, .left = 2}};
+    const sli_doom_level level = {.lines = lines, .line_count = 4, .sector_count = 3};
+    sl_map map = {0};
+    sl_space space = {0};
+    sli_cell_sectors found = {0};
+    testing_space(context,
+                  "walls 0 0 1024 0 1024 1024 0 1024 0 0\nwall 100 0 100 1024\n"
+                  "wall 900 0 900 1024\nwalls 102 50 106 50 106 54 102 54 102 50\n"
+                  "walls 400 500 500 500 500 600 400 600 400 500\n"
+                  "walls 880 700 890 700 890 710 880 710 880 700\n",
+                  &map, &space);
+    assert_ok(context, sli_cell_sectors_find(context, &space, &level, &found));
+    for (uint32_t cell = 0; cell < space.cell_count; cell++) {
+        const sl_point corner = space.vertices[space.cells[cell].first_vertex];
+        const sl_point opposite = space.vertices[space.cells[cell].first_vertex + 2];
+        const double x = (corner.x + opposite.x) / 2;
+        assert_int_equal(found.first[cell + 1] - found.first[cell], 1);
+        assert_int_equal(found.sectors[found.first[cell]], (x > 100) + (x > 900));
+    }
+    assert_true(space.cell_count > 10);
+    sli_cell_sectors_destroy(context, &found);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void refuses_what_it_cannot_promise(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -315,6 +349,7 @@ static void survives_a_lack_of_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hides_nothing_that_is_seen),
+        cmocka_unit_test(the_nearest_line_may_be_far),
         cmocka_unit_test(refuses_what_it_cannot_promise),
         cmocka_unit_test(survives_a_lack_of_memory),
     };
