@@ -245,7 +245,7 @@ static void try_file(uint64_t seed, tally *t) {
     sl_runtime r = {0};
     const sl_runtime_status status = sl_runtime_open(block + shift, size, &r);
     FUZZ_CHECK((unsigned)status <= SL_RUNTIME_TEXT && *sl_runtime_status_text(status));
-    if (status == SL_RUNTIME_OK) check_open(&r, &random);
+    if (status == SL_RUNTIME_OK) check_open(&r, 0, &random);
     FUZZ_CHECK(memcmp(block + shift, bytes, size) == 0);
     free(block);
     t->count++;
