@@ -1,7 +1,7 @@
 // Hostile baked files for the runtime: small files of every kind are changed in their fields, cut,
 // lengthened, their tables shuffled, and sealed with the right checksum again; then each is opened,
 // and every function of the runtime is called on those that open. A plain program, thousands of
-// files a second: for millions of them, built with the address sanitizer (the preset asan).
+// files a second: for millions of them, built with the address sanitizer.
 //
 //     hostile_slv [--count N] [--seconds S] [--seed N] [--quiet]
 #include "runtime_calls.h"
