@@ -897,10 +897,10 @@ static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     if (!found[SLRT_VCIN].items) return true;
     for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
         if (!found[tag].items) return false;
+    if (found[SLRT_VCIN].count != 1) return false;
     rt->view_cell_count = slrt_u32(found[SLRT_VCIN].items);
     rt->view_node_count = slrt_u32(found[SLRT_VCIN].items + 4);
-    if (found[SLRT_VCIN].count != 1 || found[SLRT_VCEL].count != rt->cell_count ||
-        found[SLRT_VCPA].count != rt->view_node_count ||
+    if (found[SLRT_VCEL].count != rt->cell_count || found[SLRT_VCPA].count != rt->view_node_count ||
         found[SLRT_VCRO].count != (uint64_t)rt->cell_count + 1 ||
         rt->view_cell_count > rt->view_node_count || rt->view_node_count > rt->cell_count)
         return false;

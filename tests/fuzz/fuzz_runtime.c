@@ -40,7 +40,7 @@ static void check_bytes(const uint8_t *data, size_t size) {
     sl_runtime r = empty;
     const sl_runtime_status status = sl_runtime_open(bytes, size, &r);
     if (status == SL_RUNTIME_OK)
-        check_open(&r, &random);
+        check_open(&r, 2, &random);
     else
         FUZZ_CHECK(memcmp(&r, &empty, sizeof r) == 0 && *sl_runtime_status_text(status));
     check_same(bytes, size, status, &r, &random);

@@ -1,7 +1,7 @@
 // Hostile baked files for the runtime: small files of every kind are changed in their fields, cut,
 // lengthened, their tables shuffled, and sealed with the right checksum again; then each is opened,
 // and every function of the runtime is called on those that open. A plain program, thousands of
-// files a second: for millions of them, built with the address sanitizer (the preset asan).
+// files a second: for millions of them, built with the address sanitizer.
 //
 //     hostile_slv [--count N] [--seconds S] [--seed N] [--quiet]
 #include "runtime_calls.h"
@@ -245,7 +245,7 @@ static void try_file(uint64_t seed, tally *t) {
     sl_runtime r = {0};
     const sl_runtime_status status = sl_runtime_open(block + shift, size, &r);
     FUZZ_CHECK((unsigned)status <= SL_RUNTIME_TEXT && *sl_runtime_status_text(status));
-    if (status == SL_RUNTIME_OK) check_open(&r, &random);
+    if (status == SL_RUNTIME_OK) check_open(&r, 0, &random);
     FUZZ_CHECK(memcmp(block + shift, bytes, size) == 0);
     free(block);
     t->count++;

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Runs each fuzzer for SECONDS, one a core at once: tests/fuzz/run.sh SECONDS [BUILD [FUZZER...]]
 # BUILD is the folder of a build with -DSIGHTLINE_FUZZERS=ON (default: build/fuzz; made if it is not
-# there). Seeds come from maps/ and tests/fuzz/seeds by the ending of the name; what a fuzzer learns
-# stays in BUILD/fuzz/NAME/corpus, what it finds in BUILD/fuzz/NAME/findings.
+# there). Seeds come from maps/ and tests/fuzz/seeds by the ending of the name, and from what earlier
+# runs have learnt (tests/fuzz/corpus, see keep.sh); what a fuzzer learns stays in
+# BUILD/fuzz/NAME/corpus, what it finds in BUILD/fuzz/NAME/findings.
 # Exit status: 0 without findings, 1 with, 2 where it cannot run.
 set -eu
 
@@ -54,6 +55,8 @@ run_one() {
         [ ! -f "$seed" ] || cp "$seed" "$work/seeds/"
     done
     [ $baked = no ] || cp "$root"/tests/old_files/*.slv "$work/seeds/"
+    kept=$root/tests/fuzz/corpus/$name.tar.gz
+    [ ! -f "$kept" ] || tar -xzf "$kept" -C "$work/seeds"
     dictionary=$root/tests/fuzz/${name#fuzz_}.dict
     [ $baked = no ] || dictionary=$root/tests/fuzz/map_text.dict
     set -- -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=$length \

@@ -133,20 +133,31 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     check_polygon(r, &cone, sl_random_unit(random) * (r->max_x - r->min_x), b);
 }
 
-static void check_places(const sl_runtime *r, sl_random *random, const buffers *b) {
-    for (int i = 0; i < 2; i++) {
-        double x, y;
+/// A corner, somewhere within the bounds, or the middle of a portal.
+static void check_kind_of_place(const sl_runtime *r, int kind, sl_random *random,
+                                const buffers *b) {
+    double x, y;
+    if (kind == 0) {
         sl_runtime_get_vertex(r, (uint32_t)sl_random_below(random, r->vertex_count), &x, &y);
         check_place(r, x, y, random, b);
+    } else if (kind == 1) {
         check_place(r, r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
                     r->min_y + sl_random_unit(random) * (r->max_y - r->min_y), random, b);
-        if (!r->directed_count) continue;
+    } else if (r->directed_count) {
         const sl_runtime_directed_portal e =
             sl_runtime_get_directed_portal(r, (uint32_t)sl_random_below(random, r->directed_count));
         FUZZ_CHECK(e.cell < r->cell_count && e.portal < r->portal_count);
         check_place(r, e.left[0] / 2 + e.right[0] / 2, e.left[1] / 2 + e.right[1] / 2, random, b);
     }
-    check_place(r, odd_real(random), odd_real(random), random, b);
+}
+
+/// `rounds` places of each kind, and an odd one; for 0 rounds one place of all these.
+static void check_places(const sl_runtime *r, int rounds, sl_random *random, const buffers *b) {
+    const int only = rounds ? 3 : (int)sl_random_below(random, 4);
+    for (int i = 0; i < rounds; i++)
+        for (int kind = 0; kind < 3; kind++) check_kind_of_place(r, kind, random, b);
+    if (only < 3) check_kind_of_place(r, only, random, b);
+    if (only == 3) check_place(r, odd_real(random), odd_real(random), random, b);
 }
 
 /// Doors and starts of the map text, whose bytes are in the block.
@@ -245,7 +256,8 @@ static void check_boxes(const sl_runtime *r, const unsigned char *shut, sl_rando
     free(memory);
 }
 
-static void check_open(const sl_runtime *r, sl_random *random) {
+/// Calls them all. `rounds`: how thoroughly eyes are placed.
+static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     const buffers b = {.bits = room((r->cell_count + 7) / 8),
                        .seen = room(r->cell_count),
                        .scratch = room(sl_runtime_scratch_count(r) * sizeof *b.scratch),
@@ -259,12 +271,12 @@ static void check_open(const sl_runtime *r, sl_random *random) {
     FUZZ_CHECK(!sl_runtime_can_see(r, r->cell_count, 0) &&
                !sl_runtime_can_see(r, 0, r->cell_count));
     check_text(r);
-    check_places(r, random, &b);
+    check_places(r, rounds, random, &b);
     unsigned char *shut = NULL;
     if (r->door_count && r->door_count <= 64) shut = room(r->door_count);
     for (uint32_t i = 0; shut && i < r->door_count; i++) shut[i] = i % 3 != 0;
     check_views(r, shut, &b);
-    check_boxes(r, shut, random, &b);
+    if (rounds || !sl_random_below(random, 4)) check_boxes(r, shut, random, &b);
     free(shut);
     free(b.bits);
     free(b.seen);

@@ -7,7 +7,10 @@
 
 #include "sightline/support.h"
 
+#include <fcntl.h>
 #include <math.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 static const char *const rooms = "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nwall 4 6 9 6\n";
 static const char *const oblique = "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n";
@@ -329,6 +332,100 @@ static void a_search_without_end_is_given_up(void **state) {
     sl_context_destroy(context);
 }
 
+/// The file at the end of a page, with none behind it: who reads on ends there, in every build.
+static sl_runtime_status open_before_a_gap(const char *bytes, size_t size) {
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (size / page + 1) * page;
+    const int nothing = open("/dev/zero", O_RDWR);
+    assert_true(nothing >= 0);
+    char *block = mmap(NULL, whole + page, PROT_READ | PROT_WRITE, MAP_PRIVATE, nothing, 0);
+    close(nothing);
+    assert_true(block != MAP_FAILED);
+    assert_int_equal(mprotect(block + whole, page, PROT_NONE), 0);
+    memcpy(block + whole - size, bytes, size);
+    sl_runtime runtime;
+    const sl_runtime_status status = sl_runtime_open(block + whole - size, size, &runtime);
+    munmap(block, whole + page);
+    return status;
+}
+
+/// Each section of the file without items, and at its very end.
+static void an_empty_section_at_the_end_is_not_read(void **state) {
+    (void)state;
+    static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT", "PVSO",
+                                       "PVSB", "VCIN", "VCEL", "VCPA", "VCRO", "VCRB"};
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, rooms);
+    const uint32_t count = f.runtime.cell_count;
+    uint32_t *views = calloc(count, sizeof *views), none = SL_RUNTIME_NO_CELL;
+    assert_non_null(views);
+    const sl_pvs *pvs = &f.baked.visibility.pvs;
+    const uint64_t own = pvs->offsets[1];
+    uint64_t *offsets = calloc(count + 1, sizeof *offsets);
+    assert_non_null(offsets);
+    for (uint32_t i = 1; i <= count; i++) offsets[i] = own;
+    const uint32_t counts[2] = {1, 1};
+    const struct {
+        const char *tag;
+        const void *items;
+        uint32_t item_bytes;
+        uint64_t count;
+    } more[] = {{"VCIN", counts, 8, 1},
+                {"VCEL", views, 4, count},
+                {"VCPA", &none, 4, 1},
+                {"VCRO", offsets, 8, count + 1},
+                {"VCRB", pvs->bytes, 1, own}};
+    char *bytes = f.bytes;
+    size_t size = f.size;
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++) {
+        char *longer =
+            slv_with(bytes, &size, more[i].tag, more[i].items, more[i].item_bytes, more[i].count);
+        if (bytes != f.bytes) free(bytes);
+        bytes = longer;
+    }
+    slv_seal(bytes, size);
+    assert_int_equal(open_before_a_gap(bytes, size), SL_RUNTIME_OK);
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
+        char *entry = slv_entry(bytes, tags[i]);
+        assert_non_null(entry);
+        sli_slv_section was, empty;
+        memcpy(&was, entry, sizeof was);
+        empty = was;
+        empty.offset = size;
+        empty.count = 0;
+        memcpy(entry, &empty, sizeof empty);
+        slv_seal(bytes, size);
+        const sl_runtime_status status = open_before_a_gap(bytes, size);
+        if (status == SL_RUNTIME_OK) fail_msg("a file without %s is opened", tags[i]);
+        memcpy(entry, &was, sizeof was);
+    }
+    free(bytes);
+    free(views);
+    free(offsets);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+/// Bounds of almost no size about an eye, with corners far outside.
+static void no_polygon_has_a_point_that_is_no_number(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "wall 0 0 4 0\nwall 0 3 4 3\n");
+    const double bounds[4] = {0, 0, 0x1p-1073, 0x1p-1042};
+    memcpy(slv_items(f.bytes, "INFO"), bounds, sizeof bounds);
+    slv_seal(f.bytes, f.size);
+    baked_file_open(&f);
+    const sl_runtime_view view = sl_runtime_view_all_round(0x1p-1073, 0x1p-1043);
+    uint32_t scratch[64];
+    double points[256];
+    assert_in_range(sl_runtime_scratch_count(&f.runtime), 1, 64);
+    const uint32_t count =
+        sl_runtime_visible_polygon(&f.runtime, &view, NULL, 0x1p-1074, scratch, points, 128);
+    assert_in_range(count, 0, 128);
+    for (uint32_t i = 0; i < 2 * count; i++) assert_true(isfinite(points[i]));
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_length_and_every_bit_counts),
@@ -341,6 +438,8 @@ int main(void) {
         cmocka_unit_test(the_version_says_what_locates_points),
         cmocka_unit_test(unknown_sections_are_passed_over),
         cmocka_unit_test(a_search_without_end_is_given_up),
+        cmocka_unit_test(an_empty_section_at_the_end_is_not_read),
+        cmocka_unit_test(no_polygon_has_a_point_that_is_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,9 +167,8 @@ SL_API size_t sl_number_length(const char *text, size_t length);
 SL_API bool sl_number_read(const char *text, size_t length, double *value);
 
 // --- whole files: a file is written beside its target and renamed, so that a failure leaves the
-// --- old one as it was and nothing half-written. A program that is killed meanwhile leaves the
-// file
-// --- beside it, named as the target with a dot and six characters more: it may be deleted.
+// --- old one as it was and nothing half-written. A program that is killed meanwhile may leave
+// --- the file beside it: the target's name, a dot and six characters. It may be deleted.
 
 /// The bytes of a file, which the caller frees (sl_free).
 typedef struct sl_bytes {
