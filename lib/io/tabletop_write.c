@@ -9,6 +9,7 @@
 #include "sightline/io.h"
 #include "sightline/json_write.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 typedef struct tabletop_writer {
@@ -240,7 +241,7 @@ static void put_wall_flags(tabletop_writer *writer, const foundry_wall *wall) {
 
 static void put_id(tabletop_writer *writer, const char *kind, size_t number) {
     char id[32];
-    snprintf(id, sizeof id, "%s%011zu", kind, number % 100000000000u);
+    snprintf(id, sizeof id, "%s%011" PRIu64, kind, (uint64_t)number % 100000000000u);
     put_text(writer, "_id", id);
 }
 

@@ -166,7 +166,7 @@ def fetch_libraries(target, folder):
 # ---- Building and running ----
 
 def configure(target, folder, root):
-    build = folder / "build"
+    build = folder / ("build" if root else "core")  # apart: CMake keeps which libraries it found
     command = ["cmake", "-S", str(SOURCE), "-B", str(build), "-G", "Ninja",
                f"-DCMAKE_C_COMPILER={target.compiler}", "-DCMAKE_BUILD_TYPE=Release",
                "-DSIGHTLINE_EVERYWHERE=ON",
@@ -193,7 +193,7 @@ def configure(target, folder, root):
                         f"-DCMAKE_EXE_LINKER_FLAGS=-L{libraries} "
                         f"-Wl,-rpath-link,{libraries}:{root}/lib/{target.folder}"]
     parts = "ON" if root else "OFF"
-    command += [f"-DSIGHTLINE_IO={parts}", f"-DSIGHTLINE_TESTS={parts}"]
+    command += [f"-DSIGHTLINE_IO={parts}", f"-DSIGHTLINE_TESTS={parts}", "-DSIGHTLINE_PYTHON=OFF"]
     run([*command, f"-DCMAKE_C_FLAGS={flags}"], folder / "build.log", env=environment)
     return build
 

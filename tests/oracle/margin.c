@@ -55,9 +55,8 @@ static int lowest_exponent(const oracle_portal *portals, size_t count) {
 }
 
 static void init_integer(mpz_t out, double value, int exponent) {
-    static_assert(LONG_MAX >= INT64_MAX, "a long holds a mantissa");
     const dyadic d = dyadic_of(value);
-    mpz_init_set_si(out, (long)d.odd);
+    mpz_init_set_d(out, (double)d.odd); // 53 bits; a long may have 32
     if (d.odd) mpz_mul_2exp(out, out, (mp_bitcnt_t)(d.exponent - exponent));
 }
 

@@ -117,8 +117,7 @@ void oracle_sequence_destroy(oracle_sequence *sequence) {
 static void set_integer(mpz_t out, double value, int exponent) {
     dyadic d = dyadic_of(value);
     assert(d.odd == 0 || d.exponent >= exponent);
-    static_assert(LONG_MAX >= INT64_MAX, "a long holds a mantissa");
-    mpz_set_si(out, (long)d.odd);
+    mpz_set_d(out, (double)d.odd); // 53 bits; a long may have 32
     if (d.odd) mpz_mul_2exp(out, out, (mp_bitcnt_t)(d.exponent - exponent));
 }
 
