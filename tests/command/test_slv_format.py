@@ -148,14 +148,17 @@ class SlvFormat(sandbox.ProgramTest):
         self.assertEqual(done, part["unit_count"])
 
     def test_old_files(self):
-        """Version 1 with oblique walls: the tree is passed over."""
+        """The tree is passed over in version 1 with BEYO: with oblique walls."""
+        loose = set()
         for path in sorted((ROOT / "tests/old_files").glob("*.slv")):
             slv = slv_reader.Slv(path.read_bytes())
-            self.assertEqual((slv.header["version"], "BEYO" in slv.table), (1, True))
+            if slv.header["version"] == 1 and "BEYO" in slv.table:
+                loose.add(path.stem)
             self.assertEqual(sum(map(len, slv.visible())), slv.info["pairs"])
             self.box.path(path.name).write_bytes(path.read_bytes())
             info = json.loads(self.printed("info", path.name, "--json"))
             self.assertEqual(len(slv.cells), info["cells"])
+        self.assertEqual(loose, {"askew", "star"})
 
     def test_damage(self):
         self.printed("bake", ROOT / "maps/flat.map", "-o", "map.slv", "-q")
