@@ -84,8 +84,8 @@ class CheckSightlines(unittest.TestCase):
     def test_turned_places(self):
         """turned.py turns all that has a place, and an open polygon with the walls in it."""
         told = ["walls 0 0 8 0 8 6", "wall 4 0 4 3 solid", "solid 1 1 2 1 2 2",
-                "open 0 0 8 0 8 6 0 6", "door front 4 3 4 6 open", "mirror 8 1 8 2 one", "oneway 0 1 0 2", "seam 0 0 4 3",
-                "start 1 5 90"]
+                "open 0 0 8 0 8 6 0 6", "door front 4 3 4 6 open", "mirror 8 1 8 2 one", "oneway 0 1 0 2",
+                "seam 0 0 4 3", "start 1 5 90"]
         wanted = ["walls 10.0 10.0 18.0 10.0 18.0 16.0", "wall 14.0 10.0 14.0 13.0 solid",
                   "solid 11.0 11.0 12.0 11.0 12.0 12.0",
                   "open 10.0 10.0 18.0 10.0 18.0 16.0 10.0 16.0",
