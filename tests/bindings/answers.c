@@ -5,6 +5,10 @@
 ///     c a b                            1 if cell a can see cell b, with the doors as they stand
 ///     p x0 y0 x1 y1                    1 if the points see each other (by the library)
 ///     k x y full rx ry lx ly range     cells that an eye sees
+///     C a b, K x y ...                 likewise, directly or by mirror; K: how many directly, then
+///                                      the cells
+///     s a b, S a b                     cells seen from anywhere in a or b; S: or by mirror
+///     m                                what the file holds of mirrors (sl_runtime_mirrors)
 ///     v x y full rx ry lx ly range     the polygon that it sees
 ///     d number shut                    shuts or opens a door; no answer
 ///     tk x y ..., tv ..., tr ...       microseconds that cells, polygons or (library) regions of
@@ -47,6 +51,30 @@ static void look(const answerer *a) {
     const uint32_t count = sl_runtime_look_past(&a->level, &v, a->shut, number(), a->scratch,
                                                 a->cells, a->level.cell_count);
     for (uint32_t i = 0; i < count; i++) printf("%s%u", i ? " " : "", (unsigned)a->cells[i]);
+    putchar('\n');
+}
+
+static void look_mirrored(const answerer *a) {
+    const sl_runtime_view v = view();
+    uint32_t direct;
+    const uint32_t count = sl_runtime_look_mirrored(&a->level, &v, a->shut, number(), a->scratch,
+                                                    a->cells, a->level.cell_count, &direct);
+    printf("%u", (unsigned)direct);
+    for (uint32_t i = 0; i < count; i++) printf(" %u", (unsigned)a->cells[i]);
+    putchar('\n');
+}
+
+static void seen_from(const answerer *a, bool mirrored) {
+    const uint32_t cells[] = {(uint32_t)number(), (uint32_t)number()};
+    unsigned char *bits = (unsigned char *)a->scratch;
+    const char *between = "";
+    (mirrored ? sl_runtime_seen_from_mirrored : sl_runtime_seen_from)(&a->level, cells, 2, a->shut,
+                                                                      bits);
+    for (uint32_t i = 0; i < a->level.cell_count; i++) {
+        if (!(bits[i / 8] >> i % 8 & 1)) continue;
+        printf("%s%u", between, (unsigned)i);
+        between = " ";
+    }
     putchar('\n');
 }
 
@@ -115,7 +143,16 @@ static void answer(answerer *a, const char *kind) {
     } else if (*kind == 'c') {
         const uint32_t from = (uint32_t)number(), to = (uint32_t)number();
         printf("%d\n", sl_runtime_can_see_past(&a->level, from, to, a->shut));
-    } else if (*kind == 'p')
+    } else if (*kind == 'C') {
+        const uint32_t from = (uint32_t)number(), to = (uint32_t)number();
+        printf("%d\n", sl_runtime_can_see_mirrored(&a->level, from, to, a->shut));
+    } else if (*kind == 's' || *kind == 'S')
+        seen_from(a, *kind == 'S');
+    else if (*kind == 'm')
+        printf("%d\n", (int)a->level.mirrors);
+    else if (*kind == 'K')
+        look_mirrored(a);
+    else if (*kind == 'p')
         points_see(a);
     else if (*kind == 't')
         take_time(a, kind[1]);

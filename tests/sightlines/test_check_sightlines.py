@@ -9,6 +9,8 @@ import sys
 import tempfile
 import unittest
 
+import turned
+
 WITHOUT = ["--without", "door,mirror,oneway,range"]
 
 
@@ -78,6 +80,23 @@ class CheckSightlines(unittest.TestCase):
                 status, result = self.check(path, "--map", "map01", "--reject", path)
                 self.assertEqual((result["hidden_pairs"], result["lost_pairs"]), (hidden, lost))
                 self.assertEqual(status, int(lost > 0))
+
+    def test_turned_places(self):
+        """turned.py turns all that has a place, and an open polygon with the walls in it."""
+        told = ["walls 0 0 8 0 8 6", "wall 4 0 4 3 solid", "solid 1 1 2 1 2 2",
+                "open 0 0 8 0 8 6 0 6", "door front 4 3 4 6 open", "mirror 8 1 8 2 one", "oneway 0 1 0 2",
+                "seam 0 0 4 3", "start 1 5 90"]
+        wanted = ["walls 10.0 10.0 18.0 10.0 18.0 16.0", "wall 14.0 10.0 14.0 13.0 solid",
+                  "solid 11.0 11.0 12.0 11.0 12.0 12.0",
+                  "open 10.0 10.0 18.0 10.0 18.0 16.0 10.0 16.0",
+                  "door front 14.0 13.0 14.0 16.0 open", "mirror 18.0 11.0 18.0 12.0 one",
+                  "oneway 10.0 11.0 10.0 12.0", "seam 10.0 10.0 14.0 13.0", "start 11.0 15.0 90"]
+        self.assertEqual(list(turned.turned("\n".join(told), 0, 10)), wanted)
+        text = ["sightline 1", "open 0 0 8 0 8 6 0 6", "wall 4 0 4 3", "start 1 5 0"]
+        path = self.folder / "open.map"
+        path.write_text("\n".join(turned.turned("\n".join(text), 33, 0)) + "\n")
+        status, result = self.check(path, "--slv", self.bake(path), count=2000)
+        self.assertEqual((status, result["lost"]), (0, 0))
 
 
 if __name__ == "__main__":

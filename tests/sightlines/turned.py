@@ -30,7 +30,8 @@ import tempfile
 
 COLUMNS = ["input", "angle", "move", "walls", "welded", "crossings", "largest_move", "cells", "portals",
            "pairs", "read_s", "subdivide_s", "see_s", "lost", "regions_worst", "result"]
-PLACES = {"wall": None, "walls": None, "mirror": 4, "oneway": 4, "seam": 4, "cell": None, "solid": None}
+PLACES = {"wall": 4, "walls": None, "mirror": 4, "oneway": 4, "seam": 4, "cell": None,
+          "solid": None, "open": None}
 METHODS = ["dfs", "prune", "multipass"]
 
 

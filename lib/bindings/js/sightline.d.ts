@@ -60,6 +60,11 @@ export interface View {
   range?: number
 }
 
+export interface Mirrors {
+  /** Count what is seen by mirror, too. Without it mirrors are walls. */
+  mirrors?: boolean
+}
+
 export class Level {
   private constructor()
   /** Opens a baked file, which is checked wholly. */
@@ -69,6 +74,11 @@ export class Level {
   readonly range: number
   /** The bake was stopped: cells that were not decided count as seen. */
   readonly unfinished: boolean
+  /**
+   * What the file holds of what is seen by mirror: the map has no mirrors, or it was baked, or the bake
+   * did not look into the mirrors, and with the option `mirrors` every cell counts as seen.
+   */
+  readonly mirrors: 'none' | 'baked' | 'not baked'
   readonly cellCount: number
   readonly cells: readonly (Cell & { hasRow: boolean })[]
   readonly starts: readonly Start[]
@@ -78,17 +88,21 @@ export class Level {
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x: number, y: number): number
   /** Whether something in cell b can be seen from somewhere in cell a. */
-  canSee(a: number, b: number): boolean
-  /** Whether two points see each other. */
-  canSee(a: Point, b: Point): boolean
-  /** The cells that an eye sees, its own first. */
-  look(x: number, y: number, view?: View): Uint32Array
-  /** x, y, x, y ... counter-clockwise about the eye. */
+  canSee(a: number, b: number, options?: Mirrors): boolean
+  /** Whether two points see each other. With `mirrors`: whether they may; false is sure. */
+  canSee(a: Point, b: Point, options?: Mirrors): boolean
+  /**
+   * The cells that an eye sees, its own first. With `mirrors`, the first `direct` of them are seen
+   * directly. The others are seen by mirror: none is missed, some may be added.
+   */
+  look(x: number, y: number, view: View & { mirrors: true }): Uint32Array & { direct: number }
+  look(x: number, y: number, view?: View & Mirrors): Uint32Array
+  /** x, y, x, y ... counter-clockwise about the eye. It ends at mirrors. */
   visiblePolygon(x: number, y: number, view?: View): Float64Array
   /** The cells seen from anywhere in a cell. */
-  row(cell: number): Uint32Array
+  row(cell: number, options?: Mirrors): Uint32Array
   /** The cells seen from anywhere in some cells. */
-  seenFrom(cells: ArrayLike<number>): Uint32Array
+  seenFrom(cells: ArrayLike<number>, options?: Mirrors): Uint32Array
   /** The cells that a box lies in or touches. */
   boxCells(minX: number, minY: number, maxX: number, maxY: number): Uint32Array
   /** The view cell of a cell; -1 for none. */

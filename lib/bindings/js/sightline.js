@@ -10,6 +10,7 @@ export { SightlineError }
 
 const NO_CELL = 0xffffffff
 const PAGE = 65536
+const MIRRORS = ['none', 'baked', 'not baked']
 
 export class Level {
   #core
@@ -28,6 +29,7 @@ export class Level {
   #cells
   #range
   #unfinished
+  #mirrors
 
   /**
    * Opens a baked file, which is checked wholly.
@@ -62,12 +64,13 @@ export class Level {
       throw new SightlineError(message, { code: 'bad input' })
     }
     const { integers, numbers } = this.#ask(() => core.describe())
-    const [cells, , doors, starts, scratch, , unfinished] = integers
+    const [cells, , doors, starts, scratch, mirrors, unfinished] = integers
     const [minX, minY, maxX, maxY, range] = numbers
     this.#cellCount = cells
     this.#bounds = Object.freeze({ minX, minY, maxX, maxY })
     this.#range = range
     this.#unfinished = !!unfinished
+    this.#mirrors = MIRRORS[mirrors]
     this.#shut = place(doors)
     this.#scratch = place(4 * scratch)
     this.#list = place(4 * cells + cells)
@@ -139,6 +142,14 @@ export class Level {
     return this.#unfinished
   }
 
+  /**
+   * What the file holds of what is seen by mirror: 'none' (the map has no mirrors), 'baked' or 'not
+   * baked'. Mirrors are walls to all calls, but where the option `mirrors` is true.
+   */
+  get mirrors() {
+    return this.#mirrors
+  }
+
   get cellCount() {
     return this.#cellCount
   }
@@ -208,20 +219,22 @@ export class Level {
 
   /**
    * Of two cells: whether something in one can be seen from somewhere in the other. Of two points:
-   * whether one sees the other. With the doors as they stand.
+   * whether one sees the other. With the doors as they stand. `mirrors`: or by mirror; of two points
+   * the answer is then whether one may see the other.
    *
    * @param {number | {x: number, y: number}} a
    * @param {number | {x: number, y: number}} b
+   * @param {{mirrors?: boolean}} [options]
    */
-  canSee(a, b) {
+  canSee(a, b, { mirrors = false } = {}) {
     const core = this.#open
-    if (typeof a === 'number' && typeof b === 'number') return !!core.can_see(a, b, this.#shut)
+    if (typeof a === 'number' && typeof b === 'number') return !!core.can_see(a, b, this.#shut, +mirrors)
     if (typeof a !== 'object' || typeof b !== 'object')
       throw new SightlineError('canSee: two cells or two points are needed')
-    return this.#pointsSee(a, b)
+    return this.#pointsSee(a, b, mirrors)
   }
 
-  #pointsSee(a, b) {
+  #pointsSee(a, b, mirrors) {
     const core = this.#open
     const { minX, minY, maxX, maxY } = this.#bounds
     if (!(b.x >= minX && b.x <= maxX && b.y >= minY && b.y <= maxY)) return false
@@ -231,7 +244,10 @@ export class Level {
     const count = core.look_along(b.x, b.y, this.#shut, 0, this.#scratch, this.#list) >>> 0
     const seen = this.#listed(count)
     const touched = this.#cellsOfBox(b.x, b.y, b.x, b.y)
-    return touched.some((cell) => seen.includes(cell))
+    if (touched.some((cell) => seen.includes(cell))) return true
+    // A cell that the eye sees directly in part can have the point where only a mirror shows it.
+    const own = mirrors ? core.locate(a.x, a.y) : NO_CELL
+    return touched.some((cell) => !!core.may_mirror(own, cell, this.#shut))
   }
 
   /** The cells that a box lies in or touches. */
@@ -266,15 +282,22 @@ export class Level {
 
   /**
    * The cells that an eye sees: its own first. `direction` and `fieldOfView` are in degrees.
+   * `mirrors`: after the `direct` cells that it sees directly, those that are seen by mirror alone.
+   * No cell is missed there, but some may be added.
    *
    * @param {number} x
    * @param {number} y
-   * @param {{direction?: number, fieldOfView?: number, range?: number}} [options]
+   * @param {{direction?: number, fieldOfView?: number, range?: number, mirrors?: boolean}} [options]
    */
   look(x, y, options) {
     const core = this.#open
     const view = viewOf(options)
     this.#setView(x, y, view.direction, view.fieldOfView)
+    if (options?.mirrors) {
+      const count = core.look_mirrored(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0
+      const [direct] = this.#ask(() => {}).integers
+      return Object.assign(this.#listed(count), { direct })
+    }
     return this.#listed(core.look(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0)
   }
 
@@ -299,22 +322,24 @@ export class Level {
     }
   }
 
-  /** The cells seen from anywhere in a cell, with the doors as they stand. */
-  row(cell) {
-    return this.seenFrom([cell])
+  /** The cells seen from anywhere in a cell, with the doors as they stand. `mirrors`: or by mirror. */
+  row(cell, options) {
+    return this.seenFrom([cell], options)
   }
 
   /**
    * The cells seen from anywhere in some cells, with the doors as they stand: what to wake up.
+   * `mirrors`: or by mirror.
    *
    * @param {ArrayLike<number>} cells
+   * @param {{mirrors?: boolean}} [options]
    */
-  seenFrom(cells) {
+  seenFrom(cells, { mirrors = false } = {}) {
     const core = this.#open
     const own = Array.from(cells).filter((cell) => cell >= 0 && cell < this.#cellCount)
     new Uint32Array(this.#memory.buffer, this.#list, own.length).set(own)
     const bits = this.#scratch
-    core.seen_from(this.#list, own.length, this.#shut, bits)
+    core.seen_from(this.#list, own.length, this.#shut, bits, +mirrors)
     const bytes = new Uint8Array(this.#memory.buffer)
     let count = 0
     const seen = new Uint32Array(this.#cellCount)

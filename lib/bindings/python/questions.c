@@ -456,7 +456,9 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
     sl_space own;
     const sl_space *space;
     slp_level_forget(level);
-    SL_TRY(sl_effects_check(context, &level->baked.map, "vga", SL_EFFECT_RANGE | SL_EFFECT_DOOR));
+    SL_TRY(
+        sl_effects_check_because(context, &level->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
+                                 "steps and paths lead straight to points, not to mirror images"));
     SL_TRY(find_space(level, &own, &space));
     const sl_status status =
         fill_and_measure(level, space, given, seeds, seed_count, from, from_count);

@@ -38,7 +38,7 @@ EXPORT(const char *, status_text, int status) {
     return sl_runtime_status_text((sl_runtime_status)status);
 }
 
-/// numbers: bounds and range; integers: counts and flags.
+/// numbers: bounds and range; integers: counts and flags, and what is known of mirrors.
 EXPORT(void, describe, void) {
     numbers[0] = level.min_x;
     numbers[1] = level.min_y;
@@ -50,7 +50,7 @@ EXPORT(void, describe, void) {
     integers[2] = level.door_count;
     integers[3] = sl_runtime_start_count(&level);
     integers[4] = (uint32_t)sl_runtime_scratch_count(&level);
-    integers[5] = level.view_cell_count;
+    integers[5] = (uint32_t)level.mirrors;
     integers[6] = level.unfinished;
     integers[7] = level.loose;
 }
@@ -59,8 +59,22 @@ EXPORT(uint32_t, locate, double x, double y) {
     return sl_runtime_locate(&level, x, y);
 }
 
-EXPORT(int, can_see, uint32_t from, uint32_t to, const unsigned char *shut) {
-    return sl_runtime_can_see_past(&level, from, to, shut);
+// Of the calls with `mirrored`: 1 to count what is seen by mirror, too; 0 to take mirrors for
+// walls.
+
+EXPORT(int, can_see, uint32_t from, uint32_t to, const unsigned char *shut, int mirrored) {
+    return (mirrored ? sl_runtime_can_see_mirrored : sl_runtime_can_see_past)(&level, from, to,
+                                                                              shut);
+}
+
+/// Whether something in cell `to` may be seen by mirror from a point in cell `from`.
+EXPORT(int, may_mirror, uint32_t from, uint32_t to, const unsigned char *shut) {
+    const sl_runtime rows = slrt_mirrored(&level);
+    if (!level.mirrors || from >= level.cell_count) return false;
+    if (sl_runtime_is_solid(&level, from) || sl_runtime_is_solid(&level, to)) return false;
+    if (level.mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED || !sl_runtime_has_row(&level, from))
+        return true;
+    return slrt_sees(&rows, from, to, shut);
 }
 
 EXPORT(void, row_bits, uint32_t cell, unsigned char *bits) {
@@ -68,8 +82,9 @@ EXPORT(void, row_bits, uint32_t cell, unsigned char *bits) {
 }
 
 EXPORT(void, seen_from, const uint32_t *cells, uint32_t count, const unsigned char *shut,
-       unsigned char *bits) {
-    sl_runtime_seen_from(&level, cells, count, shut, bits);
+       unsigned char *bits, int mirrored) {
+    (mirrored ? sl_runtime_seen_from_mirrored : sl_runtime_seen_from)(&level, cells, count, shut,
+                                                                      bits);
 }
 
 EXPORT(uint32_t, view_cell, uint32_t cell) {
@@ -84,6 +99,14 @@ EXPORT(uint32_t, box_cells, double min_x, double min_y, double max_x, double max
 EXPORT(uint32_t, look, const unsigned char *shut, double range, uint32_t *scratch,
        uint32_t *cells) {
     return sl_runtime_look_past(&level, &view, shut, range, scratch, cells, level.cell_count);
+}
+
+/// As look, and after these cells those that are seen by mirror. integers: how many are seen
+/// directly.
+EXPORT(uint32_t, look_mirrored, const unsigned char *shut, double range, uint32_t *scratch,
+       uint32_t *cells) {
+    return sl_runtime_look_mirrored(&level, &view, shut, range, scratch, cells, level.cell_count,
+                                    &integers[0]);
 }
 
 EXPORT(uint32_t, polygon, const unsigned char *shut, double range, uint32_t *scratch,

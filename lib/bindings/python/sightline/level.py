@@ -503,8 +503,8 @@ class Level(drawing.InNotebooks, Handle):
             arrays: bool = False) -> Any:
         """Visibility graph analysis of a grid of points, under the names of depthmapX.
 
-        Which points see each other is exact. Doors count as they are. Maps with mirrors or one-way
-        glass are refused.
+        Which points see each other is exact. Doors count as they are. With one-way glass, values
+        are of what a point sees. Maps with mirrors are refused.
 
         Parameters
         ----------

@@ -211,6 +211,16 @@ class CommandLine(unittest.TestCase):
         for name in theirs:
             np.testing.assert_array_equal(ours[name], theirs[name], name)
 
+    def test_vga_through_one_way_glass_is_that_of_the_command(self):
+        path = support.MAPS / "effects" / "oneway.map"
+        theirs = support.table(support.command("vga", path, "--grid", "1", "--measures", "all"))
+        groups = ("visual", "through", "metric", "angular", "isovist")
+        ours = sightline.Plan.from_file(path).vga(1, measures=groups, arrays=True)
+        for name in theirs:
+            np.testing.assert_array_equal(ours[name], theirs[name], name)
+        walls = sightline.Plan.from_file(path).space(without=("oneway",)).vga(1, arrays=True)
+        self.assertTrue((walls["connectivity"] != ours["connectivity"]).any())
+
     def test_exports_are_those_of_the_command(self):
         baked = self.scratch / "a.slv"
         level = office().bake()

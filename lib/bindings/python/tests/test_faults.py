@@ -113,7 +113,7 @@ class Arguments(unittest.TestCase):
         with self.assertRaises(sightline.SightlineError):
             sightline.Plan().bake()
         plan.add_mirrors([(1, 4, 3, 4)])
-        with self.assertRaises(sightline.Unsupported):
+        with self.assertRaisesRegex(sightline.Unsupported, "mirror images"):
             plan.vga(1)
         space = plan.space()
         for call in (space.sets, lambda: space.look((1, 1)), lambda: space.can_see(0, 0),
