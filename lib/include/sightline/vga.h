@@ -127,7 +127,7 @@ SL_API sl_status sl_vga_measure(sl_context *context, const sl_outline *outline,
                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
                                 const sl_vga_options *options, sl_vga_measures *measures);
 
-/// The bytes that sl_vga_measure takes at most, for those who ask before the work. The graph and
+/// About the bytes that sl_vga_measure takes, for those who ask before the work. The graph and
 /// `measures` count too. Up to 2.5 times the true number: lists have room, and queues are guessed.
 /// Cost: O(edges).
 SL_API sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *outline,
