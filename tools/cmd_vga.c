@@ -151,6 +151,26 @@ static sl_status check_memory(sl_context *context, const vga_plan *plan, uint32_
     return SL_OK;
 }
 
+/// Refuses measures that take more than the graph left, before they are begun.
+static sl_status check_measures(sl_context *context, const vga_plan *plan, const vga_work *w) {
+    const sl_vga_grid *grid = &w->table.grid;
+    uint64_t bytes;
+    SL_TRY(sl_vga_measure_bytes(context, &w->outline, grid, &w->graph, &plan->options, &bytes));
+    if (w->link_count) // the graph of linked places, and its measures
+        bytes += sl_vga_graph_bytes(grid->count) + grid->count * sizeof(sl_vga_measures);
+    char size[SIZE_TEXT], most[SIZE_TEXT];
+    size_write(bytes, size);
+    size_write(sl_machine_memory() / 2, most);
+    if (bytes > sl_machine_memory() / 2)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--grid %.9g: the measures of %" PRIu32 " points take up to %s; half of "
+                       "this machine's memory is %s; choose a larger step, fewer --measures or "
+                       "fewer --threads",
+                       plan->points.step, grid->count, size, most);
+    sl_note(context, "the measures take up to %s, the graph included", size);
+    return SL_OK;
+}
+
 // --- the work
 
 static sl_status find_depths(sl_context *context, const vga_plan *plan, vga_work *w) {
@@ -243,6 +263,7 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
                           (of_graph & VGA_PART_THROUGH ? SL_VGA_THROUGH : 0u) |
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
+    if (plan->options.parts) SL_TRY(check_measures(context, plan, w));
     if (plan->from.count) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
     if (plan->options.parts)

@@ -25,7 +25,8 @@
 /// gains nothing, and the result is that of trying all ways on, to the last bit.
 ///
 /// Cost: for each point, the words of the points that are expanded, and a heap operation for each
-/// gain of such a point. Memory: for each thread 16 bytes a word, and up to KEPT_TURNS turns.
+/// gain of such a point. Memory: for each thread 16 bytes a word, and up to SLI_VGA_KEPT_TURNS
+/// turns. Points for which no room is left begin anew each time.
 #include "visibility_graph/paths.h"
 
 #include <string.h>
@@ -35,9 +36,6 @@ typedef sli_vga_entry entry; ///< of slots
 /// Keys of a bucket share their whole number of parts of a right angle. No turn is over two right
 /// angles, so that no two buckets that wait share a place.
 enum { PARTS = 256, BUCKETS = 4 * PARTS };
-
-/// Of each thread: 64 MiB. Points for which no room is left begin anew each time.
-#define KEPT_TURNS ((size_t)1 << 24)
 
 /// How far a bound lies below its turn at least, in right angles. The formula is off by 4.3e-5, and
 /// single precision near a cosine of 1 by 5e-4.
@@ -276,7 +274,7 @@ static size_t place_turns(walker *w) {
     size_t used = most;
     for (uint32_t slot = 0; slot < s->count; slot++) {
         const size_t degree = count_seen(s, slot);
-        if (!sl_bits_has(s->turning, slot) || !degree || used - most + degree > KEPT_TURNS)
+        if (!sl_bits_has(s->turning, slot) || !degree || used - most + degree > SLI_VGA_KEPT_TURNS)
             continue;
         w->kept[slot] = used;
         used += degree;

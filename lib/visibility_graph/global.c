@@ -26,8 +26,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEPTHS = 4096 };
-
 /// What the threads share.
 typedef struct global_job {
     const sli_vga_job *all;
@@ -42,21 +40,21 @@ typedef struct searcher {
     uint64_t *masks; ///< by slot, where it is partial: the points of the group, by place
     uint64_t *any;   ///< by bundle: the masks of its partial points together
     // Numbers of points by depth; the last entry holds all that are deeper.
-    int64_t common[DEPTHS];  ///< the same for all of the group
-    int64_t own[64][DEPTHS]; ///< by place: to be added
+    int64_t common[SLI_VGA_DEPTHS];  ///< the same for all of the group
+    int64_t own[64][SLI_VGA_DEPTHS]; ///< by place: to be added
     uint32_t deepest;
 } searcher;
 
 // --- numbers of points
 
 static void add(searcher *s, uint64_t depth, int64_t points) {
-    s->common[depth < DEPTHS ? depth : DEPTHS - 1] += points;
+    s->common[depth < SLI_VGA_DEPTHS ? depth : SLI_VGA_DEPTHS - 1] += points;
 }
 
 /// Counts a point that has this depth for those of the mask, and one more for the rest.
 static void add_partial(searcher *s, uint64_t depth, uint64_t mask) {
-    const size_t near = (size_t)(depth < DEPTHS ? depth : DEPTHS - 1);
-    const size_t far = near + 1 < DEPTHS ? near + 1 : DEPTHS - 1;
+    const size_t near = (size_t)(depth < SLI_VGA_DEPTHS ? depth : SLI_VGA_DEPTHS - 1);
+    const size_t far = near + 1 < SLI_VGA_DEPTHS ? near + 1 : SLI_VGA_DEPTHS - 1;
     s->common[far]++;
     for (; mask; mask &= mask - 1) {
         int64_t *own = s->own[__builtin_ctzll(mask)];
@@ -187,7 +185,7 @@ static void search(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t 
     add(s, 0, 1);
     add(s, 1, __builtin_popcountll(group) - 1);
     for (; count_level(t, s, depth) && depth != radius; depth++) next_level(t, s, group);
-    s->deepest = (uint32_t)(depth + 1 < DEPTHS ? depth + 1 : DEPTHS - 1);
+    s->deepest = (uint32_t)(depth + 1 < SLI_VGA_DEPTHS ? depth + 1 : SLI_VGA_DEPTHS - 1);
 }
 
 // --- measures

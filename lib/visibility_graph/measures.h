@@ -6,6 +6,9 @@
 #include "sightline/vga.h"
 #include "visibility_graph/tiles.h"
 
+/// Depths that a search counts points of, one by one.
+enum { SLI_VGA_DEPTHS = 4096 };
+
 typedef struct sli_vga_job {
     const sl_vga_grid *grid;
     const sl_vga_graph *graph;

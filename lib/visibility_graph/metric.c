@@ -424,16 +424,28 @@ static sl_status list_ways(sl_context *context, const all_ways *a, uint32_t p, u
     return SL_OK;
 }
 
+static size_t count_reached(const sli_vga_sights *s, const float *two) {
+    size_t count = 0;
+    for (uint32_t q = 0; q < s->count; q++) count += two[q] < INFINITY;
+    return count;
+}
+
+static size_t least(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
 static sl_status list_unit(sl_context *context, void *all, void *state, size_t unit) {
     const all_ways *a = all;
     const sli_vga_sights *s = a->sights;
-    const size_t most = s->kept_ways / s->bundles;
+    const size_t room = s->kept_ways / s->bundles;
+    size_t most = 0; // what the points so far may list
     way_list *list = &a->lists[unit];
     size_t start = 0; // place in `starts`
     for (uint32_t p = (uint32_t)unit * 64; p < s->count && p < unit * 64 + 64; p++) {
         if (!sl_bits_has(s->turning, p)) continue;
         SL_TRY(sl_check_cancelled(context));
         find_two_steps(s, p, state);
+        most = least(most + SLI_VGA_WAYS_A_PAIR * count_reached(s, state), room);
         const size_t before = list->ways.count;
         start = a->first_step[p] + unit;
         for (size_t i = s->first[p]; i < s->first[p + 1]; i++) {
@@ -441,7 +453,7 @@ static sl_status list_unit(sl_context *context, void *all, void *state, size_t u
             for (uint64_t rest = word->seen & s->turning[word->bundle]; rest; rest &= rest - 1) {
                 const uint32_t u = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
                 a->starts[start++] = (uint32_t)list->ways.count;
-                SL_TRY(list_ways(context, a, p, u, state, list));
+                if (list->ways.count <= most) SL_TRY(list_ways(context, a, p, u, state, list));
             }
         }
         a->starts[start] = (uint32_t)list->ways.count;
@@ -451,6 +463,8 @@ static sl_status list_unit(sl_context *context, void *all, void *state, size_t u
         }
         sl_bits_add(a->listed, p);
     }
+    sl_shrink(context, &list->ways.items, &list->ways.capacity, list->ways.count,
+              sizeof *list->ways.items);
     return SL_OK;
 }
 

@@ -128,6 +128,8 @@ sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_v
     }
     if (status == SL_OK) {
         s->first[s->count] = s->words.count;
+        sl_shrink(context, &s->words.items, &s->words.capacity, s->words.count,
+                  sizeof *s->words.items);
         for (uint32_t slot = 0; slot < s->count; slot++) sl_bits_add(row, slot);
         number_parts(s, queue, row);
     }

@@ -24,6 +24,18 @@ typedef struct sli_vga_box {
 /// Memory for lists of ways on (metric.c): 384 MiB.
 #define SLI_VGA_KEPT_WAYS ((size_t)1 << 25)
 
+/// Ways on that are listed, for each pair of points two steps apart or fewer. Seldom reached: most
+/// pairs have one way, or none.
+#define SLI_VGA_WAYS_A_PAIR 2
+
+/// Turns that each thread keeps (angular.c): 64 MiB.
+#define SLI_VGA_KEPT_TURNS ((size_t)1 << 24)
+
+/// About how many entries the queue of a search holds: of a metric one for each point beside walls,
+/// of an angular one for each point. Told to those who ask for memory before the work.
+#define SLI_VGA_QUEUE      2
+#define SLI_VGA_TURN_QUEUE 15
+
 /// The graph for searches. Points are numbered by slot: those near each other have near numbers.
 typedef struct sli_vga_sights {
     const sli_vga_job *job;

@@ -114,6 +114,8 @@ sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
         return status;
     }
     t.first[t.bundles] = t.tiles.count;
+    sl_shrink(context, &t.tiles.items, &t.tiles.capacity, t.tiles.count, sizeof *t.tiles.items);
+    sl_shrink(context, &t.rows.items, &t.rows.capacity, t.rows.count, sizeof *t.rows.items);
     *out = t;
     return SL_OK;
 }

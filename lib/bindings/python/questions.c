@@ -405,6 +405,20 @@ static sl_status find_depths(slp_level *level, const sl_vga_graph *graph, const 
     return status;
 }
 
+/// Refuses measures that do not fit, before they are begun.
+static sl_status check_measures(sl_context *context, const sl_outline *outline,
+                                const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                const sl_vga_options *options) {
+    uint64_t bytes;
+    SL_TRY(sl_vga_measure_bytes(context, outline, grid, graph, options, &bytes));
+    if (bytes <= sl_machine_memory() / 2) return SL_OK;
+    return sl_fail(
+        context, SL_BAD_ARGUMENT,
+        "the measures of a grid of step %.9g need up to %.3g GiB, more than half of this "
+        "machine's memory: choose a larger step, fewer measures or fewer threads",
+        grid->step, (double)bytes / 1073741824.0);
+}
+
 static sl_status measure_grid(slp_level *level, const sl_outline *outline, const slp_vga *given,
                               const double *from, size_t from_count) {
     sl_context *context = level->base.context;
@@ -422,6 +436,8 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, const
     if (!level->measures) return SL_NO_MEMORY;
     sl_status status =
         sl_vga_graph_make(context, outline, &level->grid, given->range, given->threads, &graph);
+    if (status == SL_OK && given->parts)
+        status = check_measures(context, outline, &level->grid, &graph, &options);
     if (status == SL_OK && given->parts)
         status = sl_vga_measure(context, outline, &level->grid, &graph, &options, level->measures);
     if (status == SL_OK && from_count) status = find_depths(level, &graph, from, from_count);

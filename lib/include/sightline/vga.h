@@ -57,9 +57,7 @@ typedef struct sl_vga_graph {
     uint64_t edges; ///< ordered pairs that see each other
 } sl_vga_graph;
 
-/// The bytes of a graph with so many points, for those who ask before the work. Measures take a
-/// copy without its empty parts besides: a tenth of that for a floor of rooms. Angular
-/// measures take as much again for each thread, and up to 64 MiB; metric ones twice as much.
+/// The bytes of a graph with so many points, for those who ask before it is made.
 SL_API uint64_t sl_vga_graph_bytes(uint32_t points);
 
 /// Connects the points of a grid that see each other. `range`: no farther than this; 0 for no
@@ -128,6 +126,13 @@ typedef struct sl_vga_measures {
 SL_API sl_status sl_vga_measure(sl_context *context, const sl_outline *outline,
                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
                                 const sl_vga_options *options, sl_vga_measures *measures);
+
+/// About the bytes that sl_vga_measure takes, for those who ask before the work. The graph and
+/// `measures` count too. Up to 2.5 times the true number: lists have room, and queues are guessed.
+/// Cost: O(edges).
+SL_API sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *outline,
+                                      const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                      const sl_vga_options *options, uint64_t *bytes);
 
 /// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
 /// join all of their points.
