@@ -22,7 +22,8 @@ typedef struct trial {
     sl_query *query;
     sl_runtime level;
     sl_runtime_boxes boxes;
-    sl_runtime_box list[BOXES_MOST];
+    sl_runtime_box list[BOXES_MOST], kept[BOXES_MOST];
+    uint32_t *memory; ///< of the boxes
     uint32_t box_count;
     uint32_t *scratch, *cells;
     uint64_t *seen, *mirrored;
@@ -72,12 +73,25 @@ static void start(trial *t, const char *path, sl_bytes *file) {
         t->list[t->box_count++] = (sl_runtime_box){b.min.x, b.min.y, b.max.x, b.max.y, true};
     }
     const uint32_t entries = 64 * BOXES_MOST;
-    uint32_t *memory = room_for(sl_runtime_boxes_count(r, t->box_count, entries) * sizeof *memory);
-    sl_runtime_box *kept = room_for(BOXES_MOST * sizeof *kept);
-    sl_runtime_boxes_start(&t->boxes, r, kept, t->box_count, entries, memory);
+    t->memory = room_for(sl_runtime_boxes_count(r, t->box_count, entries) * sizeof *t->memory);
+    sl_runtime_boxes_start(&t->boxes, r, t->kept, t->box_count, entries, t->memory);
     for (uint32_t i = 0; i < t->box_count; i++)
         if (!sl_runtime_boxes_move(&t->boxes, i, &t->list[i])) abort();
     t->scratch = room_for(sl_runtime_boxes_scratch_count(&t->boxes) * sizeof *t->scratch);
+}
+
+static void end(trial *t, sl_bytes *file) {
+    free(t->points);
+    free(t->cells);
+    free(t->seen);
+    free(t->mirrored);
+    free(t->shut);
+    free(t->memory);
+    free(t->scratch);
+    sl_query_destroy(t->context, t->query);
+    sl_baked_destroy(t->context, &t->baked);
+    sl_free(t->context, file->data);
+    sl_context_destroy(t->context);
 }
 
 /// The cells that an eye sees, with the boxes away.
@@ -161,5 +175,6 @@ int main(int argc, char **argv) {
     printf("runtime: polygon\t+\t%s%s\n", r->mirrors ? "mirrors are walls in the header" : "",
            t.box_count ? "\tthe polygon knows no boxes" : "");
     printf("runtime: boxes\t+\t%s\n", r->mirrors ? "mirrors are walls in the header" : "");
+    end(&t, &file);
     return 0;
 }
