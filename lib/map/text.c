@@ -232,6 +232,9 @@ static sl_status split(text_reader *reader, sli_word line) {
     const char *hash = line.length ? memchr(line.at, '#', line.length) : NULL;
     reader->comment =
         hash ? (sli_word){hash, (size_t)(line.at + line.length - hash)} : (sli_word){NULL, 0};
+    // One more at the end would be taken for a part of the line's end where it is read again.
+    while (reader->comment.length && hash[reader->comment.length - 1] == '\r')
+        reader->comment.length--;
     reader->words.count = 0;
     for (size_t i = 0; i < line.length && line.at[i] != '#';) {
         if (line.at[i] == ' ' || line.at[i] == '\t') {

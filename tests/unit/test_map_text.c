@@ -279,11 +279,27 @@ static void test_write_file(void **state) {
     sl_context_destroy(context);
 }
 
+/// Found by a fuzzer: one was lost each time the map was written and read.
+static void returns_behind_comments_go(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    assert_ok(context, read(context, "sightline 1\n# a \r\r\r\nwall 0 0 1 0\n", &map));
+    assert_int_equal(map.comment_count, 1);
+    assert_string_equal(map.comments[0].text, "# a ");
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_statements), cmocka_unit_test(test_line_ends_and_mark),
-        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_long_lines),
-        cmocka_unit_test(test_notes),          cmocka_unit_test(test_comes_back),
+        cmocka_unit_test(returns_behind_comments_go),
+        cmocka_unit_test(test_all_statements),
+        cmocka_unit_test(test_line_ends_and_mark),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_long_lines),
+        cmocka_unit_test(test_notes),
+        cmocka_unit_test(test_comes_back),
         cmocka_unit_test(test_write_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
