@@ -1,7 +1,7 @@
 /// What the two files of the picture of an explanation share: explain.c has the page,
 /// explain_plan.c what is drawn over the plan.
-#ifndef SLI_DRAW_EXPLAIN_H
-#define SLI_DRAW_EXPLAIN_H
+#ifndef SL_DRAW_EXPLAIN_H
+#define SL_DRAW_EXPLAIN_H
 
 #include "draw/marks.h"
 #include "draw/page.h"

@@ -50,18 +50,11 @@ static void stroke_cased(cairo_t *cairo, sl_colour casing, double around, sl_col
     cairo_stroke(cairo);
 }
 
-/// The pens stroke the path: the line that sees, the line that sees by mirror, the way of a
-/// sequence that does not, a portal of the sequence, the portal that stops it.
-static void pen_sightline(cairo_t *cairo, const sli_explained *pic, double unit) {
-    const sl_palette *palette = &pic->scene.palette;
+/// The pens stroke the path: the line that sees, directly or by mirror; the way of a sequence that
+/// does not; a portal of the sequence; the portal that stops it.
+static void pen_seen(cairo_t *cairo, const sli_explained *pic, sl_colour colour, double unit) {
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
-    stroke_cased(cairo, palette->page, 3 * unit, palette->ink, 2.4 * unit);
-}
-
-static void pen_bent(cairo_t *cairo, const sli_explained *pic, double unit) {
-    const sl_palette *palette = &pic->scene.palette;
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
-    stroke_cased(cairo, palette->page, 3 * unit, palette->mirrored, 2.4 * unit);
+    stroke_cased(cairo, pic->scene.palette.page, 3 * unit, colour, 2.4 * unit);
 }
 
 static void pen_way(cairo_t *cairo, const sli_explained *pic, double unit) {
@@ -254,7 +247,7 @@ static void draw_line(overlay *o) {
     o->lines[o->line_count++] = (sl_segment){from, to};
     cairo_move_to(o->cairo, from.x, from.y);
     cairo_line_to(o->cairo, to.x, to.y);
-    pen_sightline(o->cairo, o->pic, o->unit);
+    pen_seen(o->cairo, o->pic, o->pic->scene.palette.ink, o->unit);
     draw_head(o, from, to);
 }
 
@@ -266,7 +259,7 @@ static void draw_bent(const overlay *o) {
         const sl_point at = place(o, bent->bends[i]);
         cairo_line_to(o->cairo, at.x, at.y);
     }
-    pen_bent(o->cairo, o->pic, o->unit);
+    pen_seen(o->cairo, o->pic, o->pic->scene.palette.mirrored, o->unit);
     draw_head(o, place(o, bent->bends[bent->mirrors]), place(o, bent->bends[bent->mirrors + 1]));
 }
 
@@ -281,7 +274,7 @@ static void draw_crossing(const overlay *o, uint32_t number) {
     const sl_point from = {at.x - dx, at.y - dy}, to = {at.x + dx, at.y + dy};
     cairo_move_to(o->cairo, from.x, from.y);
     cairo_line_to(o->cairo, to.x, to.y);
-    pen_sightline(o->cairo, o->pic, o->unit);
+    pen_seen(o->cairo, o->pic, o->pic->scene.palette.ink, o->unit);
     draw_head(o, from, to);
 }
 
@@ -490,9 +483,9 @@ void sli_explained_swatch(cairo_t *cairo, const sli_explained *pic, sli_swatch w
     }
     cairo_move_to(cairo, left, middle);
     cairo_line_to(cairo, right, middle);
-    if (what == SLI_SIGHTLINE) pen_sightline(cairo, pic, unit);
+    if (what == SLI_SIGHTLINE) pen_seen(cairo, pic, pic->scene.palette.ink, unit);
     if (what == SLI_WAY) pen_way(cairo, pic, unit);
-    if (what == SLI_BENT) pen_bent(cairo, pic, unit);
+    if (what == SLI_BENT) pen_seen(cairo, pic, pic->scene.palette.mirrored, unit);
     if (what == SLI_CROSSED) pen_crossed(cairo, pic, unit);
     if (what == SLI_STOP) pen_stop(cairo, pic, unit);
     if (what == SLI_CROSSED || what == SLI_STOP)

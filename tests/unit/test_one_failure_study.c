@@ -242,13 +242,19 @@ static sl_status measure_lines(sl_context *context, one_failure *on, const sl_ou
     return status;
 }
 
-static sl_status lines(sl_context *context, one_failure *on) {
+typedef sl_status measurer(sl_context *context, one_failure *on, const sl_outline *outline);
+
+static sl_status in_outline(sl_context *context, one_failure *on, measurer *measure) {
     sl_outline outline = {0};
     sl_status status = sl_outline_make(context, &on->baked.space, &outline);
-    if (status == SL_OK) status = measure_lines(context, on, &outline);
+    if (status == SL_OK) status = measure(context, on, &outline);
     one_failure_ends(on);
     sl_outline_destroy(context, &outline);
     return status;
+}
+
+static sl_status lines(sl_context *context, one_failure *on) {
+    return in_outline(context, on, measure_lines);
 }
 
 static sl_status measure_grid(sl_context *context, one_failure *on, const sl_outline *outline) {
@@ -291,12 +297,7 @@ static sl_status measure_grid(sl_context *context, one_failure *on, const sl_out
 }
 
 static sl_status vga(sl_context *context, one_failure *on) {
-    sl_outline outline = {0};
-    sl_status status = sl_outline_make(context, &on->baked.space, &outline);
-    if (status == SL_OK) status = measure_grid(context, on, &outline);
-    one_failure_ends(on);
-    sl_outline_destroy(context, &outline);
-    return status;
+    return in_outline(context, on, measure_grid);
 }
 
 // --- maps of others
