@@ -10,8 +10,9 @@
 /// Stages follow each other and free what they took. So the answer is the largest stage, with the
 /// graph and the table of measures. Each thread takes its share besides.
 ///
-/// Invariant: counts are exact or upper bounds. Only queues of searches are guessed, and they are
-/// small. Cost: O(edges), and for points beside walls a few rows for each step.
+/// Invariant: counts are exact or upper bounds, but for the queues of searches. Those are guessed
+/// from maps that were measured, so the answer is no bound where a queue grows longer. Cost:
+/// O(edges), and for points beside walls a few rows for each step.
 #include "visibility_graph/paths.h"
 
 #include <string.h>
