@@ -72,8 +72,8 @@ class Playground extends Sight {
 
     changed() {
         get('range').value = this.doc.items.find((item) => item.kind === 'range')?.value ?? '';
-        this.heat.drop();
         this.bake();
+        this.heat.drop();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
@@ -208,7 +208,10 @@ class Playground extends Sight {
         for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.doc.selected >= 0]])
             document.querySelector(`[data-do=${name}]`).disabled = !able;
         panel.showChosen(this.doc.items[this.doc.selected]);
-        this.view.draw();
+        clearTimeout(this.drawing);
+        const wait = this.drawAt - performance.now();
+        if (wait > 0) this.drawing = setTimeout(() => this.view.draw(), wait);
+        else this.view.draw();
     }
 
     // --- tools and commands

@@ -48,6 +48,10 @@ export class Sight {
         /** The last baked map; null where there is none. @type {import('../core/core.js').Plan | null} */
         this.plan = null;
         this.bakeTime = 0;
+        /** Bakes that take less than this, in milliseconds, are waited for: a step of a drag is drawn once. */
+        this.patience = 50;
+        /** Until when drawing waits for the bake that runs. */
+        this.drawAt = 0;
         /** @type {import('../parts/tones.js').Tones | null} */
         this.tones = null;
     }
@@ -62,6 +66,7 @@ export class Sight {
     async runBake(options) {
         if (!countWalls(this.doc.items)) return this.begun();
         panel.showBusy('Computing what is seen');
+        this.drawAt = this.bakeTime < this.patience ? performance.now() + this.patience : 0;
         try {
             const eye = this.eye ?? this.startPlace();
             this.baked(await this.client.call('bake', { text: this.doc.text(), options, doors: this.doors, eye }));
@@ -82,6 +87,7 @@ export class Sight {
     }
 
     baked({ plan, bakeTime, seen }) {
+        this.drawAt = 0;
         this.plan = plan;
         this.bakeTime = bakeTime;
         this.shut = new Set(plan.doors.filter((door) => !door.open).map((door) => door.name));
@@ -97,6 +103,7 @@ export class Sight {
     }
 
     failed(error) {
+        this.drawAt = 0;
         this.plan = this.seen = this.why = null;
         const item = error.line ? this.doc.items[error.line - 2] : null;
         if (item) this.doc.select(error.line - 2);

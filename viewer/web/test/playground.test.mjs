@@ -127,6 +127,40 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('draws a step of a drag once, with its answer', async () => {
+            const page = await open();
+            const paints = await page.evaluate(async () => {
+                const { playground } = /** @type {any} */ (window), { client, doc, view } = playground, counts = [];
+                const { call } = client, { paint } = view, frame = () => new Promise(requestAnimationFrame);
+                let count = 0;
+                view.paint = () => (count++, paint.call(view));
+                // The answer comes in a later frame, as that of a larger map does.
+                client.call = async (...task) => {
+                    const answer = await call.apply(client, task);
+                    await frame();
+                    return answer;
+                };
+                playground.patience = 10000;
+                for (let i = 1; i <= 3; i++) {
+                    await frame();
+                    count = 0;
+                    doc.change(doc.items.map((item) => (item.kind === 'wall' ? { ...item, points: item.points.map((v) => v + i / 100) } : item)));
+                    while (playground.bakes.running) await frame();
+                    await frame();
+                    counts.push(count);
+                }
+                // What takes long is not waited for.
+                client.call = () => new Promise(() => {});
+                playground.patience = count = 0;
+                doc.undo();
+                await frame();
+                await frame();
+                return [...counts, count];
+            });
+            assert.deepEqual(paints, [1, 1, 1, 1]);
+            await context.close();
+        });
+
         test('does the same by keyboard', async () => {
             const page = await open();
             await page.focus('#plan');
