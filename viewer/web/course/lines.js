@@ -25,7 +25,7 @@ export function drawPortals(surface, camera, tones, portals, bad = []) {
             surface.font = 'bold 13px sans-serif';
             surface.textAlign = 'left';
             surface.textBaseline = 'middle';
-            surface.fillText(name, px + 10, py);
+            surface.fillText(nameOf({ side: name, portal: i }), px + 10, py);
         }
 }
 
