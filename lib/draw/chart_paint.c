@@ -104,11 +104,25 @@ static void draw_swatch(cairo_t *cairo, const sli_chart_page *page, const sl_cha
     }
 }
 
+/// Fills the path as bands of a colour are filled.
+static void fill_band(cairo_t *cairo, sl_colour colour) {
+    set_translucent(cairo, colour, 0.3);
+    cairo_fill(cairo);
+}
+
+/// The colour of the first series with a band.
+static sl_colour band_colour(const sli_chart_page *page) {
+    for (size_t i = 0; i < page->spot_count; i++) {
+        const sl_chart_span band = page->spots[i].mark->y_band;
+        if (band.low != band.high) return series_colour(&page->palette, page->spots[i].series);
+    }
+    return page->palette.faint;
+}
+
 static void draw_band_swatch(cairo_t *cairo, const sli_chart_page *page, sl_box box) {
     const double half = SLI_CHART_DISC * page->text, x = (box.min.x + box.max.x) / 2;
     cairo_rectangle(cairo, x - half, box.min.y, 2 * half, box.max.y - box.min.y);
-    set_translucent(cairo, page->palette.faint, 0.35);
-    cairo_fill(cairo);
+    fill_band(cairo, band_colour(page));
 }
 
 /// Where the next entry of the key stands; entries flow into lines.
@@ -362,8 +376,7 @@ static void draw_spans(cairo_t *cairo, const sli_chart_page *page, const sli_spo
         const double y0 = sli_axis_place(&page->y, m->y_band.low);
         const double y1 = sli_axis_place(&page->y, m->y_band.high);
         cairo_rectangle(cairo, spot->at.x - half, fmin(y0, y1), 2 * half, fabs(y1 - y0));
-        set_translucent(cairo, colour, 0.3);
-        cairo_fill(cairo);
+        fill_band(cairo, colour);
     }
     if (m->x_whisker.low != m->x_whisker.high) {
         const double x0 = sli_axis_place(&page->x, m->x_whisker.low);

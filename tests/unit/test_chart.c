@@ -364,6 +364,37 @@ static void marks_have_their_colours(void **state) {
     }
 }
 
+/// A band over the page: what the key shows, and nothing else, as bands lie in the frame.
+static uint32_t band_on_page(sl_colour band) {
+    uint32_t pixel;
+    cairo_surface_t *dot = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1);
+    cairo_t *cairo = cairo_create(dot);
+    sl_set_colour(cairo, sl_palette_make(false).page);
+    cairo_paint(cairo);
+    cairo_set_source_rgba(cairo, band.red, band.green, band.blue, 0.3);
+    cairo_paint(cairo);
+    cairo_destroy(cairo);
+    cairo_surface_flush(dot);
+    memcpy(&pixel, cairo_image_surface_get_data(dot), sizeof pixel);
+    cairo_surface_destroy(dot);
+    return pixel & 0xffffff;
+}
+
+static void the_key_has_the_colour_of_the_bands(void **state) {
+    draw_bench *b = *state;
+    const sl_palette palette = sl_palette_make(false);
+    const sl_colour colours[] = {palette.portal, palette.start};
+    for (unsigned colour = 0; colour < 2; colour++) {
+        sl_chart chart = everything();
+        const sl_chart_series series = {"rounded", SL_CHART_MARKS, colour, rounded, 1};
+        chart.series = &series;
+        chart.series_count = 1;
+        cairo_surface_t *picture = picture_of(b, &chart);
+        assert_true(find_colour(picture, band_on_page(colours[colour])).count > 50);
+        cairo_surface_destroy(picture);
+    }
+}
+
 /// On its own side of 0 only, and all of what is left of the first mark.
 static void a_frontier_shades_what_is_out_of_reach(void **state) {
     draw_bench *b = *state;
@@ -554,6 +585,7 @@ int main(void) {
         cmocka_unit_test(without_room_labels_are_left_out),
         WITH_BENCH(the_same_chart_gives_the_same_bytes),
         WITH_BENCH(marks_have_their_colours),
+        WITH_BENCH(the_key_has_the_colour_of_the_bands),
         WITH_BENCH(a_frontier_shades_what_is_out_of_reach),
         WITH_BENCH(the_frame_grows_with_the_labels),
         WITH_BENCH(extremes_are_drawn),

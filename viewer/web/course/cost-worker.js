@@ -2,8 +2,8 @@
  * Runs methods on one map, one after the other, beside the page. Each answer is a message of its own; the
  * last message is { done: true }. The map, the methods and their limit in seconds come in one message.
  *
- * Pairs are counted between cells inside, each pair once, and compared with those of the sweep. With one-way
- * glass it is enough that one of the two sees the other.
+ * Pairs are counted as the command `compare` counts them: ordered, and each cell with itself too.
+ * They are compared with those of the sweep.
  */
 import { load } from '../package/bake.js';
 import { cellAt, middleOf } from './lab.js';
@@ -17,18 +17,17 @@ const ROUNDS = 4, REPEAT = 40;
 /** Methods that take longer, in seconds, run once. */
 const LONG = 0.4;
 
-/** Who sees whom, as pairs a < b; `seen` gives the cells that a cell sees. */
-function pairsOf(scene, seen) {
-    const { cellTable: table, cellCount } = scene, inside = Array.from({ length: cellCount }, (_, i) => table[6 * i + 4]), pairs = new Set();
-    for (let a = 0; a < cellCount; a++)
-        if (inside[a]) for (const b of seen(a)) if (b !== a && inside[b]) pairs.add(Math.min(a, b) * cellCount + Math.max(a, b));
+/** Who sees whom, as ordered pairs; `seen` gives the cells that a cell sees. */
+function pairsOf({ cellCount }, seen) {
+    const pairs = new Set();
+    for (let a = 0; a < cellCount; a++) for (const b of seen(a)) pairs.add(a * cellCount + b);
     return pairs;
 }
 
-/** One eye in the middle of each cell. */
+/** One eye in the middle of each cell inside; the rows of other cells hold at most themselves. */
 function lookFromMiddles(scene) {
     const eyes = Array.from({ length: scene.cellCount }, (_, i) => middleOf(scene, i));
-    const begin = performance.now(), rows = eyes.map((eye) => (cellAt(scene, eye) < 0 ? [] : scene.look(...eye)));
+    const begin = performance.now(), rows = eyes.map((eye, i) => (cellAt(scene, eye) < 0 ? scene.row(i) : scene.look(...eye)));
     return { seconds: (performance.now() - begin) / 1000, rows };
 }
 

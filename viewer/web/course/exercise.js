@@ -11,6 +11,12 @@ import { Figure, element } from './figure.js';
 
 let count = 0;
 
+/** A number that depends on a text alone (FNV-1a, 32 bits). */
+const hash = (text) => [...text].reduce((sum, c) => Math.imul(sum ^ c.codePointAt(0), 0x01000193) >>> 0, 0x811c9dc5);
+
+/** Options in the order of the page: shuffled, and the same each time. */
+const shuffled = (options) => options.map(([text], i) => ({ text, i })).sort((a, b) => hash(a.text) - hash(b.text));
+
 /** @param {any} exercise @param {import('./lab.js').Lab} lab @returns {HTMLElement} */
 export function exerciseForm(exercise, lab) {
     const id = `exercise-${++count}`, answer = element('p', { className: 'answer', role: 'status' });
@@ -28,8 +34,8 @@ export function exerciseForm(exercise, lab) {
 
 function choicePart(exercise, lab, id) {
     const node = element('fieldset', {}, element('legend', {}, exercise.question));
-    exercise.options.forEach(([text], i) => node.append(element('label', {},
-        element('input', { type: 'radio', name: id, value: String(i) }), ` ${text}`)));
+    for (const { text, i } of shuffled(exercise.options))
+        node.append(element('label', {}, element('input', { type: 'radio', name: id, value: String(i) }), ` ${text}`));
     const judge = () => {
         const chosen = node.querySelector('input:checked');
         if (!chosen) return { right: null, text: 'Choose an answer first.' };

@@ -26,6 +26,7 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @property {(state: any, tones: any) => Element} [beside]
  * @property {boolean} [wide] `beside` stands below the picture
  * @property {(state: any) => boolean} [isReady] false while work beside the page goes on; handouts wait for it
+ * @property {(state: any) => any} [paper] the state to print, if it is not the one on the screen
  * @property {(figure: Figure) => void} [start]
  * @property {(state: any, place: number[], camera: Camera) => void} [press] `place` in pixels
  */
@@ -216,7 +217,9 @@ export class Figure {
 
     /** For print: what is on the screen now, as vectors and in light colours. */
     onPaper() {
-        this.still.replaceChildren(stillOf(this.spec, this.state));
-        if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, paper));
+        const state = this.spec.paper?.(this.state) ?? this.state;
+        this.still.replaceChildren(stillOf(this.spec, state));
+        this.says.textContent = this.spec.tell(state);
+        if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(state, paper));
     }
 }

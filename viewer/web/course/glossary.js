@@ -153,8 +153,8 @@ export const pictures = {
     orientation: ['A line from a to b; p lies on its left and q on its right.', blank, (p) => {
         const [a, b, left, right] = [[3, 3], [15, 8], [6, 9], [12, 3]];
         bareGround(p);
-        fillPolygons(p.surface, p.camera, [[...a, ...b, ...left]], p.tones.glass, 0.25);
-        fillPolygons(p.surface, p.camera, [[...a, ...b, ...right]], p.tones.to, 0.25);
+        fillPolygons(p.surface, p.camera, [[...a, ...b, ...left]], p.tones.left, 0.25);
+        fillPolygons(p.surface, p.camera, [[...a, ...b, ...right]], p.tones.right, 0.25);
         stroke(p, [[...a, ...b]], 'wall', 2);
         for (const [q, text] of [[a, 'a'], [b, 'b'], [left, `p ${side(a, b, ...left) > 0 ? '+' : '-'}`], [right, `q ${side(a, b, ...right) > 0 ? '+' : '-'}`]]) {
             dot(p, q, 'ink', 4);

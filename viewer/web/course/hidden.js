@@ -49,7 +49,7 @@ const hulls = {
     title: 'Two groups of ends.',
     about: 'Drag the ends of portals, each in its third of the picture. The areas are the convex hulls of all left ends, and of all right ends. Large ends prove that no line passes.',
     box,
-    handles: free.flatMap(([lx, ly, rx, ry], i) => [{ name: `l${i}`, at: [lx, ly], tone: 'glass' }, { name: `r${i}`, at: [rx, ry], tone: 'to' }]),
+    handles: free.flatMap(([lx, ly, rx, ry], i) => [{ name: `l${i}`, at: [lx, ly], tone: 'left' }, { name: `r${i}`, at: [rx, ry], tone: 'right' }]),
     update(state, lab) {
         state.portals = freePortals(state);
         state.conflict = lab.core.conflict(state.portals);
@@ -59,8 +59,8 @@ const hulls = {
     },
     draw(surface, camera, tones, { portals, bad, dual }) {
         drawPlan(surface, camera, {}, tones);
-        drawHull(surface, camera, portals.map((p) => p.slice(0, 2)), tones.glass);
-        drawHull(surface, camera, portals.map((p) => p.slice(2)), tones.to);
+        drawHull(surface, camera, portals.map((p) => p.slice(0, 2)), tones.left);
+        drawHull(surface, camera, portals.map((p) => p.slice(2)), tones.right);
         strokeLines(surface, camera, portals, tones.portal, 2);
         if (dual?.corners.length) strokeLines(surface, camera, [planLine(dual, dual.best)], tones.sourceEdge, 3);
         for (const end of bad) {
@@ -95,7 +95,7 @@ const radon = {
     },
     draw(surface, camera, tones, { points, groups, shared }) {
         drawPlan(surface, camera, {}, tones);
-        groups.forEach((group, k) => group.length > 1 && drawHull(surface, camera, group.map((i) => points[i]), k ? tones.to : tones.glass));
+        groups.forEach((group, k) => group.length > 1 && drawHull(surface, camera, group.map((i) => points[i]), k ? tones.right : tones.left));
         if (shared) drawDot(surface, camera, shared, 12, tones.page, tones.ink);
         points.forEach((p, i) => {
             const [x, y] = camera.toScreen(...p);
@@ -179,7 +179,7 @@ export const exercises = {
         solution: [[9, 11.5], [9, 10]],
         figure: {
             title: 'Shut out the light.', about: 'Drag the ends of the middle portal up and down, then press Check.', box,
-            handles: [{ name: 'l1', at: [9, 7.5], tone: 'glass' }, { name: 'r1', at: [9, 6], tone: 'to' }],
+            handles: [{ name: 'l1', at: [9, 7.5], tone: 'left' }, { name: 'r1', at: [9, 6], tone: 'right' }],
             update(state, lab) {
                 for (const i of [0, 2]) [state[`l${i}`], state[`r${i}`]] = [given[i].slice(0, 2), given[i].slice(2)];
                 state.portals = heldPortals(state);

@@ -19,13 +19,13 @@ export function drawPortals(surface, camera, tones, portals, bad = []) {
     for (const [i, [lx, ly, rx, ry]] of portals.entries())
         for (const [name, x, y] of [['L', lx, ly], ['R', rx, ry]]) {
             const isBad = bad.some((end) => end.portal === i && end.side === name);
-            drawDot(surface, camera, [x, y], isBad ? 8 : 5, name === 'L' ? tones.glass : tones.to, isBad ? tones.ink : tones.page);
+            drawDot(surface, camera, [x, y], isBad ? 8 : 5, name === 'L' ? tones.left : tones.right, isBad ? tones.ink : tones.page);
             const [px, py] = camera.toScreen(x, y);
             surface.fillStyle = tones.ink;
             surface.font = 'bold 13px sans-serif';
             surface.textAlign = 'left';
             surface.textBaseline = 'middle';
-            surface.fillText(name, px + 10, py);
+            surface.fillText(nameOf({ side: name, portal: i }), px + 10, py);
         }
 }
 
@@ -78,7 +78,7 @@ const dual = {
     title: 'Portals, and their dual plane.',
     about: 'Drag the ends of portals up and down. In the second picture, each end is a line, and each point of the filled polygon is a line of sight.',
     box,
-    handles: given.flatMap(([lx, ly, rx, ry], i) => [{ name: `l${i}`, at: [lx, ly], tone: 'glass' }, { name: `r${i}`, at: [rx, ry], tone: 'to' }]),
+    handles: given.flatMap(([lx, ly, rx, ry], i) => [{ name: `l${i}`, at: [lx, ly], tone: 'left' }, { name: `r${i}`, at: [rx, ry], tone: 'right' }]),
     update(state, lab) {
         state.portals = heldPortals(state);
         state.conflict = lab.core.conflict(state.portals);

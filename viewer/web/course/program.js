@@ -48,7 +48,7 @@ const steps = {
     title: 'Step by step to the best line.',
     about: 'The slider goes through the steps. Large ends are the basis, and the strip is its margin. Drag ends up and down to change the portals.',
     box,
-    handles: crooked.flatMap(([lx, ly, rx, ry], i) => [{ name: `l${i}`, at: [lx, ly], tone: 'glass' }, { name: `r${i}`, at: [rx, ry], tone: 'to' }]),
+    handles: crooked.flatMap(([lx, ly, rx, ry], i) => [{ name: `l${i}`, at: [lx, ly], tone: 'left' }, { name: `r${i}`, at: [rx, ry], tone: 'right' }]),
     controls: [{ name: 'step', label: 'Step', kind: 'range', value: 0, min: 0, max: 6 }],
     update(state) {
         state.portals = heldPortals(state, state.l4 ? crooked : given);
@@ -150,7 +150,7 @@ export const exercises = {
         solution: [[9, 8], [9, 4]],
         figure: {
             ...steps, title: 'The middle portal.', about: 'Drag its ends up and down, then press Check. The best line is shown.', controls: [],
-            handles: [{ name: 'l1', at: [9, 5], tone: 'glass' }, { name: 'r1', at: [9, 2], tone: 'to' }],
+            handles: [{ name: 'l1', at: [9, 5], tone: 'left' }, { name: 'r1', at: [9, 2], tone: 'right' }],
             update(state) {
                 for (const i of [0, 2]) [state[`l${i}`], state[`r${i}`]] = [given[i].slice(0, 2), given[i].slice(2)];
                 steps.update(Object.assign(state, { step: Infinity }));

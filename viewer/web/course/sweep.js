@@ -40,7 +40,7 @@ const list = (cells) => (cells.length ? cells.join(', ') : 'none');
 
 const turn = {
     title: 'A line rotates.',
-    about: 'The dot chooses a corner, the slider the direction. Blue cells lie before the corner, yellow ones behind it. Green lines join pairs that are new at this corner.',
+    about: 'The dot chooses a corner, the slider the direction. Blue cells lie before the corner, yellow ones behind it. Green lines join cells that are new to each other at this corner: two pairs, one for each direction.',
     box: house.box,
     handles: [{ name: 'dot', at: [12, 5] }],
     controls: [{ name: 'at', label: 'direction', kind: 'range', value: 26, min: 1, max: 119 }],
@@ -69,8 +69,11 @@ const turn = {
         drawDot(surface, camera, state.corner, 5, tones.start, tones.page);
     },
     tell: ({ corner, now, count, degrees, stretch, fresh }) => `Corner at ${corner.join(', ')}, direction ${round(degrees)}°, after ${now} of ${plural(count - 1, 'event')}. ` +
-        `Before: cells ${list(stretch.before)}. Behind: cells ${list(stretch.behind)}. ${plural(fresh.length, 'new pair')}.`,
+        `Before: cells ${list(stretch.before)}. Behind: cells ${list(stretch.behind)}. ${plural(2 * fresh.length, 'new pair')}.`,
 };
+
+/** As the command `compare` counts: ordered pairs, and each cell with itself. */
+const countOf = ({ all }, cells) => 2 * all.size + cells.length;
 
 /** Which pairs are found, as a square of squares. */
 function matrix({ cells, pairs, all }, tones) {
@@ -79,7 +82,7 @@ function matrix({ cells, pairs, all }, tones) {
         return svg('rect', { x: j * size, y: i * size, width: size - 1, height: size - 1, fill });
     }));
     return svg('svg', { viewBox: `0 0 ${width} ${width}`, role: 'img',
-        'aria-label': `Pairs of ${cells.length} cells: ${pairs.all.size} found, ${all.all.size - pairs.all.size} not found yet` }, ...squares);
+        'aria-label': `Pairs of ${cells.length} cells: ${countOf(pairs, cells)} found, ${2 * (all.all.size - pairs.all.size)} not found yet` }, ...squares);
 }
 
 const every = {
@@ -110,7 +113,7 @@ const every = {
         state.pivots.forEach(({ at }, i) => drawDot(surface, camera, at, i < state.done ? 5 : 3, i < state.done ? tones.start : tones.faint, tones.page));
     },
     beside: matrix,
-    tell: (state) => `${state.done} of ${plural(state.pivots.length, 'corner')}: ${state.pairs.all.size} of ${plural(state.all.all.size, 'pair')} found. ` +
+    tell: (state) => `${state.done} of ${plural(state.pivots.length, 'corner')}: ${countOf(state.pairs, state.cells)} of ${plural(countOf(state.all, state.cells), 'pair')} found. ` +
         (state.cell < 0 ? 'The dot is in no cell.' : `Cell ${state.cell} is joined with ${plural(state.seen.size, 'cell')}, and ${state.missing.length} more will come.`),
 };
 

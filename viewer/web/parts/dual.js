@@ -51,7 +51,7 @@ export function dualFigure(why, tones) {
         const [px, py] = turnPoint(dual, portal[side]), bold = isEnd(portal, side);
         const at = (a) => py - a * px;
         return svg('line', { x1: x(a0), y1: y(at(a0)), x2: x(a1), y2: y(at(a1)),
-            stroke: side === 'left' ? tones.glass : tones.to, 'stroke-width': bold ? 3 : 1,
+            stroke: tones[side], 'stroke-width': bold ? 3 : 1,
             ...(side === 'right' ? { 'stroke-dasharray': '6 3' } : {}) });
     }));
     const points = [];

@@ -1,8 +1,8 @@
 /**
  * The colours of the project, on a light and on a dark page.
  *
- * They are those of lib/draw/marks.c and viewer/tones.c, whose contrast tests/viewer/test_tones.c
- * checks. test/tones.test.mjs compares the numbers.
+ * They are those of lib/draw and viewer/tones.c, whose contrast tests/viewer/test_tones.c checks.
+ * test/tones.test.mjs compares them.
  */
 
 /**
@@ -17,6 +17,8 @@
  * @property {string} ink @property {string} faint @property {string} region
  * @property {string} image what is seen in a mirror
  * @property {string} from @property {string} to
+ * @property {string} left @property {string} right ends of a portal
+ * @property {Record<string, string>} guarantees of methods, in charts
  */
 
 const SKY = '#56b4e9';
@@ -85,7 +87,9 @@ export function mix(a, b, share) {
 export function makeTones(isDark) {
     const base = isDark ? dark : light, strength = isDark ? 0.58 : 0.62;
     const region = mix(base.floor[0], base.source, 0.65), image = mix(base.floor[0], base.mirrored, 0.45);
-    return { ...base, region, image, seen: base.floor.map((c, i) => mix(c, SKY, strength - 0.04 * i)) };
+    const ends = { left: base.glass, right: base.start };
+    const guarantees = { exact: base.portal, conservative: base.glass, aggressive: base.door, rounded: base.start };
+    return { ...base, ...ends, guarantees, region, image, seen: base.floor.map((c, i) => mix(c, SKY, strength - 0.04 * i)) };
 }
 
 /**

@@ -38,7 +38,7 @@ export function drawWhy(surface, camera, why, tones) {
         strokeLines(surface, camera, [line], tones.sourceEdge, 3);
     }
     for (const end of miss?.ends ?? []) {
-        const colour = end.side === 'left' ? tones.glass : tones.to;
+        const colour = tones[end.side];
         drawDot(surface, camera, end.point, 6, colour, tones.page);
         const [x, y] = camera.toScreen(...end.point);
         surface.font = 'bold 13px sans-serif';

@@ -25,7 +25,7 @@ const chapters = {
     regions: [['passes', 4, 8], ['reason', 0, 1], ['first', [[2, 2]], [[30, 18]]]],
     frames: [['tests', 15, 7], ['safe', 0, 1], ['costly', [[3, 11.5]], [[8, 8]]]],
     effects: [['states', 20, 1024], ['turned', 0, 1], ['corner', [[10, 9]], [[4, 9]]]],
-    cost: [['safe', 0, 1], ['added', 0, 8], ['misses', [[6, 6.3]], [[4, 6.3]]]],
+    cost: [['safe', 0, 1], ['added', 0, 16], ['misses', [[6, 6.3]], [[4, 6.3]]]],
 };
 
 let site;
@@ -50,7 +50,7 @@ async function place(page, figure, places) {
 
 async function answer(page, form, given) {
     if (Array.isArray(given)) await place(page, form.locator('figure'), given);
-    else if (await form.locator('input[type=radio]').count()) await form.locator('input[type=radio]').nth(given).check();
+    else if (await form.locator('input[type=radio]').count()) await form.locator(`input[type=radio][value="${given}"]`).check();
     else await form.locator('input[type=number]').fill(String(given));
     await form.locator('button').click();
     return [await form.getAttribute('data-result'), await form.locator('.answer').textContent()];
@@ -63,6 +63,7 @@ const picture = (figure) => figure.evaluate((host) => host.querySelector('.says'
 for (const name of wanted)
     describe(`course, ${name}`, () => {
         let browser;
+        const places = [0, 0, 0];
         before(async () => (browser = await launch(name)));
         after(() => browser.close());
 
@@ -146,6 +147,8 @@ for (const name of wanted)
                     const form = page.locator(`form[data-exercise=${exercise}]`);
                     const [bad, because] = await answer(page, form, wrong), [good, why] = await answer(page, form, right);
                     assert.deepEqual([bad, good], ['wrong', 'right'], `${exercise}: ${because} / ${why}`);
+                    const radios = await form.locator('input[type=radio]').evaluateAll((list) => list.map(({ checked }) => checked));
+                    if (radios.length) places[radios.indexOf(true)]++;
                     assert.ok(because.length > 30 && why.length > 30 && because !== why);
                 }
                 await close();
@@ -183,6 +186,10 @@ for (const name of wanted)
                 await close();
             });
         }
+
+        test('the right option stands at each place about as often', () => {
+            assert.ok(places.every((count) => count >= 3), `first, second, third: ${places}`);
+        });
 
         test('program: its simplex method agrees with the exact verdict of the library', async () => {
             const { page, close } = await open('program');
@@ -262,9 +269,21 @@ for (const name of wanted)
                 assert.ok(Number(time) > 0, method);
                 if (guarantee !== 'aggressive') assert.equal(missed, '0', method);
                 if (guarantee !== 'conservative') assert.equal(added, '0', method);
-                assert.equal(Number(pairs), 643 - Number(missed) + Number(added), method);
+                assert.equal(Number(pairs), 1323 - Number(missed) + Number(added), method);
             }
             assert.ok(rows.some(([, , , , missed]) => Number(missed) > 10) && rows.some(([, , , , , added]) => Number(added) > 0));
+            const printed = () => figure.evaluate((host) => {
+                dispatchEvent(new Event('beforeprint'));
+                const shown = [host.querySelector('.still').innerHTML, host.querySelector('tbody').textContent, host.querySelector('.says').textContent];
+                for (const result of host.figure.state.job.results) result.seconds *= 3;
+                dispatchEvent(new Event('afterprint'));
+                return shown;
+            });
+            const before = await figure.locator('tbody').textContent();
+            const first = await printed();
+            assert.doesNotMatch(first[1], /NaN/);
+            assert.deepEqual(await printed(), first, 'handouts have the times of the run that prints them');
+            assert.notEqual(await figure.locator('tbody').textContent(), before);
             const dots = () => figure.evaluate((host) => host.figure.state.points.length);
             assert.equal(await dots(), 9);
             const at = await figure.evaluate(async (host) => {
@@ -293,6 +312,26 @@ for (const name of wanted)
             await figure.locator('td').getByText(/mirrors and one-way glass, which 'multipass' does not know$/).waitFor();
             await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
             assert.equal(await dots(), 8);
+            await close();
+        });
+
+        test('cost: pairs are counted as compare does, and cells that are not inside count', async () => {
+            const { page, close } = await open('cost'), figure = page.locator('main > figure').first();
+            await figure.locator('input[type=file]').setInputFiles(join(SITE, 'maps/grazing.map'));
+            await page.waitForFunction(() => document.querySelector('main > figure').figure.state.plan === 'own');
+            await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
+            const [sweep, flood] = await figure.evaluate((host) => host.figure.state.job.results.map(({ pairs }) => pairs));
+            assert.deepEqual([sweep, flood], [133, 165]);
+            await close();
+        });
+
+        test('cost: lecture mode shows the chart and all of its table', async () => {
+            const { page, close } = await open('cost', { viewport: { width: 1280, height: 720 } });
+            await page.locator('main > figure .says').first().getByText('All methods have run').waitFor({ timeout: 60000 });
+            await page.click('#lecture');
+            const [table, bar, chart] = await Promise.all(['main > figure.on table', '.lecture-bar', 'main > figure.on canvas'].map((name) => page.locator(name).boundingBox()));
+            assert.ok(table.y + table.height <= bar.y && table.x + table.width <= 1280, 'the table is cut off');
+            assert.ok(chart.width > 600);
             await close();
         });
 

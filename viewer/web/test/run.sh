@@ -18,7 +18,7 @@ skip() {
 }
 command -v node >/dev/null || skip "node is missing"
 [ "$(node -p 'parseInt(process.versions.node)')" -ge 18 ] || skip "node is older than 18"
-[ "$what" != formats ] || exec node --test "$here/formats.test.mjs"
+[ "$what" != formats ] || exec node --test "$here/formats.test.mjs" "$here/tones.test.mjs"
 
 [ "$what" = effects ] || command -v chromium >/dev/null || command -v firefox-esr >/dev/null || command -v firefox >/dev/null ||
     skip "there is neither Chromium nor Firefox"
