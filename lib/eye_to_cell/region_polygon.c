@@ -40,16 +40,19 @@ static pair minus(pair a, pair b) {
     return quick_sum(sum.high, sum.low + (a.low - b.low));
 }
 
-static double cross_of_pairs(pair ax, pair ay, pair bx, pair by) {
-    const pair cross = minus(product(ax, by), product(ay, bx));
-    return cross.high + cross.low;
+/// The difference of two points, exact.
+typedef struct span {
+    pair x, y;
+} span;
+
+static span span_of(sl_point from, sl_point to) {
+    return (span){difference(to.x, from.x), difference(to.y, from.y)};
 }
 
-/// a x b for differences of points, good to about a unit in the last place whatever cancels.
-static double precise_cross(sl_point from, sl_point to, sl_point other_from, sl_point other_to) {
-    return cross_of_pairs(difference(to.x, from.x), difference(to.y, from.y),
-                          difference(other_to.x, other_from.x),
-                          difference(other_to.y, other_from.y));
+/// a x b, good to about a unit in the last place whatever cancels.
+static double precise_cross(const span *a, const span *b) {
+    const pair cross = minus(product(a->x, b->y), product(a->y, b->x));
+    return cross.high + cross.low;
 }
 
 sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_point b) {
@@ -57,7 +60,8 @@ sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_po
     // A line parallel to an axis, at a known distance: nothing cancels.
     if (a.x == b.x) return (sl_point){a.x - eye.x, d.y * ((a.x - eye.x) / d.x)};
     if (a.y == b.y) return (sl_point){d.x * ((a.y - eye.y) / d.y), a.y - eye.y};
-    const double share = precise_cross(eye, a, a, b) / precise_cross(eye, ray->at, a, b);
+    const span side = span_of(a, b), to_side = span_of(eye, a), along = span_of(eye, ray->at);
+    const double share = precise_cross(&to_side, &side) / precise_cross(&along, &side);
     return (sl_point){d.x * share, d.y * share};
 }
 
