@@ -207,11 +207,12 @@ static sli_eye_ray to_start(const expansion *x, uint32_t i) {
 }
 
 /// Whether a side is out of range, however its distance was rounded.
-static bool is_far(const sl_region *region, const sli_eye_ray *a, const sli_eye_ray *b) {
-    const sl_point p = a->offset, d = {b->at.x - a->at.x, b->at.y - a->at.y};
+static bool is_far(const expansion *x, uint32_t i) {
+    const sl_point a = side(x, i)->start, b = side(x, side(x, i)->next)->start;
+    const sl_point p = sli_eye_offset(&x->region->memory->eye, a), d = {b.x - a.x, b.y - a.y};
     const double along = -(p.x * d.x + p.y * d.y) / (d.x * d.x + d.y * d.y);
     const double share = along > 0 ? along < 1 ? along : 1 : 0;
-    return sli_length(p.x + share * d.x, p.y + share * d.y) > region->range * (1 + 1e-9);
+    return sli_length(p.x + share * d.x, p.y + share * d.y) > x->region->range * (1 + 1e-9);
 }
 
 static bool same_sign(double a, double b) {
@@ -257,8 +258,8 @@ static sl_status reflect(expansion *x, uint32_t at, const sli_eye_ray *right,
 }
 
 /// Whether a portal is out of range.
-static bool is_barred(const sl_region *region, const sli_eye_ray *a, const sli_eye_ray *b) {
-    return region->range > 0 && is_far(region, a, b);
+static inline bool is_barred(const expansion *x, uint32_t i) {
+    return x->region->range > 0 && is_far(x, i);
 }
 
 /// A view cone within a room: from the ray `right`, which meets the side `at` within it or at its
@@ -273,10 +274,9 @@ static sl_status grow_frames(expansion *x) {
     return SL_ARRAY_ROOM(x->context, &x->region->memory->frames, 1);
 }
 
-/// Takes the cone through the portal that it is at, from a to b. `turn`: where b lies from the left
-/// ray. The rest of the room waits as a frame.
-static inline sl_status enter(expansion *x, view_cone *cone, const sli_eye_ray *a,
-                              const sli_eye_ray *b, int turn) {
+/// Takes the cone through the portal that it is at. `turn`: where the portal's end lies from the
+/// left ray. The rest of the room waits as a frame.
+static inline sl_status enter(expansion *x, view_cone *cone, int turn) {
     struct sli_region_memory *m = x->region->memory;
     const sl_side *portal = side(x, cone->at);
     if (turn < 0) {
@@ -284,36 +284,41 @@ static inline sl_status enter(expansion *x, view_cone *cone, const sli_eye_ray *
         m->frames.items[m->frames.count++] =
             (sli_region_frame){portal->next, cone->entry, cone->left};
     }
-    if (turn <= 0) cone->left = *b;
-    if (!cone->within) cone->right = *a;
+    if (turn <= 0) cone->left = to_start(x, portal->next);
+    if (!cone->within) cone->right = to_start(x, cone->at);
     cone->entry = portal->neighbour;
     return SL_OK;
 }
 
+/// Adds what is seen of a side, no portal within range: from `right` to `left`, or where these are
+/// NULL from and to its ends.
+static inline sl_status see_side(expansion *x, uint32_t i, const sli_eye_ray *right,
+                                 const sli_eye_ray *left) {
+    const uint32_t neighbour = side(x, i)->neighbour;
+    const sli_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
+    SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b, right, left));
+    if (!x->region->memory->mirrors || neighbour < SL_SIDE_WALL) return SL_OK;
+    return reflect(x, i, right ? right : &a, left ? left : &b);
+}
+
 /// Goes around a room to the next portal within the cone and enters it (*enters), or to the end.
 static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
-    sl_region *region = x->region;
-    const sli_eye_place *eye = &region->memory->eye;
-    const double limit = region->memory->limit;
-    sli_eye_ray a = to_start(x, cone->at);
+    const sli_eye_place *eye = &x->region->memory->eye;
+    const double limit = x->region->memory->limit;
     *enters = false;
     while (cone->at != cone->entry) {
-        const uint32_t next = side(x, cone->at)->next, neighbour = side(x, cone->at)->neighbour;
-        const sli_eye_ray b = to_start(x, next);
-        const int turn = sli_eye_turn_within(eye, &cone->left, &b, limit);
-        if (neighbour < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
+        const sl_side *at = side(x, cone->at);
+        const sl_point end = side(x, at->next)->start;
+        const int turn = sli_eye_turn_to(eye, &cone->left, end, sli_eye_offset(eye, end), limit);
+        if (sl_side_is_portal(at) && !is_barred(x, cone->at)) {
             *enters = true;
-            return enter(x, cone, &a, &b, turn);
+            return enter(x, cone, turn);
         }
-        SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b,
-                         cone->within ? &cone->right : NULL, turn > 0 ? &cone->left : NULL));
-        if (region->memory->mirrors && neighbour >= SL_SIDE_WALL)
-            SL_TRY(reflect(x, cone->at, cone->within ? &cone->right : &a,
-                           turn > 0 ? &cone->left : &b));
+        SL_TRY(see_side(x, cone->at, cone->within ? &cone->right : NULL,
+                        turn > 0 ? &cone->left : NULL));
         if (turn >= 0) return SL_OK;
         cone->within = false;
-        cone->at = next;
-        a = b;
+        cone->at = at->next;
     }
     return SL_OK;
 }
@@ -325,19 +330,19 @@ static sl_status look_through(expansion *x, view_cone cone) {
     const size_t floor = m->frames.count;
     uint64_t passed = 0;
     for (bool enters = true;;) {
-        while (enters) {
+        if (enters) {
             passed++;
-            if (!sli_region_find_first(x->outline, eye, m->limit, cone.entry, &cone.right, &cone.at,
-                                       &cone.within))
-                break;
-            SL_TRY(sweep(x, &cone, &enters));
+            enters = sli_region_find_first(x->outline, eye, m->limit, cone.entry, &cone.right,
+                                           &cone.at, &cone.within);
         }
-        if (m->frames.count == floor) break;
-        const sli_region_frame *f = &m->frames.items[--m->frames.count];
-        cone.entry = f->entry;
-        cone.at = f->side;
-        cone.left = f->left;
-        cone.within = false;
+        if (!enters) {
+            if (m->frames.count == floor) break;
+            const sli_region_frame *f = &m->frames.items[--m->frames.count];
+            cone.entry = f->entry;
+            cone.at = f->side;
+            cone.left = f->left;
+            cone.within = false;
+        }
         SL_TRY(sweep(x, &cone, &enters));
     }
     x->region->portals_passed += passed;
@@ -348,19 +353,16 @@ static sl_status look_through(expansion *x, view_cone cone) {
 /// NULL from and to its ends.
 static sl_status see_fan(expansion *x, uint32_t k, const sli_eye_ray *right,
                          const sli_eye_ray *left) {
-    const uint32_t i = x->region->memory->fan.items[k], neighbour = side(x, i)->neighbour;
+    const uint32_t i = x->region->memory->fan.items[k];
     const sli_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
     const sli_eye_place *eye = &x->region->memory->eye;
     if (right && sli_eye_turn(eye, right, &a) == 0) right = NULL;
     if (left && sli_eye_turn(eye, left, &b) == 0) left = NULL;
-    if (neighbour < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
-        return look_through(x, (view_cone){.entry = neighbour,
-                                           .within = right,
-                                           .right = right ? *right : a,
-                                           .left = left ? *left : b});
-    if (x->region->memory->mirrors && neighbour >= SL_SIDE_WALL)
-        SL_TRY(reflect(x, i, right ? right : &a, left ? left : &b));
-    return see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b, right, left);
+    if (!sl_side_is_portal(side(x, i)) || is_barred(x, i)) return see_side(x, i, right, left);
+    return look_through(x, (view_cone){.entry = side(x, i)->neighbour,
+                                       .within = right,
+                                       .right = right ? *right : a,
+                                       .left = left ? *left : b});
 }
 
 /// The end of the wall at the eye that lies on the ray through `toward`.

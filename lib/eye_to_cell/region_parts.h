@@ -112,11 +112,22 @@ static inline double sli_eye_limit(const sl_space *space, const sl_view *view) {
     return sli_turn_limit(reach, reach);
 }
 
-/// As sli_eye_turn, given the limit of the view.
-static inline int sli_eye_turn_within(const sli_eye_place *eye, const sli_eye_ray *a,
-                                      const sli_eye_ray *b, double limit) {
-    const int sign = sli_turn_filter_within(a->offset, b->offset, limit);
-    return sign ? sign : sli_eye_turn(eye, a, b);
+/// The offset of the ray through a point.
+static inline sl_point sli_eye_offset(const sli_eye_place *eye, sl_point at) {
+    if (eye->fine) return sli_eye_ray_fine(eye, &(sli_fine){.at = at}).offset;
+    return (sl_point){at.x - eye->point.at.x, at.y - eye->point.at.y};
+}
+
+/// As sli_eye_turn for the ray through a point.
+int sli_eye_turn_close(const sli_eye_place *eye, const sli_eye_ray *ray, sl_point at);
+
+/// The same, given the point's offset and the limit of the view. Of most corners a walk around a
+/// room needs no more, so no ray is made for them.
+static inline int sli_eye_turn_to(const sli_eye_place *eye, const sli_eye_ray *ray, sl_point at,
+                                  sl_point offset, double limit) {
+    const int sign = sli_turn_filter_within(ray->offset, offset, limit);
+    if (sign || (!eye->fine && sli_same_point(ray->at, at))) return sign;
+    return sli_eye_turn_close(eye, ray, at);
 }
 
 /// The side of the fan that a ray meets, one end of each side counted: just counter-clockwise of
@@ -134,8 +145,8 @@ static inline bool sli_region_find_first(const sl_outline *o, const sli_eye_plac
     const sl_side *sides = o->sides;
     for (uint32_t i = sides[entry].next; i != entry;) {
         const uint32_t next = sides[i].next;
-        const sli_eye_ray end = sli_eye_ray_through(eye, sides[next].start);
-        const int turn = sli_eye_turn_within(eye, ray, &end, limit);
+        const sl_point end = sides[next].start;
+        const int turn = sli_eye_turn_to(eye, ray, end, sli_eye_offset(eye, end), limit);
         if (turn > 0) {
             *at = i;
             return true;

@@ -97,6 +97,11 @@ int sli_eye_turn_fine(const sli_eye_place *eye, const sli_eye_ray *a, const sli_
     return sli_orient_fine(&eye->point, &(sli_fine){a->at, a->rest}, &(sli_fine){b->at, b->rest});
 }
 
+int sli_eye_turn_close(const sli_eye_place *eye, const sli_eye_ray *ray, sl_point at) {
+    const sli_eye_ray other = sli_eye_ray_through(eye, at);
+    return sli_eye_turn(eye, ray, &other);
+}
+
 static sl_status grow(sl_context *context, sl_region *region) {
     size_t room[3] = {region->memory->room, region->memory->room, region->memory->room};
     const size_t needed = region->count + 4;
@@ -173,7 +178,8 @@ sl_status sli_region_start_piece(sl_context *context, sl_region *region, uint32_
     struct sli_region_memory *m = region->memory;
     const place start = place_of(region->view.eye, right ? right : a, !right, a->at, b->at);
     if (region->count == 0) m->first = neighbour;
-    if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
+    const bool goes_on = !right && m->piece.to_end && sli_same_point(m->piece.left.at, a->at);
+    if (m->pending && !goes_on) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
     m->piece.neighbour = neighbour;
     m->pending = true;
     return add_point(context, region, start.point, start.offset,

@@ -30,16 +30,23 @@ typedef enum finding { HIDDEN, SEEN, TOUCHES } finding;
 static bool leave_start(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ray *ray,
                         double limit, uint32_t room, uint32_t *at) {
     const sl_side *sides = o->sides;
+    uint32_t i = o->first[room];
+    sl_point a = sides[i].start;
+    int turn = sli_eye_turn_to(eye, ray, a, sli_eye_offset(eye, a), limit);
     bool found = false;
-    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
-        const sli_eye_ray a = sli_eye_ray_through(eye, sides[i].start);
-        const sli_eye_ray b = sli_eye_ray_through(eye, sides[sides[i].next].start);
-        const int turn = sli_eye_turn_within(eye, ray, &a, limit);
-        if (turn == 0 || sli_eye_turn(eye, &a, &b) <= 0) return false;
-        if (turn > 0 || sli_eye_turn_within(eye, ray, &b, limit) <= 0) continue;
-        *at = i;
-        found = true;
-    }
+    do {
+        const uint32_t next = sides[i].next;
+        const sl_point b = sides[next].start;
+        const int next_turn = sli_eye_turn_to(eye, ray, b, sli_eye_offset(eye, b), limit);
+        if (next_turn == 0 || sli_orient(a, b, eye->point.at) <= 0) return false;
+        if (turn < 0 && next_turn > 0) {
+            *at = i;
+            found = true;
+        }
+        turn = next_turn;
+        a = b;
+        i = next;
+    } while (i != o->first[room]);
     return found;
 }
 
