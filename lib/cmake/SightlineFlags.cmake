@@ -45,7 +45,24 @@ if(SIGHTLINE_FMA)
     }" SIGHTLINE_MACHINE_IS_HASWELL)
   if(SIGHTLINE_MACHINE_IS_HASWELL)
     target_compile_options(sightline_flags INTERFACE -march=haswell)
+    set(machine -march=haswell)
   else()
     message(STATUS "SIGHTLINE_FMA: not an x86 machine with FMA; nothing added")
+  endif()
+endif()
+
+# gcc's vectorizer contracts all the same, where the machine has instructions for it.
+if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
+  include(CheckCSourceCompiles)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
+  set(CMAKE_REQUIRED_FLAGS "${CMAKE_C_FLAGS_${configuration}} ${machine}")
+  check_c_source_compiles("
+    #if !defined(__FMA__) && !defined(__FMA4__) && !defined(__riscv_vector)
+    #error
+    #endif
+    int main(void) { return 0; }" SIGHTLINE_VECTORIZER_CONTRACTS)
+  unset(CMAKE_REQUIRED_FLAGS)
+  if(SIGHTLINE_VECTORIZER_CONTRACTS)
+    target_compile_options(sightline_flags INTERFACE -fno-tree-vectorize)
   endif()
 endif()

@@ -65,7 +65,7 @@ static void clear(vector *v) {
 
 static void set_integer(mpz_t out, double value, int exponent) {
     const dyadic d = dyadic_of(value);
-    mpz_set_si(out, (long)d.odd);
+    mpz_set_d(out, (double)d.odd); // not by a long, which has 32 bits on some machines
     if (d.odd) mpz_mul_2exp(out, out, (mp_bitcnt_t)(d.exponent - exponent));
 }
 

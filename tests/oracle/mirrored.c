@@ -65,7 +65,7 @@ static void set_point(const looker *l, vector *out, sl_point p) {
     for (int i = 0; i < 2; i++) {
         const dyadic d = dyadic_of(values[i]);
         mpz_ptr z = i ? out->y : out->x;
-        mpz_set_si(z, (long)d.odd);
+        mpz_set_d(z, (double)d.odd); // as in eye.c
         if (d.odd) mpz_mul_2exp(z, z, (mp_bitcnt_t)(d.exponent - l->exponent));
     }
 }

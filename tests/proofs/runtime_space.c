@@ -17,10 +17,12 @@ static uint32_t up_to(uint32_t most) {
     return count;
 }
 
-/// A section of up to `most` items, which end where a block ends.
-#define ANY_SECTION(tag, most, item_bytes)                                                         \
+/// A section of up to `most` items. The block ends with the last byte that checks read: `unread`
+/// bytes at the end of each item are none of theirs.
+#define ANY_SECTION(tag, most, item_bytes, unread)                                                 \
     const uint32_t tag##_count = up_to(most);                                                      \
-    ANY_BYTES(tag##_items, (most) * (item_bytes), tag##_count * (size_t)(item_bytes));             \
+    ANY_BYTES(tag##_items, (most) * (item_bytes) - (unread),                                       \
+              tag##_count ? tag##_count * (size_t)(item_bytes) - (unread) : 0);                    \
     found[tag].items = tag##_items;                                                                \
     found[tag].count = tag##_count
 
@@ -31,7 +33,7 @@ void a_way_down_the_tree_ends(void) {
     ASSUME(rt.cell_count > 0 && rt.cell_count <= INT32_MAX);
     unsigned char info[128];
     found[SLRT_INFO].items = info;
-    ANY_SECTION(SLRT_NODE, FEW, SLRT_NODE_BYTES);
+    ANY_SECTION(SLRT_NODE, FEW, SLRT_NODE_BYTES, 4);
     if (!slrt_take_tree(&rt, found)) return;
     int32_t at = rt.root;
     int steps = 0;
@@ -49,9 +51,9 @@ void buckets_of_the_grid_lie_in_it(void) {
     rt.cell_count = nondet_uint();
     rt.vertex_count = up_to(FEW);
     found[SLRT_INFO].items = info;
-    ANY_SECTION(SLRT_GRIO, FEW + 1, 4);
-    ANY_SECTION(SLRT_GRIC, FEW, 4);
-    ANY_SECTION(SLRT_BEYO, FEW, 4);
+    ANY_SECTION(SLRT_GRIO, FEW + 1, 4, 0);
+    ANY_SECTION(SLRT_GRIC, FEW, 4, 0);
+    ANY_SECTION(SLRT_BEYO, FEW, 4, 0);
     if (!slrt_take_grid(&rt, found)) return;
     const uint64_t buckets = (uint64_t)rt.grid_columns * rt.grid_rows;
     const uint32_t bucket = nondet_uint();
@@ -65,9 +67,9 @@ void buckets_of_the_grid_lie_in_it(void) {
 void cells_have_their_corners_and_portals(void) {
     sl_runtime rt = {0};
     slrt_section found[SLRT_TAGS] = {{0}};
-    ANY_SECTION(SLRT_CELL, FEW, SLRT_CELL_BYTES);
-    ANY_SECTION(SLRT_VERT, 4, SLRT_VERTEX_BYTES);
-    ANY_SECTION(SLRT_PORTAL, FEW, SLRT_DIRECTED_BYTES);
+    ANY_SECTION(SLRT_CELL, FEW, SLRT_CELL_BYTES, 0);
+    ANY_SECTION(SLRT_VERT, 4, SLRT_VERTEX_BYTES, 0);
+    ANY_SECTION(SLRT_PORTAL, FEW, SLRT_DIRECTED_BYTES, 0);
     rt.cell_count = SLRT_CELL_count;
     rt.vertex_count = SLRT_VERT_count;
     rt.directed_count = SLRT_PORTAL_count;
@@ -87,8 +89,8 @@ void seams_are_read_within_their_sections(void) {
     sl_runtime rt = {0};
     slrt_section found[SLRT_TAGS] = {{0}};
     rt.portal_count = nondet_uint();
-    ANY_SECTION(SLRT_SEAM, FEW, 40);
-    ANY_SECTION(SLRT_SEPO, FEW, 12);
+    ANY_SECTION(SLRT_SEAM, FEW, 40, 8);
+    ANY_SECTION(SLRT_SEPO, FEW, 12, 4);
     slrt_take_seams(&rt, found);
 }
 
@@ -96,11 +98,11 @@ void seams_are_read_within_their_sections(void) {
 void view_cells_are_read_within_their_sections(void) {
     sl_runtime rt = {0};
     slrt_section found[SLRT_TAGS] = {{0}};
-    ANY_SECTION(SLRT_VCIN, FEW, 8);
-    ANY_SECTION(SLRT_VCEL, FEW, 4);
-    ANY_SECTION(SLRT_VCPA, FEW, 4);
-    ANY_SECTION(SLRT_VCRO, FEW, 8);
-    ANY_SECTION(SLRT_VCRB, 4, 1);
+    ANY_SECTION(SLRT_VCIN, FEW, 8, 0);
+    ANY_SECTION(SLRT_VCEL, FEW, 4, 0);
+    ANY_SECTION(SLRT_VCPA, FEW, 4, 0);
+    ANY_SECTION(SLRT_VCRO, FEW, 8, 0);
+    ANY_SECTION(SLRT_VCRB, 4, 1, 0);
     unsigned char offsets[1];
     rt.row_offsets = offsets; // cells have rows of their own
     rt.cell_count = 1;
