@@ -143,7 +143,7 @@ typedef struct compare_eye_row {
     sl_guarantee guarantee;
     double fov;
     double share;               ///< of the map's area that is kept
-    double cells;               ///< that are kept
+    double cells; ///< that are kept; NAN for the visible region, which is not made of cells
     double nodes, orientations; ///< see sl_eye_account
     double seconds;             ///< a query: the median over batches of some
 } compare_eye_row;

@@ -189,6 +189,7 @@ static void add_answer(const comparing *all, const answer *a, compare_eye_row *r
             area += all->area[64 * word + (size_t)__builtin_ctzll(rest)];
             row->cells++;
         }
+    if (a->has_area) row->cells = NAN;
     row->share += area / all->whole;
     row->nodes += (double)a->account.nodes;
     row->orientations += (double)a->account.orientations;
@@ -374,20 +375,21 @@ static double reduction_of(const compare_eye_row *row) {
 // --- the table
 
 static void print_row(const compare_eye_row *row) {
-    char seconds[SECONDS_TEXT], paper[64] = "";
+    char cells[SL_NUMBER_TEXT] = "", seconds[SECONDS_TEXT], paper[64] = "";
     double share, reduction;
+    if (!isnan(row->cells)) snprintf(cells, sizeof cells, "%.1f", row->cells);
     seconds_write(row->seconds, "u", seconds);
     if (compare_eye_paper(row->name, row->fov, &share, &reduction))
         snprintf(paper, sizeof paper, "%12.1f %% %8.0f x", 100 * share, reduction);
-    printf("  %-20s %8.2f %% %8.1f x %8.1f %9.1f %13.1f %9s%s\n", row->name, 100 * row->share,
-           reduction_of(row), row->cells, row->nodes, row->orientations, seconds, paper);
+    printf("  %-20s %8.2f %% %8.1f x %8s %9.1f %13.1f %9s%s\n", row->name, 100 * row->share,
+           reduction_of(row), cells, row->nodes, row->orientations, seconds, paper);
 }
 
 void compare_eye_print(const eye_comparison *comparison) {
     const sl_space *space = comparison->space;
     char seconds[SECONDS_TEXT];
     seconds_write(comparison->pvs_seconds, "u", seconds);
-    printf("%s: %" PRIu32 " walls, %" PRIu32 " cells (%" PRIu32 " inside), %" PRIu32
+    printf("%s: %" PRIu32 " walls after cleaning, %" PRIu32 " cells (%" PRIu32 " inside), %" PRIu32
            " portals; %s sight\n%" PRIu64 " viewpoints, seed %" PRIu64
            ", spread evenly over the inside area; visible sets made in %s\n",
            comparison->input, space->wall_count, space->cell_count, space->inside_count,
@@ -411,9 +413,10 @@ void compare_eye_print(const eye_comparison *comparison) {
 
 // --- CSV and JSON
 
+/// NAN leaves the field blank.
 static void write_real(FILE *stream, double value) {
-    char text[SL_NUMBER_TEXT];
-    sl_number_write(value, text);
+    char text[SL_NUMBER_TEXT] = "";
+    if (!isnan(value)) sl_number_write(value, text);
     fprintf(stream, ",%s", text);
 }
 
@@ -449,7 +452,7 @@ void compare_eye_print_columns(void) {
          "  fov                 the view cone, degrees\n"
          "  method, guarantee   as 'sightline eye --help' lists them\n"
          "  share, reduction    the area kept, as a share of all inside; 1 / share\n"
-         "  cells               those kept\n"
+         "  cells               those kept; blank for visible_area, which is not made of cells\n"
          "  nodes               cells looked at; exact: nodes of the stab tree visited\n"
          "  orientations        orientation tests\n"
          "  seconds             a query, on one thread (the median)\n"
@@ -465,7 +468,10 @@ static json_fields fields_of_row(const compare_eye_row *row) {
     json_add_text(&fields, "guarantee", sl_guarantee_name(row->guarantee));
     json_add_real(&fields, "share", row->share);
     json_add_real(&fields, "reduction", reduction_of(row));
-    json_add_real(&fields, "cells", row->cells);
+    if (isnan(row->cells))
+        json_add_text(&fields, "cells", NULL);
+    else
+        json_add_real(&fields, "cells", row->cells);
     json_add_real(&fields, "nodes", row->nodes);
     json_add_real(&fields, "orientations", row->orientations);
     json_add_real(&fields, "seconds", row->seconds);

@@ -361,7 +361,8 @@ static void print_verdict(const compare_result *comparison) {
 
 void compare_print(const compare_result *comparison) {
     const sl_space *space = comparison->space;
-    printf("%s: %" PRIu32 " walls, %" PRIu32 " cells, %" PRIu32 " portals; %s sight, one thread\n",
+    printf("%s: %" PRIu32 " walls after cleaning, %" PRIu32 " cells, %" PRIu32
+           " portals; %s sight, one thread\n",
            comparison->input, space->wall_count, space->cell_count, space->portal_count,
            sight_name(comparison->sight));
     ground_print(space);

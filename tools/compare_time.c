@@ -166,7 +166,8 @@ void compare_subdivisions_print(const compare_subdivisions *all) {
     if (!all->count) return;
     puts("\n  subdivision     cells   portals  subdivide   seconds       pairs");
     for (size_t i = 0; i < all->count; i++) print_one(&all->items[i]);
-    printf("\nseconds and pairs of each subdivision: by %s%s%s, the fastest exact run\n",
+    printf("\nseconds and pairs of each subdivision: by %s%s%s, the fastest exact run; pairs of\n"
+           "different cells: they are no measure of how right a subdivision is\n",
            all->method->name, all->solver ? " with " : "", all->solver ? all->solver->name : "");
 }
 
