@@ -432,6 +432,7 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
                     "  sightline bake city.map --resume city.slv -o city.slv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));

@@ -238,21 +238,12 @@ static void print_snap_advice(const faults_report *report) {
 
 // --- the next command
 
-/// A word for the shell: in quotes if it is not made of plain characters.
 static void print_word(const char *before, const char *word) {
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
-    fputs(before, stdout);
-    if (word[0] && strspn(word, plain) == strlen(word)) {
-        fputs(word, stdout);
-        return;
-    }
-    putchar('\'');
-    for (; *word; word++)
-        if (*word == '\'')
-            fputs("'\\''", stdout);
-        else
-            putchar(*word);
-    putchar('\'');
+    const size_t size = pipeline_shell_word(word, NULL, 0) + 1;
+    char *text = malloc(size);
+    if (text) pipeline_shell_word(word, text, size);
+    printf("%s%s", before, text ? text : word);
+    free(text);
 }
 
 /// A file's name; one that looks like an option is led by its folder.
@@ -509,7 +500,6 @@ typedef struct check_plan {
     const char *output, *snap;
     uint64_t most;
     bool json, strict;
-    options_given given;
 } check_plan;
 
 static void destroy(sl_context *context, checked *c) {
@@ -610,7 +600,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
                             .thin = plan->faults.thin > 0 ? plan->faults.thin : usual,
                             .most = plan->most,
                             .picture = plan->output,
-                            .given = &plan->given};
+                            .given = &plan->pipeline.given};
     if (plan->snap)
         SL_TRY(mend(context, plan, &c->map, &report, after));
     else
@@ -676,7 +666,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
                     "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap plan-fixed.map",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .given = &plan.given,
+        .given = &plan.pipeline.given,
     };
     checked c = {0}, after = {0};
     bool helped;

@@ -357,6 +357,7 @@ sl_status cmd_compare(command_console *console, int argc, char **argv) {
                     "  sightline compare office.map --eye --viewpoints 100000 -o out",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     const char *input;
     bool helped;

@@ -8,6 +8,7 @@
 #include "pipeline.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
+#include "within.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +18,7 @@ typedef struct isovist_plan {
     const char *input, *path, *csv, *output, *picture;
     map_pipeline pipeline;
     door_choice doors;
+    within_plan within;
     option_list at;
     eye_place like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
@@ -61,6 +63,9 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
                        p->scale.y);
+    if (p->within.path && !grid)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--within is for a grid (--grid, --cells)");
+    SL_TRY(within_check(context, &p->within));
     return pipeline_plan(context, p->input, &p->pipeline);
 }
 
@@ -136,7 +141,13 @@ static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isov
         const sl_box *b = &space->bounds;
         step = fmax(b->max.x - b->min.x, b->max.y - b->min.y) / (double)plan->cells;
     }
-    return eyes_add_grid(context, space, step, plan->like, &w->eyes);
+    SL_TRY(eyes_add_grid(context, space, step, plan->like, &w->eyes));
+    if (!plan->within.path) return SL_OK;
+    sl_map outlines = {0};
+    SL_TRY(within_read(context, &plan->within, &plan->pipeline.input, &outlines));
+    eyes_keep_within(&outlines, &w->eyes);
+    sl_map_destroy(context, &outlines);
+    return w->eyes.list.count ? SL_OK : within_fail(context, &plan->within);
 }
 
 static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
@@ -217,13 +228,22 @@ static sl_status make_outline(sl_context *context, isovist_work *w) {
     return sl_outline_make(context, space, &w->outline);
 }
 
+/// A grid is all that is inside.
+static sl_status note_inside(sl_context *context, const isovist_plan *plan,
+                             const isovist_work *w) {
+    const sl_map *map = &w->baked.map;
+    const sl_space *space = &w->baked.space;
+    if (!(plan->grid > 0) && !plan->cells_given)
+        return pipeline_note_inside(context, &plan->pipeline, map, space);
+    return pipeline_need_inside(context, &plan->pipeline, map, space, "");
+}
+
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(
         context, &plan->pipeline, "isovist",
         SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, NULL, &w->baked));
-    if (!input_ends_with(plan->input, ".slv"))
-        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
+    if (!input_ends_with(plan->input, ".slv")) SL_TRY(note_inside(context, plan, w));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
@@ -260,6 +280,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
     const option_table doors = door_option_table(&plan.doors);
+    const option_table within = within_option_table(&plan.within);
     const option_spec options[] = {
         {"at", 0, "X,Y", "look from a point; may be given several times", .list = &plan.at},
         {"grid", 0, "STEP", "look from all points of a grid that are inside", .number = &plan.grid,
@@ -293,6 +314,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},
         {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &plan.threads,
          .most = 1024, .rare = true},
+        {.group = &within},
         {.group = &doors},
         {.group = &picture},
         {.group = &pipeline},
@@ -309,6 +331,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                     "  sightline isovist office.map --grid 2 -o seen.geojson",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));

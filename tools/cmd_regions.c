@@ -295,6 +295,7 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
                     "  sightline regions a.map --view-cells leaves --objects cells --solver stabs",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     const char *input;
     bool helped;

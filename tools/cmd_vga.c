@@ -17,6 +17,7 @@
 typedef struct vga_plan {
     const char *input, *output, *picture, *pairs;
     const char *compare;      ///< another plan, to be compared
+    const sl_map *first;      ///< of the other plan: the map that it is compared with
     const char *compare_shut; ///< its doors that are shut
     door_choice doors;
     map_pipeline pipeline;
@@ -100,7 +101,7 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->parts)
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
-    SL_TRY(vga_grid_check(context, &p->points));
+    SL_TRY(within_check(context, &p->points.within));
     SL_TRY(check_radius(context, p, p->visual_given, VGA_PART_VISUAL, "visual"));
     SL_TRY(check_radius(context, p, p->metric_given, VGA_PART_METRIC, "metric"));
     SL_TRY(check_radius(context, p, p->angular_given, VGA_PART_ANGULAR, "angular"));
@@ -131,7 +132,8 @@ static sl_status refuse_size(sl_context *context, const vga_plan *plan, double p
                    plan->points.step, points, points * points / 8 / 1073741824.0, most);
 }
 
-/// Refuses a step by the area inside, before a grid is filled that is far too large.
+/// Refuses a step by the area inside, before a grid is filled that is far too large. From --at the
+/// grid may go out, and filling it says when it is too large.
 static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_space *space) {
     double area = 0;
     for (uint32_t c = 0; c < space->cell_count; c++)
@@ -139,6 +141,30 @@ static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_
     const double points = area / plan->points.step / plan->points.step;
     if (plan->points.at.count || points * points / 8 <= (double)sl_machine_memory()) return SL_OK;
     return refuse_size(context, plan, points);
+}
+
+/// A step that is wrong by far may be meant in another unit than the drawing's.
+static sl_status name_unit(sl_context *context, const vga_plan *plan, const sl_map *map,
+                           const sl_space *space, sl_status status) {
+    const sl_box b = space->bounds;
+    const double across = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
+    if (status != SL_BAD_ARGUMENT || !map->drawing_unit || across < 10000 * plan->points.step ||
+        strcmp(map->unit, "m") == 0)
+        return status;
+    char message[512];
+    snprintf(message, sizeof message, "%s", sl_context_message(context));
+    return sl_fail(context, status, "%s; lengths are in %s: --unit m reads the drawing in metres",
+                   message, map->unit);
+}
+
+/// Two plans in different units have no place in common.
+static sl_status check_units(sl_context *context, const vga_plan *plan, const sl_map *map) {
+    const sl_map *first = plan->first;
+    if (!first || !*first->unit || !*map->unit || strcmp(first->unit, map->unit) == 0) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--compare %s: its lengths are in %s, those of the first plan in %s; --unit m "
+                   "reads both drawings in metres",
+                   plan->input, map->unit, first->unit);
 }
 
 static sl_status check_memory(sl_context *context, const vga_plan *plan, uint32_t points) {
@@ -326,20 +352,32 @@ static sl_status check_direction(sl_context *context, const vga_plan *plan, cons
     return SL_OK;
 }
 
+/// Without places to fill from, the grid is all that is inside.
+static sl_status note_inside(sl_context *context, const vga_plan *plan, const vga_work *w) {
+    const sl_map *map = &w->baked.map;
+    const sl_space *space = &w->baked.space;
+    if (plan->points.at.count) return pipeline_note_inside(context, &plan->pipeline, map, space);
+    return pipeline_need_inside(context, &plan->pipeline, map, space,
+                                ", or fill the grid from a point: --at X,Y");
+}
+
 /// From the map to its measures.
 static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~(unsigned)SL_EFFECT_MIRROR,
                                "steps and paths lead straight to points, not to mirror images",
                                &w->baked));
+    SL_TRY(check_units(context, plan, &w->baked.map));
     SL_TRY(check_direction(context, plan, w));
     if (!input_ends_with(plan->input, ".slv"))
-        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space));
+        SL_TRY(note_inside(context, plan, w));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(make_outline(context, w));
-    SL_TRY(check_area(context, plan, &w->baked.space));
-    SL_TRY(vga_grid_choose(context, &plan->points, &plan->pipeline.input, &w->outline,
-                           &w->table.grid));
+    sl_status status = check_area(context, plan, &w->baked.space);
+    if (status == SL_OK)
+        status = vga_grid_choose(context, &plan->points, &plan->pipeline.input, &w->outline,
+                                 &w->table.grid);
+    SL_TRY(name_unit(context, plan, &w->baked.map, &w->baked.space, status));
     if (plan->points.links)
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
                                    &w->link_count));
@@ -395,6 +433,7 @@ static sl_status compare(command_console *console, const vga_plan *plan, const v
     vga_work other = {0};
     vga_change change = {0};
     other_plan.input = plan->compare;
+    other_plan.first = &w->baked.map;
     if (plan->compare_shut)
         other_plan.doors =
             (door_choice){.shut = plan->compare_shut, .shut_option = "--compare-shut"};
@@ -540,6 +579,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
                     "  sightline vga old.map --grid 1 --compare new.map --picture gain.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));

@@ -554,6 +554,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
                     "  sightline viewcells office.map --objects cells --cells 60 --slv office.slv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));

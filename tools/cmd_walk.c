@@ -581,6 +581,7 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
                     "  sightline walk office.map --test tree -o study",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
     };
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));

@@ -3,6 +3,7 @@
 #include "eye_run.h"
 #include "inputs.h"
 #include "sightline/support.h"
+#include "within.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -48,6 +49,16 @@ sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step,
         SL_TRY(eyes_add(context, eyes, like));
     }
     return SL_OK;
+}
+
+void eyes_keep_within(const sl_map *outlines, eye_places *eyes) {
+    size_t kept = 0;
+    for (size_t i = 0; i < eyes->list.count; i++) {
+        if (!within_has(outlines, eyes->list.items[i].at)) continue;
+        eyes->list.items[kept] = eyes->list.items[i];
+        eyes->squares.items[kept++] = eyes->squares.items[i];
+    }
+    eyes->list.count = eyes->squares.count = kept;
 }
 
 sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,

@@ -32,6 +32,9 @@ sl_status eyes_add(sl_context *context, eye_places *eyes, eye_place eye);
 sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step, eye_place like,
                         eye_places *eyes);
 
+/// Drops the eyes of a grid that are not within outlines.
+void eyes_keep_within(const sl_map *outlines, eye_places *eyes);
+
 /// The points of a path. Where `step` is not 0: points every `step` along it instead.
 sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
                         eye_places *eyes);

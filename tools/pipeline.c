@@ -6,6 +6,7 @@
 #include "sightline/support.h"
 #include "solvers.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
@@ -14,6 +15,9 @@ static const name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4, 
 
 /// The longest that say_map() says, its 0 included; longer ones are cut.
 enum { SAID = 1024 };
+
+/// So small a share of the area is walls that are drawn as outlines, and no room.
+static const double FEW_INSIDE = 0.1;
 
 // --- options
 
@@ -104,16 +108,67 @@ sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *p) 
     return SL_OK;
 }
 
+// --- commands to run next
+
+size_t pipeline_shell_word(const char *word, char *text, size_t size) {
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
+    const bool quoted = !word[0] || word[strspn(word, plain)];
+    size_t length = 0;
+    if (quoted) length += (size_t)snprintf(text, size, "'");
+    for (; *word; word++) {
+        const char letter[2] = {*word, '\0'};
+        length += (size_t)snprintf(text + (length < size ? length : 0),
+                                   length < size ? size - length : 0, "%s",
+                                   *word == '\'' ? "'\\''" : letter);
+    }
+    if (quoted)
+        length += (size_t)snprintf(text + (length < size ? length : 0),
+                                   length < size ? size - length : 0, "'");
+    return length;
+}
+
+/// Adds a word, with what stands before it, to a command.
+static void say(char text[SAID], const char *before, const char *word) {
+    const size_t used = strlen(text);
+    snprintf(text + used, SAID - used, "%s", before);
+    const size_t now = strlen(text);
+    if (word) pipeline_shell_word(word, text + now, SAID - now);
+}
+
+/// The map's file, and those options of a table that were given.
+static const char *say_map(const map_pipeline *pipeline, const option_table *known,
+                           char text[SAID]) {
+    *text = '\0';
+    say(text, pipeline->path[0] == '-' && pipeline->path[1] ? "./" : "", pipeline->path);
+    for (size_t i = 0; i < pipeline->given.count; i++) {
+        const struct option_given *given = &pipeline->given.items[i];
+        size_t k = 0;
+        while (k < known->count && strcmp(known->items[k].name, given->name) != 0) k++;
+        if (k == known->count) continue;
+        say(text, " --", given->name);
+        if (given->argument) say(text, " ", given->argument);
+    }
+    return text;
+}
+
 // --- the way
+
+static sl_status fail_start(sl_context *context, const map_pipeline *pipeline, const sl_map *map) {
+    char text[SAID];
+    input_options any = input_options_default();
+    const option_table reading = input_option_table(&any);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--start %s: outside the map%s%s; to see its bounds, run: sightline info %s",
+                   pipeline->start_text, *map->unit ? ", whose lengths are in " : "", map->unit,
+                   say_map(pipeline, &reading, text));
+}
 
 static sl_status add_start(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
     if (!pipeline->start_text) return SL_OK;
     const sl_point at = pipeline->start;
     const sl_box b = sl_map_bounds(map);
     if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--start %s: outside the map; sightline info %s shows its bounds",
-                       pipeline->start_text, pipeline->path);
+        return fail_start(context, pipeline, map);
     return sl_map_add_start(context, map, at, 0, 0);
 }
 
@@ -176,25 +231,25 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
-/// The map's file and what picks the map in it, as they are given to a command.
-static const char *say_map(const map_pipeline *pipeline, char text[SAID]) {
-    const sl_import_options *import = &pipeline->input.import;
-    char slice[SL_NUMBER_TEXT];
-    const char *quote = strpbrk(pipeline->path, " '\"$&();<>|*?") ? "'" : "";
-    size_t length = (size_t)snprintf(text, SAID, "%s%s%s", quote, pipeline->path, quote);
-    if (import->map && length < SAID)
-        length += (size_t)snprintf(text + length, SAID - length, " --map %s", import->map);
-    if (import->has_slice && length < SAID) {
-        sl_number_write(import->slice, slice);
-        snprintf(text + length, SAID - length, " --slice %s", slice);
-    }
-    return text;
+sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space, const char *or_else) {
+    const sl_ground_shares shares = sl_space_ground(space);
+    sl_inside doubt;
+    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || shares.inside > FEW_INSIDE)
+        return pipeline_note_inside(context, pipeline, map, space);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "the map has no start, and walls enclose only %.2g %% of the area; say where a "
+                   "room is with --start X,Y%s",
+                   100 * shares.inside, or_else);
 }
 
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
     char text[SAID];
-    const char *path = say_map(pipeline, text);
+    map_pipeline any = pipeline_default();
+    const option_table reading = pipeline_option_table(&any);
+    const char *path = say_map(pipeline, &reading, text);
     sl_inside doubt;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
     const sl_ground_shares shares = sl_space_ground(space);

@@ -12,6 +12,7 @@ typedef struct map_pipeline {
     sl_bake_options bake;   ///< the method is the command's
     sl_point start;         ///< beside the map's own, where `start_text` is not NULL
     const char *start_text; ///< as it is given
+    options_given given;    ///< all options of the command, for commands to run next
     unsigned without;       ///< effects to leave out: bits of sl_effects()
     bool settles_doors;     ///< the command takes doors as they stand (sl_effects_settle_doors)
 
@@ -51,6 +52,16 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
 /// NULL for no need to say.
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, const char *reason, sl_baked *baked);
+
+/// A word for the shell: in quotes if it is not made of plain characters. Cut as by snprintf, and
+/// gives the length as that does.
+size_t pipeline_shell_word(const char *word, char *text, size_t size);
+
+/// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most of
+/// a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
+/// pipeline_note_inside().
+sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space, const char *or_else);
 
 /// Notes how much is inside if that is in doubt, and what to run next.
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,

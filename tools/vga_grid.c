@@ -5,15 +5,10 @@
 #include <math.h>
 
 option_table vga_grid_option_table(vga_grid_plan *plan) {
+    const option_table within = within_option_table(&plan->within);
     const option_spec options[] = {
         {"points", 0, "CSV", "only the grid points nearest to the points x,y of a table",
          .text = &plan->points, .is_input = true, .rare = true},
-        {"within", 0, "MAP",
-         "only grid points within the closed outlines of a drawing or map; the file may be the map "
-         "itself",
-         .text = &plan->within, .rare = true},
-        {"within-layers", 0, "LAYER,...", "which layers of the --within drawing to read",
-         .text = &plan->within_layers, .rare = true},
         {"boundary", 0, NULL, "only grid points at the border of the grid: a boundary graph",
          .flag = &plan->border, .rare = true},
         {"links", 0, "CSV",
@@ -23,13 +18,9 @@ option_table vga_grid_option_table(vga_grid_plan *plan) {
     };
     option_table table = {0};
     option_table_add(&table, options, sizeof options / sizeof *options);
+    option_table_add(&table, within.items, within.count);
     option_table_topic(&table, "points");
     return table;
-}
-
-sl_status vga_grid_check(sl_context *context, const vga_grid_plan *plan) {
-    if (!plan->within_layers || plan->within) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT, "--within-layers is for --within MAP");
 }
 
 // --- a part of the grid
@@ -97,39 +88,24 @@ static sl_status mark_listed(sl_context *context, const char *path, const sl_vga
     return status;
 }
 
-/// Whether a ray to the right of a point crosses a wall. Exact; a wall that the point lies on is
-/// not crossed.
-static bool is_crossed(sl_point p, const sl_wall *w) {
-    if ((w->a.y > p.y) == (w->b.y > p.y)) return false;
-    const sl_point low = w->a.y < w->b.y ? w->a : w->b, high = w->a.y < w->b.y ? w->b : w->a;
-    return sl_orient(low, high, p) > 0;
-}
-
-/// Within: an odd number of outlines lies on the way out.
 static sl_status mark_within(sl_context *context, const vga_grid_plan *plan,
                              const input_options *input, const sl_vga_grid *grid, sl_bits *kept) {
-    sl_map map = {0};
-    input_options own = *input;
-    if (plan->within_layers) own.import.layers = plan->within_layers;
-    SL_TRY(input_read_either(context, plan->within, &own, &map));
+    sl_map outlines = {0};
+    SL_TRY(within_read(context, &plan->within, input, &outlines));
     size_t count = 0;
     for (uint32_t p = 0; p < grid->count; p++) {
-        bool within = false;
-        for (size_t i = 0; i < map.wall_count; i++)
-            within ^= is_crossed(grid->points[p], &map.walls[i]);
+        const bool within = within_has(&outlines, grid->points[p]);
         if (within) sl_bits_add(kept, p);
         count += within;
     }
-    sl_map_destroy(context, &map);
-    if (count) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--within %s: no point of the grid is within its outlines", plan->within);
+    sl_map_destroy(context, &outlines);
+    return count ? SL_OK : within_fail(context, &plan->within);
 }
 
 static sl_status drop_others(sl_context *context, const vga_grid_plan *plan,
                              const input_options *input, sl_vga_grid *grid) {
     for (int k = 0; k < 3; k++) {
-        const bool asked = k == 0 ? plan->within != NULL : k == 1 ? plan->border : !!plan->points;
+        const bool asked = k == 0 ? plan->within.path != NULL : k == 1 ? plan->border : !!plan->points;
         if (!asked) continue;
         sl_bits *kept = sl_alloc_array(context, sl_bits_words(grid->count), sizeof *kept);
         if (!kept) return SL_NO_MEMORY;

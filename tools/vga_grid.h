@@ -5,22 +5,19 @@
 #include "pipeline.h"
 #include "sightline/outline.h"
 #include "sightline/vga.h"
+#include "within.h"
 
 /// What the options say.
 typedef struct vga_grid_plan {
     double step;
     option_list at;
     const char *points; ///< a table: only the points nearest to these
-    const char *within; ///< a map: only points within its outlines
-    const char *within_layers;
+    within_plan within; ///< only points within outlines
     bool border;       ///< only points at the border of the grid
     const char *links; ///< a table of linked points
 } vga_grid_plan;
 
 option_table vga_grid_option_table(vga_grid_plan *plan);
-
-/// Refuses options that do not go together.
-sl_status vga_grid_check(sl_context *context, const vga_grid_plan *plan);
 
 /// Fills the grid and drops the points that are not asked for. `input`: how `within` is read.
 sl_status vga_grid_choose(sl_context *context, const vga_grid_plan *plan,

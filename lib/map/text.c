@@ -100,16 +100,20 @@ static sl_status read_seam(text_reader *reader) {
     return sl_map_add_seam(reader->context, reader->map, segment_of(reader), reader->line);
 }
 
+static sl_status read_over_0(text_reader *reader, const char *word, double *value) {
+    if (!(reader->numbers.items[0] > 0))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "%s: expected a number greater than 0, found '%s'", word,
+                          sli_show(reader->words.items[0]).text);
+    *value = reader->numbers.items[0];
+    return SL_OK;
+}
+
 static sl_status read_range(text_reader *reader) {
     if (reader->map->range > 0)
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "a second range: the first is on line %u", reader->map->range_line);
-    const double range = reader->numbers.items[0];
-    if (!(range > 0))
-        return sl_fail_at(reader->context, reader->name, reader->line,
-                          "range: expected a number greater than 0, found '%s'",
-                          sli_show(reader->words.items[0]).text);
-    reader->map->range = range;
+    SL_TRY(read_over_0(reader, "range", &reader->map->range));
     reader->map->range_line = reader->line;
     return SL_OK;
 }
@@ -118,14 +122,15 @@ static sl_status read_snap(text_reader *reader) {
     if (reader->map->snap > 0)
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "a second snap: the first is on line %u", reader->map->snap_line);
-    const double snap = reader->numbers.items[0];
-    if (!(snap > 0))
-        return sl_fail_at(reader->context, reader->name, reader->line,
-                          "snap: expected a number greater than 0, found '%s'",
-                          sli_show(reader->words.items[0]).text);
-    reader->map->snap = snap;
+    SL_TRY(read_over_0(reader, "snap", &reader->map->snap));
     reader->map->snap_line = reader->line;
     return SL_OK;
+}
+
+static sl_status read_precision(text_reader *reader) {
+    if (reader->map->precision > 0)
+        return sl_fail_at(reader->context, reader->name, reader->line, "a second precision");
+    return read_over_0(reader, "precision", &reader->map->precision);
 }
 
 /// The heading may be any finite number, as it is an angle and not a coordinate.
@@ -219,6 +224,7 @@ static const statement statements[] = {
     {"object", "object NAME x0 y0 x1 y1", true, 4, 4, 4, read_object},
     {"cell", "cell x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_cell},
     {"snap", "snap d", false, 1, 1, 1, read_snap},
+    {"precision", "precision d", false, 1, 1, 1, read_precision},
 };
 
 static const statement *find_statement(sli_word word) {
@@ -295,7 +301,7 @@ static sl_status read_statement(text_reader *reader) {
         return sl_fail_at(
             reader->context, reader->name, reader->line,
             "unknown statement '%s': expected wall, walls, solid, open, door, mirror, "
-            "oneway, seam, range, start, path, object, cell or snap",
+            "oneway, seam, range, start, path, object, cell, snap or precision",
             sli_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sli_word));
     const sl_status status = read_by(reader, row);
@@ -629,6 +635,11 @@ static sl_status print_map(text_writer *writer) {
         begin(writer, map->range_line, "range");
         print_number(writer->stream, map->range);
         end(writer, map->range_line);
+    }
+    if (map->precision > 0) {
+        fputs("precision", writer->stream);
+        print_number(writer->stream, map->precision);
+        putc('\n', writer->stream);
     }
     SL_TRY(print_walls(writer));
     print_others(writer);
