@@ -8,6 +8,7 @@
 /// a sector of which nothing is known sees everything. Sides are decided by exact predicates.
 #include "io/wad.h"
 
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 #include "space/index.h"
@@ -29,6 +30,8 @@ typedef struct cell_view {
 typedef struct finder {
     sl_context *context;
     const sli_doom_level *level;
+    sl_box all;               ///< around all lines
+    double reach;             ///< how far a ray goes at first
     sli_box_tree tree;        ///< of the lines
     sli_box_list nearby;      ///< lines, of the current question
     SL_ARRAY(uint32_t) found; ///< of all cells so far
@@ -41,10 +44,7 @@ static cell_view view_of(const sl_space *space, uint32_t cell) {
     view.box = (sl_box){view.corners[0], view.corners[0]};
     for (uint32_t i = 0; i < view.count; i++) {
         const sl_point corner = view.corners[i];
-        view.box.min.x = fmin(view.box.min.x, corner.x);
-        view.box.min.y = fmin(view.box.min.y, corner.y);
-        view.box.max.x = fmax(view.box.max.x, corner.x);
-        view.box.max.y = fmax(view.box.max.y, corner.y);
+        view.box = sli_box_with(view.box, corner);
         view.middle.x += corner.x / view.count;
         view.middle.y += corner.y / view.count;
     }
@@ -120,11 +120,9 @@ static bool is_before(const hit *a, const hit *b, double point_x) {
     return side ? side > 0 : b->sector == SLI_NO_SECTOR;
 }
 
-/// The line that a ray to the right meets first, of the lines within reach; at HUGE_VAL for none.
-static sl_status meet_first(finder *find, sl_point point, double reach, hit *nearest) {
-    const sl_box ray = {point, {point.x + reach, point.y}};
-    SL_TRY(sli_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
-    *nearest = (hit){.x = HUGE_VAL, .sector = SLI_NO_SECTOR};
+/// The line that a ray to the right meets first, of the lines nearby; at HUGE_VAL for none.
+static hit meet_first(const finder *find, sl_point point) {
+    hit nearest = {.x = HUGE_VAL, .sector = SLI_NO_SECTOR};
     for (size_t i = 0; i < find->nearby.count; i++) {
         const sli_doom_line *line = &find->level->lines[find->nearby.items[i]];
         if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
@@ -134,23 +132,23 @@ static sl_status meet_first(finder *find, sl_point point, double reach, hit *nea
         if (sli_orient(met.low, met.high, point) <= 0) continue;
         const double slope = (met.high.x - met.low.x) / (met.high.y - met.low.y);
         met.x = met.low.x + (point.y - met.low.y) * slope;
-        if (nearest->x == HUGE_VAL || is_before(&met, nearest, point.x)) *nearest = met;
+        if (nearest.x == HUGE_VAL || is_before(&met, &nearest, point.x)) nearest = met;
     }
-    return SL_OK;
+    return nearest;
 }
 
-/// The sector that the nearest line to the right of a point says that the point is in. Lines out of
-/// reach are met beyond it. So a line that is met in the nearer half of the reach is the nearest:
-/// no two places are too close there, since a reach is far longer than what is too close.
+/// The sector that the nearest line to the right of a point says that the point is in. Lines within
+/// reach are nearby already. Lines out of reach are met beyond it. So a line that is met in the
+/// nearer half of the reach is the nearest: no two places are too close there, since a reach is far
+/// longer than what is too close.
 static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *sector) {
-    hit nearest = {.sector = SLI_NO_SECTOR};
-    if (find->tree.levels) {
-        const sl_box *all = &find->tree.boxes[find->tree.first[find->tree.levels - 1]];
-        double reach =
-            (all->max.x - all->min.x) / 64 + 1e-6 * (fabs(all->min.x) + fabs(all->max.x));
-        SL_TRY(meet_first(find, point, reach, &nearest));
-        for (; point.x + reach < all->max.x && nearest.x >= point.x + reach / 2; reach *= 4)
-            SL_TRY(meet_first(find, point, 4 * reach, &nearest));
+    hit nearest = meet_first(find, point);
+    for (double reach = find->reach;
+         reach > 0 && point.x + reach < find->all.max.x && nearest.x >= point.x + reach / 2;) {
+        reach *= 4;
+        const sl_box ray = {point, {point.x + reach, point.y}};
+        SL_TRY(sli_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
+        nearest = meet_first(find, point);
     }
     *sector = nearest.sector;
     return SL_OK;
@@ -164,9 +162,14 @@ static int compare_sectors(const void *left, const void *right) {
 static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     const cell_view view = view_of(space, cell);
     find->begin = find->found.count;
-    SL_TRY(sli_box_tree_find(find->context, &find->tree, &view.box, &find->nearby));
-    for (size_t i = 0; i < find->nearby.count; i++)
-        SL_TRY(ask_line(find, &view, &find->level->lines[find->nearby.items[i]]));
+    sl_box box = view.box; // with the first reach of the ray from the middle
+    box.max.x = sli_greater(box.max.x, view.middle.x + find->reach);
+    SL_TRY(sli_box_tree_find(find->context, &find->tree, &box, &find->nearby));
+    for (size_t i = 0; i < find->nearby.count; i++) {
+        const sli_doom_line *line = &find->level->lines[find->nearby.items[i]];
+        if (sli_lesser(line->from.x, line->to.x) <= view.box.max.x)
+            SL_TRY(ask_line(find, &view, line));
+    }
     uint32_t sector;
     SL_TRY(find_left_of_nearest(find, view.middle, &sector));
     SL_TRY(add(find, sector));
@@ -187,6 +190,12 @@ static sl_status make_tree(finder *find) {
     const sl_status status =
         sli_box_tree_create(find->context, boxes, level->line_count, &find->tree);
     sl_free(find->context, boxes);
+    if (status == SL_OK && level->line_count) {
+        const sli_box_tree *tree = &find->tree;
+        const sl_box all = tree->boxes[tree->first[tree->levels - 1]];
+        find->all = all;
+        find->reach = (all.max.x - all.min.x) / 64 + 1e-6 * (fabs(all.min.x) + fabs(all.max.x));
+    }
     return status;
 }
 
@@ -235,13 +244,16 @@ static sl_bits *row_of(const reject_maker *make, size_t sector) {
     return make->seen + sector * make->words;
 }
 
-/// All sectors that cells seen from this one reach into.
-static void collect_seen(const reject_maker *make, uint32_t cell, sl_bits *row) {
+/// All sectors that cells seen from this one reach into. False if it sees none: then the bake did
+/// not look from it.
+static bool collect_seen(const reject_maker *make, uint32_t cell, sl_bits *row) {
     const sli_cell_sectors *cells = &make->cells;
+    bool looked = false;
     memset(row, 0, make->words * sizeof *row);
-    for (sl_pvs_run r = sl_pvs_begin(make->pvs, cell); sl_pvs_next(&r);)
+    for (sl_pvs_run r = sl_pvs_begin(make->pvs, cell); sl_pvs_next(&r); looked = true)
         for (uint32_t i = cells->first[r.first]; i < cells->first[r.end]; i++)
             sl_bits_add(row, cells->sectors[i]);
+    return looked;
 }
 
 static void see_all(const reject_maker *make, size_t sector) {
@@ -253,8 +265,7 @@ static sl_status spread_rows(reject_maker *make, sl_bits *row, bool *reached) {
     for (uint32_t cell = 0; cell < make->space->cell_count; cell++) {
         if (cell % 256 == 0) SL_TRY(sl_check_cancelled(make->context));
         if (cells->first[cell] == cells->first[cell + 1]) continue;
-        const bool looked = sl_pvs_count(make->pvs, cell) > 0;
-        collect_seen(make, cell, row);
+        const bool looked = collect_seen(make, cell, row);
         for (uint32_t i = cells->first[cell]; i < cells->first[cell + 1]; i++) {
             const uint32_t sector = cells->sectors[i];
             sl_bits *seen = row_of(make, sector);
@@ -285,22 +296,43 @@ static sl_status find_seen(reject_maker *make) {
     return status;
 }
 
+/// The bit of an ordered pair in the lump.
+static size_t bit_of(const reject_maker *make, size_t from, size_t to) {
+    return from * make->count + to;
+}
+
+static void take_bit(unsigned char *bytes, size_t bit) {
+    bytes[bit / 8] &= (unsigned char)~(1u << bit % 8);
+}
+
+/// Takes a pair from those that are hidden, both ways.
+static void show(const reject_maker *make, size_t a, size_t b, sli_reject *out) {
+    const size_t bit = bit_of(make, a, b);
+    if (!(out->bytes[bit / 8] & 1u << bit % 8)) return;
+    take_bit(out->bytes, bit);
+    take_bit(out->bytes, bit_of(make, b, a));
+    out->account.hidden -= a != b;
+}
+
 /// The lump: a bit for each ordered pair, set where it is hidden. Sight goes both ways: a pair of
-/// which one sees the other is not hidden.
+/// which one sees the other is not hidden. Most pairs are hidden, so those that are not are taken
+/// from all.
 static sl_status make_lump(const reject_maker *make, sli_reject *out) {
-    const size_t count = make->count;
-    out->size = (count * count + 7) / 8;
+    const size_t count = make->count, bits = count * count;
+    out->size = (bits + 7) / 8;
     out->bytes = sl_alloc_array(make->context, out->size, 1);
     if (!out->bytes) return SL_NO_MEMORY;
+    memset(out->bytes, 0xff, out->size);
+    for (size_t bit = bits; bit < 8 * out->size; bit++) take_bit(out->bytes, bit);
+    out->account.hidden = count ? (uint64_t)count * (count - 1) / 2 : 0;
     for (size_t a = 0; a < count; a++) {
         SL_TRY(sl_check_cancelled(make->context));
-        for (size_t b = 0; b < count; b++) {
-            if (a == b || sl_bits_has(row_of(make, a), b) || sl_bits_has(row_of(make, b), a))
-                continue;
-            const size_t bit = a * count + b;
-            out->bytes[bit / 8] |= (unsigned char)(1u << bit % 8);
-            out->account.hidden += a < b;
-        }
+        show(make, a, a, out);
+        for (size_t w = 0; w < make->words; w++)
+            for (sl_bits seen = row_of(make, a)[w]; seen; seen &= seen - 1) {
+                const size_t b = 64 * w + (size_t)__builtin_ctzll(seen);
+                if (b < count) show(make, a, b, out);
+            }
     }
     return SL_OK;
 }

@@ -64,32 +64,30 @@ sl_status sli_wad_lump(sl_context *context, const sli_wad *wad, uint32_t index, 
 
 // --- maps
 
-static bool is_one_of(const char *name, const char *const *names, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(name, names[i]) == 0) return true;
-    return false;
-}
-
-/// Whether a map in lumps of records may have a lump of this name.
-static bool is_record_lump(const char *name) {
-    static const char *const names[] = {
+/// Whether a map in lumps of records may have a lump of this name, which sli_wad_lump_name made.
+/// Names end in zeros, so all of their bytes are compared at once.
+static bool is_record_lump(const char name[SLI_LUMP_NAME]) {
+    static const char names[][SLI_LUMP_NAME] = {
         "THINGS", "LINEDEFS", "SIDEDEFS", "VERTEXES", "SEGS",  "SSECTORS", "NODES",  "SECTORS",
         "REJECT", "BLOCKMAP", "BEHAVIOR", "SCRIPTS",  "LEAFS", "LIGHTS",   "MACROS",
     };
-    return is_one_of(name, names, sizeof names / sizeof *names);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (memcmp(name, names[i], SLI_LUMP_NAME - 1) == 0) return true;
+    return false;
 }
 
 /// A name that a map may have: any readable one that could not be a lump within a map.
-static bool is_map_name(const char *name) {
+static bool is_map_name(const char name[SLI_LUMP_NAME]) {
     for (const char *at = name; *at; at++)
         if (*at <= ' ' || *at >= 0x7f || *at == '#') return false;
     return name[0] && !is_record_lump(name) && strcmp(name, "TEXTMAP") != 0;
 }
 
 bool sli_wad_next_map(const sli_wad *wad, uint32_t *at, sli_wad_map *map) {
+    char name[SLI_LUMP_NAME], next[SLI_LUMP_NAME];
+    if (*at < wad->lump_count) sli_wad_lump_name(wad, *at, next);
     for (uint32_t i = *at; i + 1 < wad->lump_count; i++) {
-        char name[SLI_LUMP_NAME], next[SLI_LUMP_NAME];
-        sli_wad_lump_name(wad, i, name);
+        memcpy(name, next, sizeof name);
         sli_wad_lump_name(wad, i + 1, next);
         const bool is_text = strcmp(next, "TEXTMAP") == 0;
         if (!is_map_name(name) || !(is_text || is_record_lump(next))) continue;

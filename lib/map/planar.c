@@ -89,6 +89,15 @@ typedef struct planer {
     uint32_t old; ///< the edges below this number have been compared with each other
 } planer;
 
+/// As qsort, where items are often in order already.
+static void sort_items(void *items, size_t count, size_t size,
+                       int (*compare)(const void *, const void *)) {
+    const char *at = items;
+    size_t i = 1;
+    while (i < count && compare(at + (i - 1) * size, at + i * size) <= 0) i++;
+    if (i < count) qsort(items, count, size, compare);
+}
+
 // --- hash tables
 
 static uint64_t mix(uint64_t z) {
@@ -455,8 +464,7 @@ static sl_status take_meeting(planer *p, const meeting *m, uint32_t *out) {
 
 /// Gives the crossings their points, in the order of places.
 static sl_status take_meetings(planer *p) {
-    if (p->meetings.count)
-        qsort(p->meetings.items, p->meetings.count, sizeof *p->meetings.items, compare_meetings);
+    sort_items(p->meetings.items, p->meetings.count, sizeof *p->meetings.items, compare_meetings);
     for (size_t i = 0; i < p->meetings.count; i++) {
         const meeting m = p->meetings.items[i];
         uint32_t point;
@@ -517,8 +525,7 @@ static sl_status split_edge(planer *p, const split *splits, size_t count) {
 }
 
 static sl_status split_all(planer *p) {
-    if (p->splits.count)
-        qsort(p->splits.items, p->splits.count, sizeof *p->splits.items, compare_splits);
+    sort_items(p->splits.items, p->splits.count, sizeof *p->splits.items, compare_splits);
     size_t kept = 0; // each once
     for (size_t i = 0; i < p->splits.count; i++)
         if (!kept || compare_splits(&p->splits.items[kept - 1], &p->splits.items[i]) != 0)
@@ -575,7 +582,7 @@ static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) 
         ends[2 * i] = segments[i].a;
         ends[2 * i + 1] = segments[i].b;
     }
-    if (count) qsort(ends, 2 * count, sizeof *ends, compare_for_qsort);
+    sort_items(ends, 2 * count, sizeof *ends, compare_for_qsort);
     sl_status status = SL_OK;
     uint32_t point;
     for (size_t i = 0; i < 2 * count && status == SL_OK; i++) {
@@ -601,7 +608,7 @@ static sl_status take_edges(planer *p, const sli_planar_edge *ends, size_t count
         const uint32_t a = ends[i].a, b = ends[i].b;
         sorted[i] = a < b ? ends[i] : (sli_planar_edge){b, a};
     }
-    if (count) qsort(sorted, count, sizeof *sorted, compare_edges);
+    sort_items(sorted, count, sizeof *sorted, compare_edges);
     sl_status status = SL_OK;
     sli_planar_link link;
     for (size_t i = 0; i < count && status == SL_OK; i++) {
@@ -733,13 +740,11 @@ static sl_status write_points(writer *w) {
     for (size_t i = 0; i < p->points.count; i++) w->number[i] = NONE;
     for (size_t i = 0; i < p->edges.count; i++) {
         const uint32_t ends[2] = {p->edges.items[i].a, p->edges.items[i].b};
-        for (int k = 0; k < 2 && is_whole(p, (uint32_t)i); k++) {
-            if (w->number[ends[k]] != NONE) continue;
-            w->number[ends[k]] = 0;
-            used[count++] = (numbered){p->points.items[ends[k]], ends[k]};
-        }
+        for (int k = 0; k < 2 && is_whole(p, (uint32_t)i); k++) w->number[ends[k]] = 0;
     }
-    if (count) qsort(used, count, sizeof *used, compare_numbered);
+    for (uint32_t i = 0; i < p->points.count; i++)
+        if (w->number[i] != NONE) used[count++] = (numbered){p->points.items[i], i};
+    sort_items(used, count, sizeof *used, compare_numbered);
     w->out->points = sl_alloc_array(p->context, count, sizeof *w->out->points);
     for (size_t i = 0; i < count && w->out->points; i++) {
         w->out->points[i] = used[i].at;

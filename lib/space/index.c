@@ -137,13 +137,26 @@ void sli_box_tree_destroy(sl_context *context, sli_box_tree *tree) {
 // --- finding
 
 static bool boxes_meet(const sl_box *a, const sl_box *b) {
-    return a->min.x <= b->max.x && a->max.x >= b->min.x && a->min.y <= b->max.y &&
-           a->max.y >= b->min.y;
+    // Without branches, which would be hard to predict.
+    return (a->min.x <= b->max.x) & (a->max.x >= b->min.x) & (a->min.y <= b->max.y) &
+           (a->max.y >= b->min.y);
 }
 
 static int compare_items(const void *left, const void *right) {
     const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return (a > b) - (a < b);
+}
+
+/// Most lists are short, and some are long.
+static void sort_found(uint32_t *items, size_t count) {
+    enum { SHORT = 24 };
+    if (count > SHORT) qsort(items, count, sizeof *items, compare_items);
+    for (size_t i = 1; i < count && count <= SHORT; i++) {
+        const uint32_t item = items[i];
+        size_t at = i;
+        for (; at && items[at - 1] > item; at--) items[at] = items[at - 1];
+        items[at] = item;
+    }
 }
 
 /// Looks at the boxes of a level from `begin` on: those below one box of the next level.
@@ -167,7 +180,7 @@ sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const
     found->count = 0;
     if (!tree->levels) return SL_OK;
     SL_TRY(find_below(context, tree, tree->levels - 1, 0, box, found));
-    if (found->count > 1) qsort(found->items, found->count, sizeof *found->items, compare_items);
+    sort_found(found->items, found->count);
     return SL_OK;
 }
 
