@@ -6,6 +6,7 @@
 #include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "io/svg_style.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
@@ -298,6 +299,7 @@ typedef struct svg {
     sl_context *context;
     const sl_import_options *options;
     xmlDoc *document;
+    sli_svg_style style;
     sli_pen pen;
     size_t work, shapes, hidden, other;
     char *mark;     ///< the sum of the digits that the file's writer knew
@@ -361,30 +363,6 @@ static bool attribute_is(xmlNode *node, const char *name, const char *value) {
     const bool same = text && strcmp(text, value) == 0;
     sli_xml_free(text);
     return same;
-}
-
-/// Whether the element's style says so; blanks do not count.
-static bool style_has(xmlNode *node, const char *property, const char *value) {
-    char *text = sli_xml_attribute(node, "style");
-    if (!text) return false;
-    size_t length = 0;
-    for (const char *from = text; *from; from++)
-        if (!strchr(" \t\r\n", *from)) text[length++] = *from;
-    text[length] = '\0';
-    bool found = false;
-    for (const char *at = text; !found && *at; at += strcspn(at, ";"), at += *at == ';') {
-        const size_t name = strlen(property);
-        found = strncmp(at, property, name) == 0 && at[name] == ':' &&
-                strcspn(at + name + 1, ";!") == strlen(value) &&
-                strncmp(at + name + 1, value, strlen(value)) == 0;
-    }
-    sli_xml_free(text);
-    return found;
-}
-
-static bool is_hidden(xmlNode *node) {
-    return attribute_is(node, "display", "none") || style_has(node, "display", "none") ||
-           attribute_is(node, "visibility", "hidden") || style_has(node, "visibility", "hidden");
 }
 
 static bool names_layer(const char *list, const char *name) {
@@ -682,7 +660,8 @@ static void pass_over(svg *s, xmlNode *node) {
 
 static sl_status draw_element(svg *s, xmlNode *node, place at) {
     s->pen.line = sli_xml_line(node);
-    if (++s->work > MOST_WORK)
+    s->work += 1 + s->style.rules.count / 16;
+    if (s->work > MOST_WORK)
         return sl_fail_at(s->context, s->pen.name, s->pen.line,
                           "the drawing's uses give more than %zu elements", MOST_WORK);
     if (s->work % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
@@ -691,7 +670,7 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
         pass_over(s, node);
         return SL_OK;
     }
-    if (is_hidden(node)) {
+    if (sli_svg_hides(&s->style, node)) {
         s->hidden++;
         return SL_OK;
     }
@@ -830,16 +809,18 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     s->pen.map->top = height;
     s->pen.map->pixels = 1;
     SL_TRY(name_walls(s, root));
+    SL_TRY(sli_svg_style_read(s->context, root, &s->style));
     find_unit(s, root, box[2]);
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
     const sli_tally left[] = {{s->hidden, "hidden element or group", "hidden elements or groups"},
                               {s->other, "text or picture", "texts and pictures"},
-                              {s->pen.points, "line of no length", "lines of no length"}};
+                              {s->pen.points, "line of no length", "lines of no length"},
+                              {s->style.unread, "rule of a style sheet", "rules of style sheets"}};
     char without[SLI_TALLY_TEXT];
     sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
-            sli_tally_write("; left out: ", left, 3, without));
+            sli_tally_write("; left out: ", left, 4, without));
     sli_layers_note(s->context, s->pen.name, s->pen.map);
     return SL_OK;
 }
@@ -860,6 +841,7 @@ sl_status sl_map_read_svg(sl_context *context, const char *name, const char *tex
                   context, name, sli_xml_line(root), "expected an svg element, found '%s'",
                   sli_show((sli_word){(const char *)root->name, strlen((const char *)root->name)})
                       .text);
+    sli_svg_style_destroy(context, &s.style);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);
     if (status == SL_OK)

@@ -129,6 +129,52 @@ static void test_layers(void **state) {
     assert_walls_of(sl_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 1 10\n");
 }
 
+/// Whether a line within g.outer#o > g.inner is hidden by a sheet, and by what it says itself.
+static void assert_hidden(bool hidden, const char *sheet, const char *line) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             SVG("<style>%s</style><g class='outer' id='o'><g class='a inner'>"
+                 "<line class='no cls-1' id='l' %s x2='1'/></g></g>"),
+             sheet, line);
+    assert_walls(text, hidden ? "" : "wall 0 10 1 10\n");
+}
+
+static void test_style_sheets(void **state) {
+    (void)state;
+    assert_hidden(true, ".no { display: none }", "");
+    assert_hidden(true, ".cls-2,.cls-1{fill:none;display:none}", "");
+    assert_hidden(true, "line{visibility:hidden;}", "");
+    assert_hidden(true, "#l { fill: red; visibility : hidden }", "");
+    assert_hidden(true, "<![CDATA[ /* } */ line.no#l { display:none/**/; } ]]>", "");
+    assert_hidden(true, "* {display:none}", "");
+    assert_hidden(true, "#o .inner line {display:none}", "");
+    assert_hidden(
+        true, "@font-face { font-family: x } @media print { a { b: c } } .no{display:none}", "");
+    assert_hidden(false, ".n, .nob, rect, #o .outer line, line g {display:none}", "");
+    assert_hidden(false, ".no {stroke:none; fill:none; display:inline; visibility:visible}", "");
+    assert_hidden(false, "@media print { .no { display: none } }", "");
+    assert_hidden(false, ".no { -x-display: none; display: none-such }", "");
+    assert_hidden(false, ".no { display: none", "style='display: inline'");
+    assert_hidden(false, ".no", "");
+    // One declaration counts: important, own, ids, classes, names, the later one; attributes last.
+    assert_hidden(false, ".no{display:inline}", "display='none'");
+    assert_hidden(true, ".no{display:none}", "display='inline'");
+    assert_hidden(true, ".no{display:none !important}", "style='display:inline'");
+    assert_hidden(false, ".no{display:none}", "style='display:none;display:inline'");
+    assert_hidden(true, ".no{display:none} line{display:inline}", "");
+    assert_hidden(true, "#l{display:none} g g line.no.cls-1{display:inline}", "");
+    assert_hidden(false, ".no{display:none} .cls-1{display:inline}", "");
+    assert_hidden(true, ".no{display:none} line{visibility:visible}", "");
+    // Groups, and what is used.
+    assert_walls(SVG("<style type='text/css'>.x{display:none}</style><g class='x'><line x2='1'/>"
+                     "</g><defs><line id='d' x2='2'/></defs><use class='x' href='#d'/>"),
+                 "");
+    // Sheets of another language, and selectors that are not known, hide nothing.
+    assert_walls(SVG("<style type='text/x'>line{display:none}</style><line x2='1'/>"),
+                 "wall 0 10 1 10\n");
+    assert_hidden(false, "g > line, line:first-child, [x2] {display:none}", "");
+}
+
 static void test_refused(void **state) {
     (void)state;
     assert_refused("", "f: the file is empty");
@@ -178,7 +224,7 @@ int main(void) {
         cmocka_unit_test(test_units),      cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_transforms), cmocka_unit_test(test_paths),
         cmocka_unit_test(test_arcs),       cmocka_unit_test(test_layers),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_style_sheets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,11 +33,49 @@ function shape(node) {
 const skipped = new Set(['defs', 'symbol', 'clipPath', 'mask', 'pattern', 'marker', 'metadata', 'title',
     'desc', 'style', 'script', 'linearGradient', 'radialGradient', 'filter']);
 
-/** Whether attributes or the style of an element hide it, as lib/io/svg.c reads them. */
-function isHidden(node) {
-    const says = (property, value) => node.getAttribute(property) === value || (node.getAttribute('style') ?? '')
-        .replace(/[ \t\r\n]/g, '').split(';').some((part) => part.replace(/!.*/, '') === `${property}:${value}`);
-    return says('display', 'none') || says('visibility', 'hidden');
+const hiding = { display: 'none', visibility: 'hidden' };
+
+/** The rules of a text, read by the browser. @param {string} text */
+function parseRules(text) {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(text);
+    return [...sheet.cssRules];
+}
+
+/** What the style sheets of a drawing say that may hide, by selector: what counts more comes later. */
+function readSheets(page, counts) {
+    const rules = [], text = [...page.querySelectorAll('style')]
+        .filter(({ type }) => !type || type === 'text/css').map((sheet) => sheet.textContent).join('\n');
+    const imports = /@import\b[^;]*;/g;
+    counts.rules = text.match(imports)?.length ?? 0;
+    for (const { selectorText, style, media } of parseRules(text.replace(imports, ''))) {
+        counts.rules += media ? 1 : 0;
+        if (!style?.display && !style?.visibility) continue;
+        for (const selector of selectorText?.split(',') ?? [])
+            if (/[>+~:[|\\]/.test(selector)) counts.rules++;
+            else rules.push({ selector, style, weight: weightOf(selector) });
+    }
+    return rules.sort((a, b) => a.weight - b.weight);
+}
+
+/** A selector counts by its #ids, then its .classes, then its names (CSS 2.1, 6.4.3). */
+function weightOf(selector) {
+    const count = (form) => selector.match(form)?.length ?? 0;
+    return count(/#/g) * 2 ** 16 + count(/\./g) * 2 ** 8 + count(/(^|\s)[^\s.#*]/g);
+}
+
+/** Whether attributes, the style or style sheets hide an element, as lib/io/svg_style.c reads them. */
+function isHidden(node, rules) {
+    const styles = rules.filter(({ selector }) => node.matches(selector)).map(({ style }) => style);
+    const own = node.getAttribute('style');
+    if (own) styles.push(...parseRules(`*{${own}}`).slice(0, 1).map(({ style }) => style));
+    return Object.entries(hiding).some(([property, value]) => {
+        let now = node.getAttribute(property)?.trim();
+        for (const priority of ['', 'important'])
+            for (const style of styles)
+                if (style[property] && style.getPropertyPriority(property) === priority) now = style[property];
+        return now === value;
+    });
 }
 
 const layerName = (node) => {
@@ -77,13 +115,14 @@ export function readSvg(text) {
     const page = new DOMParser().parseFromString(text, 'image/svg+xml');
     if (page.querySelector('parsererror') || page.documentElement.localName !== 'svg')
         throw new FormatError('this is not an SVG file that can be read');
-    const root = page.documentElement, items = [], counts = { doors: 0, left: 0, hidden: 0 };
+    const root = page.documentElement, items = [], counts = { doors: 0, left: 0, hidden: 0, rules: 0 };
+    const rules = readSheets(page, counts);
     const box = numbersOf(root.getAttribute('viewBox'));
     const own = root.getAttribute('data-sightline-y0');
     const top = own !== null ? Number(own) : box.length === 4 ? 2 * box[1] + box[3] : number(root, 'height');
     const visit = (node, matrix, layer, depth) => {
         if (skipped.has(node.localName)) return;
-        if (isHidden(node)) {
+        if (isHidden(node, rules)) {
             counts.hidden++;
             return;
         }
@@ -113,8 +152,7 @@ export function readSvg(text) {
     const notes = [];
     if (counts.left) notes.push(plural(counts.left, 'text or picture', 'texts and pictures'));
     if (counts.hidden) notes.push(plural(counts.hidden, 'hidden element'));
-    if ([...page.querySelectorAll('style')].some((sheet) => /display\s*:\s*none|visibility\s*:\s*hidden/.test(sheet.textContent)))
-        notes.push('what the style sheet hides is drawn: hide it by display="none" instead');
+    if (counts.rules) notes.push(plural(counts.rules, 'rule of a style sheet', 'rules of style sheets'));
     const range = Number(root.getAttribute('data-sightline-range'));
     if (range > 0) items.push({ kind: 'range', points: [], value: range });
     if (!items.length) throw new FormatError('the drawing has no lines or outlines');

@@ -343,8 +343,16 @@ for (const name of wanted)
                 shown += cells.length > 1;
             }
             assert.equal(shown, 4);
-            await drop(page, 'sheet.svg', svg(`<style>.no { display: none }</style>${rect('class="no"')}`));
-            await page.waitForFunction(() => /sheet\.svg was read.*style sheet/.test(document.getElementById('message').textContent));
+            const sheets = ['.no{display:none}', 'rect.no, .x{visibility:hidden}', '#o .no{display:none}', '.no{display:none} rect{display:inline}',
+                '.no{display:none} #o rect{display:inline}', '#o rect{display:none !important} #o .no{display:inline}', '@import "x.css"; @media print{.no{display:none}}',
+                '.no{fill:none;stroke:none}', 'g > .no{display:none}', '.nob{display:none}'];
+            shown = 0;
+            for (const [i, sheet] of sheets.entries()) {
+                const { cells } = await comparesWithNative(page, `sheet${i}.svg`, svg(`<style>${sheet.replace('>', '&gt;')}</style><g id="o">${rect('class="no"')}</g>`));
+                shown += cells.length > 1;
+                assert.equal(/Left out.*rule/.test(await message(page)), i === 6 || i === 8, sheet);
+            }
+            assert.equal(shown, 5);
             await context.close();
         });
 
