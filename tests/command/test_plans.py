@@ -213,5 +213,48 @@ class Drawings(Plans):
         self.assertRegex(self.printed("info", "a.map"), "bounds    -2.85 0 to 9 5\n")
 
 
+class Viewpoints(Plans):
+    AT = ["isovist", "flat.dxf", *LAYERS, "--start", "1000,1000"]
+
+    def picture(self, name, *arguments):
+        result = self.box.run([*arguments, name])
+        if "without pictures" in result.stderr:
+            self.skipTest("a build without pictures")
+        self.assertEqual(result.status, 0, result.text())
+        return self.box.path(name).read_bytes()
+
+    def test_a_table_names_its_columns(self):
+        """Cameras: a name, and what the table has besides, may stand in any order."""
+        self.write("cameras.csv", "name,fov,y,x,heading,price\nC1,90,1000,2000,45,5.5\nC2,,6000,3000,,\n")
+        self.write("plain.csv", "2000,1000,45,90\n3000,6000\n")
+        named, plain = (self.rows(*self.AT, "--csv", name) for name in ("cameras.csv", "plain.csv"))
+        self.assertEqual([(row["x"], row["y"], row["look"], row["fov"]) for row in named],
+                         [("2000", "1000", "45", "90"), ("3000", "6000", "0", "360")])
+        self.assertEqual(named, plain)
+        for text in ("x,y\n1\n", "x,y\n1,\n", "y,x\n1,b\n", "name,x,y\nC,1,2,\nC\n"):
+            self.write("wrong.csv", text)
+            self.assertIn("two to four finite numbers are needed", self.refused(*self.AT, "--csv", "wrong.csv"))
+
+    def test_cameras_of_a_table_are_drawn_as_points_are(self):
+        self.write("cameras.csv", "x,y,angle,fov\n2000,1000,45,90\n")
+        drawn = self.picture("table.svg", *self.AT, "--csv", "cameras.csv", "--picture")
+        self.assertEqual(drawn, self.picture("point.svg", *self.AT, "--at", "2000,1000", "--look", "45", "--fov", "90",
+                                             "--picture"))
+
+    def test_a_picture_of_points_comes_with_their_measures(self):
+        options = [*self.AT, "--at", "2000,1000"]
+        self.picture("a.png", *options, "--picture")
+        self.assertEqual(self.printed(*options, "--picture", "b.png"), self.printed(*options))
+        self.assertEqual(self.printed(*options, "--picture", "c.png", "-o", "c.csv"), "")
+
+    def test_pictures_say_the_unit(self):
+        drawn = {"isovist": set(), "check": set()}
+        for unit in (0, 4, 6):
+            self.write("flat.dxf", flat(unit))
+            drawn["isovist"].add(self.picture(f"i{unit}.png", *self.AT, "--at", "2000,1000", "--picture"))
+            drawn["check"].add(self.picture(f"c{unit}.png", "check", "flat.dxf", *LAYERS, "-o"))
+        self.assertEqual({command: len(pictures) for command, pictures in drawn.items()}, {"isovist": 3, "check": 3})
+
+
 if __name__ == "__main__":
     sandbox.main()
