@@ -6,6 +6,7 @@
 #include "options.h"
 #include "outputs.h"
 #include "report.h"
+#include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -18,17 +19,13 @@ typedef struct info_request {
     const char *shut;
     bool json;
     sl_bytes bytes; ///< the file
+    bool is_drawing;
+    sl_drawing_layers layers; ///< of a drawing
 } info_request;
 
+/// For people: without the rounding noise of the last two digits.
 static void print_bounds(sl_box box) {
-    const double values[4] = {box.min.x, box.min.y, box.max.x, box.max.y};
-    printf("  bounds    ");
-    for (int i = 0; i < 4; i++) {
-        char number[SL_NUMBER_TEXT];
-        sl_number_write(values[i], number);
-        printf("%s%s", i == 0 ? "" : i == 2 ? " to " : " ", number);
-    }
-    putchar('\n');
+    printf("  bounds    %.15g %.15g to %.15g %.15g\n", box.min.x, box.min.y, box.max.x, box.max.y);
 }
 
 // --- doors
@@ -141,6 +138,32 @@ static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
     memcpy(counts, all, sizeof all);
 }
 
+static void print_layers(const sl_drawing_layers *layers) {
+    if (layers->count) puts("  layers, with their entities");
+    for (size_t i = 0; i < layers->count; i++) {
+        const sl_drawing_layer *layer = &layers->items[i];
+        printf("    %6zu  ", layer->entities);
+        console_print_text(stdout, layer->name, strlen(layer->name));
+        puts(layer->on ? "" : " (off: read only by --layers)");
+    }
+}
+
+/// "layers": [{"name": "WALLS", "entities": 12, "on": true}, ...]
+static sl_status add_layers_json(sl_context *context, json_fields *fields,
+                                 const sl_drawing_layers *layers) {
+    json_fields *items = sl_alloc_array(context, layers->count, sizeof *items);
+    if (!items) return SL_NO_MEMORY;
+    for (size_t i = 0; i < layers->count; i++) {
+        items[i] = json_begin();
+        json_add_text(&items[i], "name", layers->items[i].name);
+        json_add_count(&items[i], "entities", layers->items[i].entities);
+        json_add_flag(&items[i], "on", layers->items[i].on);
+    }
+    json_add_list(fields, "layers", items, layers->count);
+    sl_free(context, items);
+    return SL_OK;
+}
+
 static sl_status print_map_json(sl_context *context, const info_request *request, const sl_map *map,
                                 size_t oblique, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
@@ -149,12 +172,16 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     json_add_text(&fields, "file", request->path);
     json_add_text(&fields, "kind", "map");
     json_add_box(&fields, "bounds", sl_map_bounds(map));
+    if (*map->unit) json_add_text(&fields, "unit", map->unit);
     json_add_count(&fields, "walls", cleaning->before);
     json_add_count(&fields, "oblique_walls", oblique);
     for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
-    if (add_doors_json(context, &fields, map) != SL_OK) {
+    sl_status status = add_doors_json(context, &fields, map);
+    if (status == SL_OK && request->is_drawing)
+        status = add_layers_json(context, &fields, &request->layers);
+    if (status != SL_OK) {
         json_drop(&fields);
-        return SL_NO_MEMORY;
+        return status;
     }
     json_add_real(&fields, "range", map->range);
     json_add_cleaning(&fields, "cleaning", cleaning);
@@ -183,6 +210,9 @@ static sl_status print_map(sl_context *context, const info_request *request, con
     count_map(map, counts);
     printf("%s: a map\n", request->path);
     print_bounds(sl_map_bounds(map));
+    if (*map->unit) printf("  unit      %s\n", map->unit);
+    if (request->is_drawing && !*map->unit)
+        puts("  unit      unknown; if it is mm, --unit mm=m reads the drawing in metres");
     printf("  walls     %zu, ", cleaning->before);
     if (oblique)
         printf("%zu of them oblique\n", oblique);
@@ -191,6 +221,7 @@ static sl_status print_map(sl_context *context, const info_request *request, con
     for (int i = 0; i < MAP_COUNTS; i++)
         if (counts[i].count) printf("  %-9s %zu\n", counts[i].key, counts[i].count);
     SL_TRY(print_doors(context, map));
+    print_layers(&request->layers);
     if (map->range > 0) {
         char number[SL_NUMBER_TEXT];
         sl_number_write(map->range, number);
@@ -228,13 +259,14 @@ static void print_list(const char *path, const sl_map_list *list) {
 
 /// Lists the maps of a file that holds several; *done says whether it does. Not for standard input,
 /// which can be read only once.
-static sl_status inform_of_list(command_console *console, const info_request *request, bool *done) {
+static sl_status inform_of_list(command_console *console, info_request *request, bool *done) {
     sl_map_choice choice;
     SL_TRY(sl_map_choice_parse(console->context, request->path, request->bytes.data,
                                request->bytes.size, &choice));
     progress_line_clear(&console->line);
     sl_status status = SL_OK;
     *done = choice.maps.count > 1;
+    request->is_drawing = choice.format && strcmp(choice.format->name, "dxf") == 0;
     if (*done && request->json)
         status = print_list_json(console->context, request->path, &choice.maps);
     else if (*done)
@@ -243,9 +275,12 @@ static sl_status inform_of_list(command_console *console, const info_request *re
     return status;
 }
 
-static sl_status inform_of_map(command_console *console, const info_request *request) {
+static sl_status inform_of_map(command_console *console, info_request *request) {
     sl_map map = {0};
     sl_clean_account cleaning;
+    if (request->is_drawing)
+        SL_TRY(sl_drawing_layers_dxf(console->context, request->path, request->bytes.data,
+                                     request->bytes.size, &request->layers));
     SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
                         &request->input.import, &map));
     const size_t oblique = sl_map_count_oblique(&map);
@@ -388,7 +423,7 @@ static sl_status inform_of_baked(command_console *console, const info_request *r
 }
 
 /// The file is read once, as a pipe can be read once only.
-static sl_status inform(command_console *console, const info_request *request) {
+static sl_status inform(command_console *console, info_request *request) {
     bool done = false;
     if (input_is_baked(request->path, &request->bytes)) return inform_of_baked(console, request);
     if (request->shut)
@@ -425,5 +460,6 @@ sl_status cmd_info(command_console *console, int argc, char **argv) {
     SL_TRY(sl_file_read(console->context, request.path, &request.bytes));
     const sl_status status = inform(console, &request);
     sl_free(console->context, request.bytes.data);
+    sl_drawing_layers_destroy(console->context, &request.layers);
     return status;
 }

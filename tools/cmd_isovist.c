@@ -52,9 +52,6 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
                        "where to look from: give one of --at, --grid, --cells, --path, --csv");
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
-    if (p->picture && (p->path || p->csv))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--picture is for points (--at, starts) and grids (--grid, --cells)");
     if (p->measure_given && !(p->picture && grid))
         return sl_fail(context, SL_BAD_ARGUMENT, "--measure is for the --picture of a grid");
     if (p->scale_given && !(p->picture && grid))
@@ -195,13 +192,17 @@ static sl_status gather_parts(sl_context *context, const isovist_work *w, seen_p
 static void write_caption(const isovist_work *w, char *text, size_t size) {
     const isovist_result *isovist = &w->isovists[0];
     const sl_region_measures *m = &isovist->measures;
-    char mirrored[64] = "";
+    const char *name = w->baked.map.unit, *space = *name ? " " : "", *square = *name ? "\xc2\xb2" : "";
+    char unit[32], mirrored[64] = "";
+    snprintf(unit, sizeof unit, "%s%s", space, name);
     if (w->scene.mirrors)
-        snprintf(mirrored, sizeof mirrored, "  \xc2\xb7  by mirror %.6g", isovist->mirrored_area);
+        snprintf(mirrored, sizeof mirrored, "  \xc2\xb7  by mirror %.6g%s%s",
+                 isovist->mirrored_area, unit, square);
     snprintf(text, size,
-             "area %.6g%s  \xc2\xb7  perimeter %.6g  \xc2\xb7  occlusivity %.6g  \xc2\xb7  drift "
-             "%.4g at %.4g\xc2\xb0",
-             m->area, mirrored, m->perimeter, m->occlusivity, m->drift_magnitude, m->drift_angle);
+             "area %.6g%s%s%s  \xc2\xb7  perimeter %.6g%s  \xc2\xb7  occlusivity %.6g%s  \xc2\xb7  "
+             "drift %.4g%s at %.4g\xc2\xb0",
+             m->area, unit, square, mirrored, m->perimeter, unit, m->occlusivity, unit,
+             m->drift_magnitude, unit, m->drift_angle);
 }
 
 static sl_status draw_points(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
@@ -259,7 +260,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     if (plan->picture)
         SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
     progress_line_clear(&console->line);
-    if (plan->picture && !plan->output) return SL_OK;
+    if (plan->picture && !plan->output && w->eyes.columns) return SL_OK; // a long table
     return isovist_write(context, &w->scene, &w->eyes, w->isovists,
                          plan->output ? plan->output : "-");
 }
@@ -308,7 +309,8 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
-        {"csv", 0, "FILE", "look from the points of a table: x,y or x,y,angle or x,y,angle,fov",
+        {"csv", 0, "FILE", "look from the points of a table: x,y or x,y,angle or x,y,angle,fov; its first line may "
+         "name the columns",
          .text = &plan.csv, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 // --- eyes
@@ -87,20 +88,59 @@ sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, e
     return SL_OK;
 }
 
-/// Reads the fields of a line as numbers. Gives their count; -1 where a field is no number.
-static int read_fields(const char *line, size_t length, double fields[4]) {
-    int count = 0;
-    for (size_t at = 0; at <= length; count++) {
-        const char *comma = memchr(line + at, ',', length - at);
-        size_t end = comma ? (size_t)(comma - line) : length, start = at;
-        at = end + 1;
-        while (start < end && (line[start] == ' ' || line[start] == '\t')) start++;
-        while (start < end && (line[end - 1] == ' ' || line[end - 1] == '\t')) end--;
-        if (count == 4 || !sl_number_read(line + start, end - start, &fields[count]) ||
-            !isfinite(fields[count]))
-            return -1;
+/// What a table has of an eye, and in which columns: those of the names in the first line, or the
+/// first ones.
+enum { EYE_FIELDS = 4 };
+typedef struct eye_columns {
+    bool named;
+    size_t at[EYE_FIELDS]; ///< SIZE_MAX: none
+} eye_columns;
+
+/// The next field of a line, without blanks around it. False behind the last.
+static bool next_field(const char *line, size_t length, size_t *at, const char **field,
+                       size_t *wide) {
+    if (*at > length) return false;
+    const char *comma = memchr(line + *at, ',', length - *at);
+    size_t end = comma ? (size_t)(comma - line) : length, start = *at;
+    *at = end + 1;
+    while (start < end && (line[start] == ' ' || line[start] == '\t')) start++;
+    while (start < end && (line[end - 1] == ' ' || line[end - 1] == '\t')) end--;
+    *field = line + start;
+    *wide = end - start;
+    return true;
+}
+
+/// Names of columns: x and y, with others in any order. Without these two, the first columns count.
+static eye_columns find_columns(const char *line, size_t length) {
+    static const char *const names[EYE_FIELDS][3] = {
+        {"x", "", ""}, {"y", "", ""}, {"angle", "look", "heading"}, {"fov", "", ""}};
+    eye_columns columns = {.at = {SIZE_MAX, SIZE_MAX, SIZE_MAX, SIZE_MAX}};
+    const char *field;
+    size_t wide, place = 0;
+    for (size_t at = 0; next_field(line, length, &at, &field, &wide); place++)
+        for (size_t k = 0; k < EYE_FIELDS; k++)
+            for (size_t n = 0; n < 3; n++)
+                if (wide && wide == strlen(names[k][n]) && memcmp(field, names[k][n], wide) == 0)
+                    columns.at[k] = place;
+    columns.named = columns.at[0] != SIZE_MAX && columns.at[1] != SIZE_MAX;
+    return columns.named ? columns : (eye_columns){.at = {0, 1, 2, 3}};
+}
+
+/// Reads the fields of an eye. An empty one that the eye need not have leaves it as it is.
+static bool read_fields(const char *line, size_t length, const eye_columns *columns,
+                        double fields[EYE_FIELDS]) {
+    const char *field;
+    size_t wide, place = 0, count = 0;
+    for (size_t at = 0; next_field(line, length, &at, &field, &wide); place++) {
+        size_t k = 0;
+        while (k < EYE_FIELDS && columns->at[k] != place) k++;
+        if (k == EYE_FIELDS && columns->named) continue;
+        if (k >= 2 && columns->named && !wide) continue;
+        if (k == EYE_FIELDS || !sl_number_read(field, wide, &fields[k]) || !isfinite(fields[k]))
+            return false;
+        count += k < 2;
     }
-    return count;
+    return count == 2;
 }
 
 static bool is_blank(const char *line, size_t length) {
@@ -117,10 +157,10 @@ static bool is_header(const char *line, size_t length) {
 }
 
 static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
-                           size_t length, const sl_space *space, eye_place like, eye_places *eyes) {
-    double fields[4] = {0, 0, like.look, like.fov};
-    const int count = read_fields(line, length, fields);
-    if (count < 2)
+                           size_t length, const eye_columns *columns, const sl_space *space,
+                           eye_place like, eye_places *eyes) {
+    double fields[EYE_FIELDS] = {0, 0, like.look, like.fov};
+    if (!read_fields(line, length, columns, fields))
         return sl_fail_at(context, path, number,
                           "two to four finite numbers are needed: x, y, angle, field of view");
     const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
@@ -140,14 +180,18 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
     SL_TRY(sl_file_read(context, path, &text));
     sl_status status = SL_OK;
     unsigned number = 0;
+    eye_columns columns = {.at = {0, 1, 2, 3}};
     for (size_t at = 0; at < text.size && status == SL_OK;) {
         const char *line = text.data + at, *end = memchr(line, '\n', text.size - at);
         size_t length = end ? (size_t)(end - line) : text.size - at;
         at += length + 1;
         if (length && line[length - 1] == '\r') length--;
         number++;
-        if (is_blank(line, length) || (number == 1 && is_header(line, length))) continue;
-        status = read_line(context, path, number, line, length, space, like, eyes);
+        if (is_blank(line, length)) continue;
+        if (number == 1 && is_header(line, length))
+            columns = find_columns(line, length);
+        else
+            status = read_line(context, path, number, line, length, &columns, space, like, eyes);
     }
     sl_free(context, text.data);
     return status;

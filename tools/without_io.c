@@ -63,6 +63,16 @@ sl_status sl_lines_read_geojson(sl_context *context, const char *name, const cha
     return refuse_map(context, name, text, size, NULL, map);
 }
 
+sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const char *text,
+                                size_t size, sl_drawing_layers *out) {
+    (void)out;
+    return refuse_map(context, name, text, size, NULL, NULL);
+}
+
+void sl_drawing_layers_destroy(sl_context *context, sl_drawing_layers *layers) {
+    (void)context, (void)layers;
+}
+
 sl_status sl_image_read(sl_context *context, const char *name, const char *bytes, size_t size,
                         sl_image *out) {
     (void)bytes, (void)size, (void)out;

@@ -338,9 +338,10 @@ static bool round_length(double limit, double *length, char text[SL_NUMBER_TEXT]
 static void draw_scale_bar(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
                            const strip *at, double room) {
     double length;
-    char number[SL_NUMBER_TEXT], text[SL_NUMBER_TEXT + 8];
+    char number[SL_NUMBER_TEXT], text[SL_NUMBER_TEXT + 24];
     if (!round_length(room / frame->scale, &length, number)) return;
-    snprintf(text, sizeof text, "%s unit%s", number, length == 1 ? "" : "s");
+    const char *unit = scene->baked->map.unit;
+    snprintf(text, sizeof text, "%s %s", number, *unit ? unit : length == 1 ? "unit" : "units");
     const double right = at->left + at->width, left = right - length * frame->scale;
     const double y = at->top + 0.45 * LINE_HEIGHT * at->text, tick = 0.35 * at->text;
     cairo_move_to(cairo, left, y - tick);

@@ -49,6 +49,9 @@ static sl_colour ramp_colour(const picture *p, double place) {
     return sl_colour_mix(ends[dark][1], ends[dark][place < 0.5 ? 0 : 2], fmin(far, 1));
 }
 
+/// Values that differ by less than this share of themselves are equal but for rounding.
+static const double ROUNDING = 1e-12;
+
 /// The scale's ends are those of the values where `least` and `most` are equal.
 static void find_range(picture *p, double least, double most) {
     double low = INFINITY, high = -INFINITY;
@@ -57,10 +60,17 @@ static void find_range(picture *p, double least, double most) {
         low = fmin(low, p->values[i]);
         high = fmax(high, p->values[i]);
     }
+    if (high - low <= ROUNDING * fmax(fabs(low), fabs(high))) high = low;
     p->least = least < most ? least : low;
     p->most = least < most ? most : high;
     p->under = low < p->least;
     p->over = high > p->most;
+}
+
+static bool has_undefined(const picture *p) {
+    for (size_t i = 0; i < p->value_count; i++)
+        if (isnan(p->values[i])) return true;
+    return false;
 }
 
 static double share_of(const picture *p, double value) {
@@ -264,7 +274,8 @@ static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bo
     const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
     const sl_colour ink = p->scene.palette.ink;
     char name[128];
-    snprintf(name, sizeof name, p->unit ? "%s, %s" : "%s", p->scale, p->unit);
+    snprintf(name, sizeof name, "%s%s%s%s", p->scale, p->unit ? ", " : "", p->unit ? p->unit : "",
+             p->lines && has_undefined(p) ? " (grey: not defined)" : "");
     sl_text_font(cairo, g->text, false);
     const bool beside = width + 1.6 * g->text + sl_text_width(cairo, name) <= g->inner;
     const double height = (beside ? 3.2 : 4.8) * g->text;

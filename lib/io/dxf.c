@@ -1,7 +1,7 @@
 /// DXF (Autodesk, DXF Reference). A drawing is lines in pairs, a group code and a value, in
 /// sections HEADER, TABLES, BLOCKS and ENTITIES. The pairs are read first; then every entity that
 /// is walls is drawn by the pen: LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE,
-/// and INSERT, which draws a block's entities once more. Blocks within blocks could ask for any
+/// SPLINE, and INSERT, which draws a block's entities once more. Blocks within blocks could ask for any
 /// amount of work: their depth and the number of entities drawn are bounded. Layers whose names
 /// begin with "sightline-" hold doors, solid ground and so on (layers.h).
 #include "io/layers.h"
@@ -34,8 +34,19 @@ typedef struct dxf_block {
 
 typedef struct dxf_layer {
     sli_word name;
+    bool on; ///< and not frozen
     bool taken;
+    size_t entities;
 } dxf_layer;
+
+/// Entities of a kind that is no wall, on a layer.
+typedef struct dxf_other {
+    sli_word kind, layer;
+    size_t count;
+} dxf_other;
+
+/// So many of them are told apart.
+enum { MOST_OTHERS = 6 };
 
 typedef struct drawing {
     sl_context *context;
@@ -43,13 +54,16 @@ typedef struct drawing {
     const sl_import_options *options;
     SL_ARRAY(dxf_pair) pairs;
     SL_ARRAY(dxf_block) blocks;
-    SL_ARRAY(dxf_layer) layers; ///< of the table, and those that only the option names
+    SL_ARRAY(dxf_layer) layers; ///< of the table, and behind them those that entities name
+    size_t table_layers;        ///< of the table
+    dxf_other others[MOST_OTHERS];
+    size_t others_count;
     dxf_range entities;
     int unit; ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
     size_t work;    ///< entities and insertions gone through
     sl_bits *walls; ///< the pairs that start an entity that was drawn
-    /// Entities drawn; those of other layers, kinds, of the paper or out of the plan's plane.
+    /// Entities drawn; those of other layers, further kinds, of the paper or out of the plane.
     size_t drawn, other_layers, other_kinds, on_paper, out_of_plane;
 } drawing;
 
@@ -194,19 +208,34 @@ static sl_status read_tables(drawing *dxf, dxf_range section) {
         int colour = 7, flags = 0;
         SL_TRY(dxf_integer(dxf, entry, 62, &colour));
         SL_TRY(dxf_integer(dxf, entry, 70, &flags));
-        dxf_layer layer = {.name = dxf_text(dxf, entry, 2)};
-        layer.taken = list ? is_asked_for(list, layer.name) : colour >= 0 && !(flags & 1);
+        dxf_layer layer = {.name = dxf_text(dxf, entry, 2), .on = colour >= 0 && !(flags & 1)};
+        layer.taken = list ? is_asked_for(list, layer.name) : layer.on;
         SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->layers, 1));
         dxf->layers.items[dxf->layers.count++] = layer;
+        dxf->table_layers++;
     }
     return SL_OK;
 }
 
-/// Whether entities of the layer are taken. Names are the same in small letters and capitals.
-static bool dxf_takes_layer(const drawing *dxf, sli_word name) {
-    for (size_t i = 0; i < dxf->layers.count; i++)
-        if (same_name(dxf->layers.items[i].name, name)) return dxf->layers.items[i].taken;
-    return !dxf->options->layers || is_asked_for(dxf->options->layers, name);
+/// Layers that the table does not have: so many are counted. Finding them takes time.
+enum { MOST_UNLISTED = 256 };
+
+/// Counts an entity for its layer, and says whether those of the layer are taken. Names are the
+/// same in small letters and capitals.
+static sl_status dxf_take_layer(drawing *dxf, sli_word name, bool *taken) {
+    for (size_t i = 0; i < dxf->layers.count; i++) {
+        dxf_layer *layer = &dxf->layers.items[i];
+        if (!same_name(layer->name, name)) continue;
+        layer->entities++;
+        *taken = layer->taken;
+        return SL_OK;
+    }
+    const char *list = dxf->options->layers;
+    *taken = !list || is_asked_for(list, name);
+    if (dxf->layers.count - dxf->table_layers == MOST_UNLISTED) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->layers, 1));
+    dxf->layers.items[dxf->layers.count++] = (dxf_layer){name, true, *taken, 1};
+    return SL_OK;
 }
 
 // --- blocks
@@ -331,6 +360,21 @@ static sl_status read_plane(drawing *dxf, dxf_range entity, plane *out) {
     return SL_OK;
 }
 
+/// Counts an entity that is no wall.
+static sl_status leave_out(drawing *dxf, sli_word kind, sli_word layer) {
+    size_t i = 0;
+    while (i < dxf->others_count && !(same_name(dxf->others[i].kind, kind) &&
+                                      same_name(dxf->others[i].layer, layer)))
+        i++;
+    if (i == MOST_OTHERS) {
+        dxf->other_kinds++;
+        return SL_OK;
+    }
+    if (i == dxf->others_count) dxf->others[dxf->others_count++] = (dxf_other){kind, layer, 0};
+    dxf->others[i].count++;
+    return SL_OK;
+}
+
 // --- entities: lines and polylines
 
 static sl_status draw_line(drawing *dxf, dxf_range entity) {
@@ -395,15 +439,14 @@ static sl_status draw_light_polyline(drawing *dxf, dxf_range entity) {
 }
 
 /// A POLYLINE's corners are VERTEX entities of their own, up to a SEQEND.
-static sl_status draw_polyline(drawing *dxf, dxf_range entity, size_t end) {
+static sl_status draw_polyline(drawing *dxf, dxf_range entity, size_t end, sli_word layer) {
     enum { MESH = 16, POLYFACE = 64, FRAME = 16 };
     corners line = {0};
     int flags = 0;
     SL_TRY(dxf_integer(dxf, entity, 70, &flags));
     if (flags & (MESH | POLYFACE)) {
         dxf->drawn--;
-        dxf->other_kinds++;
-        return SL_OK;
+        return leave_out(dxf, dxf_at(dxf, entity.begin)->value, layer);
     }
     for (size_t i = entity.end; i < end && sli_word_is(dxf_at(dxf, i)->value, "VERTEX");) {
         const dxf_range vertex = dxf_entity(dxf, i, end);
@@ -470,6 +513,95 @@ static sl_status draw_ellipse(drawing *dxf, dxf_range entity, plane lies) {
     SL_TRY(dxf_number(dxf, entity, 42, &to));
     if (lies == FROM_BELOW) ratio = -ratio;
     return draw_round(dxf, centre, major, (sl_point){-ratio * major.y, ratio * major.x}, from, to);
+}
+
+// --- entities: splines
+
+/// A B-spline of degree up to 3 without weights: its knots and control points.
+typedef struct spline {
+    int degree;
+    SL_ARRAY(double) knots;
+    SL_ARRAY(sl_point) points;
+} spline;
+
+static sl_status read_spline(drawing *dxf, dxf_range entity, spline *out, bool *plain) {
+    *plain = true;
+    SL_TRY(dxf_integer(dxf, entity, 71, &out->degree));
+    for (size_t i = entity.begin; i < entity.end; i++) {
+        const dxf_pair *pair = dxf_at(dxf, i);
+        double value = 0;
+        if (pair->code == 40) {
+            SL_TRY(SL_ARRAY_ROOM(dxf->context, &out->knots, 1));
+            SL_TRY(read_number(dxf, pair, &value));
+            *plain &= !out->knots.count || value >= out->knots.items[out->knots.count - 1];
+            out->knots.items[out->knots.count++] = value;
+        } else if (pair->code == 41) {
+            SL_TRY(read_number(dxf, pair, &value));
+            *plain &= value == 1;
+        } else if (pair->code == 10) {
+            sl_point at = {0, 0};
+            SL_TRY(SL_ARRAY_ROOM(dxf->context, &out->points, 1));
+            SL_TRY(read_point(dxf, (dxf_range){i, entity.end}, 10, &at));
+            out->points.items[out->points.count++] = at;
+        }
+    }
+    *plain &= out->degree >= 1 && out->degree <= 3 && out->points.count > (size_t)out->degree &&
+              out->knots.count == out->points.count + (size_t)out->degree + 1;
+    return SL_OK;
+}
+
+/// The blossom of the piece between knots k and k + 1: for three equal arguments the curve's point,
+/// else a control point of it as a Bezier curve. A lower degree takes the mean over its arguments.
+static sl_point blossom(const spline *s, size_t k, const double at[3]) {
+    static const int choices[4][3][3] = {
+        {{0}}, {{0}, {1}, {2}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
+    const int degree = s->degree, count = degree == 3 ? 1 : 3;
+    sl_point mean = {0, 0};
+    for (int c = 0; c < count; c++) {
+        sl_point points[4];
+        for (int i = 0; i <= degree; i++) points[i] = s->points.items[k - (size_t)(degree - i)];
+        for (int round = 1; round <= degree; round++) {
+            const double t = at[choices[degree][c][round - 1]];
+            for (int i = degree; i >= round; i--) {
+                const double low = s->knots.items[k + (size_t)i - (size_t)degree],
+                             high = s->knots.items[k + (size_t)i + 1 - (size_t)round];
+                const double share = (t - low) / (high - low);
+                points[i].x = (1 - share) * points[i - 1].x + share * points[i].x;
+                points[i].y = (1 - share) * points[i - 1].y + share * points[i].y;
+            }
+        }
+        mean.x += points[degree].x / count;
+        mean.y += points[degree].y / count;
+    }
+    return mean;
+}
+
+static sl_status draw_pieces(drawing *dxf, const spline *s) {
+    const size_t first = (size_t)s->degree;
+    for (size_t k = first; k < s->points.count; k++) {
+        const double a = s->knots.items[k], b = s->knots.items[k + 1];
+        if (!(a < b)) continue;
+        if (k == first) dxf->pen.at = blossom(s, k, (const double[3]){a, a, a});
+        SL_TRY(sli_pen_cubic(&dxf->pen, blossom(s, k, (const double[3]){a, a, b}),
+                             blossom(s, k, (const double[3]){a, b, b}),
+                             blossom(s, k, (const double[3]){b, b, b})));
+    }
+    return SL_OK;
+}
+
+static sl_status draw_spline(drawing *dxf, dxf_range entity, sli_word layer) {
+    spline s = {0};
+    bool plain = true;
+    sl_status status = read_spline(dxf, entity, &s, &plain);
+    if (status == SL_OK && plain) {
+        status = draw_pieces(dxf, &s);
+    } else if (status == SL_OK) {
+        dxf->drawn--;
+        status = leave_out(dxf, dxf_at(dxf, entity.begin)->value, layer);
+    }
+    sl_free(dxf->context, s.knots.items);
+    sl_free(dxf->context, s.points.items);
+    return status;
 }
 
 // --- entities: blocks inserted
@@ -542,14 +674,14 @@ static sl_status draw_shape(drawing *dxf, dxf_range entity, size_t end, sli_word
     if (!sli_word_is(kind, "INSERT")) sl_bits_add(dxf->walls, entity.begin);
     if (sli_word_is(kind, "LINE")) return draw_line(dxf, entity);
     if (sli_word_is(kind, "LWPOLYLINE")) return draw_light_polyline(dxf, entity);
-    if (sli_word_is(kind, "POLYLINE")) return draw_polyline(dxf, entity, end);
+    if (sli_word_is(kind, "POLYLINE")) return draw_polyline(dxf, entity, end, layer);
     if (sli_word_is(kind, "ARC")) return draw_circle(dxf, entity, false);
     if (sli_word_is(kind, "CIRCLE")) return draw_circle(dxf, entity, true);
     if (sli_word_is(kind, "ELLIPSE")) return draw_ellipse(dxf, entity, lies);
+    if (sli_word_is(kind, "SPLINE")) return draw_spline(dxf, entity, layer);
     dxf->drawn--;
     if (sli_word_is(kind, "INSERT")) return draw_insert(dxf, entity, layer, depth);
-    dxf->other_kinds++;
-    return SL_OK;
+    return leave_out(dxf, kind, layer);
 }
 
 // --- entities of layers that say what they hold
@@ -602,7 +734,7 @@ static sl_status draw_in_layer(drawing *dxf, dxf_range entity, size_t end, sli_w
         status = read_start(dxf, entity, &start, &item.heading);
         item.count = 1;
     } else {
-        dxf->other_kinds++;
+        status = leave_out(dxf, kind, layer);
     }
     dxf->pen.map = map;
     if (item.layer != SLI_LAYER_WALL) dxf->pen.walls = walls;
@@ -626,7 +758,9 @@ static sl_status draw_entity(drawing *dxf, dxf_range entity, size_t end, sli_wor
         dxf->on_paper++;
         return SL_OK;
     }
-    if (!sli_word_is(kind, "INSERT") && !dxf_takes_layer(dxf, own)) {
+    bool taken = true;
+    if (!sli_word_is(kind, "INSERT")) SL_TRY(dxf_take_layer(dxf, own, &taken));
+    if (!taken) {
         dxf->other_layers++;
         return SL_OK;
     }
@@ -685,6 +819,22 @@ static sl_status name_walls(drawing *dxf) {
 
 // --- the drawing
 
+static sl_status fail_layer(const drawing *dxf, sli_word name) {
+    char names[512] = "";
+    for (size_t i = 0; i < dxf->layers.count; i++) {
+        const size_t used = strlen(names);
+        if (used > sizeof names - 80) {
+            snprintf(names + used, sizeof names - used, " ...");
+            break;
+        }
+        snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
+                 sli_show(dxf->layers.items[i].name).text);
+    }
+    return sl_fail(dxf->context, SL_BAD_ARGUMENT,
+                   "%s: there is no layer '%s' in the drawing; it has %s", dxf->name,
+                   sli_show(name).text, names);
+}
+
 /// A layer that is asked for and not there is a mistake worth telling of.
 static sl_status check_layers(const drawing *dxf) {
     const char *list = dxf->options->layers;
@@ -692,11 +842,7 @@ static sl_status check_layers(const drawing *dxf) {
         bool known = dxf->layers.count == 0;
         for (size_t i = 0; i < dxf->layers.count; i++)
             known |= same_name(dxf->layers.items[i].name, name);
-        if (!known)
-            return sl_fail(dxf->context, SL_BAD_ARGUMENT,
-                           "%s: there is no layer '%s' among the drawing's %zu; the first is '%s'",
-                           dxf->name, sli_show(name).text, dxf->layers.count,
-                           sli_show(dxf->layers.items[0].name).text);
+        if (!known) return fail_layer(dxf, name);
     }
     return SL_OK;
 }
@@ -733,27 +879,42 @@ static void set_unit(const drawing *dxf, const char *sign) {
     snprintf(dxf->pen.map->unit, sizeof dxf->pen.map->unit, "%s", sign);
 }
 
-/// Has the pen draw in the unit that is asked for.
+/// The number of a unit that is asked for.
+static sl_status find_unit(const drawing *dxf, const char *sign, size_t *unit) {
+    size_t i = 0;
+    while (i < UNITS && !(units[i].known && strcmp(units[i].sign, sign) == 0)) i++;
+    *unit = i;
+    if (i < UNITS) return SL_OK;
+    return sl_fail(dxf->context, SL_BAD_ARGUMENT,
+                   "there is no unit '%s'; choose from mm, cm, m, km, in, ft, yd", sign);
+}
+
+/// Has the pen draw in the unit that is asked for: "m", or "mm=m" for a drawing that is in mm,
+/// whatever it says itself.
 static sl_status take_unit(drawing *dxf) {
-    const char *word = dxf->options->unit;
-    dxf->pen.map->drawing_unit = dxf->unit >= 0 && dxf->unit < UNITS ? dxf->unit : 0;
+    const char *word = dxf->options->unit, *told = word ? strchr(word, '=') : NULL;
+    size_t from = dxf->unit >= 0 && dxf->unit < UNITS ? (size_t)dxf->unit : 0, to;
+    if (told) {
+        char own[16];
+        snprintf(own, sizeof own, "%.*s", (int)(told - word < 16 ? told - word : 16), word);
+        SL_TRY(find_unit(dxf, own, &from));
+        word = told + 1;
+    }
+    dxf->pen.map->drawing_unit = (int)from;
     if (!word) {
-        if (dxf->unit > 0 && dxf->unit < UNITS) set_unit(dxf, units[dxf->unit].sign);
+        set_unit(dxf, units[from].sign);
         return SL_OK;
     }
-    size_t to = 0;
-    while (to < UNITS && !(units[to].known && strcmp(units[to].sign, word) == 0)) to++;
-    if (to == UNITS)
+    SL_TRY(find_unit(dxf, word, &to));
+    if (!from)
         return sl_fail(dxf->context, SL_BAD_ARGUMENT,
-                       "there is no unit '%s'; choose from mm, cm, m, km, in, ft, yd", word);
-    if (dxf->unit <= 0 || dxf->unit >= UNITS)
-        return sl_fail(dxf->context, SL_BAD_ARGUMENT,
-                       "%s: the drawing's own unit is %s, so it cannot be turned into %s",
-                       dxf->name, unit_name(dxf->unit), units[to].name);
+                       "%s: the drawing's own unit is %s, so it cannot be turned into %s; if it is "
+                       "in mm, say --unit mm=%s",
+                       dxf->name, unit_name(dxf->unit), units[to].name, word);
     set_unit(dxf, word);
-    if ((size_t)dxf->unit == to) return SL_OK;
+    if (from == to) return SL_OK;
     dxf->pen.map->drawing_unit = (int)to;
-    const double scale = units[dxf->unit].metres / units[to].metres;
+    const double scale = units[from].metres / units[to].metres;
     dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
     return SL_OK;
 }
@@ -774,7 +935,7 @@ static sl_status find_mark(const drawing *dxf, char **mark) {
     return SL_OK;
 }
 
-static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
+static sl_status draw_drawing(drawing *dxf, const char *text, size_t size) {
     SL_TRY(refuse_other_files(dxf, text, size));
     SL_TRY(read_pairs(dxf, text, size));
     SL_TRY(read_sections(dxf));
@@ -782,25 +943,55 @@ static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
     SL_TRY(take_unit(dxf));
     dxf->walls = sl_alloc_array(dxf->context, sl_bits_words(dxf->pairs.count), sizeof(sl_bits));
     if (!dxf->walls) return SL_NO_MEMORY;
-    SL_TRY(dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0));
+    return dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0);
+}
+
+/// What was taken, and what was left out.
+static void note_drawing(const drawing *dxf) {
+    char kinds[MOST_OTHERS][96];
+    sli_tally left[5 + MOST_OTHERS];
+    size_t count = 0;
+    left[count++] = (sli_tally){dxf->other_layers, "on another layer", "on other layers"};
+    for (size_t i = 0; i < dxf->others_count; i++) {
+        const dxf_other *other = &dxf->others[i];
+        snprintf(kinds[i], sizeof kinds[i], "%.24s%s%.60s", sli_show(other->kind).text,
+                 other->layer.length ? " on " : "", sli_show(other->layer).text);
+        left[count++] = (sli_tally){other->count, kinds[i], kinds[i]};
+    }
+    left[count++] = (sli_tally){dxf->other_kinds, "that is no wall either", "that are no walls"};
+    left[count++] = (sli_tally){dxf->on_paper, "on a layout (paper space)", "on layouts (paper space)"};
+    left[count++] = (sli_tally){dxf->out_of_plane, "out of the plane", "out of the plane"};
+    left[count++] = (sli_tally){dxf->pen.points, "line of no length", "lines of no length"};
+    const char *asked = dxf->options->unit;
+    char without[SLI_TALLY_TEXT];
+    sl_note(dxf->context, "%s: %zu entities give %zu walls%s; unit: %s%s%s", dxf->name, dxf->drawn,
+            dxf->pen.walls, sli_tally_write("; left out: ", left, count, without),
+            unit_name(dxf->unit), asked ? strchr(asked, '=') ? ", read as " : ", converted to " : "",
+            asked ? asked : "");
+    if (!dxf->drawn && dxf->options->layers)
+        sl_note(dxf->context,
+                "%s: nothing on the layers %s is a wall; sightline info %s lists all layers",
+                dxf->name, dxf->options->layers, dxf->name);
+    sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
+}
+
+static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
+    SL_TRY(draw_drawing(dxf, text, size));
     SL_TRY(name_walls(dxf));
     char *mark = NULL;
     SL_TRY(find_mark(dxf, &mark));
     dxf->pen.map->precision =
         sli_marked_precision(dxf->pen.map, dxf->pen.finest, mark, dxf->pen.sum);
     sl_free(dxf->context, mark);
-    const sli_tally left[] = {{dxf->other_layers, "on another layer", "on other layers"},
-                              {dxf->other_kinds, "of another kind", "of other kinds"},
-                              {dxf->on_paper, "on the paper", "on the paper"},
-                              {dxf->out_of_plane, "out of the plane", "out of the plane"},
-                              {dxf->pen.points, "line of no length", "lines of no length"}};
-    char without[SLI_TALLY_TEXT];
-    sl_note(dxf->context, "%s: %zu entities give %zu walls%s; unit: %s%s%s", dxf->name, dxf->drawn,
-            dxf->pen.walls, sli_tally_write("; left out: ", left, 5, without), unit_name(dxf->unit),
-            dxf->options->unit ? ", converted to " : "",
-            dxf->options->unit ? dxf->options->unit : "");
-    sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
+    note_drawing(dxf);
     return SL_OK;
+}
+
+static void drawing_destroy(drawing *dxf) {
+    sl_free(dxf->context, dxf->pairs.items);
+    sl_free(dxf->context, dxf->blocks.items);
+    sl_free(dxf->context, dxf->layers.items);
+    sl_free(dxf->context, dxf->walls);
 }
 
 sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
@@ -815,13 +1006,51 @@ sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *tex
                            .affine = SLI_AFFINE_NONE,
                            .tolerance = options->tolerance}};
     const sl_status status = read_drawing(&dxf, text, size);
-    sl_free(context, dxf.pairs.items);
-    sl_free(context, dxf.blocks.items);
-    sl_free(context, dxf.layers.items);
-    sl_free(context, dxf.walls);
+    drawing_destroy(&dxf);
     if (status == SL_OK)
         *map = read;
     else
         sl_map_destroy(context, &read);
+    return status;
+}
+
+void sl_drawing_layers_destroy(sl_context *context, sl_drawing_layers *layers) {
+    for (size_t i = 0; i < layers->count; i++) sl_free(context, layers->items[i].name);
+    sl_free(context, layers->items);
+    *layers = (sl_drawing_layers){0};
+}
+
+static sl_status copy_layers(const drawing *dxf, sl_drawing_layers *out) {
+    out->items = sl_alloc_array(dxf->context, dxf->layers.count, sizeof *out->items);
+    if (!out->items) return SL_NO_MEMORY;
+    for (size_t i = 0; i < dxf->layers.count; i++) {
+        const dxf_layer *from = &dxf->layers.items[i];
+        sl_drawing_layer *to = &out->items[i];
+        *to = (sl_drawing_layer){sl_copy_text(dxf->context, from->name.at, from->name.length),
+                                 from->entities, from->on};
+        if (!to->name) return SL_NO_MEMORY;
+        out->count++;
+    }
+    return SL_OK;
+}
+
+sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const char *text,
+                                size_t size, sl_drawing_layers *out) {
+    const sl_import_options options = sl_import_options_default();
+    sl_drawing_layers read = {0};
+    sl_map map = {0};
+    drawing dxf = {
+        .context = context,
+        .name = name,
+        .options = &options,
+        .pen = {.context = context, .name = name, .map = &map, .affine = SLI_AFFINE_NONE}};
+    sl_status status = draw_drawing(&dxf, text, size);
+    if (status == SL_OK) status = copy_layers(&dxf, &read);
+    drawing_destroy(&dxf);
+    sl_map_destroy(context, &map);
+    if (status == SL_OK)
+        *out = read;
+    else
+        sl_drawing_layers_destroy(context, &read);
     return status;
 }

@@ -83,7 +83,7 @@ typedef struct sli_tally {
     const char *one, *several;
 } sli_tally;
 
-enum { SLI_TALLY_TEXT = 400 };
+enum { SLI_TALLY_TEXT = 900 };
 
 /// Writes "2 tiles, 1 object" after `lead`: the numbers that are not 0. Writes nothing, and no
 /// lead, if all are.

@@ -135,5 +135,126 @@ class Inside(Plans):
                                                              "--within", "zones.dxf"))
 
 
+class Drawings(Plans):
+    LAYERS = (("A-WALL", 7), ("A-DIMS", -2), ("A-EMPTY", 3))
+
+    def test_info_lists_layers_and_unit(self):
+        self.write("a.dxf", flat(layers=self.LAYERS).line("A-DIMS", 0, -900, 9, -900))
+        text = self.printed("info", "a.dxf")
+        self.assertRegex(text, r"\n  unit      mm\n")
+        self.assertRegex(text, r"\n +6  A-WALL\n +1  A-DIMS \(off: read only by --layers\)\n +0  A-EMPTY\n +1  A-GRID\n")
+        report = json.loads(self.printed("info", "a.dxf", "--layers", "A-DIMS", "--json"))
+        self.assertEqual(report["unit"], "mm")
+        self.assertEqual([tuple(layer.values()) for layer in report["layers"]],
+                         [("A-WALL", 6, True), ("A-DIMS", 1, False), ("A-EMPTY", 0, True), ("A-GRID", 1, True)])
+
+    def test_an_unknown_layer_names_all_and_an_empty_one_is_noted(self):
+        self.write("a.dxf", flat(layers=self.LAYERS))
+        self.assertIn("a.dxf: there is no layer 'WALLS' in the drawing; it has A-WALL, A-DIMS, A-EMPTY",
+                      self.refused("info", "a.dxf", "--layers", "WALLS"))
+        self.assertIn("a.dxf: nothing on the layers A-EMPTY is a wall; sightline info a.dxf lists all layers",
+                      self.run_well("info", "a.dxf", "--layers", "A-EMPTY").stderr)
+
+    def test_what_is_left_out_has_its_kind_and_layer(self):
+        self.write("a.dxf", flat().add("HATCH", "A-WALL").add("HATCH", "A-WALL").add("TEXT", "A-TEXT"))
+        self.assertIn("; left out: 2 HATCH on A-WALL, 1 TEXT on A-TEXT; unit: millimetres",
+                      self.run_well("info", "a.dxf").stderr)
+
+    def test_splines_become_chords(self):
+        def spline(degree, points, *more):
+            count = len(points)
+            knots = [0] * degree + list(range(count - degree + 1)) + [count - degree] * degree
+            return Drawing().box("W", -9, -9, 99, 99).add(
+                "SPLINE", "W", (71, degree), *((40, knot) for knot in knots),
+                *(pair for x, y in points for pair in ((10, x), (20, y))), *more)
+
+        def chords():
+            self.printed("convert", "a.dxf", "-o", "a.map", "--tolerance", "0.01")
+            walls = [tuple(map(float, line.split()[1:])) for line in
+                     self.box.path("a.map").read_text().splitlines() if line.startswith("wall ")]
+            return walls[4:]
+        # Of degree 2, with three points: (2 t, 2 t (1 - t)) by its points (0,0), (1,1), (2,0).
+        self.write("a.dxf", spline(2, [(0, 0), (1, 1), (2, 0)]))
+        self.assertGreater(len(chords()), 3)
+        for x, y, _, _ in chords():
+            self.assertAlmostEqual(y, x * (1 - x / 2), places=12)
+        # Of degree 1: its points. Of degree 3 with inner knots: by de Boor's recursion.
+        self.write("a.dxf", spline(1, [(0, 0), (3, 0), (3, 4)]))
+        self.assertEqual(chords()[-1][2:], (3, 4))
+        self.assertIn((3, 0), [wall[:2] for wall in chords()])
+        points = [(0, 0), (1, 2), (3, 3), (5, 1), (6, 0), (8, 4)]
+        self.write("a.dxf", spline(3, points))
+        def at(t, i, degree):
+            knots = [0, 0, 0, 0, 1, 2, 3, 3, 3, 3]
+            if degree == 0:
+                return knots[i] <= t < knots[i + 1] or (t == 3 and knots[i] < 3 == knots[i + 1])
+            return sum(share * at(t, k, degree - 1) for k, share in (
+                (i, (t - knots[i]) / ((knots[i + degree] - knots[i]) or 1)),
+                (i + 1, (knots[i + degree + 1] - t) / ((knots[i + degree + 1] - knots[i + 1]) or 1))))
+        ends = [wall[:2] for wall in chords()] + [chords()[-1][2:]]
+        for t in (0, 1, 2, 3): # where pieces meet
+            place = [sum(at(t, i, 3) * point[axis] for i, point in enumerate(points)) for axis in (0, 1)]
+            self.assertTrue(any(max(abs(end[k] - place[k]) for k in (0, 1)) < 1e-12 for end in ends), (t, place))
+        # With weights, or without knots, it is left out and said.
+        self.write("a.dxf", spline(2, [(0, 0), (1, 1), (2, 0)], (41, 2)))
+        self.assertIn("left out: 1 SPLINE on W", self.run_well("info", "a.dxf").stderr)
+
+    def test_a_drawing_without_a_unit_is_read_in_the_one_that_is_said(self):
+        self.write("a.dxf", flat(0))
+        told = self.refused("info", "a.dxf", "--unit", "m")
+        self.assertIn("own unit is unknown, so it cannot be turned into metres; if it is in mm, say --unit mm=m", told)
+        self.assertRegex(self.printed("info", "a.dxf", "--unit", "mm=m", *LAYERS), r"bounds    0 0 to 12 8\n  unit      m\n")
+        # What the drawing says itself does not count then.
+        self.assertRegex(self.printed("info", "flat.dxf", "--unit", "cm=m", *LAYERS), "bounds    0 0 to 120 80\n")
+        self.assertIn("there is no unit 'ell'", self.refused("info", "a.dxf", "--unit", "ell=m"))
+
+    def test_bounds_are_printed_without_noise(self):
+        self.write("a.map", "sightline 1\nwall -2.8499999999999996 0 9 5\n")
+        self.assertRegex(self.printed("info", "a.map"), "bounds    -2.85 0 to 9 5\n")
+
+
+class Viewpoints(Plans):
+    AT = ["isovist", "flat.dxf", *LAYERS, "--start", "1000,1000"]
+
+    def picture(self, name, *arguments):
+        result = self.box.run([*arguments, name])
+        if "without pictures" in result.stderr:
+            self.skipTest("a build without pictures")
+        self.assertEqual(result.status, 0, result.text())
+        return self.box.path(name).read_bytes()
+
+    def test_a_table_names_its_columns(self):
+        """Cameras: a name, and what the table has besides, may stand in any order."""
+        self.write("cameras.csv", "name,fov,y,x,heading,price\nC1,90,1000,2000,45,5.5\nC2,,6000,3000,,\n")
+        self.write("plain.csv", "2000,1000,45,90\n3000,6000\n")
+        named, plain = (self.rows(*self.AT, "--csv", name) for name in ("cameras.csv", "plain.csv"))
+        self.assertEqual([(row["x"], row["y"], row["look"], row["fov"]) for row in named],
+                         [("2000", "1000", "45", "90"), ("3000", "6000", "0", "360")])
+        self.assertEqual(named, plain)
+        for text in ("x,y\n1\n", "x,y\n1,\n", "y,x\n1,b\n", "name,x,y\nC,1,2,\nC\n"):
+            self.write("wrong.csv", text)
+            self.assertIn("two to four finite numbers are needed", self.refused(*self.AT, "--csv", "wrong.csv"))
+
+    def test_cameras_of_a_table_are_drawn_as_points_are(self):
+        self.write("cameras.csv", "x,y,angle,fov\n2000,1000,45,90\n")
+        drawn = self.picture("table.svg", *self.AT, "--csv", "cameras.csv", "--picture")
+        self.assertEqual(drawn, self.picture("point.svg", *self.AT, "--at", "2000,1000", "--look", "45", "--fov", "90",
+                                             "--picture"))
+
+    def test_a_picture_of_points_comes_with_their_measures(self):
+        options = [*self.AT, "--at", "2000,1000"]
+        self.picture("a.png", *options, "--picture")
+        self.assertEqual(self.printed(*options, "--picture", "b.png"), self.printed(*options))
+        self.assertEqual(self.printed(*options, "--picture", "c.png", "-o", "c.csv"), "")
+
+    def test_pictures_say_the_unit(self):
+        drawn = {"isovist": set(), "check": set()}
+        for unit in (0, 4, 6):
+            self.write("flat.dxf", flat(unit))
+            drawn["isovist"].add(self.picture(f"i{unit}.png", *self.AT, "--at", "2000,1000", "--picture"))
+            drawn["check"].add(self.picture(f"c{unit}.png", "check", "flat.dxf", *LAYERS, "-o"))
+        self.assertEqual({command: len(pictures) for command, pictures in drawn.items()}, {"isovist": 3, "check": 3})
+
+
 if __name__ == "__main__":
     sandbox.main()

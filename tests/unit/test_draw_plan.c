@@ -447,6 +447,69 @@ static void a_scale_makes_heat_maps_comparable(void **state) {
 }
 
 /// The longest piece of a band of rows without a gap of some pixels.
+/// Values that are equal but for rounding have one colour, and one number below the ramp.
+static void equal_values_have_one_colour(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const double noisy[4] = {1.1, nextafter(1.1, 2), nextafter(1.1, 1), 1.1},
+                 equal[4] = {1.1, 1.1, 1.1, 1.1}, apart[4] = {1.1, 1.1000000001, 1.1, 1.1};
+    sl_field field = {.name = "area", .step = 20, .columns = 2, .rows = 2, .values = equal};
+    const picture a = draw_field(&map, &field, WIDTH);
+    field.values = noisy;
+    const picture b = draw_field(&map, &field, WIDTH);
+    field.values = apart;
+    const picture c = draw_field(&map, &field, WIDTH);
+    size_t noise = 0, change = 0;
+    for (int y = 0; y < a.height; y++)
+        for (int x = 0; x < a.width; x++) {
+            noise += !same(pixel_at(&a, x, y), pixel_at(&b, x, y));
+            change += !same(pixel_at(&a, x, y), pixel_at(&c, x, y));
+        }
+    assert_int_equal(noise, 0);
+    assert_true(change > 0);
+    cairo_surface_destroy(a.surface);
+    cairo_surface_destroy(b.surface);
+    cairo_surface_destroy(c.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// Lines without a value are grey, and the name of the scale says so.
+static void grey_lines_are_explained(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const sl_segment lines[3] = {{{1, 1}, {9, 1}}, {{1, 2}, {9, 2}}, {{1, 3}, {9, 3}}};
+    const double values[2][3] = {{1, 2, 1}, {1, 2, NAN}};
+    picture drawn[2];
+    for (int i = 0; i < 2; i++) {
+        const sl_drawn_lines all = {
+            .name = "depth", .lines = lines, .values = values[i], .count = 3};
+        char directory[32], path[48];
+        draw_directory(directory);
+        snprintf(path, sizeof path, "%s/a.png", directory);
+        const sl_draw_options options = options_for(SL_LAYER_WALLS, SL_NO_CELL, false);
+        assert_ok(context, sl_draw_lines_file(context, &map.baked, &all, &options, path));
+        cairo_surface_t *surface = cairo_image_surface_create_from_png(path);
+        unlink(path);
+        assert_int_equal(rmdir(directory), 0);
+        drawn[i] = (picture){surface, cairo_image_surface_get_width(surface),
+                             cairo_image_surface_get_height(surface)};
+    }
+    assert_int_equal(drawn[0].height, drawn[1].height);
+    // The ramp and its numbers are the same; the words beside it are more.
+    size_t differ = 0;
+    for (int y = drawn[0].height - 74; y < drawn[0].height; y++)
+        for (int x = 0; x < drawn[0].width; x++)
+            differ += !same(pixel_at(&drawn[0], x, y), pixel_at(&drawn[1], x, y));
+    assert_true(differ > 50);
+    cairo_surface_destroy(drawn[0].surface);
+    cairo_surface_destroy(drawn[1].surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
 static int longest_word(const picture *p, int top, int bottom, int gap) {
     const sl_colour page = sl_palette_make(false).page;
     int longest = 0, first = -1, last = -1;
@@ -654,6 +717,8 @@ int main(void) {
         cmocka_unit_test(outside_is_hatched_where_it_is_shown),
         cmocka_unit_test(rock_is_over_heat_and_has_no_view),
         cmocka_unit_test(a_scale_makes_heat_maps_comparable),
+        cmocka_unit_test(equal_values_have_one_colour),
+        cmocka_unit_test(grey_lines_are_explained),
         cmocka_unit_test(numbers_of_a_scale_do_not_touch),
         cmocka_unit_test(place_and_size_do_not_matter),
         cmocka_unit_test(thin_maps_are_not_stretched),

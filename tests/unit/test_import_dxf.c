@@ -131,7 +131,7 @@ static void test_layers(void **state) {
                     "wall 2 0 2 1\nwall 3 0 3 1\nwall 8 0 8 1\n");
     options.layers = "walls,doors";
     assert_refused_of(sl_map_read_dxf, &options, text, sizeof text - 1, SL_BAD_ARGUMENT,
-                      "f: there is no layer 'doors' among the drawing's 3");
+                      "f: there is no layer 'doors' in the drawing; it has walls, off, frozen");
 }
 
 static void test_refused(void **state) {

@@ -27,6 +27,7 @@ typedef struct sl_import_options {
     const char *start_names;
     double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
     /// Coordinates are to be in this unit: mm, cm, m, km, in, ft or yd; NULL: in the file's own.
+    /// "mm=m": the file is in mm, whatever it says, and is to be in m.
     const char *unit;
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens

@@ -50,13 +50,32 @@ SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, co
 SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
                                           size_t size, double *lowest, double *highest);
 
-/// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
-/// as inserted, on layers that are on and not frozen or on those asked for. Layers named
+/// The lines, polylines with bulges, arcs, circles, ellipses and plain splines (degree up to 3, no
+/// weights) of an ASCII DXF drawing, in blocks as inserted, on layers that are on and not frozen or on those asked for. Layers named
 /// "sightline-..." hold doors, solid ground and so on (lib/io/FORMATS.md). What was taken is noted.
 /// SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing does
 /// not name its own.
 SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
+
+/// A layer of a drawing.
+typedef struct sl_drawing_layer {
+    char *name;
+    size_t entities; ///< on it, those of blocks as often as they are inserted
+    bool on;         ///< and not frozen: taken unless layers are asked for
+} sl_drawing_layer;
+
+/// The layers of a drawing's table; behind them up to 256 that only entities name. Zeroed: empty.
+typedef struct sl_drawing_layers {
+    sl_drawing_layer *items;
+    size_t count;
+} sl_drawing_layers;
+
+/// Lists the layers of a DXF drawing; `out` is empty, and stays so on failure. SL_BAD_INPUT where
+/// sl_map_read_dxf() fails too.
+SL_API sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const char *text,
+                                       size_t size, sl_drawing_layers *out);
+SL_API void sl_drawing_layers_destroy(sl_context *context, sl_drawing_layers *layers); ///< zeroes it
 
 /// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
 /// or label, also those named "sightline-...". What was taken is noted.
