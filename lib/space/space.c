@@ -5,6 +5,7 @@
 /// of each of its edges. The last cell of a bucket needs no test, as the cells leave nothing out.
 #include "sightline/space.h"
 
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 #include "space/index.h"
@@ -133,12 +134,17 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
 bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
+    // One limit for all corners, as they are within the bounds.
+    const sl_box *b = &space->bounds;
+    const sl_point reach = {sli_greater(point.x - b->min.x, b->max.x - point.x),
+                            sli_greater(point.y - b->min.y, b->max.y - point.y)};
+    const double limit = sli_turn_limit(reach, reach);
     sl_point from = corners[cell->vertex_count - 1];
     sl_point offset = {from.x - point.x, from.y - point.y};
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point to = corners[i], next = {to.x - point.x, to.y - point.y};
-        const int turn = sli_turn_filter(offset, next);
-        if (turn < 0 || (turn == 0 && sli_orient_exact(from, to, point) < 0)) return false;
+        const int turn = sli_turn_filter_within(offset, next, limit);
+        if (turn < 0 || (turn == 0 && sli_orient(from, to, point) < 0)) return false;
         from = to;
         offset = next;
     }
