@@ -273,7 +273,7 @@ static bool propagates(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame
         return false;
     const double chance = does(w, SLI_WALK_ADAPTS) ? sli_walk_share(&m->spreads) : w->options.p_vp;
     if (!again && !by_chance(w, chance)) return false;
-    sl_node_state state;
+    sl_node_state state = SL_NODE_INVISIBLE; // without its vectorizer gcc warns
     m->spread = propagate(w, id, &state);
     frame->propagations++;
     frame->propagated += m->spread;

@@ -217,8 +217,7 @@ static sl_view random_view(trial *t) {
 
 static void random_maps(void **state) {
     (void)state;
-    const char *seeds = getenv("SIGHTLINE_SEEDS");
-    const uint64_t maps = seeds ? strtoull(seeds, NULL, 10) : MAPS;
+    const uint64_t maps = testing_seeds(MAPS);
     size_t seen = 0, areas = 0;
     for (uint64_t seed = 1; seed <= maps; seed++) {
         trial t;

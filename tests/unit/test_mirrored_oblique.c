@@ -376,8 +376,7 @@ static void check_boxes(trial *t, sl_point eye) {
 
 static void random_maps(void **state) {
     (void)state;
-    const char *seeds = getenv("SIGHTLINE_SEEDS");
-    const uint64_t maps = seeds ? strtoull(seeds, NULL, 10) : MAPS;
+    const uint64_t maps = testing_seeds(MAPS);
     trial t = {0};
     for (uint64_t seed = 1; seed <= maps; seed++) {
         begin(&t, seed);

@@ -304,9 +304,7 @@ static void try_map(trial *t, sl_sight sight) {
 }
 
 static void random_maps(sl_sight sight) {
-    const char *text = getenv("SIGHTLINE_SEEDS");
-    uint64_t seeds = text ? strtoull(text, NULL, 10) : 0;
-    if (!seeds) seeds = 16;
+    const uint64_t seeds = testing_seeds(16);
     trial t = {.context = testing_context(NULL)};
     for (t.seed = 1; t.seed <= seeds; t.seed++) try_map(&t, sight);
     print_message("%zu of %zu cells, %zu of %zu boxes seen\n", t.cells_seen, t.cells_asked,
