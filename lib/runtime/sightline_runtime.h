@@ -86,6 +86,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    const unsigned char *walls; ///< NULL in a file without them
+    uint32_t wall_count;
     const unsigned char *text; ///< what the map holds beside walls, as map text
     size_t text_bytes;
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
@@ -105,6 +107,11 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// other maps, a point on a border between cells is in the cell of the lowest number. Time: the few
 /// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
 /// all cells.
+///
+/// On the border of solid ground, such as the side of a tile, a cell that is not solid comes first.
+/// If all walls are axial, these are asked in turn: the cell right of the point and over it, left
+/// and over, right and under, left and under. In other maps, the lowest number that is not solid
+/// counts. So an eye that leans against rock sees.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
@@ -287,6 +294,28 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
 
+/// Point to point: whether an eye at (x0, y0) sees the point (x1, y1). `shut`, `range` and
+/// `scratch` are as for sl_runtime_look_past. A guard sees the player by this, and may see him,
+/// somewhere in his cell, by sl_runtime_can_see_past.
+///
+/// Exact: the line passes from the eye's cell (sl_runtime_locate), through open portals that it
+/// touches, to a cell that touches the point. So a point on a wall or on a shut door is seen from
+/// both sides, but an eye there looks from the side of its cell only. If neither point is on a wall
+/// or a shut door, and no one-way glass is between them, each sees the other or none does. (The
+/// range is exact if no coordinate but 0 is 1e70 times smaller than another one.) Time: that of a
+/// look with a cone of one direction, and of clearing a byte for each cell.
+SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
+                                    double y1, const unsigned char *shut, double range,
+                                    uint32_t *scratch);
+
+/// Whether one may walk straight from one point to another: no point of the way, ends included, is
+/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
+/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
+/// walls, so a step that is only seen could end in a wall and leave it on its other side.
+/// False for a file that has no walls. Time: all walls.
+SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
+                                        double y1, const unsigned char *shut);
+
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
@@ -355,8 +384,10 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
 //     size_t size = sl_runtime_boxes_count(&runtime, 1000, 8000);
 //     uint32_t *memory = malloc(size * sizeof *memory);
 //     sl_runtime_boxes_start(&boxes, &runtime, list, 1000, 8000, memory);
+//     size_t most = sl_runtime_boxes_scratch_count(&boxes);
+//     uint32_t *boxes_scratch = malloc(most * sizeof *boxes_scratch);
 //     each frame, for each box that moved: sl_runtime_boxes_move(&boxes, i, &box);
-//     for each eye: sl_runtime_boxes_seen(&boxes, &view, shut, 0, scratch, seen);
+//     for each eye: sl_runtime_boxes_seen(&boxes, &view, shut, 0, boxes_scratch, seen);
 
 /// A box. It may have no width or height, and lie anywhere.
 typedef struct sl_runtime_box {
@@ -391,7 +422,8 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
-/// The size of the scratch memory for the calls below, in uint32_t.
+/// The size of `boxes_scratch` for the calls below, in uint32_t. It is more than the scratch memory
+/// of the calls without boxes.
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
 
 /// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
@@ -414,7 +446,7 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
 SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
                                               const sl_runtime_view *view,
                                               const unsigned char *shut, double range,
-                                              uint32_t *scratch, unsigned char *seen);
+                                              uint32_t *boxes_scratch, unsigned char *seen);
 
 /// As sl_runtime_look_past, past boxes that block: it leaves out cells that are hidden. No cell in
 /// sight is missed. A hidden cell may be left in if a box lies across the line of a portal. `seen`,
@@ -422,7 +454,7 @@ SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
 SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
                                                    const sl_runtime_view *view,
                                                    const unsigned char *shut, double range,
-                                                   uint32_t *scratch, unsigned char *seen,
+                                                   uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
@@ -512,6 +544,11 @@ static double slrt_f64(const unsigned char *at) {
 
 // --- the file: layout as in lib/bake/slv.h
 
+// What checks the file runs once: the npm package has it as small as clang can make it.
+#ifdef SL_RUNTIME_SMALL_OPEN
+#pragma clang attribute push(__attribute__((minsize)), apply_to = function)
+#endif
+
 enum {
     SLRT_HEADER_BYTES = 32,
     SLRT_ENTRY_BYTES = 24, ///< of the table of sections
@@ -546,6 +583,7 @@ enum slrt_tag {
     SLRT_MIRB,
     SLRT_MDOO,
     SLRT_MDOB,
+    SLRT_WALL,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -622,6 +660,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"MIRB", 1},
                           {"MDOO", 8},
                           {"MDOB", 1},
+                          {"WALL", 32},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -972,6 +1011,16 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     return true;
 }
 
+static bool slrt_take_walls(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    rt->walls = found[SLRT_WALL].items;
+    if (found[SLRT_WALL].count > UINT32_MAX) return false;
+    rt->wall_count = (uint32_t)found[SLRT_WALL].count;
+    for (i = 0; i < rt->wall_count; i++)
+        if (!slrt_usable(rt->walls + (size_t)i * 32, 4)) return false;
+    return true;
+}
+
 /// The rows of door sets of `rt`, whose doors are counted.
 static bool slrt_door_rows_are_sound(const sl_runtime *rt, const slrt_section *offsets,
                                      const slrt_section *bytes) {
@@ -1264,7 +1313,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
-    if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
+    if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
     if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
@@ -1273,6 +1322,10 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     *out = rt;
     return SL_RUNTIME_OK;
 }
+
+#ifdef SL_RUNTIME_SMALL_OPEN
+#pragma clang attribute pop
+#endif
 
 SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     switch (status) {
@@ -1774,10 +1827,11 @@ static uint32_t slrt_step(double value, double low, double high, uint32_t count)
     return whole < count ? whole : count - 1; // whatever -ffast-math makes of the line above
 }
 
-/// The first cell that holds a point, among those of its bucket, or among all without a grid. Cells
-/// tile the bounds, so the last one holds the point if no other does.
+/// The first cell that holds a point and is not solid, else the first that holds it. It is among
+/// those of the point's bucket, or among all without a grid. Cells tile the bounds, so the last one
+/// holds the point if no other does.
 static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
-    uint32_t at = 0, end = rt->cell_count;
+    uint32_t at = 0, end = rt->cell_count, found = SL_RUNTIME_NO_CELL;
     if (rt->grid_cells) {
         const size_t bucket =
             (size_t)slrt_step(y, rt->min_y, rt->max_y, rt->grid_rows) * rt->grid_columns +
@@ -1787,21 +1841,40 @@ static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     }
     for (; at < end; at++) {
         const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
-        if ((at + 1 == end && !rt->loose) || slrt_holds(rt, cell, x, y)) return cell;
+        const bool solid = sl_runtime_is_solid(rt, cell), none = found == SL_RUNTIME_NO_CELL;
+        if (!none && solid) continue;
+        if (!(none && at + 1 == end && !rt->loose) && !slrt_holds(rt, cell, x, y)) continue;
+        found = cell;
+        if (!solid) break;
     }
-    return SL_RUNTIME_NO_CELL;
+    return found;
+}
+
+/// The cell of the tree with the quadrant to the right of a point or left of it, over or under it.
+static uint32_t slrt_descend(const sl_runtime *rt, double x, double y, bool left, bool under) {
+    int32_t at = rt->root;
+    while (at >= 0) {
+        const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
+        const bool upright = slrt_i32(node + 8) == 0;
+        const double value = upright ? x : y, split = slrt_f64(node);
+        const bool above = value > split || (value == split && !(upright ? left : under));
+        at = slrt_i32(node + (above ? 16 : 12));
+    }
+    return (uint32_t)~at;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
-    int32_t at = runtime->root;
+    uint32_t first = SL_RUNTIME_NO_CELL;
+    int side;
     if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
         return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
-    while (at >= 0) {
-        const unsigned char *node = runtime->nodes + (size_t)at * SLRT_NODE_BYTES;
-        at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
+    for (side = 0; side < 4; side++) {
+        const uint32_t cell = slrt_descend(runtime, x, y, side & 1, side & 2);
+        if (!sl_runtime_is_solid(runtime, cell)) return cell;
+        if (!side) first = cell;
     }
-    return (uint32_t)~at;
+    return first;
 }
 
 // --- from box to cells
@@ -2941,6 +3014,44 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     return s.count;
 }
 
+/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
+/// that no product overflows, and the range is more than any distance where it is left out.
+static bool slrt_is_within(const slrt_search *s, double x, double y) {
+    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
+    const double scale = slrt_scale_of(largest), range = scale * s->range;
+    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
+    double parts[14];
+    int count = 0, i;
+    if (!(s->range > 0) || range > 8) return true;
+    for (i = 0; i < 2; i++) {
+        count = slrt_add_product(parts, count, to[i], to[i]);
+        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
+        count = slrt_add_product(parts, count, from[i], from[i]);
+    }
+    count = slrt_add_product(parts, count, -range, range);
+    return !count || parts[count - 1] <= 0;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
+                                    double y1, const unsigned char *shut, double range,
+                                    uint32_t *scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    const double x = slrt_no_dust(x1), y = slrt_no_dust(y1);
+    slrt_search s;
+    uint32_t i;
+    if (!slrt_start_search(&s, runtime, &view, shut, range, scratch) ||
+        sl_runtime_locate(runtime, x, y) == SL_RUNTIME_NO_CELL || !slrt_is_within(&s, x, y))
+        return false;
+    if (x == s.x && y == s.y) return true;
+    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->directed_count + 16);
+    memset(s.marks, 0, runtime->cell_count);
+    s.cone[0] = s.cone[3] = slrt_make_arm(s.x, s.y, x, y);
+    slrt_search_from(&s, s.eye_cell, SLRT_ARM, SLRT_ARM + 3);
+    for (i = 0; i < runtime->cell_count; i++)
+        if (s.marks[i] & SLRT_SEEN && slrt_holds(runtime, i, x, y)) return true;
+    return false;
+}
+
 /// Adds to a search that has run what the eye may see by mirror.
 static void slrt_see_mirrored(slrt_search *s) {
     const sl_runtime rows = slrt_mirrored(s->rt);
@@ -3052,19 +3163,19 @@ static void slrt_look_at_boxes(slrt_search *s) {
 SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
                                                    const sl_runtime_view *view,
                                                    const unsigned char *shut, double range,
-                                                   uint32_t *scratch, unsigned char *seen,
+                                                   uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room) {
     slrt_search s;
     uint32_t i;
     unsigned char wanted;
     if (boxes->count) memset(seen, 0, boxes->count);
-    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, scratch)) return 0;
+    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
     s.cells = cells;
     s.room = room;
     s.meet_boxes = slrt_meet_boxes;
     s.boxes = boxes;
     s.box_marks = seen;
-    s.blockers = scratch + sl_runtime_scratch_count(boxes->runtime);
+    s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);
     s.chosen = s.blockers + boxes->count;
     slrt_look_at_boxes(&s);
     wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
@@ -3076,9 +3187,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
 SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
                                               const sl_runtime_view *view,
                                               const unsigned char *shut, double range,
-                                              uint32_t *scratch, unsigned char *seen) {
+                                              uint32_t *boxes_scratch, unsigned char *seen) {
     uint32_t i, count = 0;
-    sl_runtime_look_past_boxes(boxes, view, shut, range, scratch, seen, NULL, 0);
+    sl_runtime_look_past_boxes(boxes, view, shut, range, boxes_scratch, seen, NULL, 0);
     for (i = 0; i < boxes->count; i++) count += seen[i];
     return count;
 }
@@ -3178,6 +3289,42 @@ static int slrt_turn(const double *a, const double *b, const double *c) {
 /// Whether a point is in the box of the segment from a to b: on it, if that is axial.
 static bool slrt_is_on(const double *a, const double *b, const double *point) {
     return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]);
+}
+
+/// Whether the way from a to b has a point in common with a segment of the file.
+static bool slrt_touches(const double *a, const double *b, const unsigned char *segment) {
+    double c[2], d[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        c[i] = slrt_f64(segment + 8 * i);
+        d[i] = slrt_f64(segment + 16 + 8 * i);
+        if (a[i] < c[i] && a[i] < d[i] && b[i] < c[i] && b[i] < d[i]) return false;
+        if (a[i] > c[i] && a[i] > d[i] && b[i] > c[i] && b[i] > d[i]) return false;
+    }
+    return slrt_turn(a, b, c) * slrt_turn(a, b, d) <= 0 &&
+           slrt_turn(c, d, a) * slrt_turn(c, d, b) <= 0;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
+                                        double y1, const unsigned char *shut) {
+    const double from[2] = {slrt_no_dust(x0), slrt_no_dust(y0)};
+    const double to[2] = {slrt_no_dust(x1), slrt_no_dust(y1)};
+    const uint32_t start = sl_runtime_locate(runtime, from[0], from[1]);
+    const uint32_t end = sl_runtime_locate(runtime, to[0], to[1]);
+    uint32_t i;
+    if (!runtime->walls || start == SL_RUNTIME_NO_CELL || end == SL_RUNTIME_NO_CELL ||
+        sl_runtime_is_solid(runtime, start))
+        return false;
+    for (i = 0; i < runtime->wall_count; i++)
+        if (slrt_touches(from, to, runtime->walls + (size_t)i * 32)) return false;
+    for (i = 0; i < runtime->seam_count; i++) {
+        const unsigned char *seam = runtime->seams + (size_t)i * 40;
+        const uint32_t kind = slrt_u32(seam + 32);
+        if ((kind == 2 || (kind == 1 && shut && shut[slrt_u32(seam + 36)])) &&
+            slrt_touches(from, to, seam))
+            return false;
+    }
+    return true;
 }
 
 static uint32_t slrt_next_corner(const sl_runtime_cell *cell, uint32_t corner) {

@@ -3,6 +3,8 @@
 /// The kd-tree finds the cell of a point from the root down: at each node, below or above the
 /// split. A mesh looks into the one bucket of its grid, and asks each cell there for the exact side
 /// of each of its edges. The last cell of a bucket needs no test, as the cells leave nothing out.
+/// A point on the border of solid ground is in a cell beside it: a kd-tree then asks for the cells
+/// at the other sides of the point, as each cell at a point covers one of its four quadrants.
 #include "sightline/space.h"
 
 #include "geometry/length.h"
@@ -151,15 +153,33 @@ bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
     return true;
 }
 
-/// The first cell of a bucket that holds a point. Cells tile the bounds, so the last one holds it
-/// if no other does.
+/// The first cell of a bucket that holds a point and is not solid, else the first that holds it.
+/// Cells tile the bounds, so the last one holds it if no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sli_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
-    for (uint32_t i = space->grid.first[bucket]; i < end; i++)
-        if ((i + 1 == end && !space->loose) || sli_cell_holds(space, cells[i], point))
-            return cells[i];
-    return SL_NO_CELL;
+    uint32_t found = SL_NO_CELL;
+    for (uint32_t i = space->grid.first[bucket]; i < end; i++) {
+        const bool solid = space->cells[cells[i]].solid, last = i + 1 == end && !space->loose;
+        if (found != SL_NO_CELL && solid) continue;
+        if (!(last && found == SL_NO_CELL) && !sli_cell_holds(space, cells[i], point)) continue;
+        found = cells[i];
+        if (!solid) break;
+    }
+    return found;
+}
+
+/// The cell of a kd-tree with the quadrant to the right of a point or left of it, over or under it.
+static uint32_t descend(const sl_space *space, sl_point point, bool left, bool under) {
+    int32_t at = space->root;
+    while (at >= 0) {
+        const sl_node *node = &space->nodes[at];
+        const double value = node->axis ? point.y : point.x;
+        const bool below = node->axis ? under : left;
+        at = value < node->position || (below && value == node->position) ? node->below
+                                                                          : node->above;
+    }
+    return (uint32_t)~at;
 }
 
 uint32_t sl_space_locate(const sl_space *space, sl_point point) {
@@ -168,12 +188,11 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
         !(point.y >= b->min.y && point.y <= b->max.y))
         return SL_NO_CELL;
     if (space->neighbour) return locate_in_bucket(space, point);
-    int32_t at = space->root;
-    while (at >= 0) {
-        const sl_node *node = &space->nodes[at];
-        at = (node->axis ? point.y : point.x) < node->position ? node->below : node->above;
-    }
-    return (uint32_t)~at;
+    const uint32_t first = descend(space, point, false, false);
+    uint32_t cell = first;
+    for (int side = 1; side < 4 && space->cells[cell].solid; side++)
+        cell = descend(space, point, side & 1, side & 2);
+    return space->cells[cell].solid ? first : cell;
 }
 
 double sl_space_area(const sl_space *space, uint32_t cell) {

@@ -4,7 +4,8 @@ the JSON export. On levels with doors open and shut, among them a turned one and
 test_fog.py PROGRAM
 
 Cells must be equal, corners of the polygon up to 1e-9 of the level's size. Eyes are random, so that none
-is in line with two corners. Without node, JavaScript is left out, with a message.
+is in line with two corners; or they are on walls, doors and corners, where C may also see cells that a
+line touches. Without node, JavaScript is left out, with a message.
 """
 import math
 import pathlib
@@ -136,7 +137,7 @@ class Fog(unittest.TestCase):
         return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               universal_newlines=True, check=False)
 
-    def ask(self, level, eye, doors, limit, notes=""):
+    def ask(self, level, eye, doors, limit, notes="", touching=False):
         """What all programs answer, which is the same."""
         answers = {}
         for language in self.programs:
@@ -148,7 +149,11 @@ class Fog(unittest.TestCase):
             where = f"{level.name}, {language}, eye {eye[0]!r} {eye[1]!r} {' '.join(doors)}"
             self.assertEqual(answer.cell, of_c.cell, where)
             self.assertEqual(answer.row, of_c.row, where)
-            self.assertEqual(answer.seen, of_c.seen, where)
+            if touching:
+                self.assertLessEqual(set(answer.seen), set(of_c.seen), where)
+            else:
+                self.assertEqual(answer.seen, of_c.seen, where)
+            self.assertEqual(eye in answer.points, eye in of_c.points, where)
             self.assertTrue(same_corners(of_c.points, answer.points, limit), where)
             self.assertLessEqual(set(answer.seen), set(answer.row), where)
         return of_c
@@ -210,6 +215,25 @@ class Fog(unittest.TestCase):
 
     def test_one_way_glass(self):
         self.check_level("glass")
+
+    def check_borders(self, text, eyes, corners):
+        """Eyes where tile collision puts players: each is in an open cell, and sees."""
+        level = self.bake("borders", text)
+        for i, eye in enumerate(eyes):
+            answer = self.ask(level, eye, [("open", "shut")[i % 2], "gate"], 1e-8, touching=True)
+            self.assertGreaterEqual(len(answer.points), corners, eye)
+
+    def test_eyes_on_tiles_and_doors(self):
+        """Sides and corners of tiles, and a door, in a room of 8 by 8 in rock."""
+        tiles = ("sightline 1\nsolid 0 0 10 0 10 10 0 10\nopen 1 1 9 1 9 9 1 9\nsolid 3 3 4 3 4 4 3 4\n"
+                 "solid 6 1 7 1 7 4 6 4\nsolid 6 5 7 5 7 9 6 9\ndoor gate 6.5 4 6.5 5 open\n")
+        self.check_borders(tiles, [(3, 3), (6.5, 4.5), (6.5, 4.5), (4, 4), (3, 3.5), (3.5, 3), (6, 4), (9, 5),
+                                   (5, 9)], 4)
+
+    def test_eyes_on_slanted_rock(self):
+        rock = ("sightline 1\nsolid 0 0 10 0 10 10 0 10\nopen 1 1 9 1 9 8 8 9 1 9\nsolid 3 3 5 3 4 5\n"
+                "solid 6 1 7 1 7 4 6 4\nsolid 6 5 7 5 7 9 6 9\ndoor gate 6.5 4 6.5 5 open\n")
+        self.check_borders(rock, [(3, 3), (6.5, 4.5), (6.5, 4.5), (4, 5), (3.5, 4), (8.5, 8.5)], 4)
 
     def test_wrong_use(self):
         level = self.bake("plain", (ROOT / "maps/effects/doors.map").read_text(encoding="utf-8"))

@@ -110,6 +110,17 @@ static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, doub
     free(points);
 }
 
+/// Both ends of a line of sight and of a step are in cells, whatever the walls of the file are.
+static void check_points(const sl_runtime *r, double x, double y, sl_random *random,
+                         const buffers *b) {
+    const double to_x = sl_random_below(random, 4) ? x + sl_random_unit(random) : odd_real(random);
+    const double to_y = sl_random_below(random, 4) ? y + sl_random_unit(random) : odd_real(random);
+    const bool walks = sl_runtime_can_walk(r, x, y, to_x, to_y, NULL);
+    if (!sl_runtime_sees(r, x, y, to_x, to_y, NULL, odd_real(random), b->scratch) && !walks) return;
+    FUZZ_CHECK(sl_runtime_locate(r, slrt_no_dust(x), slrt_no_dust(y)) < r->cell_count);
+    FUZZ_CHECK(sl_runtime_locate(r, slrt_no_dust(to_x), slrt_no_dust(to_y)) < r->cell_count);
+}
+
 static void check_place(const sl_runtime *r, double x, double y, sl_random *random,
                         const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, x, y);
@@ -122,6 +133,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     check_polygon(r, &round, 0, b);
     check_polygon(r, &round, odd_real(random), b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
+    check_points(r, x, y, random, b);
     sl_runtime_view cone = round;
     cone.all_round = false;
     for (int i = 0; i < 2; i++) {

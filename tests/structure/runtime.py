@@ -25,8 +25,8 @@ LANGUAGES = [("c", "c99", ["gcc", "clang"]), ("c", "c11", ["gcc", "clang"]),
 WARNINGS = ["-pedantic-errors", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion",
             "-Wsign-conversion", "-Wdouble-promotion", "-Wcast-qual", "-Wundef", "-Wvla",
             "-Wpointer-arith", "-Wformat=2", "-Werror"]
-# What the programs in the README print, in their order: cells to draw.
-EXAMPLES = [r"^[1-9]\d* cells to draw"]
+# What the programs in the README print, in their order: cells to draw, boxes that move.
+EXAMPLES = [r"^[1-9]\d* cells to draw", r"^1 box in sight: the crate$"]
 # What a compiler may call for copies in C without any library.
 FREE = {"memcpy", "memset", "memcmp", "memmove", "bcmp"}
 

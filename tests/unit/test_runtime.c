@@ -153,16 +153,22 @@ static void every_point_by_an_oblique_wall_is_in_the_same_cell(void **state) {
 
 // --- turned maps, near and far
 
-/// The first cell that holds a point, of all.
+static bool holds(const sl_space *s, uint32_t cell, sl_point p) {
+    const sl_cell *c = &s->cells[cell];
+    const sl_point *v = s->vertices + c->first_vertex;
+    uint32_t k = 0;
+    while (k < c->vertex_count && sli_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
+    return k == c->vertex_count;
+}
+
+/// The first cell that holds a point, of all that are not solid; else of all.
 static uint32_t first_that_holds(const sl_space *s, sl_point p) {
+    uint32_t found = SL_NO_CELL;
     for (uint32_t i = 0; i < s->cell_count; i++) {
-        const sl_cell *c = &s->cells[i];
-        const sl_point *v = s->vertices + c->first_vertex;
-        uint32_t k = 0;
-        while (k < c->vertex_count && sli_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
-        if (k == c->vertex_count) return i;
+        if (found != SL_NO_CELL && (s->cells[i].solid || !s->cells[found].solid)) continue;
+        if (holds(s, i, p)) found = i;
     }
-    return SL_NO_CELL;
+    return found;
 }
 
 /// A corner, a place on a side, a place where buckets meet, or any.
@@ -220,6 +226,70 @@ static void every_place_of_a_turned_map_is_in_the_same_cell(void **state) {
         places_are_in_the_same_cells(&f, testing_seeds(50000));
         baked_file_destroy(context, &f);
     }
+    sl_context_destroy(context);
+}
+
+// --- on the border of solid ground
+
+/// Places on corners and sides of cells: the cell found is solid only if all that hold the place
+/// are, and an eye there sees.
+static void places_beside_solid_ground(const baked_file *f, uint32_t counts[2]) {
+    const sl_space *s = &f->baked.space;
+    uint32_t *scratch = malloc(sl_runtime_scratch_count(&f->runtime) * sizeof *scratch);
+    sl_random random = {5};
+    assert_non_null(scratch);
+    for (int i = 0; i < 4000; i++) {
+        const sl_cell *c = &s->cells[sl_random_below(&random, s->cell_count)];
+        const sl_point *v = s->vertices + c->first_vertex;
+        const uint32_t k = (uint32_t)sl_random_below(&random, c->vertex_count);
+        const sl_point a = v[k], b = v[(k + 1) % c->vertex_count];
+        const double part = (double)sl_random_below(&random, 5) / 4;
+        const sl_point p = {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+        const uint32_t is = sl_space_locate(s, p);
+        if (is == SL_NO_CELL) continue;
+        same_cell(f, p.x, p.y);
+        bool any_solid = false, all_solid = true;
+        for (uint32_t cell = 0; cell < s->cell_count; cell++)
+            if (holds(s, cell, p)) {
+                any_solid = any_solid || s->cells[cell].solid;
+                all_solid = all_solid && s->cells[cell].solid;
+            }
+        const sl_runtime_view view = sl_runtime_view_all_round(p.x, p.y);
+        assert_true(holds(s, is, p));
+        assert_int_equal(s->cells[is].solid, all_solid);
+        assert_int_equal(sl_runtime_look(&f->runtime, &view, scratch, NULL, 0) > 0, !all_solid);
+        const uint32_t corners =
+            sl_runtime_visible_polygon(&f->runtime, &view, NULL, 0, scratch, NULL, 0);
+        assert_int_equal(corners > 0, !all_solid);
+        counts[all_solid] += any_solid;
+    }
+    free(scratch);
+}
+
+static void an_eye_that_leans_against_rock_sees(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    // A room with a tile of rock, and rock around it.
+    static const char *const rooms[] = {
+        "solid 0 0 8 0 8 8 0 8\nopen 1 1 7 1 7 7 1 7\nsolid 3 3 4 3 4 4 3 4\n",
+        "solid 0 0 8 0 8 8 0 8\nopen 1 1 7 1 7 6 6 7 1 7\nsolid 3 3 5 3 4 4\n"};
+    for (int i = 0; i < 2; i++) {
+        baked_file f = baked_file_of_text(context, rooms[i]);
+        uint32_t counts[2] = {0, 0};
+        places_beside_solid_ground(&f, counts);
+        assert_true(counts[0] > 500 && counts[1] > 100);
+        baked_file_destroy(context, &f);
+    }
+    // Beside a tile: the cell over and right of the place counts first, then left and over.
+    baked_file f = baked_file_of_text(context, rooms[0]);
+    const sl_point corners[] = {{3, 3}, {4, 3}, {3, 4}, {4, 4}};
+    const double beside[][2] = {{-0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}};
+    for (int i = 0; i < 4; i++) {
+        const sl_point near = {corners[i].x + beside[i][0], corners[i].y + beside[i][1]};
+        assert_int_equal(sl_runtime_locate(&f.runtime, corners[i].x, corners[i].y),
+                         sl_space_locate(&f.baked.space, near));
+    }
+    baked_file_destroy(context, &f);
     sl_context_destroy(context);
 }
 
@@ -355,6 +425,7 @@ int main(void) {
         cmocka_unit_test(every_box_is_in_the_same_cells),
         cmocka_unit_test(every_point_by_an_oblique_wall_is_in_the_same_cell),
         cmocka_unit_test(every_place_of_a_turned_map_is_in_the_same_cell),
+        cmocka_unit_test(an_eye_that_leans_against_rock_sees),
         cmocka_unit_test(every_pair_is_seen_the_same),
         cmocka_unit_test(what_is_no_cell_sees_nothing),
         cmocka_unit_test(cells_directed_and_corners_are_the_same),

@@ -4,6 +4,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
+#include "geometry/crossing.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/query.h"
 #include "sightline/support.h"
@@ -194,7 +195,57 @@ static void seen_from_is_the_union(trial *t, sl_point eye) {
     free(bits);
 }
 
-static size_t asked;
+static size_t asked, seen_points[2], walks[2];
+
+/// A point on special places or near the eye, where the range decides.
+static sl_point other_point(trial *t, sl_point eye) {
+    const sl_box *b = &t->f->baked.space.bounds;
+    const double range = t->f->runtime.range > 0 ? t->f->runtime.range : 1;
+    const sl_point at[] = {{eye.x + range, eye.y}, {eye.x, nextafter(eye.y + range, INFINITY)}};
+    const uint64_t kind = sl_random_below(&t->random, 5);
+    if (kind < 2) return at[kind];
+    return kind == 2 ? point_within(&t->random, b) : special_point(t);
+}
+
+/// Whether a cone of one direction reaches a cell that touches the point, by the library.
+static bool reaches(trial *t, sl_point p, sl_point q) {
+    const sl_space *s = &t->f->baked.space;
+    const size_t words = sl_eye_words(s);
+    const double limit = t->f->runtime.range;
+    const sl_view view = {p, same_point(p, q), q, q};
+    uint64_t *at = calloc(words, sizeof *at), found = 0;
+    assert_non_null(at);
+    assert_ok(t->context, sl_query_look(t->context, t->query, &view, NULL, t->seen, NULL));
+    sl_cells_of_box(s, (sl_box){q, q}, at);
+    for (size_t i = 0; i < words; i++) found |= at[i] & t->seen[i];
+    free(at);
+    return found && (limit == 0 || sli_distance_compare(p, q, limit) <= 0);
+}
+
+/// Two points against the library: sight, and steps by open sight, which touches nothing.
+static void compare_points(trial *t, sl_point p, sl_point q) {
+    const sl_runtime *r = &t->f->runtime;
+    sl_sight *sight = (sl_sight *)(uintptr_t)&sl_query_baked(t->query)->visibility.sight;
+    const bool sees = sl_runtime_sees(r, p.x, p.y, q.x, q.y, t->shut, 0, t->scratch);
+    bool may, is_free;
+    if (reaches(t, p, q) != sees)
+        fail_msg("%s: (%.17g, %.17g) to (%.17g, %.17g) is %s", t->f->name, p.x, p.y, q.x, q.y,
+                 sees ? "added" : "missed");
+    assert_ok(t->context, sl_query_can_see(t->context, t->query, p, q, &may));
+    assert_true(may || !sees); // a line that touches may go on by the left and the right there
+    seen_points[sees]++;
+    const bool walk = sl_runtime_can_walk(r, p.x, p.y, q.x, q.y, t->shut);
+    assert_int_equal(sl_runtime_can_walk(r, q.x, q.y, p.x, p.y, t->shut), walk);
+    *sight = SL_OPEN;
+    assert_ok(t->context, sl_query_can_see(t->context, t->query, p, q, &is_free));
+    *sight = SL_CLOSED;
+    if (r->range > 0) return; // of sight, not of steps
+    // Glass is a wall to who walks.
+    if (walk != is_free && (walk || !t->f->baked.map.oneway_count))
+        fail_msg("%s: (%.17g, %.17g) to (%.17g, %.17g) is %s", t->f->name, p.x, p.y, q.x, q.y,
+                 walk ? "no way" : "a way");
+    walks[walk]++;
+}
 
 static void looks_are_the_same(const baked_file *f) {
     sl_context *context = testing_context(NULL);
@@ -205,6 +256,8 @@ static void looks_are_the_same(const baked_file *f) {
             if (i % 50 == 0) set_doors(&t);
             if (i % 10 == 0)
                 seen_from_is_the_union(&t, point_within(&t.random, &f->baked.space.bounds));
+            const sl_point eye = special_point(&t);
+            for (int k = 0; k < 3; k++) compare_points(&t, eye, other_point(&t, eye));
             look_from(&t,
                       i % 4 ? special_point(&t) : point_within(&t.random, &f->baked.space.bounds));
         }
@@ -220,6 +273,8 @@ static void on_every_map(void **state) {
     baked_file_each(looks_are_the_same);
     print_message("%zu views\n", asked);
     assert_true(asked > 1000);
+    assert_true(seen_points[0] > 1000 && seen_points[1] > 1000);
+    assert_true(walks[0] > 1000 && walks[1] > 1000);
 }
 
 static void on_turned_maps(void **state) {

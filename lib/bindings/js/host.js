@@ -41,7 +41,8 @@ export function compile(name, address) {
 /** @param {URL} address */
 async function compileFrom(address) {
   if (address.protocol === 'file:' && typeof process === 'object') {
-    const { readFile } = await import('node:fs/promises')
+    // By a name that bundlers do not follow: no page has this module.
+    const { readFile } = await import(/* @vite-ignore */ ['node:fs', 'promises'].join('/'))
     return WebAssembly.compile(await readFile(address))
   }
   const answer = await fetch(address)
@@ -77,20 +78,34 @@ export function bytesOf(bytes) {
 }
 
 /**
+ * Options, if all of them are known.
+ *
+ * @param {object | null | undefined} options
+ * @param {...string} known
+ */
+export function optionsOf(options, ...known) {
+  for (const name of Object.keys(options ?? {}))
+    if (!known.includes(name)) throw new SightlineError(`there is no option '${name}'`)
+  return options ?? {}
+}
+
+/**
  * A view as heading and width in degrees; all round without a direction.
  *
- * @param {{direction?: number, fieldOfView?: number, range?: number}} [options]
+ * @param {{direction?: number, fieldOfView?: number, range?: number} | null} [options]
  */
-export function viewOf(options = {}) {
-  const { direction, range } = options
-  const fieldOfView = options.fieldOfView ?? (direction === undefined ? 360 : 90)
+export function viewOf(options) {
+  const { direction, range, ...rest } = options ?? {}
+  const fieldOfView = rest.fieldOfView ?? (direction === undefined ? 360 : 90)
+  if (direction === undefined && fieldOfView < 360)
+    throw new SightlineError('fieldOfView: a direction is needed, too')
   checkNumber('direction', direction ?? 0)
   checkNumber('range', range ?? 0, 0)
   checkNumber('fieldOfView', fieldOfView, 0)
   return { direction: direction ?? 0, fieldOfView, range }
 }
 
-function checkNumber(name, value, least = -Infinity) {
+export function checkNumber(name, value, least = -Infinity) {
   if (Number.isFinite(value) && value >= least) return
   throw new SightlineError(`${name}: a number${least === 0 ? ', 0 or more,' : ''} is needed`)
 }

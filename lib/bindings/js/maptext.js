@@ -92,10 +92,13 @@ mapText.prepare = function (map, given) {
 /**
  * A message of the library, with its line; and for a map from an object with its item.
  *
- * @param {string} text
+ * @param {string} message
  * @param {string[]} [items]
  */
-export function rename(text, items) {
+export function rename(message, items) {
+  const plain = message.replace(/ \(read as map text: .*\)$/, '')
+  const foreign = plain.includes('as the first statement')
+  const text = foreign ? `${plain} (bake Tiled files and other formats with the sightline command)` : plain
   const found = /^([^:]*):(\d+): /.exec(text)
   if (!found) return { text, line: 0, item: '' }
   const line = Number(found[2])

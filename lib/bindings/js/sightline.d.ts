@@ -22,14 +22,17 @@ export interface Bounds {
 }
 
 /** [x0, y0, x1, y1] */
-export type Segment = [number, number, number, number]
+export type Segment = readonly [number, number, number, number]
 
-/** Parts of one name open and shut together. */
+/** Parts of one name open and shut together, by setDoor(). */
 export interface Door {
-  name: string
-  open: boolean
-  segments: Segment[]
+  readonly name: string
+  readonly open: boolean
+  readonly segments: readonly Segment[]
 }
+
+/** { x, y } or [x, y] */
+export type Place = Point | readonly [number, number]
 
 export interface Start extends Point {
   heading: number
@@ -54,7 +57,7 @@ export interface Cell {
 export interface View {
   /** Without it the view is all round. */
   direction?: number
-  /** 90 by default. */
+  /** 90 by default. It needs a direction, unless it is 360. */
   fieldOfView?: number
   /** The map's own by default; 0 likewise. */
   range?: number
@@ -83,14 +86,24 @@ export class Level {
   readonly cells: readonly (Cell & { hasRow: boolean })[]
   readonly starts: readonly Start[]
   /** As they stand. */
-  readonly doors: Door[]
+  readonly doors: readonly Door[]
   setDoor(name: string, open: boolean): void
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x: number, y: number): number
   /** Whether something in cell b can be seen from somewhere in cell a. */
   canSee(a: number, b: number, options?: Mirrors): boolean
-  /** Whether two points see each other. With `mirrors`: whether they may; false is sure. */
-  canSee(a: Point, b: Point, options?: Mirrors): boolean
+  /**
+   * Whether an eye at a sees the point b: a line leads from the cell of a (locate) to a cell that
+   * touches b. So a point on a wall or a shut door is seen from both sides, but an eye there looks
+   * from one side only. If neither point is on a wall or a shut door, and no one-way glass is between
+   * them, each sees the other or none does. With `mirrors`: whether it may; false is sure.
+   */
+  canSee(a: Place, b: Place, options?: Mirrors): boolean
+  /**
+   * Whether one may walk straight from one point to another: no point of the way, ends included, is
+   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map.
+   */
+  canWalk(from: Place, to: Place): boolean
   /**
    * The cells that an eye sees, its own first. With `mirrors`, the first `direct` of them are seen
    * directly. The others are seen by mirror: none is missed, some may be added.

@@ -4,13 +4,20 @@
  * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
  * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
  */
-import { SightlineError, bytesOf, compile, direction, textAt, viewOf } from './host.js'
+import { SightlineError, bytesOf, checkNumber, compile, direction, optionsOf, textAt, viewOf } from './host.js'
 
 export { SightlineError }
 
 const NO_CELL = 0xffffffff
 const PAGE = 65536
 const MIRRORS = ['none', 'baked', 'not baked']
+
+/** A point as x and y: { x, y } or [x, y]. */
+function pointOf(call, point) {
+  const [x, y] = Array.isArray(point) ? point : [point?.x, point?.y]
+  if (typeof x === 'number' && typeof y === 'number' && !Number.isNaN(x + y)) return [x, y]
+  throw new SightlineError(`${call}: points { x, y } or [x, y] are needed`)
+}
 
 export class Level {
   #core
@@ -118,8 +125,8 @@ export class Level {
     const [name, length, open] = integers
     new Uint8Array(this.#memory.buffer)[this.#shut + number] = open ? 0 : 1
     const ends = new Float64Array(this.#memory.buffer, this.#points, 4 * count)
-    const segments = Array.from({ length: count }, (_, i) => Array.from(ends.subarray(4 * i, 4 * i + 4)))
-    return { name: textAt(this.#memory, name, length), segments }
+    const segments = Array.from({ length: count }, (_, i) => Object.freeze([...ends.subarray(4 * i, 4 * i + 4)]))
+    return { name: textAt(this.#memory, name, length), segments: Object.freeze(segments) }
   }
 
   #readStart(number) {
@@ -159,11 +166,11 @@ export class Level {
     return this.#starts
   }
 
-  /** The doors as they stand: name, open, and segments [x0, y0, x1, y1]. */
+  /** The doors as they stand: name, open, and segments [x0, y0, x1, y1]. setDoor() changes them. */
   get doors() {
     this.#open
     const shut = new Uint8Array(this.#memory.buffer, this.#shut, this.#doors.length)
-    return this.#doors.map((door, i) => ({ ...door, open: !shut[i] }))
+    return Object.freeze(this.#doors.map((door, i) => Object.freeze({ ...door, open: !shut[i] })))
   }
 
   /**
@@ -218,36 +225,41 @@ export class Level {
   }
 
   /**
-   * Of two cells: whether something in one can be seen from somewhere in the other. Of two points:
-   * whether one sees the other. With the doors as they stand. `mirrors`: or by mirror; of two points
-   * the answer is then whether one may see the other.
+   * Of two cells: whether something in b can be seen from somewhere in a. Of two points: whether an
+   * eye at a sees b. With the doors as they stand. `mirrors`: or by mirror; of two points the answer
+   * is then whether a may see b.
    *
-   * @param {number | {x: number, y: number}} a
-   * @param {number | {x: number, y: number}} b
+   * @param {number | {x: number, y: number} | [number, number]} a
+   * @param {number | {x: number, y: number} | [number, number]} b
    * @param {{mirrors?: boolean}} [options]
    */
-  canSee(a, b, { mirrors = false } = {}) {
+  canSee(a, b, options) {
     const core = this.#open
-    if (typeof a === 'number' && typeof b === 'number') return !!core.can_see(a, b, this.#shut, +mirrors)
+    const { mirrors = false } = optionsOf(options, 'mirrors')
+    if (Number.isInteger(a) && Number.isInteger(b)) return !!core.can_see(a, b, this.#shut, +mirrors)
     if (typeof a !== 'object' || typeof b !== 'object')
       throw new SightlineError('canSee: two cells or two points are needed')
-    return this.#pointsSee(a, b, mirrors)
+    const from = pointOf('canSee', a), to = pointOf('canSee', b)
+    return !!core.sees(...from, ...to, this.#shut, this.#scratch) || (mirrors && this.#mayMirror(from, to))
   }
 
-  #pointsSee(a, b, mirrors) {
+  /** A cell that the eye sees directly in part can have the point where only a mirror shows it. */
+  #mayMirror([x, y], [toX, toY]) {
     const core = this.#open
-    const { minX, minY, maxX, maxY } = this.#bounds
-    if (!(b.x >= minX && b.x <= maxX && b.y >= minY && b.y <= maxY)) return false
-    if (this.#range > 0 && Math.hypot(b.x - a.x, b.y - a.y) > this.#range) return false
-    if (a.x === b.x && a.y === b.y) return this.look(a.x, a.y).length > 0
-    this.#setView(a.x, a.y, 0, 0)
-    const count = core.look_along(b.x, b.y, this.#shut, 0, this.#scratch, this.#list) >>> 0
-    const seen = this.#listed(count)
-    const touched = this.#cellsOfBox(b.x, b.y, b.x, b.y)
-    if (touched.some((cell) => seen.includes(cell))) return true
-    // A cell that the eye sees directly in part can have the point where only a mirror shows it.
-    const own = mirrors ? core.locate(a.x, a.y) : NO_CELL
-    return touched.some((cell) => !!core.may_mirror(own, cell, this.#shut))
+    if (this.#range > 0 && Math.hypot(toX - x, toY - y) > this.#range) return false
+    const own = core.locate(x, y)
+    return [...this.#cellsOfBox(toX, toY, toX, toY)].some((cell) => !!core.may_mirror(own, cell, this.#shut))
+  }
+
+  /**
+   * Whether one may walk straight from one point to another: no point of the way, ends included, is
+   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map.
+   *
+   * @param {{x: number, y: number} | [number, number]} from
+   * @param {{x: number, y: number} | [number, number]} to
+   */
+  canWalk(from, to) {
+    return !!this.#open.can_walk(...pointOf('canWalk', from), ...pointOf('canWalk', to), this.#shut)
   }
 
   /** The cells that a box lies in or touches. */
@@ -265,7 +277,9 @@ export class Level {
   }
 
   /** Puts the view into memory, as an sl_runtime_view. */
-  #setView(x, y, heading, fieldOfView) {
+  #setView(x, y, { direction: heading, fieldOfView }) {
+    checkNumber('x', x)
+    checkNumber('y', y)
     const { buffer } = this.#memory
     if (this.#view.buffer !== buffer) {
       this.#view = new Float64Array(buffer, this.#core.view_place(), 7)
@@ -291,8 +305,8 @@ export class Level {
    */
   look(x, y, options) {
     const core = this.#open
-    const view = viewOf(options)
-    this.#setView(x, y, view.direction, view.fieldOfView)
+    const view = viewOf(optionsOf(options, 'direction', 'fieldOfView', 'range', 'mirrors'))
+    this.#setView(x, y, view)
     if (options?.mirrors) {
       const count = core.look_mirrored(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0
       const [direct] = this.#ask(() => {}).integers
@@ -310,8 +324,8 @@ export class Level {
    */
   visiblePolygon(x, y, options) {
     const core = this.#open
-    const view = viewOf(options)
-    this.#setView(x, y, view.direction, view.fieldOfView)
+    const view = viewOf(optionsOf(options, 'direction', 'fieldOfView', 'range'))
+    this.#setView(x, y, view)
     for (;;) {
       const count =
         core.polygon(this.#shut, view.range ?? 0, this.#scratch, this.#points, this.#room) >>> 0
@@ -334,8 +348,9 @@ export class Level {
    * @param {ArrayLike<number>} cells
    * @param {{mirrors?: boolean}} [options]
    */
-  seenFrom(cells, { mirrors = false } = {}) {
+  seenFrom(cells, options) {
     const core = this.#open
+    const { mirrors = false } = optionsOf(options, 'mirrors')
     const own = Array.from(cells).filter((cell) => cell >= 0 && cell < this.#cellCount)
     new Uint32Array(this.#memory.buffer, this.#list, own.length).set(own)
     const bits = this.#scratch

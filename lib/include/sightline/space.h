@@ -196,6 +196,10 @@ SL_API sl_status sl_map_settle_ground(sl_context *context, sl_map *map);
 /// A point on the upper or right border is in the cell inside. Time: the depth of the tree. In a
 /// mesh, a point on a border between cells is in the one of the lowest number. Time: the cells of
 /// one bucket. A gap of a loose space gives SL_NO_CELL.
+///
+/// On the border of solid ground, a cell that is not solid comes first. In a kd-tree's space, these
+/// are asked in turn: the cell right of the point and over it, left and over, right and under, left
+/// and under. In a mesh, the lowest number that is not solid counts.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
 /// A box that is put into a space for a while (sightline/moving.h). It may have no width or height.

@@ -7,8 +7,9 @@
 //
 // The view spreads from the eye's cell through portals. Behind a portal it is a sector between two
 // directions, which each further portal narrows. A wall or a shut door ends it, and its part in the
-// sector is an edge of the polygon. Cells are convex, so edges come counter-clockwise. It counts in
-// doubles: an eye in line with two corners may see a cell more or less than by the exact answer.
+// sector is an edge of the polygon. An eye on a border looks from all cells there that open portals at
+// the eye join with its own. It counts in doubles: an eye in line with two corners may see a cell more
+// or less than by the exact answer, and none that it only touches.
 import { readFileSync, writeFileSync } from "node:fs";
 
 const to = (a, b) => [b[0] - a[0], b[1] - a[1]];
@@ -19,6 +20,10 @@ const same = (a, b) => a[0] === b[0] && a[1] === b[1];
 /** Whether a point is on the line from a to b, but for rounding. */
 const isOn = (a, b, point) =>
   Math.abs(cross(to(a, b), to(a, point))) <= 1e-9 * dot(to(a, b), to(a, b));
+
+/** Whether a point is on the segment from a to b. */
+const touches = (a, b, point) =>
+  cross(to(point, a), to(point, b)) === 0 && dot(to(point, a), to(point, b)) <= 0;
 
 /** The boundary of a cell, counter-clockwise: walls { a, b } and portals { a, b, portal }. */
 function boundary(corners, portals) {
@@ -50,6 +55,8 @@ class Level {
       portals[portal.cells[0]].push({ a: right, b: left, portal });
       portals[portal.cells[1]].push({ a: left, b: right, portal });
     }
+    this.isAxial = data.cells.every(({ polygon }) =>
+      polygon.every((a, i) => a[0] === polygon.at(i - 1)[0] || a[1] === polygon.at(i - 1)[1]));
     this.pieces = data.cells.map((cell) => boundary(cell.polygon, portals[cell.id]));
   }
 
@@ -60,10 +67,29 @@ class Level {
     else this.shut.delete(name);
   }
 
+  /**
+   * The cell of the eye, as the runtime header has it: one that is not solid, if the eye is on its
+   * border. If all cells are boxes, the one over the eye and right of it comes first.
+   */
   locate(eye) {
-    const found = this.pieces.findIndex((pieces) => pieces.every(({ a, b }) => cross(to(a, b), to(a, eye)) >= 0));
-    if (found < 0) throw Error("the eye is outside");
-    return found;
+    const holds = (pieces) => pieces.every(({ a, b }) => cross(to(a, b), to(a, eye)) >= 0);
+    const rank = (cell) => {
+      const { polygon, solid } = this.data.cells[cell];
+      const ends = [0, 1].map((axis) => Math.max(...polygon.map((corner) => corner[axis])) <= eye[axis]);
+      return 4 * !!solid + (this.isAxial ? 2 * ends[1] + ends[0] : 0);
+    };
+    const here = [...this.pieces.keys()].filter((cell) => holds(this.pieces[cell]));
+    if (!here.length) throw Error("the eye is outside");
+    return here.sort((a, b) => rank(a) - rank(b) || a - b)[0];
+  }
+
+  /** The eye's cell, and those that open portals at the eye join with it. */
+  around(eye) {
+    const cells = new Set([this.locate(eye)]);
+    for (const cell of cells)
+      for (const { a, b, portal } of this.pieces[cell])
+        if (portal && touches(a, b, eye) && this.isOpen(portal, cell)) portal.cells.forEach((next) => cells.add(next));
+    return cells;
   }
 
   /** What the cell sees past the doors, by the visible sets. */
@@ -82,7 +108,7 @@ class Level {
 
   /** The cells that the eye sees, and the ends of the polygon's edges, counter-clockwise. */
   look(eye) {
-    const seen = new Set(), ends = [];
+    const seen = new Set(), edges = [];
     const meet = (direction, a, b) => {
       const share = cross(to(eye, a), to(a, b)) / cross(direction, to(a, b));
       return [eye[0] + share * direction[0], eye[1] + share * direction[1]];
@@ -99,22 +125,29 @@ class Level {
           spread(ahead, [...around.slice(entry + 1), ...around.slice(0, entry)],
             cutRight ? right : fromA, cutLeft ? left : toB);
         } else {
-          ends.push(cutRight ? meet(right, a, b) : a, cutLeft ? meet(left, a, b) : b);
+          edges.push([cutRight ? meet(right, a, b) : a, cutLeft ? meet(left, a, b) : b]);
         }
       }
     };
-    const cell = this.locate(eye);
-    if (!this.data.cells[cell].solid) spread(cell, this.pieces[cell], null, null);
+    const direction = ([a, b]) => Math.atan2(a[1] + b[1] - 2 * eye[1], a[0] + b[0] - 2 * eye[0]);
+    for (const cell of this.around(eye))
+      if (!this.data.cells[cell].solid) spread(cell, this.pieces[cell], null, null);
+    edges.sort((a, b) => direction(a) - direction(b));
+    const ends = edges.flatMap(([a, b], i) => {
+      const u = to(eye, b), v = to(eye, edges[(i + 1) % edges.length][0]);
+      const inLine = Math.abs(cross(u, v)) <= 1e-9 * dot(u, v);
+      return inLine ? [a, b] : [a, b, eye]; // the eye is on a wall
+    });
     return { seen: [...seen].sort((a, b) => a - b), ends };
   }
 }
 
-/** The corners of a polygon, without those in line with their neighbours. */
-function cornersOf(points) {
+/** The corners of a polygon, without those in line with their neighbours, but for the eye. */
+function cornersOf(points, eye) {
   for (let before = -1; points.length !== before;) {
     before = points.length;
     points = points.filter((b, i) => !same(points.at(i - 1), b));
-    points = points.filter((b, i) => !isOn(points.at(i - 1), points[(i + 1) % points.length], b));
+    points = points.filter((b, i) => b === eye || !isOn(points.at(i - 1), points[(i + 1) % points.length], b));
   }
   return points;
 }
@@ -141,7 +174,7 @@ try {
   if (level.data.mirrors?.length) console.error("note: mirrors are walls here");
   for (let i = 0; i < doors.length; i += 2) level.setDoor(doors[i], doors[i + 1]);
   const eye = [Number(x), Number(y)], cell = level.locate(eye), { seen, ends } = level.look(eye);
-  const points = cornersOf(ends);
+  const points = cornersOf(ends, eye);
   console.log(["cell", cell].join(" "));
   console.log(["row", ...level.row(cell)].join(" "));
   console.log(["seen", ...seen].join(" "));

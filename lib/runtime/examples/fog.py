@@ -7,10 +7,12 @@ It prints and draws what fog.c does, from the JSON export, with the standard lib
 
 The view spreads from the eye's cell through portals. Behind a portal it is a sector between two
 directions, which each further portal narrows. A wall or a shut door ends it, and its part in the
-sector is an edge of the polygon. Cells are convex, so edges come counter-clockwise. It counts in
-doubles: an eye in line with two corners may see a cell more or less than by the exact answer.
+sector is an edge of the polygon. An eye on a border looks from all cells there that open portals at
+the eye join with its own. It counts in doubles: an eye in line with two corners may see a cell more
+or less than by the exact answer, and none that it only touches.
 """
 import json
+import math
 import sys
 
 
@@ -30,6 +32,11 @@ def is_on(a, b, point):
     """Whether a point is on the line from a to b, but for rounding."""
     along = to(a, b)
     return abs(cross(along, to(a, point))) <= 1e-9 * dot(along, along)
+
+
+def touches(a, b, point):
+    """Whether a point is on the segment from a to b."""
+    return cross(to(point, a), to(point, b)) == 0 and dot(to(point, a), to(point, b)) <= 0
 
 
 def boundary(corners, portals):
@@ -63,6 +70,8 @@ class Level:
             left, right = tuple(portal["segment"][:2]), tuple(portal["segment"][2:])
             portals[portal["cells"][0]].append((right, left, portal))
             portals[portal["cells"][1]].append((left, right, portal))
+        self.is_axial = all(a[0] == b[0] or a[1] == b[1] for cell in data["cells"] for a, b in
+                            zip(cell["polygon"], cell["polygon"][1:] + cell["polygon"][:1]))
         self.pieces = [boundary([tuple(corner) for corner in cell["polygon"]], portals[cell["id"]])
                        for cell in data["cells"]]
 
@@ -74,10 +83,27 @@ class Level:
         (self.shut.add if state == "shut" else self.shut.discard)(name)
 
     def locate(self, eye):
-        for number, pieces in enumerate(self.pieces):
-            if all(cross(to(a, b), to(a, eye)) >= 0 for a, b, _ in pieces):
-                return number
-        raise ValueError("the eye is outside")
+        """The cell of the eye, as the runtime header has it: one that is not solid, if the eye is on
+        its border. If all cells are boxes, the one over the eye and right of it comes first."""
+        def rank(cell):
+            x, y = zip(*self.data["cells"][cell]["polygon"])
+            side = (max(y) <= eye[1], max(x) <= eye[0]) if self.is_axial else ()
+            return bool(self.data["cells"][cell].get("solid")), side, cell
+
+        here = [cell for cell, pieces in enumerate(self.pieces)
+                if all(cross(to(a, b), to(a, eye)) >= 0 for a, b, _ in pieces)]
+        if not here:
+            raise ValueError("the eye is outside")
+        return min(here, key=rank)
+
+    def around(self, eye):
+        """The eye's cell, and those that open portals at the eye join with it."""
+        cells = [self.locate(eye)]
+        for cell in cells:
+            for a, b, portal in self.pieces[cell]:
+                if portal and touches(a, b, eye) and self.is_open(portal, cell):
+                    cells += set(portal["cells"]) - set(cells)
+        return cells
 
     def row(self, cell):
         """What the cell sees past the doors, by the visible sets."""
@@ -90,7 +116,7 @@ class Level:
         return portal.get("door") not in self.shut and cell in ways[portal.get("oneway")]
 
     def look(self, eye):
-        """The cells that the eye sees, and the edges of its polygon, counter-clockwise."""
+        """The cells that the eye sees, and the ends of its polygon's edges, counter-clockwise."""
         seen, edges = set(), []
 
         def meet(direction, a, b):
@@ -116,20 +142,30 @@ class Level:
                     edges.append((meet(right, a, b) if cut_right else a,
                                   meet(left, a, b) if cut_left else b))
 
-        cell = self.locate(eye)
-        if not self.data["cells"][cell].get("solid"):
-            spread(cell, self.pieces[cell], None, None)
-        return seen, edges
+        def direction(edge):
+            (x, y), (u, v) = to(eye, edge[0]), to(eye, edge[1])
+            return math.atan2(y + v, x + u)
+
+        for cell in self.around(eye):
+            if not self.data["cells"][cell].get("solid"):
+                spread(cell, self.pieces[cell], None, None)
+        edges.sort(key=direction)
+        points = []
+        for (a, b), (after, _) in zip(edges, edges[1:] + edges[:1]):
+            u, v = to(eye, b), to(eye, after)
+            in_line = abs(cross(u, v)) <= 1e-9 * dot(u, v)
+            points += [a, b] if in_line else [a, b, eye]  # the eye is on a wall
+        return seen, points
 
 
-def corners_of(edges):
-    """The corners of a polygon, without those in line with their neighbours."""
-    points, before = [point for edge in edges for point in edge], None
+def corners_of(points, eye):
+    """The corners of a polygon, without those in line with their neighbours, but for the eye."""
+    before = None
     while points != before:
         before = points
         points = [b for a, b in zip(points[-1:] + points[:-1], points) if a != b]
         points = [b for a, b, c in zip(points[-1:] + points[:-1], points, points[1:] + points[:1])
-                  if not is_on(a, c, b)]
+                  if b == eye or not is_on(a, c, b)]
     return points
 
 
@@ -163,8 +199,8 @@ def main(level_path, picture, x, y, *doors):
         level.set_door(state, name)
     eye = (float(x), float(y))
     cell = level.locate(eye)
-    seen, edges = level.look(eye)
-    points = corners_of(edges)
+    seen, ends = level.look(eye)
+    points = corners_of(ends, eye)
     print("cell", cell)
     print("row", *level.row(cell))
     print("seen", *sorted(seen))

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#define SL_RUNTIME_SMALL_OPEN
 #include "runtime/sightline_runtime.h"
 
 #define EXPORT(type, name, ...)                                                                    \
@@ -114,31 +115,13 @@ EXPORT(uint32_t, polygon, const unsigned char *shut, double range, uint32_t *scr
     return sl_runtime_visible_polygon(&level, &view, shut, range, scratch, points, room);
 }
 
-/// The cells that the ray from the view's eye through a point reaches: sl_runtime_look_past() with
-/// a cone of one direction. The direction is given by two points, so it is not rounded.
-EXPORT(uint32_t, look_along, double to_x, double to_y, const unsigned char *shut, double range,
-       uint32_t *scratch, uint32_t *cells) {
-    const size_t count = level.cell_count;
-    const double x = slrt_no_dust(view.x), y = slrt_no_dust(view.y);
-    const uint32_t cell = sl_runtime_locate(&level, x, y);
-    if (cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(&level, cell)) return 0;
-    slrt_search s = {.rt = &level,
-                     .view = &view,
-                     .shut = shut,
-                     .range = slrt_range(&level, range),
-                     .x = x,
-                     .y = y,
-                     .eye_cell = cell,
-                     .path = scratch,
-                     .sectors = scratch + 4 * count,
-                     .marks = (unsigned char *)(scratch + 6 * count),
-                     .cells = cells,
-                     .room = (uint32_t)count,
-                     .patience = SLRT_PATIENCE * ((uint64_t)level.directed_count + 16)};
-    memset(s.marks, 0, count);
-    s.cone[0] = s.cone[3] = slrt_make_arm(x, y, slrt_no_dust(to_x), slrt_no_dust(to_y));
-    slrt_search_from(&s, cell, SLRT_ARM, SLRT_ARM + 3);
-    return s.count;
+EXPORT(int, sees, double x0, double y0, double x1, double y1, const unsigned char *shut,
+       uint32_t *scratch) {
+    return sl_runtime_sees(&level, x0, y0, x1, y1, shut, 0, scratch);
+}
+
+EXPORT(int, can_walk, double x0, double y0, double x1, double y1, const unsigned char *shut) {
+    return sl_runtime_can_walk(&level, x0, y0, x1, y1, shut);
 }
 
 /// integers: vertices, directed portals, inside, solid, has a row.

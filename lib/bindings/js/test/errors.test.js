@@ -38,6 +38,12 @@ test('errors name the line or the item', async () => {
   assert.ok(core.bake(room).length > 0)
 })
 
+test('files of other formats are for the command', async () => {
+  for (const text of ['<?xml version="1.0"?><map/>', '{"defs":{}}'])
+    assert.match(thrown(() => core.bake(text)).message, /bake Tiled files .* with the sightline command\)$/)
+  assert.match(thrown(() => core.bake('<map/>', { name: 'level.tmx' })).message, /^[^(]* \(bake Tiled files/)
+})
+
 test('calls stop by progress and by a time limit', () => {
   assert.equal(thrown(() => core.bake(room, { progress: () => false })).code, 'interrupted')
   assert.equal(thrown(() => core.bake(room, { timeLimit: 1e-9 })).code, 'interrupted')

@@ -104,6 +104,56 @@ test('a level tells its cells, doors and starts', async () => {
   assert.throws(() => level.locate(0, 0), /closed/)
 })
 
+/** A hall with a thin wall and a shut door in it, at x = 4. */
+async function hall() {
+  const path = place('hall.map')
+  writeFileSync(path, 'sightline 1\nwalls 0 0 8 0 8 4 0 4 0 0\nwall 4 0 4 1\nwall 4 3 4 4\ndoor front 4 1 4 3 shut\n')
+  return Level.open(nativeBake(path).bytes)
+}
+
+test('whole steps go through no shut door and no wall', async () => {
+  const level = await hall()
+  const walk = (y, by) => {
+    let x = by > 0 ? 1 : 7
+    for (let i = 0; i < 6; i++) if (level.canWalk([x, y], { x: x + by, y })) x += by
+    return x
+  }
+  for (const by of [1, 2]) {
+    assert.deepEqual([walk(2, by), walk(2, -by)], [3, 5])
+    assert.deepEqual([walk(0.5, by), walk(0.5, -by)], [3, 5])
+  }
+  level.setDoor('front', true)
+  assert.deepEqual([walk(2, 1), walk(2, -1)], [7, 1])
+  assert.deepEqual([walk(0.5, 1), walk(0.5, -1), walk(1, 1)], [3, 5, 3])
+  assert.equal(level.canWalk([1, 2], [9, 2]), false)
+  assert.throws(() => level.canWalk([1, 2], [9, NaN]), SightlineError)
+})
+
+test('a shut door is seen from both sides, and an eye on it looks from one', async () => {
+  const level = await hall()
+  const on = { x: 4, y: 2 }, right = [5, 2], left = [3, 2]
+  assert.deepEqual([level.canSee(left, on), level.canSee(right, on)], [true, true])
+  assert.deepEqual([level.canSee(on, left), level.canSee(on, right)], [false, true])
+  assert.equal(level.locate(4, 2), level.locate(5, 2))
+  assert.deepEqual([level.canSee(left, right), level.canSee(right, left)], [false, false])
+})
+
+test('arguments that are wrong say so', async () => {
+  const level = await hall()
+  const cell = level.locate(1, 1)
+  for (const [call, message] of [
+    [() => level.canSee([1], [2, 2]), /canSee: points/], [() => level.canSee(cell, [2, 2]), /two cells or two points/],
+    [() => level.canSee(null, null), /canSee: points/], [() => level.canSee(0.5, 1), /two cells/],
+    [() => level.canSee(cell, cell, { mirror: true }), /no option 'mirror'/],
+    [() => level.look(1, 1, { heading: 90 }), /no option 'heading'/], [() => level.visiblePolygon(1, 1, { fov: 60 }), /no option 'fov'/],
+    [() => level.look(undefined, 3), /x: a number/], [() => level.visiblePolygon(3, NaN), /y: a number/],
+    [() => level.look(1, 1, { fieldOfView: 60 }), /a direction is needed/], [() => level.row(cell, { mirros: 1 }), /no option/],
+  ]) assert.throws(call, (error) => error instanceof SightlineError && message.test(error.message), String(call))
+  assert.ok(level.visiblePolygon(1, 1, null).length && level.look(1, 1, { fieldOfView: 360 }).length)
+  assert.throws(() => { level.doors[0].open = true }, TypeError)
+  assert.throws(() => { level.doors[0].segments[0][0] = 1 }, TypeError)
+})
+
 /** CRC-32 of a baked file, as its header has it: its own four bytes count as 0. */
 function checksum(bytes) {
   let sum = ~0
