@@ -145,11 +145,10 @@ bool print_state(app_state *app, const char *what, FILE *out) {
     static const struct {
         const char *name;
         void (*print)(app_state *app, FILE *out);
-    } states[] = {{"lesson", print_lesson}, {"program", print_program},
-                  {"why", print_why},       {"quiz", print_quiz},
-                  {"doors", print_doors},   {"first_person", print_first_person},
-                  {"heat", print_heat},     {"bar", print_bar},
-                  {"legend", print_legend}};
+    } states[] = {
+        {"lesson", print_lesson}, {"program", print_program}, {"why", print_why},
+        {"quiz", print_quiz},     {"doors", print_doors},     {"first_person", print_first_person},
+        {"heat", print_heat},     {"bar", print_bar},         {"legend", print_legend}};
     for (size_t i = 0; i < sizeof states / sizeof *states; i++)
         if (strcmp(states[i].name, what) == 0) {
             states[i].print(app, out);
