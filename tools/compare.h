@@ -142,7 +142,7 @@ typedef struct compare_eye_row {
     const char *name; ///< of the method, as in the library's table
     sl_guarantee guarantee;
     double fov;
-    double share;               ///< of the map's area that is kept
+    double share; ///< of the map's area that is kept
     double cells; ///< that are kept; NAN for the visible region, which is not made of cells
     double nodes, orientations; ///< see sl_eye_account
     double seconds;             ///< a query: the median over batches of some

@@ -9,6 +9,7 @@ folder=$root/build/web
 serve=yes
 site=yes
 handouts=
+usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR]'
 while [ $# -gt 0 ]; do
     case $1 in
     --build | --package)
@@ -25,8 +26,13 @@ while [ $# -gt 0 ]; do
         serve=no
         shift
         ;;
+    -h | --help)
+        sed -n '2,5s/^# //p' "$0"
+        echo "$usage"
+        exit 0
+        ;;
     *)
-        echo "web: unknown: $1; usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR]" >&2
+        echo "web: unknown: $1; $usage" >&2
         exit 2
         ;;
     esac

@@ -75,9 +75,27 @@ SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
 SWITCH(dark, ui.dark)
-SWITCH(legend, ui.legend)
 SWITCH(fullscreen, ui.fullscreen)
-SWITCH(present, ui.presents)
+
+/// A legend that is folded opens; else it is switched.
+static void legend(app_state *app) {
+    ui_state *ui = &app->ui;
+    if (!ui->legend_folded) ui->legend = !ui->legend;
+    ui->legend_over = ui->legend;
+}
+
+static bool is_legend(const app_state *app) {
+    return app->ui.legend;
+}
+
+static void present(app_state *app) {
+    app->ui.presents = !app->ui.presents;
+    app->ui.legend_over = false;
+}
+
+static bool is_present(const app_state *app) {
+    return app->ui.presents;
+}
 
 static void help(app_state *app) {
     if (app->ui.help)
@@ -348,9 +366,16 @@ static void why_step(app_state *app) {
     why_go_to_step(app);
 }
 
+/// From elsewhere it begins with the subdivision: F2 begins with the search.
 static void subject(app_state *app) {
-    lesson_next_subject(app->context, &app->tool.lesson, &app->document);
-    app_tick(app, 0);
+    lesson_state *lesson = &app->tool.lesson;
+    if (app->tool.mode == MODE_LEARN) {
+        lesson_next_subject(app->context, lesson, &app->document);
+        app_tick(app, 0);
+        return;
+    }
+    lesson_set_subject(app->context, lesson, subject_find(&lesson_subdivision));
+    set_mode(app, MODE_LEARN);
 }
 
 // --- walls
@@ -634,7 +659,8 @@ static const action_row actions[] = {
      NULL},
     {"program", "Ctrl+L", "Linear program", "learn: the linear program", LEARN, 0, program,
      is_program},
-    {"subject", "U", "Subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
+    {"subject", "U", "Subject (U)", "learn: the subdivision, or the next subject", 0, 0, subject,
+     NULL},
     {"why_step", "Ctrl+T", "Show the step", "why: the step of the search that decides", 0, 0,
      why_step, NULL},
 

@@ -250,6 +250,7 @@ static void look(app_state *app) {
     if (app->tool.mode == MODE_LEARN)
         app_check(
             app, lesson_update(app->context, &app->tool.lesson, &app->document, app_eye_cell(app)));
+    quiz_follow_lesson(app);
 }
 
 void app_settle(app_state *app) {
@@ -319,10 +320,14 @@ static sl_box box(double left, double top, double right, double bottom) {
 }
 
 /// In a presentation the plan has the window to itself, but for what was opened since.
+bool app_has_panel(const app_state *app) {
+    return app->ui.side_panel && !app->ui.presents;
+}
+
 static double side_width(const app_state *app) {
     const ui_state *ui = &app->ui;
     const double t = ui_text_size(ui), chosen = ui->edges[EDGE_SIDE];
-    if (!ui->side_panel || ui->presents) return 0;
+    if (!app_has_panel(app)) return 0;
     return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
 }
 
@@ -356,7 +361,7 @@ window_layout app_layout(const app_state *app) {
     l.bar = box(0, 0, w, bar);
     l.status = box(0, h - status, w, h);
     double bottom = h - status;
-    if (app->tool.mode == MODE_LEARN) {
+    if (pane_time_shown(app)) {
         l.time =
             box(0, fmax(bottom - pane_time_height(app), bar + 0.3 * (bottom - bar)), w, bottom);
         bottom = l.time.min.y;

@@ -95,6 +95,7 @@ typedef struct quiz_state {
     bool said;
     bool seeded; ///< by the clock; under scripts questions are always the same
     unsigned asked_count, right_count;
+    size_t subject, step; ///< of the lesson, while the pair was explained
     uint64_t random;
     sl_explanation explanation; ///< once answered
 } quiz_state;
@@ -203,6 +204,9 @@ bool app_is_solid(const app_state *app, sl_point at);
 
 /// The cell of the eye; SL_NO_CELL outside, in solid ground, and without a map.
 uint32_t app_eye_cell(const app_state *app);
+
+/// Whether there is a panel at the right.
+bool app_has_panel(const app_state *app);
 
 /// The panes below the plan, side by side: rows of the table in modes.c.
 enum { PANE_DUAL, PANE_PROGRAM, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };

@@ -272,7 +272,8 @@ static bool near_line(const app_state *app, sl_point at) {
 }
 
 static drag_kind plan_drag(app_state *app, drag_state *drag) {
-    const bool searches = app->tool.mode == MODE_LEARN && app->tool.lesson.end_count > 0;
+    const bool searches = app->tool.mode == MODE_LEARN && app->tool.lesson.end_count > 0 &&
+                          !app->tool.quiz.answered; // whose picture has no ends to drag
     if (searches) drag->index = pane_plan_end_at(app, drag->at);
     if (searches && drag->index != UINT32_MAX) return DRAG_END;
     if (searches && near_line(app, drag->at)) return DRAG_LINE;
@@ -325,14 +326,9 @@ static void explain_to(app_state *app, sl_point at) {
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
     quiz_explain(app, from, to);
     if (!app->tool.quiz.answered) return;
-    if (app->ui.presents) { // without a panel
-        char text[sizeof app->ui.message];
-        quiz_words(app, text, sizeof text);
-        ui_say(&app->ui, false, "Cell %u: %.440s", to, text);
-        return;
-    }
     app->ui.side_panel = true;
-    ui_say(&app->ui, false, "why: see the panel; Ctrl+T shows the step that decides");
+    ui_say(&app->ui, false, "why: see the %s; Ctrl+T shows the step that decides",
+           app_has_panel(app) ? "panel" : "sentence above");
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {

@@ -164,7 +164,7 @@ sl_colour ramp_colour(const ui_state *ui, int step);
 double layers_key_column(app_state *app, double left, double right, double y);
 
 /// Draws the legend over the plan, where no panel has it; and the keys.
-void layers_draw_keys(app_state *app, const sl_frame *frame);
+void layers_draw_keys(app_state *app, const sl_frame *frame, bool vector);
 
 /// Clips to the cells inside: squares and view cells reach into walled-in space.
 void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame);

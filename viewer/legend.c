@@ -1,5 +1,6 @@
 /// The legend: what the plan shows now, each row with a sample that is drawn as in the plan. It
 /// stands in the panel; over the plan where there is no panel.
+#include "actions.h"
 #include "app.h"
 #include "draw/marks.h" // private: samples are the marks of the plan
 #include "layers.h"
@@ -284,9 +285,26 @@ static void fill_framed(ui_state *ui, sl_box box) {
 
 // --- over the plan
 
+/// Whether a box of the page has something of the map below it.
+static bool covers_map(const app_state *app, const sl_frame *frame, sl_box box) {
+    const sl_box bounds = app->document.baked->space.bounds;
+    const sl_point low = sl_frame_point(frame, bounds.min);
+    const sl_point high = sl_frame_point(frame, bounds.max);
+    return box.min.x < high.x && box.max.x > low.x && box.min.y < low.y && box.max.y > high.y;
+}
+
+/// A presentation has the map free: a legend that would cover it is a button, until that is
+/// pressed.
+static void fold(app_state *app, double left, double bottom) {
+    ui_state *ui = &app->ui;
+    ui->legend_folded = true;
+    ui_button(ui, left, bottom - 1.6 * ui->text, 1.6 * ui->text, "Legend (F7)", false,
+              action_find("legend"));
+}
+
 /// A legend that is higher than three quarters of the plan is left to the panel. Returns its box;
 /// one without a size where it is not drawn.
-static sl_box draw_over_plan(app_state *app, const sl_frame *frame) {
+static sl_box draw_over_plan(app_state *app, const sl_frame *frame, bool vector) {
     ui_state *ui = &app->ui;
     legend_row rows[LEGEND_MOST];
     const int count = layers_legend(app, rows);
@@ -299,6 +317,11 @@ static sl_box draw_over_plan(app_state *app, const sl_frame *frame) {
     if (!count || high > 0.75 * frame->height || wide < 8 * t) return none;
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
+    if (ui->presents && !ui->legend_over &&
+        covers_map(app, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
+        if (!vector) fold(app, left, bottom);
+        return none;
+    }
     fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
     y += 0.1 * t;
     for (int i = 0; i < count; i++)
@@ -326,10 +349,11 @@ static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_
     }
 }
 
-void layers_draw_keys(app_state *app, const sl_frame *frame) {
-    if (app->ui.side_panel && !app->ui.presents) return;
+void layers_draw_keys(app_state *app, const sl_frame *frame, bool vector) {
+    app->ui.legend_folded = false;
+    if (app_has_panel(app)) return;
     const double lowest = frame->top + frame->height;
     sl_box legend = {{frame->left, lowest}, {frame->left, lowest}};
-    if (app->tool.mode != MODE_QUIZ && app->ui.legend) legend = draw_over_plan(app, frame);
+    if (app->tool.mode != MODE_QUIZ && app->ui.legend) legend = draw_over_plan(app, frame, vector);
     draw_keys_over_plan(app, frame, &legend);
 }

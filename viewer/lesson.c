@@ -16,6 +16,12 @@ const subject_row *const *subject_table(size_t *count) {
     return subjects;
 }
 
+size_t subject_find(const subject_row *subject) {
+    size_t at = 0;
+    while (at + 1 < sizeof subjects / sizeof *subjects && subjects[at] != subject) at++;
+    return at;
+}
+
 const subject_row *lesson_subject(const lesson_state *lesson) {
     return subjects[lesson->subject];
 }

@@ -54,6 +54,8 @@ extern const subject_row lesson_search, lesson_subdivision, lesson_pass, lesson_
 
 /// All subjects.
 const subject_row *const *subject_table(size_t *count);
+/// The place of one of them in the table.
+size_t subject_find(const subject_row *subject);
 
 /// What the bake says of a pair of cells.
 typedef enum effect_fact {

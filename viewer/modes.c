@@ -24,9 +24,12 @@ static void draw_kept(app_state *app, const sl_frame *frame) {
                          2.2 * frame->unit);
 }
 
+/// What a right click explains stands in place of the step.
 static void lesson_below(app_state *app, const sl_frame *frame) {
     const subject_row *subject = lesson_subject(&app->tool.lesson);
-    if (subject->below && lesson_shows(&app->tool.lesson, &app->document))
+    if (app->tool.quiz.answered)
+        quiz_draw_below(app, frame);
+    else if (subject->below && lesson_shows(&app->tool.lesson, &app->document))
         subject->below(app, frame);
 }
 
@@ -56,6 +59,10 @@ static void draw_lesson_marks(app_state *app, const sl_frame *frame) {
 
 static void lesson_above(app_state *app, const sl_frame *frame) {
     const subject_row *subject = lesson_subject(&app->tool.lesson);
+    if (app->tool.quiz.answered) {
+        quiz_draw_above(app, frame);
+        return;
+    }
     if (!lesson_shows(&app->tool.lesson, &app->document)) return;
     if (subject->above) subject->above(app, frame);
     draw_lesson_marks(app, frame);

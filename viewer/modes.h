@@ -16,7 +16,7 @@ void pane_learn(app_state *app, sl_box box);        ///< in its place: pseudo-co
 void pane_quiz(app_state *app, sl_box box);         ///< likewise: the question
 void pane_draw(app_state *app, sl_box box);         ///< likewise: walls
 void pane_status(app_state *app, sl_box box);       ///< the line at the bottom
-void pane_time(app_state *app, sl_box box);         ///< the time line of the lesson
+void pane_time(app_state *app, sl_box box);         ///< a sentence, and the lesson's time line
 void pane_dual(app_state *app, sl_box box);         ///< lines as points
 void pane_program(app_state *app, sl_box box);      ///< the linear program of the lesson's portals
 void pane_first_person(app_state *app, sl_box box); ///< what the eye sees
@@ -28,6 +28,10 @@ void pane_tip(app_state *app);                      ///< over all: what the poin
 /// Work out how many lines the bar and the time line need. Before the layout of a frame.
 void pane_bar_measure(app_state *app);
 void pane_time_measure(app_state *app);
+/// Whether there is a sentence, and which one.
+bool pane_time_shown(const app_state *app);
+enum { BAR_TEXT = 1280 };
+void pane_time_sentence(const app_state *app, char text[BAR_TEXT]);
 double pane_time_height(const app_state *app);
 
 /// A pane below the plan. A row of the table in modes.c says when it is shown.

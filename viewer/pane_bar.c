@@ -1,6 +1,7 @@
 /// The bars at the top and at the bottom, and the time line of the lesson.
 #include "actions.h"
 #include "modes.h"
+#include "quiz.h"
 #include "sightline/canvas.h"
 
 #include <math.h>
@@ -23,7 +24,8 @@ static double put_button(app_state *app, double x, double y, const char *name) {
 
 /// Modes and help are always there. The rest has the room that is left in their lines: what finds
 /// none is in the help, where a click does it too.
-static const char *const needed[] = {"explore", "learn", "draw", "quiz", "help"};
+/// In a presentation the button that ends it is needed too: it is the last one.
+static const char *const needed[] = {"explore", "learn", "draw", "quiz", "help", "present"};
 static const char *const others[] = {"file", "open",    "save",       "fit",  "undo",
                                      "redo", "compare", "side_panel", "dark", "present"};
 enum {
@@ -44,7 +46,7 @@ static int bar_buttons(app_state *app, double right, bool draw) {
     const double t = app->ui.text, left = 0.6 * t, gap = 0.35 * t;
     double x = left;
     int line = 0;
-    for (int i = 0; i < NEEDED; i++) {
+    for (int i = 0; i < NEEDED - !app->ui.presents; i++) {
         const double wide = ui_button_width(&app->ui, row_of(needed[i])->label);
         flow(&x, &line, wide, left, right);
         if (draw) put_button(app, x, (0.35 + 2 * line) * t, needed[i]);
@@ -55,6 +57,7 @@ static int bar_buttons(app_state *app, double right, bool draw) {
         const double wide = ui_button_width(&app->ui, row_of(others[i])->label);
         if (app->tool.mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
         if (app->ui.presents && strcmp(others[i], "side_panel") == 0) continue;
+        if (app->ui.presents && strcmp(others[i], "present") == 0) continue;
         if (x + wide > right) continue;
         if (draw) put_button(app, x, (0.35 + 2 * line) * t, others[i]);
         x += wide + gap;
@@ -164,10 +167,47 @@ void pane_status(app_state *app, sl_box box) {
 
 // --- the time line
 
-static const char *const step_buttons[] = {"step_first", "step_back", "play_steps", "step_next",
-                                           "step_last"};
-enum { STEP_BUTTONS = sizeof step_buttons / sizeof *step_buttons };
 #define SENTENCE_SIZE 1.12
+
+/// What is said of a pair stands here where there is no panel. In lessons it always does, as the
+/// plan shows it.
+static bool says_pair(const app_state *app) {
+    const quiz_state *q = &app->tool.quiz;
+    if (app->tool.mode == MODE_LEARN) return q->answered;
+    return !app_has_panel(app) && (q->answered || app->tool.mode == MODE_QUIZ);
+}
+
+bool pane_time_shown(const app_state *app) {
+    return app->tool.mode == MODE_LEARN || says_pair(app);
+}
+
+void pane_time_sentence(const app_state *app, char text[BAR_TEXT]) {
+    const quiz_state *q = &app->tool.quiz;
+    if (!says_pair(app)) {
+        lesson_sentence(&app->tool.lesson, &app->document, text);
+        return;
+    }
+    if (app->tool.mode == MODE_QUIZ)
+        quiz_question(app, text, BAR_TEXT);
+    else
+        snprintf(text, BAR_TEXT, "From cell %u to cell %u:", q->from, q->to);
+    const size_t used = strlen(text);
+    if (!q->answered) return;
+    text[used] = ' ';
+    quiz_words(app, text + used + 1, BAR_TEXT - used - 1);
+}
+
+/// Names of actions, with NULL at the end.
+static const char *const *time_buttons(const app_state *app) {
+    static const char *const steps[] = {"step_first", "step_back", "play_steps",
+                                        "step_next",  "step_last", NULL};
+    static const char *const answers[] = {"answer_yes", "answer_no", NULL};
+    static const char *const next[] = {"next_question", "why_step", NULL};
+    static const char *const why[] = {"why_step", NULL};
+    if (app->tool.mode == MODE_LEARN) return steps;
+    if (app->tool.mode != MODE_QUIZ) return why;
+    return app->tool.quiz.asked && !app->tool.quiz.answered ? answers : next;
+}
 
 static void write_count(const lesson_state *lesson, char text[48]) {
     const size_t length = lesson_length(lesson);
@@ -176,8 +216,8 @@ static void write_count(const lesson_state *lesson, char text[48]) {
 
 static double buttons_width(app_state *app) {
     double wide = 0.7 * app->ui.text;
-    for (int i = 0; i < STEP_BUTTONS; i++)
-        wide += ui_button_width(&app->ui, row_of(step_buttons[i])->label) + 0.35 * app->ui.text;
+    for (const char *const *name = time_buttons(app); *name; name++)
+        wide += ui_button_width(&app->ui, row_of(*name)->label) + 0.35 * app->ui.text;
     return wide;
 }
 
@@ -203,12 +243,13 @@ static void draw_ticks(app_state *app, sl_box line) {
 /// The line stands beside the buttons where it has room there, else below them.
 void pane_time_measure(app_state *app) {
     ui_state *ui = &app->ui;
-    char text[SENTENCE];
-    if (app->tool.mode != MODE_LEARN) return;
-    lesson_sentence(&app->tool.lesson, &app->document, text);
+    char text[BAR_TEXT];
+    if (!pane_time_shown(app)) return;
+    pane_time_sentence(app, text);
     const double high = ui_lines_height(ui, ui->width - 1.8 * ui->text, SENTENCE_SIZE, false, text);
     ui->time_lines = (int)fmax(round(high / (1.4 * SENTENCE_SIZE * ui->text)), 1);
-    ui->time_rows = buttons_width(app) + 14 * ui->text > ui->width ? 2 : 1;
+    const bool has_line = app->tool.mode == MODE_LEARN;
+    ui->time_rows = has_line && buttons_width(app) + 14 * ui->text > ui->width ? 2 : 1;
 }
 
 double pane_time_height(const app_state *app) {
@@ -216,26 +257,17 @@ double pane_time_height(const app_state *app) {
            ui_text_size(&app->ui);
 }
 
-void pane_time(app_state *app, sl_box box) {
+/// Draws the line right of the buttons or below them, from `y` down. Returns its upper edge.
+static double draw_time_line(app_state *app, sl_box box, double x, double y) {
     ui_state *ui = &app->ui;
     const double t = ui->text;
     const lesson_state *lesson = &app->tool.lesson;
-    ui_begin_area(ui, box);
-    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    char text[SENTENCE], count[48];
-    lesson_sentence(lesson, &app->document, text);
-    const sl_box room = {{box.min.x, box.min.y + 1}, box.max};
-    double y = ui_begin_scroll(ui, SCROLL_TIME, room);
-    y = ui_lines(ui, box.min.x + 0.9 * t, y + 1.6 * t, box_width(box) - 1.8 * t, SENTENCE_SIZE,
-                 false, ui->palette.ink, text) -
-        0.8 * t;
-    double x = box.min.x + 0.7 * t;
-    for (int i = 0; i < STEP_BUTTONS; i++) x = put_button(app, x, y, step_buttons[i]);
+    const size_t length = lesson_length(lesson);
+    char count[48];
     if (ui->time_rows > 1) {
         x = box.min.x + 0.3 * t;
         y += 2 * t;
     }
-    const size_t length = lesson_length(lesson);
     write_count(lesson, count);
     box.max.x -= ui_bar_width(ui);
     const double left = box.max.x - 0.9 * t - ui_text_width(ui, 0.95, false, count);
@@ -247,6 +279,25 @@ void pane_time(app_state *app, sl_box box) {
         ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME,
                   0);
     }
+    return y;
+}
+
+void pane_time(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    ui_begin_area(ui, box);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
+    char text[BAR_TEXT];
+    pane_time_sentence(app, text);
+    const sl_box room = {{box.min.x, box.min.y + 1}, box.max};
+    double y = ui_begin_scroll(ui, SCROLL_TIME, room);
+    y = ui_lines(ui, box.min.x + 0.9 * t, y + 1.6 * t, box_width(box) - 1.8 * t, SENTENCE_SIZE,
+                 false, ui->palette.ink, text) -
+        0.8 * t;
+    double x = box.min.x + 0.7 * t;
+    for (const char *const *name = time_buttons(app); *name; name++)
+        x = put_button(app, x, y, *name);
+    if (app->tool.mode == MODE_LEARN) y = draw_time_line(app, box, x, y);
     ui_end_scroll(ui, room, y + 1.9 * t);
     ui_end_area(ui);
 }

@@ -324,7 +324,7 @@ void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     else
         show_kept(app, &app->view.over, true, &frame);
     modes_draw_above(app, &frame);
-    if (!index) layers_draw_keys(app, &frame);
+    if (!index) layers_draw_keys(app, &frame, vector);
     const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
     if (!vector && focused) draw_cursor(app, box);

@@ -621,7 +621,7 @@ static void draw_question(app_state *app, column *c) {
     static const char *const answers[] = {"answer_yes", "answer_no", NULL};
     static const char *const next[] = {"next_question", "why_step", NULL};
     char text[1024];
-    snprintf(text, sizeof text, "Can the orange cell %u see the purple cell %u?", q->from, q->to);
+    quiz_question(app, text, sizeof text);
     words(ui, c, 1.15, ui->palette.ink, text);
     if (!q->answered) {
         button_row(app, c, answers);
@@ -635,13 +635,14 @@ static void draw_question(app_state *app, column *c) {
 void pane_quiz(app_state *app, sl_box box) {
     column c = begin_panel(&app->ui, box);
     const quiz_state *q = &app->tool.quiz;
-    char text[64];
+    char text[96];
     snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
     heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
     if (q->asked)
         draw_question(app, &c);
-    else
-        words(&app->ui, &c, 0.95, app->ui.palette.ink,
-              "Space asks about two cells. The visibility must be there first.");
+    else {
+        quiz_question(app, text, sizeof text);
+        words(&app->ui, &c, 0.95, app->ui.palette.ink, text);
+    }
     end_panel(&app->ui, &c);
 }

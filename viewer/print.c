@@ -1,6 +1,7 @@
 /// What a script can have printed: the state that pictures show, a fact a line, the name first.
 #include "print.h"
 
+#include "modes.h"
 #include "quiz.h"
 
 #include <math.h>
@@ -95,6 +96,17 @@ static void print_quiz(app_state *app, FILE *out) {
     fprintf(out, "answers: %u of %u right\n", q->right_count, q->asked_count);
 }
 
+static void print_bar(app_state *app, FILE *out) {
+    char text[BAR_TEXT] = "nothing";
+    if (pane_time_shown(app)) pane_time_sentence(app, text);
+    fprintf(out, "bar: %s\n", text);
+}
+
+static void print_legend(app_state *app, FILE *out) {
+    const ui_state *ui = &app->ui;
+    fprintf(out, "legend: %s\n", !ui->legend ? "off" : ui->legend_folded ? "a button" : "on");
+}
+
 static void print_first_person(app_state *app, FILE *out) {
     const first_person_counts *c = &app->view.first_person;
     fprintf(out, "pieces: %u\nmirrors: %u\nreflected: %u\n", c->pieces, c->mirrors, c->reflected);
@@ -133,10 +145,10 @@ bool print_state(app_state *app, const char *what, FILE *out) {
     static const struct {
         const char *name;
         void (*print)(app_state *app, FILE *out);
-    } states[] = {{"lesson", print_lesson}, {"program", print_program},
-                  {"why", print_why},       {"quiz", print_quiz},
-                  {"doors", print_doors},   {"first_person", print_first_person},
-                  {"heat", print_heat}};
+    } states[] = {
+        {"lesson", print_lesson}, {"program", print_program}, {"why", print_why},
+        {"quiz", print_quiz},     {"doors", print_doors},     {"first_person", print_first_person},
+        {"heat", print_heat},     {"bar", print_bar},         {"legend", print_legend}};
     for (size_t i = 0; i < sizeof states / sizeof *states; i++)
         if (strcmp(states[i].name, what) == 0) {
             states[i].print(app, out);

@@ -39,6 +39,8 @@ void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
     app->tool.quiz.from = from;
     app->tool.quiz.to = to;
     app->tool.quiz.asked = true;
+    app->tool.quiz.subject = app->tool.lesson.subject;
+    app->tool.quiz.step = app->tool.lesson.at;
     sl_explanation *e = &app->tool.quiz.explanation;
     sl_status status = sl_explain(app->context, app->view.present.space, &options, from, to, e);
     if (status == SL_OK && explains_mirrors(app, e))
@@ -46,6 +48,13 @@ void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
                                       &options, d->mirror_depth, e);
     app->tool.quiz.answered = status == SL_OK;
     app_check(app, status);
+}
+
+void quiz_follow_lesson(app_state *app) {
+    const quiz_state *q = &app->tool.quiz;
+    const lesson_state *lesson = &app->tool.lesson;
+    if (app->tool.mode != MODE_LEARN || !q->answered) return;
+    if (lesson->at != q->step || lesson->subject != q->subject || lesson->plays) quiz_forget(app);
 }
 
 /// Chooses a pair that is not too easy: a few portals apart, and as often seen as not where
@@ -118,6 +127,14 @@ static const char *words_of_effects(const app_state *app) {
         return " With all doors open it would be seen.";
     if (e->seen && !sees) return " But glass is dark that way, or it is out of the view's range.";
     return !e->seen && sees ? " From elsewhere in its cell glass lets it through." : "";
+}
+
+void quiz_question(const app_state *app, char *text, size_t room) {
+    const quiz_state *q = &app->tool.quiz;
+    if (q->asked)
+        snprintf(text, room, "Can the orange cell %u see the purple cell %u?", q->from, q->to);
+    else
+        snprintf(text, room, "Space asks about two cells. The visibility must be there first.");
 }
 
 /// Whether the answer is right, and what was wrong with it.

@@ -11,6 +11,12 @@ void quiz_forget(app_state *app);
 /// Explains whether the eye's cell sees another.
 void quiz_explain(app_state *app, uint32_t from, uint32_t to);
 
+/// An explanation in a lesson goes when the lesson goes on.
+void quiz_follow_lesson(app_state *app);
+
+/// The question, or why there is none.
+void quiz_question(const app_state *app, char *text, size_t room);
+
 /// The words after an answer.
 void quiz_words(const app_state *app, char *text, size_t room);
 

@@ -90,6 +90,7 @@ typedef struct ui_state {
     bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
     bool legend;   ///< over the plan, where there is no panel
+    bool legend_over, legend_folded; ///< in a presentation: over the map too; a button now
     bool side_panel, first_person, accounts, effects, program, help; ///< panels shown
     char message[512];                                               ///< the last thing to say
     bool message_is_error, message_is_working;

@@ -70,13 +70,6 @@ static sl_point middle_of(const sl_space *space, uint32_t cell) {
     return middle;
 }
 
-static size_t search_subject(void) {
-    size_t count, at = 0;
-    const subject_row *const *subjects = subject_table(&count);
-    while (at + 1 < count && subjects[at] != &lesson_search) at++;
-    return at;
-}
-
 void why_go_to_step(app_state *app) {
     lesson_state *lesson = &app->tool.lesson;
     if (!app->tool.quiz.answered || !app->document.baked) {
@@ -86,7 +79,7 @@ void why_go_to_step(app_state *app) {
     const sl_space *space = &app->document.baked->space;
     const wanted w = wanted_of(app);
     if (app_eye_cell(app) != w.from) app->view.eye.at = middle_of(space, w.from);
-    lesson_set_subject(app->context, lesson, search_subject());
+    lesson_set_subject(app->context, lesson, subject_find(&lesson_search));
     action_run(app, action_find("learn"));
     if (!lesson_shows(lesson, &app->document)) return;
     const size_t step = find_step(lesson, space, &w);

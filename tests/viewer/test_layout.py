@@ -38,6 +38,8 @@ SCENES = {
     "mirrors": ("effects/mirrors.map", "key V\nkey F5\n"),
     "doors": ("effects/doors.map", "key L\nkey Z\n"),
     "present": ("office.map", "key F12\nkey T\n"),
+    "present_quiz": ("office.map", "key F12\nkey F4\nkey N\n"),
+    "present_why": ("office.map", "eye 53 20 160 90\nkey F12\nright 300 300\n"),
 }
 
 

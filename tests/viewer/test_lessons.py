@@ -195,6 +195,47 @@ def check_quiz(v):
     v.check(first[-1] == f"answers: {right} of 4 right", f"{first[-1]}: {right}")
 
 
+def check_present(v):
+    """Without the panel the question, the verdict and the reasons stand over the bottom line."""
+    quiz = "key F4\nprint bar\nkey Y\nprint bar\nkey Space\nprint bar\n"
+    v.check(v.facts("office.map", quiz, "bar") == ["nothing"] * 3, "the panel has it")
+    for hide in ("key F12\n", "key Ctrl+B\n"):
+        asked, judged, other = v.facts("office.map", hide + quiz, "bar")
+        v.check(re.fullmatch(r"Can the orange cell \d+ see the purple cell \d+\?", asked), asked)
+        v.check(re.match(re.escape(asked) + " (Right|Wrong)", judged), judged)
+        v.check(other.startswith("Can the orange cell") and other != asked, other)
+    why = "right 200 300\nprint why\nprint bar\nkey Escape\nprint bar\n"
+    words = v.facts("office.map", "key F12\n" + EYE + why, "words")
+    bars = v.facts("office.map", "key F12\n" + EYE + why, "bar")
+    v.check(bars[0].startswith("From cell ") and bars[0].endswith(words[0]) and bars[1] == "nothing", f"{bars}")
+    # The button that leaves is there at any size, and the legend leaves the map free until it is asked for.
+    bar = v.facts("office.map", "size 1024 768\nkey F12\nscreenshot a.png\nclick 470 24\nkey F4\nprint bar\n", "bar")
+    v.check(bar == ["nothing"], f"the button does not end the presentation: {bar}")
+    keys = "".join(f"{key}screenshot a.png\nprint legend\n" for key in ("key F12\n", "key F7\n", "key F7\n", "click 80 652\n"))
+    legends = v.facts("office.map", "size 1280 720\n" + keys, "legend")
+    v.check(legends == ["a button", "on", "off", "off"], f"{legends}")
+    legends = v.facts("office.map", "size 1280 720\nkey F12\nscreenshot a.png\nclick 80 652\nscreenshot a.png\nprint legend\n", "legend")
+    v.check(legends == ["on"], f"the button does not open the legend: {legends}")
+
+
+def check_why_in_lesson(v):
+    """In a lesson a right click has the plan until the lesson goes on."""
+    script = EYE + "key F2\nkey R\nprint bar\nsave step.svg\nright 200 300\nprint bar\nsave why.svg\n"
+    script += "key Right\nprint bar\nkey Left\nprint bar\nsave again.svg\n"
+    step_said, why, after, again = v.facts("office.map", script, "bar")
+    v.check(why.startswith("From cell ") and after != why and again == step_said, f"{why} / {after} / {again}")
+    purple = "rgb(65.882353%,28.235294%,49.019608%)"  # of the cell that was asked about
+    shown = [purple in (v.folder / f"{name}.svg").read_text().replace(", ", ",") for name in ("step", "why", "again")]
+    v.check(shown == [False, True, False], f"the plan shows the pair: {shown}")
+
+
+def check_subdivision(v):
+    """U goes to the subdivision from anywhere."""
+    for key in ("", "key F3\n", "key F4\n"):
+        lessons = v.facts("office.map", key + "key U\nprint lesson\nkey U\nprint lesson\n", "lesson")
+        v.check(len(lessons) == 2 and "ubdivision" in lessons[0] and lessons[1] != lessons[0], f"{key!r}: {lessons}")
+
+
 def check_doors(v):
     """Doors of one name are one door."""
     plan = (v.root / "maps/effects/doors.map").read_text()
@@ -248,7 +289,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         v = Lessons(sys.argv, pathlib.Path(name))
         for check in (check_seeking, check_speed, check_changes, check_why, check_mirrors, check_twins, check_program,
-                      check_quiz, check_doors, check_first_person, check_numbers):
+                      check_quiz, check_present, check_why_in_lesson, check_subdivision,
+                      check_doors, check_first_person, check_numbers):
             check(v)
         path = v.folder / "bad.txt"
         path.write_text("print nonsense\n")

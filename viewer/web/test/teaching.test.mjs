@@ -30,6 +30,16 @@ function readPdf(path) {
     return { isWhole, pages, sizes, images, strokes };
 }
 
+test('tools/web.sh says how it is used', async () => {
+    const script = join(web, '../../tools/web.sh');
+    const ask = (option) => new Promise((resolve) => execFile('sh', [script, option], (error, out, words) => resolve([error?.code ?? 0, out, words])));
+    const [help, unknown] = await Promise.all([ask('--help'), ask('--nonsense')]);
+    assert.equal(help[0], 0);
+    assert.match(help[1], /usage: .*--handouts DIR/);
+    assert.equal(unknown[0], 2);
+    assert.match(unknown[2], /--nonsense; usage/);
+});
+
 describe('handouts', { skip: hasChromium ? false : 'Chromium is missing' }, () => {
     let folder;
     before(() => (folder = mkdtempSync(join(tmpdir(), 'handouts-test-'))));
