@@ -104,7 +104,7 @@ static sl_status refuse_other_files(drawing *dxf, const char *text, size_t size)
     if (size >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
         return sl_fail_at(dxf->context, dxf->name, 0, "binary DXF: save the drawing as ASCII DXF");
     if (size >= 6 && memcmp(text, "AC10", 4) == 0)
-        return sl_fail_at(dxf->context, dxf->name, 0, "a DWG drawing: save it as ASCII DXF");
+        return sl_fail_at(dxf->context, dxf->name, 0, "a DWG drawing: save it as ASCII DXF in the program that it is from");
     return sli_refuse_nul(dxf->context, dxf->name, text, size);
 }
 

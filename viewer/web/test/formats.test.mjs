@@ -21,6 +21,11 @@ import { bakeNative, needsNative, shapes } from './native.mjs';
 const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
 const read = (text) => readMapFile(new TextEncoder().encode(text), () => assert.fail('not a .slv file'));
 
+test('a precision is kept', () => {
+    const text = 'sightline 1\nprecision 0.005\nwall 0 0 9 0\n';
+    assert.equal(writeMap(parseMap(text)), text);
+});
+
 const maps = ['maps', 'maps/effects', 'maps/oblique'].flatMap((folder) =>
     readdirSync(join(root, folder)).filter((f) => /\.(map|txt)$/.test(f)).map((f) => join(root, folder, f)));
 
@@ -141,6 +146,13 @@ test('files that are wrong are refused with words', async () => {
     for (const text of wrong)
         await assert.rejects(read(text), (error) => error instanceof FormatError && error.message.length > 10, text);
     await assert.rejects(readMapFile(Uint8Array.of(255, 254, 0, 7), () => null), FormatError);
+    for (const [text, told] of [
+        ['  0\r\nSECTION\r\n  2\r\nHEADER\r\n', /DXF drawing\..* sightline convert plan\.dxf -o plan\.map$/],
+        ['999\nmade by hand\n0\nSECTION\n2\nENTITIES\n', /DXF drawing\./], ['AC1027\0\0', /DWG drawing: save it as ASCII DXF/],
+        ['AutoCAD Binary DXF\r\n', /binary DXF/], ['IWAD\x01\x02', /WAD/], ['P5 3 1 255 abc', /picture/],
+        ['resolution: 0.05\nimage: map.pgm\n', /map of ROS/], ['image: map.pgm\norigin: [0, 0, 0]\nresolution: 1\n', /map of ROS/],
+    ])
+        await assert.rejects(read(text), (error) => error instanceof FormatError && told.test(error.message), text);
 });
 
 test('paths of SVG', () => {
