@@ -53,7 +53,7 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, const char *reason, sl_baked *baked);
 
-/// A word for the shell: in quotes if it is not made of plain characters. Cut as by snprintf, and
+/// A word for the shell: in quotes if it is not made of plain characters. Cut to fit `size`, and
 /// gives the length as that does.
 size_t pipeline_shell_word(const char *word, char *text, size_t size);
 

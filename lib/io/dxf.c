@@ -552,7 +552,7 @@ static sl_status read_spline(drawing *dxf, dxf_range entity, spline *out, bool *
 }
 
 /// The blossom of the piece between knots k and k + 1: for three equal arguments the curve's point,
-/// else a control point of it as a Bezier curve. A lower degree takes the mean over its arguments.
+/// else a control point of it as a Bézier curve. A lower degree takes the mean over its arguments.
 static sl_point blossom(const spline *s, size_t k, const double at[3]) {
     static const int choices[4][3][3] = {
         {{0}}, {{0}, {1}, {2}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};

@@ -12,6 +12,7 @@ import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
 import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
+import { measureOutline } from '../parts/plan.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
@@ -56,6 +57,12 @@ test('the JSON export becomes the map that it was made of', needsNative, async (
         assert.deepEqual(shapes(b), shapes(a), path);
         assert.equal(b.pvs.flat().length, a.pvs.flat().length, path);
     }
+});
+
+test('an outline has its area and its length', () => {
+    assert.deepEqual(measureOutline([0, 0, 3, 0, 3, 4]), { area: 6, perimeter: 12 });
+    assert.deepEqual(measureOutline([1e9, 1e9, 1e9, 1e9 + 2, 1e9 + 2, 1e9 + 2, 1e9 + 2, 1e9]), { area: -4, perimeter: 8 });
+    assert.deepEqual(measureOutline([]), { area: 0, perimeter: 0 });
 });
 
 /** Levels of editors, as small as they can be. */
