@@ -72,8 +72,7 @@ static sl_status find_lines(sl_context *context, const axial_plan *plan, axial_w
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "axial", SL_EFFECT_DOOR,
                                "axial lines end at walls alone", &w->baked));
     if (!input_ends_with(plan->input, ".slv"))
-        SL_TRY(
-            pipeline_need_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space, ""));
+        SL_TRY(pipeline_need_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space, ""));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
     SL_TRY(sl_axial_all_lines(context, &w->outline, plan->threads, &w->lines));

@@ -192,7 +192,8 @@ static sl_status gather_parts(sl_context *context, const isovist_work *w, seen_p
 static void write_caption(const isovist_work *w, char *text, size_t size) {
     const isovist_result *isovist = &w->isovists[0];
     const sl_region_measures *m = &isovist->measures;
-    const char *name = w->baked.map.unit, *space = *name ? " " : "", *square = *name ? "\xc2\xb2" : "";
+    const char *name = w->baked.map.unit, *space = *name ? " " : "",
+               *square = *name ? "\xc2\xb2" : "";
     char unit[32], mirrored[64] = "";
     snprintf(unit, sizeof unit, "%s%s", space, name);
     if (w->scene.mirrors)
@@ -230,8 +231,7 @@ static sl_status make_outline(sl_context *context, isovist_work *w) {
 }
 
 /// A grid is all that is inside.
-static sl_status note_inside(sl_context *context, const isovist_plan *plan,
-                             const isovist_work *w) {
+static sl_status note_inside(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
     const sl_map *map = &w->baked.map;
     const sl_space *space = &w->baked.space;
     if (!(plan->grid > 0) && !plan->cells_given)
@@ -309,7 +309,8 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
-        {"csv", 0, "FILE", "look from the points of a table: x,y or x,y,angle or x,y,angle,fov; its first line may "
+        {"csv", 0, "FILE",
+         "look from the points of a table: x,y or x,y,angle or x,y,angle,fov; its first line may "
          "name the columns",
          .text = &plan.csv, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",

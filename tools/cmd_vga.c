@@ -368,8 +368,7 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
                                &w->baked));
     SL_TRY(check_units(context, plan, &w->baked.map));
     SL_TRY(check_direction(context, plan, w));
-    if (!input_ends_with(plan->input, ".slv"))
-        SL_TRY(note_inside(context, plan, w));
+    if (!input_ends_with(plan->input, ".slv")) SL_TRY(note_inside(context, plan, w));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(make_outline(context, w));

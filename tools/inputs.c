@@ -65,7 +65,8 @@ option_table input_option_table(input_options *input) {
          .text = &to->start_names, .given = given, .rare = true},
         {"tolerance", 0, "T", "largest distance of a curve from its walls",
          .number = &to->tolerance, .over_0 = true, .given = given, .rare = true},
-        {"unit", 0, "UNIT", "convert a drawing to this unit: mm cm m km in ft yd; mm=m: it is in mm, whatever it says",
+        {"unit", 0, "UNIT",
+         "convert a drawing to this unit: mm cm m km in ft yd; mm=m: it is in mm, whatever it says",
          .text = &to->unit, .given = given, .rare = true},
         {"weld", 0, "T",
          "join wall ends up to T apart, in map units; 0 joins none (default: 2^-46 of the largest "

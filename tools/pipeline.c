@@ -117,9 +117,9 @@ size_t pipeline_shell_word(const char *word, char *text, size_t size) {
     if (quoted) length += (size_t)snprintf(text, size, "'");
     for (; *word; word++) {
         const char letter[2] = {*word, '\0'};
-        length += (size_t)snprintf(text + (length < size ? length : 0),
-                                   length < size ? size - length : 0, "%s",
-                                   *word == '\'' ? "'\\''" : letter);
+        length +=
+            (size_t)snprintf(text + (length < size ? length : 0), length < size ? size - length : 0,
+                             "%s", *word == '\'' ? "'\\''" : letter);
     }
     if (quoted)
         length += (size_t)snprintf(text + (length < size ? length : 0),

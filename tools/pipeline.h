@@ -53,12 +53,12 @@ sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, 
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, const char *reason, sl_baked *baked);
 
-/// A word for the shell: in quotes if it is not made of plain characters. Cut as by snprintf, and
+/// A word for the shell: in quotes if it is not made of plain characters. Cut to fit `size`, and
 /// gives the length as that does.
 size_t pipeline_shell_word(const char *word, char *text, size_t size);
 
-/// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most of
-/// a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
+/// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most
+/// of a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
 /// pipeline_note_inside().
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else);

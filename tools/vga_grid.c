@@ -105,7 +105,9 @@ static sl_status mark_within(sl_context *context, const vga_grid_plan *plan,
 static sl_status drop_others(sl_context *context, const vga_grid_plan *plan,
                              const input_options *input, sl_vga_grid *grid) {
     for (int k = 0; k < 3; k++) {
-        const bool asked = k == 0 ? plan->within.path != NULL : k == 1 ? plan->border : !!plan->points;
+        const bool asked = k == 0   ? plan->within.path != NULL
+                           : k == 1 ? plan->border
+                                    : !!plan->points;
         if (!asked) continue;
         sl_bits *kept = sl_alloc_array(context, sl_bits_words(grid->count), sizeof *kept);
         if (!kept) return SL_NO_MEMORY;

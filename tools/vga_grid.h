@@ -13,8 +13,8 @@ typedef struct vga_grid_plan {
     option_list at;
     const char *points; ///< a table: only the points nearest to these
     within_plan within; ///< only points within outlines
-    bool border;       ///< only points at the border of the grid
-    const char *links; ///< a table of linked points
+    bool border;        ///< only points at the border of the grid
+    const char *links;  ///< a table of linked points
 } vga_grid_plan;
 
 option_table vga_grid_option_table(vga_grid_plan *plan);

@@ -423,8 +423,12 @@ void layer_heat(app_state *app, const sl_frame *frame, int index) {
 
 // --- the key
 
+/// A dash stands for no value.
 static void write_value(double value, char text[32]) {
-    snprintf(text, 32, value != round(value) || fabs(value) >= 1e6 ? "%.4g" : "%.0f", value);
+    if (isnan(value))
+        snprintf(text, 32, "\xe2\x80\x93");
+    else
+        snprintf(text, 32, value != round(value) || fabs(value) >= 1e6 ? "%.4g" : "%.0f", value);
 }
 
 /// The value of the square under the pointer; a dash where there is none.
@@ -432,9 +436,7 @@ static void write_pointed(const app_state *app, const heat_graph *g, char text[3
     sl_point at;
     uint32_t p = UINT32_MAX;
     if (find_pointed(app, &at)) p = heat_graph_square(g, at);
-    snprintf(text, 32, "\xe2\x80\x93");
-    if (p != UINT32_MAX && !isnan(app->view.heat->values[p]))
-        write_value(app->view.heat->values[p], text);
+    write_value(p != UINT32_MAX ? app->view.heat->values[p] : NAN, text);
 }
 
 bool heat_layer_key(const app_state *app, legend_key *key) {
@@ -456,7 +458,11 @@ bool heat_layer_key(const app_state *app, legend_key *key) {
     bool blocks = false;
     for (size_t i = 0; i < app->document.object_count; i++) blocks |= app->document.blocks[i];
     if (blocks) legend_key_add(key, "objects", "do not block here");
-    write_value(least, key->least);
-    write_value(most, key->most);
+    if (!(least <= most))
+        legend_key_add(key, "no point has a value",
+                       app->document.map.start_count ? "not defined here"
+                                                     : "put a start in a room");
+    write_value(least <= most ? least : NAN, key->least);
+    write_value(least <= most ? most : NAN, key->most);
     return true;
 }

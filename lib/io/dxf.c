@@ -1,8 +1,8 @@
 /// DXF (Autodesk, DXF Reference). A drawing is lines in pairs, a group code and a value, in
 /// sections HEADER, TABLES, BLOCKS and ENTITIES. The pairs are read first; then every entity that
 /// is walls is drawn by the pen: LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE,
-/// SPLINE, and INSERT, which draws a block's entities once more. Blocks within blocks could ask for any
-/// amount of work: their depth and the number of entities drawn are bounded. Layers whose names
+/// SPLINE, and INSERT, which draws a block's entities once more. Blocks within blocks could ask for
+/// any amount of work: their depth and the number of entities drawn are bounded. Layers whose names
 /// begin with "sightline-" hold doors, solid ground and so on (layers.h).
 #include "io/layers.h"
 #include "io/names.h"
@@ -104,7 +104,8 @@ static sl_status refuse_other_files(drawing *dxf, const char *text, size_t size)
     if (size >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
         return sl_fail_at(dxf->context, dxf->name, 0, "binary DXF: save the drawing as ASCII DXF");
     if (size >= 6 && memcmp(text, "AC10", 4) == 0)
-        return sl_fail_at(dxf->context, dxf->name, 0, "a DWG drawing: save it as ASCII DXF");
+        return sl_fail_at(dxf->context, dxf->name, 0,
+                          "a DWG drawing: save it as ASCII DXF in the program that it is from");
     return sli_refuse_nul(dxf->context, dxf->name, text, size);
 }
 
@@ -363,8 +364,8 @@ static sl_status read_plane(drawing *dxf, dxf_range entity, plane *out) {
 /// Counts an entity that is no wall.
 static sl_status leave_out(drawing *dxf, sli_word kind, sli_word layer) {
     size_t i = 0;
-    while (i < dxf->others_count && !(same_name(dxf->others[i].kind, kind) &&
-                                      same_name(dxf->others[i].layer, layer)))
+    while (i < dxf->others_count &&
+           !(same_name(dxf->others[i].kind, kind) && same_name(dxf->others[i].layer, layer)))
         i++;
     if (i == MOST_OTHERS) {
         dxf->other_kinds++;
@@ -551,7 +552,7 @@ static sl_status read_spline(drawing *dxf, dxf_range entity, spline *out, bool *
 }
 
 /// The blossom of the piece between knots k and k + 1: for three equal arguments the curve's point,
-/// else a control point of it as a Bezier curve. A lower degree takes the mean over its arguments.
+/// else a control point of it as a Bézier curve. A lower degree takes the mean over its arguments.
 static sl_point blossom(const spline *s, size_t k, const double at[3]) {
     static const int choices[4][3][3] = {
         {{0}}, {{0}, {1}, {2}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
@@ -959,15 +960,16 @@ static void note_drawing(const drawing *dxf) {
         left[count++] = (sli_tally){other->count, kinds[i], kinds[i]};
     }
     left[count++] = (sli_tally){dxf->other_kinds, "that is no wall either", "that are no walls"};
-    left[count++] = (sli_tally){dxf->on_paper, "on a layout (paper space)", "on layouts (paper space)"};
+    left[count++] =
+        (sli_tally){dxf->on_paper, "on a layout (paper space)", "on layouts (paper space)"};
     left[count++] = (sli_tally){dxf->out_of_plane, "out of the plane", "out of the plane"};
     left[count++] = (sli_tally){dxf->pen.points, "line of no length", "lines of no length"};
     const char *asked = dxf->options->unit;
     char without[SLI_TALLY_TEXT];
     sl_note(dxf->context, "%s: %zu entities give %zu walls%s; unit: %s%s%s", dxf->name, dxf->drawn,
             dxf->pen.walls, sli_tally_write("; left out: ", left, count, without),
-            unit_name(dxf->unit), asked ? strchr(asked, '=') ? ", read as " : ", converted to " : "",
-            asked ? asked : "");
+            unit_name(dxf->unit),
+            asked ? strchr(asked, '=') ? ", read as " : ", converted to " : "", asked ? asked : "");
     if (!dxf->drawn && dxf->options->layers)
         sl_note(dxf->context,
                 "%s: nothing on the layers %s is a wall; sightline info %s lists all layers",

@@ -3,11 +3,13 @@
 /// where it lies, and from which occupancy a pixel is an obstacle. Walls run along the edges
 /// between solid pixels and others.
 #include "io/names.h"
+#include "io/shapes.h"
 #include "map/grid.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
+#include <math.h>
 #include <png.h>
 #include <string.h>
 #include <yaml.h>
@@ -307,9 +309,9 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
     if (!m->image) return sl_fail_at(m->context, m->name, 0, "no 'image' is named");
     if (!(m->resolution > 0))
         return sl_fail_at(m->context, m->name, 0, "'resolution' is missing or not positive");
-    if (m->origin[2] != 0)
+    if (!(fabs(m->origin[2]) <= 1e3))
         return sl_fail_at(m->context, m->name, m->origin_line,
-                          "origin: a turned map (a yaw other than 0) cannot be read");
+                          "origin: the yaw is no angle in radians");
     if (m->raw)
         return sl_fail_at(m->context, m->name, 0, "mode: only trinary and scale are known here");
     return SL_OK;
@@ -353,6 +355,21 @@ static sl_status read_image(const ros_map *m, sl_image *image) {
     return status;
 }
 
+/// Turns walls about the origin by the yaw. Files round it: what is a millionth off a quarter turn
+/// is meant to be one, and then walls stay upright and level.
+static void turn(const ros_map *m, sl_map *map) {
+    const double quarters = m->origin[2] / 1.5707963267948966, whole = round(quarters);
+    const double degrees = 90 * (fabs(quarters - whole) <= 1e-6 ? whole : quarters);
+    const sli_affine back = {.xx = 1, .x0 = -m->origin[0], .yy = 1, .y0 = -m->origin[1]};
+    sli_affine turned = sli_affine_after(sli_affine_turn(degrees), back);
+    turned.x0 += m->origin[0];
+    turned.y0 += m->origin[1];
+    for (size_t i = 0; m->origin[2] != 0 && i < map->wall_count; i++) {
+        map->walls[i].a = sli_affine_apply(turned, map->walls[i].a);
+        map->walls[i].b = sli_affine_apply(turned, map->walls[i].b);
+    }
+}
+
 static sl_status read_map(ros_map *m, const sl_import_options *options, const char *text,
                           size_t size, sl_map *map) {
     sl_image image = {0};
@@ -368,6 +385,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
                              .origin = {m->origin[0], m->origin[1]}};
     const sl_status status = image_add_walls(m->context, &image, &plan, map, &solid);
     strcpy(map->unit, "m");
+    if (status == SL_OK) turn(m, map);
     if (status == SL_OK)
         sl_note(m->context,
                 "%s: %zu of %zu x %zu pixels of %g m are solid (occupancy from %g); %zu walls%s",

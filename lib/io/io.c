@@ -73,6 +73,38 @@ static bool knows_wad(const char *text, size_t size) {
 /// What files with layers of our own hold (layers.h).
 #define KEEPS_LAYERS (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS)
 
+/// Pairs of lines begin with a section, perhaps behind comments (999); or the file is a drawing of
+/// the same programs in binary, which the reader refuses with what to do.
+static bool knows_dxf(const char *text, size_t size) {
+    static const char binary[] = "AutoCAD Binary DXF";
+    if (size >= 6 && memcmp(text, "AC10", 4) == 0) return true;
+    if (size >= sizeof binary && memcmp(text, binary, sizeof binary - 1) == 0) return true;
+    const char *at = text + strspn(text, " \t\r\n");
+    while (strncmp(at, "999", 3) == 0 && is_one_of("\r\n", at[3])) {
+        at += strcspn(at, "\n");
+        at += *at == '\n';
+        at += strcspn(at, "\n");
+        at += strspn(at, " \t\r\n");
+    }
+    if (*at != '0' || !is_one_of(" \t\r\n", at[1])) return false;
+    at += 1 + strspn(at + 1, " \t\r\n");
+    return strncmp(at, "SECTION", 7) == 0;
+}
+
+/// Whether a line begins with this key.
+static bool has_key(const char *text, const char *key) {
+    for (const char *at = text; at; at = strchr(at, '\n')) {
+        at += *at == '\n';
+        if (strncmp(at, key, strlen(key)) == 0) return true;
+    }
+    return false;
+}
+
+static bool knows_ros(const char *text, size_t size) {
+    (void)size;
+    return has_key(text, "image:") && has_key(text, "resolution:");
+}
+
 static const sl_map_format map_formats[] = {
     {.name = "unigrafix",
      .endings = ".ug",
@@ -85,6 +117,7 @@ static const sl_map_format map_formats[] = {
      .what = "a DXF drawing",
      .read = sl_map_read_dxf,
      .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT,
+     .knows = knows_dxf,
      .write = sl_map_print_dxf,
      .keeps = KEEPS_LAYERS & ~SL_KEEPS_RANGE & ~SL_KEEPS_CELLS},
     {.name = "svg",
@@ -105,7 +138,8 @@ static const sl_map_format map_formats[] = {
      .endings = ".yaml .yml",
      .what = "a map of ROS: a picture with its scale",
      .read = sl_map_read_ros,
-     .takes = SL_TAKES_THRESHOLD},
+     .takes = SL_TAKES_THRESHOLD,
+     .knows = knows_ros},
     {.name = "tmx",
      .endings = ".tmx",
      .what = "a map of Tiled",

@@ -166,8 +166,13 @@ static void test_ros(void **state) {
     read_ros("resolution: 1\n", 0, NULL, "m.yaml: no 'image' is named");
     read_ros("image: m.pgm\nresolution: thin\n", 0, NULL,
              "m.yaml:2: resolution: expected a number");
-    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0.1]\n", 0, NULL,
-             "m.yaml:3: origin: a turned");
+    // Turned about the origin, by a quarter as far as the digits go.
+    char quarter[] = "sightline 1\nwall -1 2 -1 2.5\nwall -1 2 -1.5 2\n"
+                     "wall -1 2.5 -1.5 2.5\nwall -1.5 2 -1.5 2.5\n";
+    sort_lines(quarter);
+    read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 1.5707963]\n", 0.65, quarter, NULL);
+    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 1e9]\n", 0, NULL,
+             "m.yaml:3: origin: the yaw is no angle");
     read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0, 0]\n", 0, NULL,
              "m.yaml:3: origin: more");
     read_ros("image: [m.pgm\n", 0, NULL, "m.yaml:2: YAML: ");

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <time.h>
+#include <unistd.h>
 
 // --- the viewer
 
@@ -298,6 +299,38 @@ static void test_stopped(void **state) {
     }
 }
 
+/// In a room where all see all, no point has an integration: the key says so, in place of a scale
+/// from inf to -inf.
+static void test_no_value(void **state) {
+    static const char *const starts[2] = {"start 1 1 0\n", ""};
+    static const char *const told[2] = {"not defined here", "put a start in a room"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
+        assert_non_null(mkdtemp(folder));
+        snprintf(path, sizeof path, "%s/a.map", folder);
+        FILE *stream = fopen(path, "w");
+        assert_non_null(stream);
+        fprintf(stream, "sightline 1\nwalls 0 0 4 0 4 4 0 4 0 0\n%s", starts[i]);
+        assert_int_equal(fclose(stream), 0);
+        app_state *app = start(path);
+        heat_set_step(app, 0);
+        press_key(app, "1");
+        size_t count, k = 0;
+        const heat_measure *measures = heat_measures(&count);
+        while (!strstr(measures[k].name, "integration")) k++;
+        while (app->view.heat_choice.measure != k) press_key(app, "2");
+        legend_key key;
+        assert_true(heat_layer_key(app, &key));
+        assert_string_equal(key.least, "\xe2\x80\x93");
+        assert_string_equal(key.most, "\xe2\x80\x93");
+        assert_string_equal(key.rows[key.count - 1].text, told[i]);
+        viewer_end(app);
+        assert_int_equal(remove(path), 0);
+        assert_int_equal(rmdir(folder), 0);
+    }
+}
+
 /// A layer that is switched on fills the plan. Once it is off, the one before does again.
 static void test_fills(void **state) {
     (void)state;
@@ -322,6 +355,7 @@ int main(void) {
         cmocka_unit_test(test_kept_scale), cmocka_unit_test(test_steps),
         cmocka_unit_test(test_refused),    cmocka_unit_test(test_glass),
         cmocka_unit_test(test_stopped),    cmocka_unit_test(test_fills),
+        cmocka_unit_test(test_no_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
  * @property {number[]} points x, y, x, y ...
  * @property {string} [name] of a door, a path or an object
  * @property {string} [state] the word at the end: open, shut, solid, one, both
- * @property {number} [heading] of a start @property {number} [value] of range and snap
+ * @property {number} [heading] of a start @property {number} [value] of range, snap and precision
  * @property {string} [text] of comments and notes
  */
 
@@ -38,6 +38,7 @@ const statements = {
     cell: { points: [3, Infinity] },
     range: { value: true },
     snap: { value: true },
+    precision: { value: true },
     start: { heading: true },
 };
 

@@ -20,6 +20,25 @@ import { tiledFromXml } from './tiled-xml.js';
 
 const isSlv = (bytes) => String.fromCharCode(...bytes.subarray(0, 16)).toLowerCase().includes('slv');
 
+/** Files that the page does not read, by their first bytes: what they are, and a name for the command if it does. */
+const others = [
+    [/^AC10\d\d/, 'a DWG drawing: save it as ASCII DXF in the program that it is from'],
+    [/^AutoCAD Binary DXF/, 'a binary DXF drawing: save it as ASCII DXF'],
+    [/^(\s*999\r?\n.*\n)*\s*0\s*\n\s*SECTION\s/, 'a DXF drawing', 'plan.dxf'],
+    [/^[IP]WAD/, 'a WAD of Doom', 'levels.wad'],
+    [/^(\x89PNG|P[1-6]\s)/, 'a picture', 'plan.png'],
+    [/^(?=[^]*^image:)[^]*^resolution:/m, 'a map of ROS', 'map.yaml'],
+];
+
+/** @param {Uint8Array} bytes */
+function refuseOthers(bytes) {
+    const start = String.fromCharCode(...bytes.subarray(0, 2000));
+    for (const [known, what, name] of others)
+        if (known.test(start))
+            throw new FormatError(`this is ${what}` + (name ? '. The page does not read it, the command does: ' +
+                `sightline convert ${name} -o plan.map` : ''));
+}
+
 /** @returns {[string, (file: any) => any]} */
 function jsonReader(file) {
     if (file?.format === 'sightline') return ['the JSON export', readBaked];
@@ -38,6 +57,7 @@ function jsonReader(file) {
  */
 export async function readMapFile(bytes, describe) {
     if (isSlv(bytes)) return { format: 'a .slv file', ...readBaked(await describe(bytes)) };
+    refuseOthers(bytes);
     let text;
     try {
         text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);

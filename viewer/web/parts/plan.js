@@ -121,6 +121,17 @@ function drawGrid(surface, camera, step, colour) {
     strokeLines(surface, camera, lines, colour, 0.5);
 }
 
+/** The area of an outline, over 0 where it runs counter-clockwise, and its length. @param {ArrayLike<number>} p x, y ... */
+export function measureOutline(p) {
+    let twice = 0, perimeter = 0;
+    for (let i = 0; i < p.length; i += 2) {
+        const next = (i + 2) % p.length, x = p[next] - p[i], y = p[next + 1] - p[i + 1];
+        twice += (p[i] - p[0]) * y - x * (p[i + 1] - p[1]);
+        perimeter += Math.hypot(x, y);
+    }
+    return { area: twice / 2, perimeter };
+}
+
 /** @param {Space} space @returns {Float64Array} x, y ... of one cell */
 export function cellCorners(space, cell) {
     const [first, count] = space.cellTable.subarray(6 * cell, 6 * cell + 2);

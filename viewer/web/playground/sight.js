@@ -5,7 +5,7 @@
 import { Latest } from '../core/latest.js';
 import { countWalls } from '../formats/map-text.js';
 import { dualFigure } from '../parts/dual.js';
-import { cellCorners, isInside } from '../parts/plan.js';
+import { cellCorners, isInside, measureOutline } from '../parts/plan.js';
 import { tellWhy } from '../parts/why-scene.js';
 import * as panel from './panel.js';
 
@@ -16,14 +16,13 @@ function largestCell(space) {
     let best = null, most = 0;
     for (let i = 0; i < space.cellCount; i++) {
         const p = cellCorners(space, i), n = p.length / 2;
-        let size = 0, x = 0, y = 0;
+        let x = 0, y = 0;
         for (let k = 0; k < n; k++) {
-            const next = 2 * ((k + 1) % n);
-            size += p[2 * k] * p[next + 1] - p[next] * p[2 * k + 1];
             x += p[2 * k] / n;
             y += p[2 * k + 1] / n;
         }
-        if (isInside(space, i) && size > most) [most, best] = [size, [x, y]];
+        const { area } = measureOutline(p);
+        if (isInside(space, i) && area > most) [most, best] = [area, [x, y]];
     }
     return best;
 }
@@ -161,9 +160,11 @@ export class Sight {
             ['Cell of the eye', seen?.cell],
             ['The cell sees', seen && `${seen.set.size} cells`],
             ['The eye sees', seen && `${seen.kept} cells`],
+            ['Area in sight', seen && Number(measureOutline(seen.region).area.toPrecision(6))],
+            ['Its perimeter', seen && Number(measureOutline(seen.region).perimeter.toPrecision(6))],
         ]);
         get('where').textContent = this.eye ? `Eye at ${this.eye.map((v) => Math.round(v * 1000) / 1000).join(', ')}` +
-            `${seen ? '' : this.plan ? ', not inside' : ''}` : '';
+            `${seen ? '' : this.plan ? ', not inside: put a start in a room' : ''}` : '';
     }
 
     /** Asks for a pair of cells by places; null keeps the first one. */

@@ -12,6 +12,7 @@ import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
 import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
+import { measureOutline } from '../parts/plan.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
@@ -20,6 +21,11 @@ import { bakeNative, needsNative, shapes } from './native.mjs';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
 const read = (text) => readMapFile(new TextEncoder().encode(text), () => assert.fail('not a .slv file'));
+
+test('a precision is kept', () => {
+    const text = 'sightline 1\nprecision 0.005\nwall 0 0 9 0\n';
+    assert.equal(writeMap(parseMap(text)), text);
+});
 
 const maps = ['maps', 'maps/effects', 'maps/oblique'].flatMap((folder) =>
     readdirSync(join(root, folder)).filter((f) => /\.(map|txt)$/.test(f)).map((f) => join(root, folder, f)));
@@ -51,6 +57,12 @@ test('the JSON export becomes the map that it was made of', needsNative, async (
         assert.deepEqual(shapes(b), shapes(a), path);
         assert.equal(b.pvs.flat().length, a.pvs.flat().length, path);
     }
+});
+
+test('an outline has its area and its length', () => {
+    assert.deepEqual(measureOutline([0, 0, 3, 0, 3, 4]), { area: 6, perimeter: 12 });
+    assert.deepEqual(measureOutline([1e9, 1e9, 1e9, 1e9 + 2, 1e9 + 2, 1e9 + 2, 1e9 + 2, 1e9]), { area: -4, perimeter: 8 });
+    assert.deepEqual(measureOutline([]), { area: 0, perimeter: 0 });
 });
 
 /** Levels of editors, as small as they can be. */
@@ -141,6 +153,13 @@ test('files that are wrong are refused with words', async () => {
     for (const text of wrong)
         await assert.rejects(read(text), (error) => error instanceof FormatError && error.message.length > 10, text);
     await assert.rejects(readMapFile(Uint8Array.of(255, 254, 0, 7), () => null), FormatError);
+    for (const [text, told] of [
+        ['  0\r\nSECTION\r\n  2\r\nHEADER\r\n', /DXF drawing\..* sightline convert plan\.dxf -o plan\.map$/],
+        ['999\nmade by hand\n0\nSECTION\n2\nENTITIES\n', /DXF drawing\./], ['AC1027\0\0', /DWG drawing: save it as ASCII DXF/],
+        ['AutoCAD Binary DXF\r\n', /binary DXF/], ['IWAD\x01\x02', /WAD/], ['P5 3 1 255 abc', /picture/],
+        ['resolution: 0.05\nimage: map.pgm\n', /map of ROS/], ['image: map.pgm\norigin: [0, 0, 0]\nresolution: 1\n', /map of ROS/],
+    ])
+        await assert.rejects(read(text), (error) => error instanceof FormatError && told.test(error.message), text);
 });
 
 test('paths of SVG', () => {

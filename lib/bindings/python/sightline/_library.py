@@ -11,7 +11,7 @@ import pathlib
 import sys
 import threading
 import weakref
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -140,6 +140,18 @@ def text(value: Optional[str], what: str = "text") -> Optional[bytes]:
     if b"\0" in coded:
         raise ValueError(f"{what} has a 0 in it")
     return coded
+
+
+def names_text(value: Union[str, Iterable[str], None], what: str) -> Optional[bytes]:
+    """Names, one text with commas between or several, for the library; None stays None."""
+    if value is None or isinstance(value, str):
+        return text(value, what)
+    names = list(value)
+    for name in names:
+        text(name, what)
+        if "," in name:
+            raise ValueError(f"{what}: a name has no comma")
+    return text(",".join(names), what)
 
 
 def path_text(path: Any) -> bytes:

@@ -432,7 +432,7 @@ class Level(drawing.InNotebooks, Handle):
         return shapes if mirrors else shapes[0]
 
     def isovists(self, points: ArrayLike, heading: ArrayLike = 0, fov: ArrayLike = 360, *,
-                 polygons: bool = False, tolerance: Optional[float] = None, threads: int = 0,
+                 range: Optional[float] = None, polygons: bool = False, tolerance: Optional[float] = None, threads: int = 0,
                  arrays: bool = False) -> Any:
         """Measures of the visible regions of many eyes, under the names of depthmapX.
 
@@ -442,6 +442,8 @@ class Level(drawing.InNotebooks, Handle):
             Eyes, of shape (n, 2).
         heading, fov
             Degrees, a number for all or one for each.
+        range
+            See no farther, in this question alone; by default the range of the level.
         polygons
             Add the regions as geometry (a GeoDataFrame), or as a column `polygon` of arrays.
         arrays
@@ -455,7 +457,13 @@ class Level(drawing.InNotebooks, Handle):
             mirrored_area and parts where the map has mirrors.
         """
         eyes = as_points(points, "points").reshape(-1, 2)
-        measures, found = self._isovists(eyes, heading, fov, threads, polygons, tolerance)
+        with self._lock:
+            before = self.range
+            self.range = before if range is None else range
+            try:
+                measures, found = self._isovists(eyes, heading, fov, threads, polygons, tolerance)
+            finally:
+                self.range = before
         names = self._names("isovist")
         columns: dict[str, NDArray[Any]] = {"x": eyes[:, 0].copy(), "y": eyes[:, 1].copy()}
         for i, name in enumerate(names):

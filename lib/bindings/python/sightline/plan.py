@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import drawing
 from ._library import (Bake, Floats, Handle, Import, as_count, as_points, as_segments, call,
-                       existing, path_text, said, text)
+                       existing, names_text, path_text, said, text)
 from .errors import SightlineWarning
 from .level import Level
 
@@ -20,7 +20,8 @@ EFFECTS = ("door", "mirror", "oneway", "range")
 
 _DOUBTS = {
     "leaks": "a start leads out of the map, so the outside counts as inside, too",
-    "small": "the map has no start, and walls enclose less than half of it: add one with start=",
+    "small": "the map has no start, and walls enclose less than half of it: add one with "
+             "plan.add_start((x, y))",
     "few": "rooms that no start reaches have more area than those that one reaches; they count as "
            "outside",
     "none": "all of the map is solid ground, so nothing is inside",
@@ -52,7 +53,8 @@ class Plan(drawing.InNotebooks, Handle):
 
     @classmethod
     def from_file(cls, path: Union[str, "os.PathLike[str]"], *, map: Optional[str] = None,
-                  layers: Optional[str] = None, start_names: Optional[str] = None,
+                  layers: Union[str, Sequence[str], None] = None,
+                  start_names: Union[str, Sequence[str], None] = None,
                   unit: Optional[str] = None, slice: Optional[float] = None,
                   tolerance: float = 0, threshold: float = 0, doors: bool = False,
                   sectors: bool = False, cells: bool = False) -> "Plan":
@@ -65,11 +67,12 @@ class Plan(drawing.InNotebooks, Handle):
         map
             Which map of a file that holds several.
         layers
-            The layers to take, with commas between.
+            The layers to take: a list, or a text with commas between.
         start_names
-            Names of objects that are starts, with commas between; "none" for no starts.
+            Names of objects that are starts, likewise; "none" for no starts.
         unit
-            The unit that coordinates are to have: mm, cm, m, km, in, ft or yd.
+            The unit that coordinates are to have: mm, cm, m, km, in, ft or yd. "mm=m" reads a
+            drawing that is in mm, whatever it says, in m.
         slice
             Height of the cut through a 3D model.
         tolerance
@@ -87,8 +90,8 @@ class Plan(drawing.InNotebooks, Handle):
             The file cannot be read.
         """
         plan = cls()
-        options = Import(text(map, "map"), text(layers, "layers"),
-                         text(start_names, "start_names"), text(unit, "unit"),
+        options = Import(text(map, "map"), names_text(layers, "layers"),
+                         names_text(start_names, "start_names"), text(unit, "unit"),
                          math.nan if slice is None else slice, tolerance, threshold, doors, sectors,
                          cells)
         plan._ask(call.plan_read, existing(path), ctypes.byref(options))

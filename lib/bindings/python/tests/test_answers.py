@@ -89,6 +89,37 @@ class Regions(unittest.TestCase):
         self.assertLess(np.abs(np.hypot(*(corners - (1, 2)).T) - 0.5).max(), 1e-9)
         self.assertFalse(level.can_see((1, 2), (2, 2)))
 
+    def test_a_range_of_one_question_is_forgotten(self):
+        plan = sightline.Plan.from_segments(support.TWO_ROOMS)
+        areas = [plan.isovists([(1, 2)], range=limit, arrays=True)["area"][0] for limit in (0.5, None)]
+        self.assertAlmostEqual(areas[0], np.pi / 4)
+        self.assertGreater(areas[1], 1)
+        self.assertEqual(plan.range, 0)
+        for wrong in (-1, np.nan, np.inf):
+            with self.assertRaisesRegex(ValueError, "range"):
+                plan.isovists([(1, 2)], range=wrong)
+
+    def test_layers_are_a_list_or_a_text(self):
+        pairs = "0 SECTION 2 ENTITIES" + "".join(
+            f" 0 LINE 8 {layer} 10 0 20 {y} 11 9 21 {y}" for y, layer in enumerate("ABC")) + " 0 ENDSEC 0 EOF"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "plan.dxf"
+            path.write_text("\n".join(pairs.split()) + "\n")
+            for layers, walls in (("A,B", 2), (["A", "B"], 2), (("C",), 1), (None, 3)):
+                self.assertEqual(len(sightline.Plan.from_file(path, layers=layers).walls), walls)
+            for wrong, error in ((["A", 1], TypeError), (["A,B"], ValueError)):
+                with self.assertRaises(error):
+                    sightline.Plan.from_file(path, layers=wrong)
+
+    def test_the_advice_about_a_start_can_be_followed(self):
+        plan = sightline.Plan.from_segments([(0, 0, 9, 0), (0, 0, 0, 9), (4, 4, 5, 4), (5, 4, 5, 5),
+                                             (5, 5, 4, 5), (4, 5, 4, 4)])
+        with self.assertWarnsRegex(sightline.SightlineWarning, r"plan\.add_start\(\(x, y\)\)"):
+            plan.isovists([(1, 1)])
+        plan.add_start((1, 1))
+        with self.assertWarnsRegex(sightline.SightlineWarning, "leads out"):
+            plan.isovists([(1, 1)])
+
     def test_mirrors_show_more(self):
         plan = sightline.Plan.from_segments(support.TWO_ROOMS)
         plan.add_mirrors([(1, 4, 3.9, 4)])
