@@ -1,7 +1,8 @@
 // What the whole cell-to-cell stage costs by each method with each solver, on one thread, in one
 // run.
 //   bench_methods MAP [Z]           a map file, and the height of its slice
-//   bench_methods FILE.wad LEVEL    a level of a WAD
+//   bench_methods FILE.wad LEVEL[:given] [METHOD]    a level of a WAD; given: cut into the cells of
+//                                   its node builder; by one method alone
 // CSV: machine, map, cells, sight, method, solver, pairs, seconds of the processor, times those of
 // the sweep. What takes longer than a minute has no figures.
 #include "read_space.h"
@@ -104,12 +105,14 @@ int main(int argc, char **argv) {
     struct utsname machine;
     uname(&machine);
     snprintf(b.machine, sizeof b.machine, "%.40s %.40s", machine.sysname, machine.machine);
+    const char *only = argc > 3 ? argv[3] : NULL;
     puts("machine,map,cells,sight,method,solver,pairs,seconds,times_the_sweep");
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
         run(&b, method_of("sweep"), NULL, (sl_sight)sight);
         for (size_t m = 0; m < count; m++) {
+            if (strcmp(methods[m].name, only ? only : methods[m].name) != 0) continue;
             if (strcmp(methods[m].name, "sweep") == 0) continue;
             const size_t with = methods[m].stabs ? sizeof solvers / sizeof *solvers : 1;
             for (size_t i = 0; i < with; i++)

@@ -5,16 +5,21 @@
 #include "sightline/io.h"
 #include "sightline/space.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// `which`: the height of a model's slice, a WAD's level, or NULL.
+/// `which`: the height of a model's slice, a WAD's level, or NULL. A level with ":given" behind its
+/// name keeps the cells of its node builder.
 static inline sl_status bench_read_space(sl_context *context, const char *path, const char *which,
                                          sl_space *space) {
     const char *ending = strrchr(path, '.');
     const bool is_wad = ending && strcmp(ending, ".wad") == 0;
     sl_import_options options = sl_import_options_default();
-    options.map = is_wad ? which : NULL;
+    char level[16];
+    snprintf(level, sizeof level, "%.*s", which ? (int)strcspn(which, ":") : 0, which ? which : "");
+    options.map = is_wad && which ? level : NULL;
+    options.cells = is_wad && which && strcmp(which + strlen(level), ":given") == 0;
     options.has_slice = which && !is_wad;
     options.slice = options.has_slice ? strtod(which, NULL) : 0;
     sl_map map = {0};
