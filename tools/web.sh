@@ -2,14 +2,16 @@
 # The npm package and the site, in a folder: sh tools/web.sh --build DIR
 # gives DIR/package (the package `sightline`) and, where viewer/web is there, DIR/site.
 # --package DIR stops after the package. --handouts DIR writes the course as PDF, for paper of A4 and of Letter size.
-# Without any of them it serves the site of build/web, which it builds first.
+# --glpk adds a page of GLPK's answers to the site. It loads GLPK's sources by apt-get, and the page falls under the GPL 3.
+# Without a folder it serves the site of build/web, which it builds first.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=$root/build/web
 serve=yes
 site=yes
 handouts=
-usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR]'
+glpk=
+usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR] [--glpk]'
 while [ $# -gt 0 ]; do
     case $1 in
     --build | --package)
@@ -26,8 +28,9 @@ while [ $# -gt 0 ]; do
         serve=no
         shift
         ;;
+    --glpk) glpk=yes ;;
     -h | --help)
-        sed -n '2,5s/^# //p' "$0"
+        sed -n '2,6s/^# //p' "$0"
         echo "$usage"
         exit 0
         ;;
@@ -56,9 +59,32 @@ clang --target=wasm32-wasi -c -o "$folder/try.o" "$folder/try.c" 2>/dev/null || 
 }
 rm -f "$folder/try.c" "$folder/try.o"
 
+# ---- GLPK ----
+# Debian's sources, by lists of their own folder: nothing of this machine changes.
+load_glpk() {
+    lists=/etc/apt/sources.list.d/debian.sources
+    command -v apt-get >/dev/null && [ -f $lists ] || return 1
+    mkdir -p "$1/apt/lists/partial" "$1/apt/archives/partial" "$1/apt/sources"
+    sed 's/^Types:.*/Types: deb-src/' $lists >"$1/apt/sources/debian.sources"
+    set -- "$1" -oDir::State::lists="$1/apt/lists" -oDir::Cache="$1/apt" -oDir::Etc::sourcelist=/dev/null \
+        -oDir::Etc::sourceparts="$1/apt/sources" -oAPT::Sandbox::User=root
+    (cd "$1" && shift && apt-get -q "$@" update && apt-get -q "$@" --download-only source glpk) >"$1/apt.log" 2>&1 || return 1
+    mkdir -p "$1/sources"
+    tar -xzf "$1"/glpk_*.orig.tar.gz -C "$1/sources" --strip-components=1
+}
+if [ -n "$glpk" ]; then
+    glpk=$folder/glpk
+    mkdir -p "$glpk"
+    [ -f "$glpk/sources/COPYING" ] || load_glpk "$glpk" || {
+        echo "web: the sources of GLPK are not to be had: apt-get and Debian's lists are needed" >&2
+        exit 77
+    }
+fi
+
 # ---- The package ----
 cmake -S "$root" -B "$folder/wasm" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-DNDEBUG \
     -DCMAKE_TOOLCHAIN_FILE="$root/lib/cmake/wasi.cmake" -DSIGHTLINE_WASM=ON \
+    -DSIGHTLINE_GLPK_SOURCES="${glpk:+$glpk/sources}" \
     ${CMAKE_C_COMPILER_LAUNCHER:+-DCMAKE_C_COMPILER_LAUNCHER="$CMAKE_C_COMPILER_LAUNCHER"} >/dev/null
 cmake --build "$folder/wasm" -j2 >"$folder/build.log" 2>&1 || {
     tail -n 20 "$folder/build.log" >&2
@@ -76,7 +102,12 @@ echo "web: $folder/package"
 
 # ---- The site ----
 if [ $site = yes ] && [ -f "$root/viewer/web/build.mjs" ]; then
-    node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site"
+    if [ -n "$glpk" ]; then
+        mkdir -p "$glpk/page"
+        cp "$folder/wasm/glpk/glpk.wasm" "$glpk/sources/COPYING" "$glpk/page/"
+        cp "$glpk"/glpk_*.orig.tar.gz "$glpk/page/glpk-source.tar.gz"
+    fi
+    node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site" ${glpk:+--glpk "$glpk/page"}
     echo "web: $folder/site"
 fi
 if [ -n "$handouts" ]; then

@@ -1,6 +1,7 @@
 /**
- * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE
+ * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE [--glpk FOLDER]
  *
+ * FOLDER holds glpk.wasm, the licence and the sources of GLPK: with them, the site has a page of GLPK's answers.
  * PACKAGE is the built npm package, SITE the folder to write. The site is plain files: this folder,
  * the package, the maps of maps/, the course, and a page from each document for an audience.
  */
@@ -142,17 +143,17 @@ function writeCourse(site) {
     }
 }
 
-const valueOf = (name) => process.argv[process.argv.indexOf(name) + 1];
+const has = (name) => process.argv.includes(name), valueOf = (name) => process.argv[process.argv.indexOf(name) + 1];
 const [site, library] = [valueOf('--out'), valueOf('--package')];
-if (process.argv.length !== 6 || !process.argv.includes('--out') || !process.argv.includes('--package')) {
-    console.error('usage: node build.mjs --package PACKAGE --out SITE');
+if (process.argv.length !== (has('--glpk') ? 8 : 6) || !has('--out') || !has('--package')) {
+    console.error('usage: node build.mjs --package PACKAGE --out SITE [--glpk FOLDER]');
     process.exit(2);
 }
 if (!existsSync(join(library, 'sightline.js'))) {
     console.error(`build.mjs: there is no built package in ${library}`);
     process.exit(2);
 }
-for (const part of [...parts, 'package', 'maps', 'pages']) rmSync(join(site, part), { recursive: true, force: true });
+for (const part of [...parts, 'package', 'maps', 'pages', 'glpk']) rmSync(join(site, part), { recursive: true, force: true });
 mkdirSync(site, { recursive: true });
 for (const part of parts)
     if (existsSync(join(here, part))) cpSync(join(here, part), join(site, part), { recursive: true });
@@ -160,3 +161,4 @@ cpSync(library, join(site, 'package'), { recursive: true });
 writeGallery(site);
 writePages(site);
 writeCourse(site);
+if (has('--glpk')) for (const folder of [join(here, 'glpk'), valueOf('--glpk')]) cpSync(folder, join(site, 'glpk'), { recursive: true });

@@ -4,6 +4,7 @@
 #   playground  the built site, with the course, in Chromium and Firefox, as far as they are installed
 #   quick       the same in one browser, without axe-core
 #   effects     the rows of the playground in tools/EFFECTS.md, by the built site in node
+#   glpk        the page of GLPK's answers, in Chromium
 #   frame       no test: a table of what a step of a drag takes, in Chromium, in node and natively
 # FOLDER is for the built site and for tools; PROGRAM is the native `sightline`.
 # BROWSERS=chromium chooses one. SHOTS=DIR keeps pictures of the page. SITE=DIR takes a built site.
@@ -31,8 +32,10 @@ if [ "$what" != effects ] && [ ! -d "$TOOLS/node_modules/axe-core" ]; then
     (cd "$TOOLS" && npm install --silent --no-save --prefix . playwright-core@1.56.1 axe-core@4) >/dev/null 2>&1 ||
         skip "npm could not install playwright-core and axe-core"
 fi
+more=
+[ "$what" != glpk ] || more=--glpk
 if [ -z "${SITE:-}" ]; then
-    sh "$here/../../../tools/web.sh" --build "$folder" >"$folder/build.log" 2>&1 || {
+    sh "$here/../../../tools/web.sh" --build "$folder" $more >"$folder/build.log" 2>&1 || {
         status=$?
         tail -n 20 "$folder/build.log" >&2
         exit $status
@@ -40,6 +43,11 @@ if [ -z "${SITE:-}" ]; then
     SITE=$folder/site
 fi
 export SITE
+if [ "$what" = glpk ]; then
+    node "$here/../build.mjs" --package "$folder/package" --out "$folder/plain"
+    export PLAIN="$folder/plain"
+    exec node --test "$here/glpk.test.mjs"
+fi
 [ "$what" != effects ] ||
     exec "${4:-python3}" -B "$here/../../../tests/command/test_effects.py" "$SIGHTLINE" --site "$SITE" --only
 if [ "$what" = frame ]; then
