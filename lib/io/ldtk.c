@@ -167,13 +167,17 @@ static void find_heading(const char *field, const sli_json *value, double *headi
         if (strcasecmp(text, words[i].name) == 0) *heading = words[i].heading;
 }
 
-static void read_fields(const sli_json *entity, sli_says *says, double *heading) {
+/// `own` becomes the text of the field "name", if there is one.
+static void read_fields(const sli_json *entity, sli_says *says, double *heading, const char **own) {
     const sli_json fields = sli_json_member(entity, "fieldInstances");
     for (size_t i = 0; i < json_array_size(fields.value); i++) {
         const sli_json field = sli_json_item(&fields, i);
         const sli_json value = sli_json_member(&field, "__value");
         const char *name = text_of(&field, "__identifier");
+        const char *text = json_string_value(value.value);
         if (json_is_boolean(value.value)) sli_says_add(says, name, json_is_true(value.value));
+        if (text) sli_says_add_text(says, name, text);
+        if (text && *text && strcasecmp(name, "name") == 0) *own = text;
         find_heading(name, &value, heading);
     }
 }
@@ -182,10 +186,15 @@ static void read_fields(const sli_json *entity, sli_says *says, double *heading)
 static sl_status read_entity(ldtk *reader, const sli_json *entity, sl_point corner, double step) {
     const char *name = text_of(entity, "__identifier");
     sli_says says = sli_says_of(name, NULL);
+    const char *own = name;
     double heading = 0;
-    read_fields(entity, &says, &heading);
+    read_fields(entity, &says, &heading, &own);
+    if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
-    if (!says.kind) return SL_OK;
+    if (!says.kind) {
+        sli_things_leave(&reader->things, name);
+        return SL_OK;
+    }
     const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
     const sli_json width = sli_json_member(entity, "width");
     const sli_json height = sli_json_member(entity, "height");

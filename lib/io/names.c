@@ -139,6 +139,17 @@ sli_door_state sli_says_state_alone(const char *name) {
     return SLI_DOOR_UNSAID;
 }
 
+bool sli_says_state_by_word(const char *name) {
+    static const char *const words[] = {"state", "status"};
+    return says(name, words, COUNT(words), state_neutral, COUNT(state_neutral));
+}
+
+bool sli_mentions_door(const char *name) {
+    for (name_word word; next_word(&name, &word);)
+        if (IS_ONE_OF(&word, door_words)) return true;
+    return false;
+}
+
 bool sli_says_door_alone(const char *name) {
     return says(name, door_words, COUNT(door_words), state_neutral, COUNT(state_neutral));
 }

@@ -59,6 +59,10 @@ sli_door_state sli_says_state(const char *name);
 /// "door", "is_door".
 sli_door_state sli_says_state_alone(const char *name);
 bool sli_says_door_alone(const char *name);
+/// "state", "door_status": a property whose value is a word, as in sli_says_state.
+bool sli_says_state_by_word(const char *name);
+/// Whether some word is that of a door: "wooden door of the hall", which is none by sli_says_door.
+bool sli_mentions_door(const char *name);
 
 // --- tilesets, levels and pictures in other files
 

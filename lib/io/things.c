@@ -21,7 +21,9 @@ sli_says sli_says_of(const char *name, const char *class_name) {
         const char *own = *texts[1] ? texts[1] : texts[0];
         if (sli_says_door(texts[i])) {
             const sli_door_state state = sli_says_state(texts[1]);
-            return (sli_says){SLI_THING_DOOR, state ? state : sli_says_state(texts[0]), own, 0};
+            return (sli_says){.kind = SLI_THING_DOOR,
+                              .state = state ? state : sli_says_state(texts[0]),
+                              .name = own};
         }
         if (sli_says_start(texts[i])) return (sli_says){.kind = SLI_THING_START, .name = own};
     }
@@ -31,7 +33,7 @@ sli_says sli_says_of(const char *name, const char *class_name) {
 void sli_says_add(sli_says *says, const char *property, bool value) {
     if (sli_says_door_alone(property)) {
         if (value && says->kind == SLI_THING_NONE)
-            *says = (sli_says){SLI_THING_DOOR, says->state, property, says->rank};
+            says->kind = SLI_THING_DOOR, says->name = property;
         else if (!value && says->kind == SLI_THING_DOOR)
             says->kind = SLI_THING_NONE;
         return;
@@ -46,6 +48,15 @@ void sli_says_add(sli_says *says, const char *property, bool value) {
     } else if (state == SLI_DOOR_SHUT && !says->rank) {
         says->state = SLI_DOOR_OPEN;
     }
+}
+
+void sli_says_add_text(sli_says *says, const char *property, const char *value) {
+    const bool by_word = sli_says_state_by_word(property);
+    const sli_door_state state = by_word ? sli_says_state(value) : SLI_DOOR_UNSAID;
+    if (state != SLI_DOOR_UNSAID)
+        sli_says_add(says, state == SLI_DOOR_OPEN ? "open" : "shut", true);
+    else if (*value && (by_word || sli_says_state_alone(property) != SLI_DOOR_UNSAID))
+        says->unclear = property;
 }
 
 double sli_heading_of(double clockwise) {
@@ -63,6 +74,23 @@ static bool takes_none(const sli_things *things) {
     return names && (!*names || strcmp(names, "none") == 0);
 }
 
+static void add_name(sli_name_text *names, const char *name) {
+    char quoted[128];
+    snprintf(quoted, sizeof quoted, "'%s'", sli_show((sli_word){name, strlen(name)}).text);
+    if (strstr(names->text, quoted)) return;
+    const size_t used = strlen(names->text);
+    if (++names->count <= SLI_NAMES_SHOWN && used + strlen(quoted) + 8 < sizeof names->text)
+        snprintf(names->text + used, sizeof names->text - used, "%s%s", used ? ", " : "", quoted);
+    else if (!strstr(names->text, "..."))
+        snprintf(names->text + used, sizeof names->text - used, " ...");
+}
+
+void sli_things_leave(sli_things *things, const char *name) {
+    if (!*name) return;
+    add_name(&things->left, name);
+    if (sli_mentions_door(name)) add_name(&things->doubt, name);
+}
+
 static sl_status remember(sli_things *things, const char *name) {
     if (!name || !*name || things->seen_count == SLI_NAMES_SHOWN) return SL_OK;
     for (size_t i = 0; i < things->seen_count; i++)
@@ -76,6 +104,10 @@ static sl_status remember(sli_things *things, const char *name) {
 sl_status sli_things_ask(sli_things *things, const char *name, const char *class_name,
                          sli_says *says) {
     const char *names = things->options->start_names;
+    if (says->kind == SLI_THING_DOOR && says->unclear && things->unclear++ < SLI_NAMES_SHOWN)
+        sl_note(things->context, "%s: property '%s' of door '%s' is not understood", things->file,
+                sli_show((sli_word){says->unclear, strlen(says->unclear)}).text,
+                sli_show((sli_word){says->name, strlen(says->name)}).text);
     if (!names) return SL_OK;
     if (says->kind == SLI_THING_START) *says = (sli_says){0};
     if (takes_none(things)) return SL_OK;
@@ -243,12 +275,11 @@ static void tell_left_out(const sli_things *things, const sli_thing *thing, size
     if (++*count > MOST_NOTES) return;
     char where[32] = "", x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
     if (thing->line) snprintf(where, sizeof where, ":%lu", (unsigned long)thing->line);
-    const sli_affine down = {.xx = 1, .yy = -1, .y0 = things->top};
     const sl_point at =
-        sli_affine_apply(things->shown.xx != 0 ? things->shown : down, thing->middle);
+        things->shown.xx != 0 ? sli_affine_apply(things->shown, thing->middle) : thing->middle;
     sl_number_write(at.x, x);
     sl_number_write(at.y, y);
-    sl_note(things->context, "%s%s: %s '%s' at %s %s is %s: %s", things->file, where,
+    sl_note(things->context, "%s%s: %s '%s' at %s %s in the file is %s: %s", things->file, where,
             thing->kind == SLI_THING_DOOR ? "door" : "start",
             sli_show((sli_word){thing->name, strlen(thing->name)}).text, x, y,
             thing->is_wall ? "taken as a wall" : "left out", why);
@@ -261,23 +292,6 @@ static void tell_more(const sli_things *things, size_t count, const char *what) 
                 count - MOST_NOTES == 1 ? "" : "s");
 }
 
-/// A text of names, each once: 'Player', 'spawn'.
-typedef struct name_text {
-    char text[256];
-    size_t count;
-} name_text;
-
-static void add_name(name_text *names, const char *name) {
-    char quoted[128];
-    snprintf(quoted, sizeof quoted, "'%s'", sli_show((sli_word){name, strlen(name)}).text);
-    if (strstr(names->text, quoted)) return;
-    const size_t used = strlen(names->text);
-    if (++names->count <= SLI_NAMES_SHOWN && used + strlen(quoted) + 8 < sizeof names->text)
-        snprintf(names->text + used, sizeof names->text - used, "%s%s", used ? ", " : "", quoted);
-    else if (!strstr(names->text, "..."))
-        snprintf(names->text + used, sizeof names->text - used, " ...");
-}
-
 /// SL_BAD_ARGUMENT where a name that is asked for is that of no object.
 static sl_status check_names(const sli_things *things) {
     const char *names = things->options->start_names;
@@ -288,7 +302,7 @@ static sl_status check_names(const sli_things *things) {
             found = things->items.items[i].kind == SLI_THING_START &&
                     is_named(word, things->items.items[i].name);
         if (found) continue;
-        name_text seen = {0};
+        sli_name_text seen = {0};
         for (size_t i = 0; i < things->seen_count; i++) add_name(&seen, things->seen[i]);
         return sl_fail(things->context, SL_BAD_ARGUMENT,
                        "--start-names: %s has no object '%s'; its objects: %s", things->file,
@@ -300,7 +314,7 @@ static sl_status check_names(const sli_things *things) {
 static sl_status add_starts(const sli_things *things, sl_map *map) {
     const sl_box bounds = sl_map_bounds(map);
     size_t count = 0, moved = 0, left_out = 0;
-    name_text names = {0};
+    sli_name_text names = {0};
     for (size_t i = 0; i < things->items.count; i++) {
         const sli_thing *start = &things->items.items[i];
         if (start->kind != SLI_THING_START) continue;
@@ -362,8 +376,16 @@ static sl_status number_name(sl_context *context, sli_thing *door, size_t number
 
 static sl_status name_doors(const sli_things *things, sli_thing **doors, size_t count) {
     sl_status status = SL_OK;
-    for (size_t i = 0; i < count && status == SL_OK; i++)
+    size_t renamed = 0;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const char *name = doors[i]->name;
+        const sli_shown was = sli_show((sli_word){name, strlen(name)});
+        if (sli_name_usable(name, strlen(name)) && !strpbrk(name, "#,:")) continue;
         status = make_word(things->context, &doors[i]->name);
+        if (status == SL_OK && ++renamed <= MOST_NOTES)
+            sl_note(things->context, "%s: door '%s' is named %s here: names are one word each",
+                    things->file, was.text, doors[i]->name);
+    }
     if (status == SL_OK && count) qsort(doors, count, sizeof *doors, compare_names);
     // The first of a name keeps it, so that the others can be held against it.
     for (size_t i = 0, first = 0, number = 1; i < count && status == SL_OK; i++) {
@@ -441,6 +463,10 @@ static sl_status add_doors(sli_things *things, sl_map *map) {
 
 sl_status sli_things_finish(sli_things *things, sl_map *map) {
     SL_TRY(check_names(things));
+    if (things->left.count)
+        sl_note(things->context, "%s: objects left out: %s%s%s", things->file, things->left.text,
+                things->doubt.count ? "; name or type 'door' what is a door: " : "",
+                things->doubt.text);
     if (!things->items.count) return SL_OK;
     SL_TRY(add_starts(things, map));
     return add_doors(things, map);

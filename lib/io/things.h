@@ -16,6 +16,7 @@ typedef struct sli_says {
     const char *name;
     int rank; ///< how firmly the state is said: 0 by the name, 1 by a property, 2 by one named
               ///< "open"
+    const char *unclear; ///< a property of the state whose value is not understood, or NULL
 } sli_says;
 
 /// What a name and a class say by the usual words; either may be NULL.
@@ -24,6 +25,8 @@ sli_says sli_says_of(const char *name, const char *class_name);
 /// Takes in a property that is true or false: "door" says that it is one, or none; "open" decides
 /// its state, else "closed", "shut" and "locked" do.
 void sli_says_add(sli_says *says, const char *property, bool value);
+/// Takes in a property that is a text: "state" is "closed".
+void sli_says_add_text(sli_says *says, const char *property, const char *value);
 
 /// A start or a door. Places are in pixels, y down, as the files have them.
 typedef struct sli_thing {
@@ -57,17 +60,26 @@ typedef struct sli_door_run {
 
 #define SLI_NAMES_SHOWN 10
 
+/// A text of names, each once: 'Player', 'spawn'.
+typedef struct sli_name_text {
+    char text[256];
+    size_t count;
+} sli_name_text;
+
 /// All of a file. Set the first four, zero the rest.
 typedef struct sli_things {
     sl_context *context;
     const char *file; ///< its name, for messages
     const sl_import_options *options;
     double top;       ///< the file's y that is 0 in the map, once the grids are made
-    sli_affine shown; ///< for messages: from places to those of the map; zero: y is top - y
+    sli_affine shown; ///< for messages: from places to those of the file; zero: they are the same
     SL_ARRAY(sli_thing) items;
     SL_ARRAY(sli_door_run) runs; ///< of the block at hand
     char *seen[SLI_NAMES_SHOWN]; ///< names of objects, each once, for the message
     size_t seen_count;
+    sli_name_text left;  ///< objects that are neither starts nor doors nor walls
+    sli_name_text doubt; ///< those of them whose names have the word "door"
+    size_t unclear;      ///< doors whose state is not understood
     size_t grids;
     size_t shapes; ///< the map's first walls, which are not of squares
     size_t casts;  ///< walls that rays from doors were held against
@@ -82,6 +94,9 @@ double sli_heading_of(double clockwise);
 /// Remembers the names. `says` holds what they say by the usual words.
 sl_status sli_things_ask(sli_things *things, const char *name, const char *class_name,
                          sli_says *says);
+
+/// Takes the name of an object that is left out into the notes; "" for none.
+void sli_things_leave(sli_things *things, const char *name);
 
 /// Adds a start or a door by its name; the thing's own name is not read. SL_OK where its
 /// coordinates are not usable: it is outside the map.

@@ -348,6 +348,10 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
                           : shape.kind == SLI_TILED_OTHER ? &reader->other_shapes
                                                           : &reader->objects;
         ++*counted;
+        if (counted == &reader->other_objects) {
+            const char *name = text_of(&object, "name");
+            sli_things_leave(&reader->things, *name ? name : text_of(&object, "class"));
+        }
         if (!taken || shape.kind == SLI_TILED_OTHER) continue;
         SL_TRY(name_object(reader, layer, &object, &shape));
         reader->pen.affine = sli_affine_after(outer, move);
@@ -403,8 +407,7 @@ static sl_status read_head(sli_tiled_reader *reader) {
     reader->pen.affine = (sli_affine){.xx = 1, .yy = -1, .y0 = reader->top};
     if (plan) {
         const sli_affine to_screen = sli_tiled_to_screen(lattice);
-        const sli_affine up = {.xx = 1, .yy = -1, .y0 = lattice->height};
-        reader->things.shown = sli_affine_after(up, to_screen);
+        reader->things.shown = to_screen;
         // No vector grows by more than this factor.
         reader->pen.tolerance /= sli_length(sli_length(to_screen.xx, to_screen.xy),
                                             sli_length(to_screen.yx, to_screen.yy));

@@ -26,7 +26,9 @@ sli_says sli_tiled_says_of(const sli_json *thing, const char *class_key) {
     for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
         bool said;
         const bool yes = sli_json_true(&value, &said);
+        const char *text = json_string_value(value.value);
         if (name && said) sli_says_add(&says, name, yes);
+        if (name && !said && text) sli_says_add_text(&says, name, text);
     }
     return says;
 }

@@ -251,13 +251,16 @@ bool oracle_is_tiling(const sl_space *space, char why[ORACLE_WHY]) {
 }
 
 uint32_t oracle_locate(const sl_space *space, sl_point point) {
+    uint32_t solid = SL_NO_CELL;
     for (uint32_t i = 0; i < space->cell_count; i++) {
         uint32_t k = 0;
         for (; k < space->cells[i].vertex_count; k++) {
             const sl_segment side = side_of(space, i, k);
             if (blockers_turn(side.a, side.b, point) < 0) break;
         }
-        if (k == space->cells[i].vertex_count) return i;
+        if (k < space->cells[i].vertex_count) continue;
+        if (!space->cells[i].solid) return i;
+        if (solid == SL_NO_CELL) solid = i;
     }
-    return SL_NO_CELL;
+    return solid;
 }

@@ -94,6 +94,14 @@ void seams_are_read_within_their_sections(void) {
     slrt_take_seams(&rt, found);
 }
 
+void walls_are_read_within_their_section(void) {
+    sl_runtime rt = {0};
+    slrt_section found[SLRT_TAGS] = {{0}};
+    ANY_SECTION(SLRT_WALL, FEW, 32);
+    if (!slrt_take_walls(&rt, found)) return;
+    PROVE(rt.wall_count == found[SLRT_WALL].count);
+}
+
 /// Empty ones too: that of the numbers of view cells was once read before it was counted.
 void view_cells_are_read_within_their_sections(void) {
     sl_runtime rt = {0};

@@ -225,9 +225,9 @@ static void test_starts_and_walls(void **state) {
                                          "start", AT("-20", "9")) POINT("spawn", AT("12", "12"))));
     assert_things(sl_map_read_tmx, input, NULL, "start 12 28 0\n");
     assert_note(sl_map_read_tmx, input, &options,
-                "f:3: start 'player' at 4 32 is left out: it stands on solid ground\n");
+                "f:3: start 'player' at 4 8 in the file is left out: it stands on solid ground\n");
     assert_note(sl_map_read_tmx, input, &options,
-                "f:3: start 'start' at -20 31 is left out: it is outside the map\n");
+                "f:3: start 'start' at -20 9 in the file is left out: it is outside the map\n");
     assert_note(sl_map_read_tmx, input, &options, "f: taken: 1 start, from 'spawn'\n");
     // Starts of a solid layer are no walls.
     size_t walls;
@@ -424,6 +424,31 @@ static void test_doors_on_solid_squares(void **state) {
                "door Door 24 16 24 24 open\n");
 }
 
+/// What a file says without being understood is noted, and so is what is left out or renamed.
+static void test_notes_about_doors(void **state) {
+    (void)state;
+    const sl_import_options options = sl_import_options_default();
+    const char *const gap = "#####\n#.#.#\n#...#\n#.#.#\n#####";
+#define STATE(name, value)                                                                         \
+    "<object name='Big Door' x='16' y='16' width='8' height='8'><properties><property name='" name \
+    "' value='" value "'/></properties></object>"
+    const char *text = tmx_of(gap, OBJECTS(STATE("state", "closed")));
+    assert_things(sl_map_read_tmx, text, NULL, "door Big_Door 20 16 20 24 shut\n");
+    assert_note(sl_map_read_tmx, text, &options,
+                "f: door 'Big Door' is named Big_Door here: names are one word each\n");
+    assert_things(sl_map_read_tmx, tmx_of(gap, OBJECTS(STATE("status", "opened"))), NULL,
+                  "door Big_Door 20 16 20 24 open\n");
+    assert_note(sl_map_read_tmx, tmx_of(gap, OBJECTS(STATE("state", "ajar"))), &options,
+                "f: property 'state' of door 'Big Door' is not understood\n");
+    assert_note(sl_map_read_tmx, tmx_of(gap, OBJECTS(STATE("locked", "by a key"))), &options,
+                "f: property 'locked' of door 'Big Door' is not understood\n");
+    text = tmx_of(gap, OBJECTS(NAMED("crate", SIZED("8", "8", "8", "8"))
+                                   NAMED("door of the hall", SIZED("16", "16", "8", "8"))));
+    assert_note(sl_map_read_tmx, text, &options,
+                "f: objects left out: 'crate', 'door of the hall'; name or type 'door' what is a "
+                "door: 'door of the hall'\n");
+}
+
 static void test_doors_without_passage(void **state) {
     (void)state;
     size_t walls;
@@ -436,7 +461,7 @@ static void test_doors_without_passage(void **state) {
     assert_string_equal(things, "");
     assert_int_equal(walls, 4);
     assert_note(sl_map_read_tmx, text, &options,
-                "f:3: door 'Door' at 20 28 is left out: no passage is found there\n");
+                "f:3: door 'Door' at 20 4 in the file is left out: no passage is found there\n");
     // In the open, a square door does not say which way it goes; a longer one does.
     assert_tmx(ROOM, OBJECTS(NAMED("Door", SIZED("16", "16", "8", "8"))), "");
     assert_tmx(ROOM, OBJECTS(NAMED("Door", SIZED("14", "16", "12", "8"))),
@@ -448,7 +473,7 @@ static void test_doors_without_passage(void **state) {
     assert_tmx(ROOM, OBJECTS(NAMED("Door", SIZED("14", "7", "8", "2"))), "");
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", SIZED("80", "16", "8", "8"))));
     assert_note(sl_map_read_tmx, text, &options,
-                "door 'Door' at 84 20 is left out: it is outside the map\n");
+                "door 'Door' at 84 20 in the file is left out: it is outside the map\n");
     // An object of a solid layer stays what it would be without its name.
     text = "<map width='9' height='5' tilewidth='8' tileheight='8'><objectgroup name='walls'>"
            "<object name='door' x='8' y='8' width='8' height='8'/>"
@@ -456,7 +481,8 @@ static void test_doors_without_passage(void **state) {
     read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
     assert_int_equal(walls, 8);
     assert_note(sl_map_read_tmx, text, &options,
-                "f:1: door 'door' at 12 28 is taken as a wall: no passage is found there\n");
+                "f:1: door 'door' at 12 12 in the file is taken as a wall: no passage is found "
+                "there\n");
     // More than a few are counted.
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", AT("1", "1")) NAMED("Door", AT("1", "2"))
                                     NAMED("Door", AT("1", "3")) NAMED("Door", AT("1", "4"))
@@ -566,6 +592,13 @@ static void test_doors_of_ldtk(void **state) {
     assert_ldtk(TWO_ROOMS, ENTITY("Door", "24,16", "0,0", EIGHT, ""), door);
     assert_ldtk(TWO_ROOMS, ENTITY("Door", "28,24", "0.5,1", EIGHT, ""), door);
     assert_ldtk(NO_WAY, ENTITY("Door", "24,16", "0,0", EIGHT, ""), door);
+    assert_ldtk(TWO_ROOMS,
+                ENTITY("Door", "24,16", "0,0", EIGHT,
+                       FIELD("name", "\"hall\"") "," FIELD("state", "\"Closed\"")),
+                "door hall 28 16 28 24 shut\n");
+    const sl_import_options options = sl_import_options_default();
+    assert_note(sl_map_read_ldtk, ldtk_of(TWO_ROOMS, ENTITY("Guard", "12,20", "0,0", EIGHT, "")),
+                &options, ": objects left out: 'Guard'\n");
     assert_ldtk("#######\n#..#..#\n#..D..#\n#..#..#\n#######", "", door);
     assert_ldtk("####\n#..#\n####\n#.D#\n####", "", "");
     assert_ldtk("#####\n#...#\n##DD#\n#...#\n#####", "", "door Door 16 20 32 20 open\n");
@@ -693,6 +726,7 @@ int main(void) {
         cmocka_unit_test(test_tokens_of_foundry),
         cmocka_unit_test(test_doors_of_tiled),
         cmocka_unit_test(test_doors_on_solid_squares),
+        cmocka_unit_test(test_notes_about_doors),
         cmocka_unit_test(test_doors_without_passage),
         cmocka_unit_test(test_doors_between_shapes),
         cmocka_unit_test(test_double_doors),

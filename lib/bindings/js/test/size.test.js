@@ -30,6 +30,9 @@ test('the package needs no other, and has what it says', async () => {
   assert.equal(about.version, (await (await load('bake.js')).load()).version)
   assert.equal(about.dependencies, undefined)
   const there = readdirSync(folder)
+  // Bundlers for pages stop at a module of node.
+  for (const name of there.filter((each) => each.endsWith('.js')))
+    assert.doesNotMatch(readFileSync(join(folder, name), 'utf8'), /(from|import)[ (]*['"]node:/, name)
   for (const entry of Object.values(about.exports).flatMap((each) => Object.values(typeof each === 'string' ? [each] : each)))
     assert.ok(there.includes(entry.slice(2)), entry)
   assert.ok(there.includes('LICENSE'))
