@@ -578,11 +578,12 @@ static sl_point blossom(const spline *s, size_t k, const double at[3]) {
 }
 
 static sl_status draw_pieces(drawing *dxf, const spline *s) {
-    const size_t first = (size_t)s->degree;
-    for (size_t k = first; k < s->points.count; k++) {
+    bool begun = false;
+    for (size_t k = (size_t)s->degree; k < s->points.count; k++) {
         const double a = s->knots.items[k], b = s->knots.items[k + 1];
         if (!(a < b)) continue;
-        if (k == first) dxf->pen.at = blossom(s, k, (const double[3]){a, a, a});
+        if (!begun) dxf->pen.at = blossom(s, k, (const double[3]){a, a, a});
+        begun = true;
         SL_TRY(sli_pen_cubic(&dxf->pen, blossom(s, k, (const double[3]){a, a, b}),
                              blossom(s, k, (const double[3]){a, b, b}),
                              blossom(s, k, (const double[3]){b, b, b})));

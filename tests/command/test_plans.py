@@ -182,6 +182,10 @@ class Drawings(Plans):
         self.write("a.dxf", spline(1, [(0, 0), (3, 0), (3, 4)]))
         self.assertEqual(chords()[-1][2:], (3, 4))
         self.assertIn((3, 0), [wall[:2] for wall in chords()])
+        # A knot too many at the beginning: the curve begins at the second point.
+        self.write("a.dxf", str(spline(1, [(0, 0), (3, 0), (3, 4)])).replace("\n40\n1\n", "\n40\n0\n", 1))
+        self.assertEqual((chords()[0][:2], chords()[-1][2:]), ((3, 0), (3, 4)))
+        self.assertEqual({wall[0] for wall in chords()}, {3})
         points = [(0, 0), (1, 2), (3, 3), (5, 1), (6, 0), (8, 4)]
         self.write("a.dxf", spline(3, points))
         def at(t, i, degree):
