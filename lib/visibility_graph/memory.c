@@ -4,7 +4,6 @@
 ///
 ///     words:   64 points near each other, of which a point sees some (paths.c)
 ///     tiles:   64 points, of which one of 64 others sees some (tiles.c)
-///     turns:   what points beside walls see (angular.c)
 ///     ways on: points within two steps of points beside walls (metric.c)
 ///
 /// Stages follow each other and free what they took. So the answer is the largest stage, with the
@@ -26,15 +25,16 @@ typedef struct counts {
     uint64_t squares, sides; ///< of the grid: columns times rows, and their sum
     uint64_t words, tiles;
     uint64_t turning, steps; ///< points beside walls, and ordered pairs of them
-    uint64_t turns, degree;  ///< turns that are kept; the most that one point sees
+    uint64_t turning_words;  ///< of points beside walls
     uint64_t ways, longest;  ///< ways on in all lists, and in one
     uint64_t threads;
 } counts;
 
 typedef struct counting {
     const sl_vga_graph *graph;
-    const sl_bits *turning; ///< by point
-    uint32_t *slots, *points;
+    const sl_bits *turning;       ///< by point
+    uint32_t *slots, *points;     ///< of tiles
+    uint32_t *path_slots;         ///< of searches for paths
     uint32_t *of_row, *of_bundle; ///< by bundle: the last slot, or bundle, that saw it; one more
     sl_bits *near;                ///< by point: within two steps
     counts all;
@@ -79,21 +79,23 @@ static uint64_t count_steps(const counting *c, uint32_t point) {
     return count;
 }
 
-static uint64_t count_row(counting *c, uint32_t slot) {
-    const sl_bits *row = sli_vga_row(c->graph, c->points[slot]);
-    const uint32_t bundle = slot / 64;
-    uint64_t degree = 0;
+/// Counts the tiles that a point has a part in, and its words. Points at which paths turn, and
+/// others, have words of their own.
+static void count_row(counting *c, uint32_t slot) {
+    const uint32_t point = c->points[slot], bundle = slot / 64;
+    const sl_bits *row = sli_vga_row(c->graph, point);
+    const uint64_t before = c->all.words;
     for (size_t w = 0; w < c->graph->words; w++)
         for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-            const uint32_t seen = c->slots[w * 64 + (size_t)__builtin_ctzll(rest)] / 64;
-            degree++;
-            if (c->of_row[seen] == slot + 1) continue;
-            c->of_row[seen] = slot + 1;
-            c->all.words++;
-            c->all.tiles += c->of_bundle[seen] != bundle + 1;
-            c->of_bundle[seen] = bundle + 1;
+            const size_t q = w * 64 + (size_t)__builtin_ctzll(rest);
+            const uint32_t tile = c->slots[q] / 64, word = c->path_slots[q] / 64;
+            uint32_t *of_row = c->of_row + (sl_bits_has(c->turning, q) ? 0 : c->all.bundles);
+            c->all.tiles += c->of_bundle[tile] != bundle + 1;
+            c->of_bundle[tile] = bundle + 1;
+            c->all.words += of_row[word] != slot + 1;
+            of_row[word] = slot + 1;
         }
-    return degree;
+    if (sl_bits_has(c->turning, point)) c->all.turning_words += c->all.words - before;
 }
 
 static sl_status count_bundle(sl_context *context, counting *c, uint32_t bundle, bool metric) {
@@ -102,11 +104,9 @@ static sl_status count_bundle(sl_context *context, counting *c, uint32_t bundle,
     uint64_t ways = 0;
     SL_TRY(sl_check_cancelled(context));
     for (uint32_t slot = bundle * 64; slot < all->points && slot < bundle * 64 + 64; slot++) {
-        const uint64_t degree = count_row(c, slot);
-        all->degree = most(all->degree, degree);
+        count_row(c, slot);
         if (!sl_bits_has(c->turning, c->points[slot])) continue;
         all->turning++;
-        all->turns += degree;
         all->steps += count_steps(c, c->points[slot]);
         if (metric && ways < room) ways += SLI_VGA_WAYS_A_PAIR * count_near(c, c->points[slot]);
     }
@@ -133,7 +133,7 @@ static uint64_t visual_bytes(const counts *n, unsigned parts) {
 static uint64_t sights_bytes(const counts *n, bool making) {
     const uint64_t slots = 64 * n->bundles, words = making ? grown(n->words) : n->words;
     const uint64_t scratch = making ? 4 * n->points + 8 * n->bundles : 0;
-    return 8 * n->points + (3 * 4 + 8) * slots + (8 + 16) * n->bundles + scratch +
+    return 12 * n->points + (3 * 4 + 2 * 8) * slots + (8 + 16) * n->bundles + scratch +
            words * sizeof(sli_vga_word);
 }
 
@@ -147,13 +147,14 @@ static uint64_t metric_bytes(const counts *n) {
     return lists + 12 * n->ways + n->threads * most(walker, listing);
 }
 
-/// For each thread what ways on turn, and its queue.
+/// Directions, and for each thread its arrays, what points beside walls keep, and its queue.
 static uint64_t angular_bytes(const counts *n) {
     const uint64_t slots = 64 * n->bundles;
-    const uint64_t queue = grown(n->degree + SLI_VGA_TURN_QUEUE * n->points);
-    const uint64_t turns = n->turns < SLI_VGA_KEPT_TURNS ? n->turns : SLI_VGA_KEPT_TURNS;
-    return n->threads * ((4 + 4 + 8) * slots + 12 * n->bundles + 16 * n->words +
-                         4 * (turns + n->degree) + (20 + 20 / 4) * queue + 8192);
+    const uint64_t queue = grown(SLI_VGA_TURN_QUEUE * n->points);
+    const uint64_t walker = 5 * 4 * slots + 12 * n->turning + 16 * n->turning_words +
+                            (4 + 3 * 8) * n->bundles + (4 + 1) * grown(n->points) + 8192;
+    return (4 * 8 + 4 * 4) * n->squares + 4 * n->points +
+           n->threads * (walker + (20 + 20 / 4) * queue);
 }
 
 static uint64_t all_bytes(const counts *n, unsigned parts) {
@@ -169,17 +170,21 @@ static uint64_t all_bytes(const counts *n, unsigned parts) {
 // --- the answer
 
 static void counting_end(sl_context *context, counting *c) {
-    void *parts[] = {c->slots, c->points, c->of_row, c->of_bundle, c->near};
+    void *parts[] = {c->slots, c->points, c->path_slots, c->of_row, c->of_bundle, c->near};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
 static sl_status count_all(sl_context *context, const sl_vga_grid *grid, bool metric, counting *c) {
     c->slots = sl_alloc_array(context, grid->count, sizeof *c->slots);
     c->points = sl_alloc_array(context, grid->count, sizeof *c->points);
-    c->of_row = sl_alloc_array(context, c->graph->words, sizeof *c->of_row);
+    c->path_slots = sl_alloc_array(context, grid->count, sizeof *c->path_slots);
+    c->of_row = sl_alloc_array(context, 2 * c->graph->words, sizeof *c->of_row);
     c->of_bundle = sl_alloc_array(context, c->graph->words, sizeof *c->of_bundle);
     c->near = sl_alloc_array(context, c->graph->words, sizeof *c->near);
-    if (!c->slots || !c->points || !c->of_row || !c->of_bundle || !c->near) return SL_NO_MEMORY;
+    if (!c->slots || !c->points || !c->path_slots || !c->of_row || !c->of_bundle || !c->near)
+        return SL_NO_MEMORY;
+    SL_TRY(sli_vga_order_paths(context, grid, c->turning, c->path_slots, c->slots, c->points,
+                               &(uint32_t){0}));
     SL_TRY(sli_vga_order(context, grid, c->slots, c->points));
     for (uint32_t bundle = 0; bundle < c->all.bundles; bundle++)
         SL_TRY(count_bundle(context, c, bundle, metric));

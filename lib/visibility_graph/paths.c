@@ -1,8 +1,8 @@
 /// The visibility graph for searches of paths (metric.c, angular.c): the points that turn paths,
 /// and for each point the words of its row that are not empty.
 ///
-/// Points are numbered along a Z-curve (tiles.c). So the 64 points of a word fill a small box, and
-/// a row has few words. Cost: O(edges), and 16 bytes for each word.
+/// Points are numbered along a Z-curve (tiles.c), first those that turn paths. So the 64 points of
+/// a word fill a small box, and a row has few words. Cost: O(edges), and 16 bytes for each word.
 #include "visibility_graph/paths.h"
 
 #include <string.h>
@@ -10,13 +10,31 @@
 void sli_vga_sights_destroy(sl_context *context, sli_vga_sights *s) {
     sl_free(context, s->slots);
     sl_free(context, s->points);
+    sl_free(context, s->starts);
     sl_free(context, s->x);
     sl_free(context, s->y);
     sl_free(context, s->parts);
     sl_free(context, s->turning);
     sl_free(context, s->boxes);
     sl_free(context, s->first);
+    sl_free(context, s->others);
     sl_free(context, s->words.items);
+}
+
+sl_status sli_vga_order_paths(sl_context *context, const sl_vga_grid *grid, const sl_bits *turning,
+                              uint32_t *slots, uint32_t *points, uint32_t *starts,
+                              uint32_t *turning_count) {
+    uint32_t turn = 0, other = 0;
+    SL_TRY(sli_vga_order(context, grid, slots, starts));
+    for (uint32_t p = 0; p < grid->count; p++) other += sl_bits_has(turning, p);
+    *turning_count = other;
+    for (uint32_t i = 0; i < grid->count; i++) { // along the curve
+        const uint32_t point = starts[i];
+        const uint32_t slot = sl_bits_has(turning, point) ? turn++ : other++;
+        points[slot] = point;
+        slots[point] = starts[i] = slot;
+    }
+    return SL_OK;
 }
 
 static void place_points(sli_vga_sights *s) {
@@ -37,21 +55,30 @@ static void place_points(sli_vga_sights *s) {
     }
 }
 
-/// Lists the words of a row. `row` is scratch, all 0 before and after.
+/// Lists some words of a row.
+static sl_status list_words(sl_context *context, sli_vga_sights *s, const sl_bits *row,
+                            bool turning) {
+    for (size_t b = 0; b < s->bundles; b++) {
+        const uint64_t seen = row[b] & (turning ? s->turning[b] : ~s->turning[b]);
+        if (!seen) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &s->words, 1));
+        s->words.items[s->words.count++] = (sli_vga_word){(uint32_t)b, seen};
+    }
+    return SL_OK;
+}
+
+/// Lists the words of a row: points that turn paths, then the others. `row` is scratch.
 static sl_status list_row(sl_context *context, sli_vga_sights *s, uint32_t slot, sl_bits *row) {
     const sl_vga_graph *graph = s->job->graph;
     const sl_bits *by_point = sli_vga_row(graph, s->points[slot]);
-    s->first[slot] = s->words.count;
+    memset(row, 0, s->bundles * sizeof *row);
     for (size_t k = 0; k < graph->words; k++)
         for (sl_bits rest = by_point[k]; rest; rest &= rest - 1)
             sl_bits_add(row, s->slots[k * 64 + (size_t)__builtin_ctzll(rest)]);
-    for (size_t b = 0; b < s->bundles; b++) {
-        if (!row[b]) continue;
-        SL_TRY(SL_ARRAY_ROOM(context, &s->words, 1));
-        s->words.items[s->words.count++] = (sli_vga_word){(uint32_t)b, row[b]};
-        row[b] = 0;
-    }
-    return SL_OK;
+    s->first[slot] = s->words.count;
+    SL_TRY(list_words(context, s, row, true));
+    s->others[slot] = s->words.count;
+    return list_words(context, s, row, false);
 }
 
 /// The least part that this one is joined to.
@@ -112,15 +139,19 @@ sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_v
     s->parts = sl_alloc_array(context, s->bundles * 64, sizeof *s->parts);
     s->slots = sl_alloc_array(context, s->count, sizeof *s->slots);
     s->points = sl_alloc_array(context, s->count, sizeof *s->points);
+    s->starts = sl_alloc_array(context, s->count, sizeof *s->starts);
     s->x = sl_alloc_array(context, s->bundles * 64, sizeof *s->x);
     s->y = sl_alloc_array(context, s->bundles * 64, sizeof *s->y);
     s->turning = sl_alloc_array(context, s->bundles, sizeof *s->turning);
     s->boxes = sl_alloc_array(context, s->bundles, sizeof *s->boxes);
     s->first = sl_alloc_array(context, (size_t)s->count + 1, sizeof *s->first);
-    const bool room = row && queue && s->parts && s->slots && s->points && s->x && s->y &&
-                      s->turning && s->boxes && s->first;
+    s->others = sl_alloc_array(context, s->count, sizeof *s->others);
+    const bool room = row && queue && s->parts && s->slots && s->points && s->starts && s->x &&
+                      s->y && s->turning && s->boxes && s->first && s->others;
     sl_status status = room ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = sli_vga_order(context, job->grid, s->slots, s->points);
+    if (status == SL_OK)
+        status = sli_vga_order_paths(context, job->grid, job->turning, s->slots, s->points,
+                                     s->starts, &s->turning_count);
     if (status == SL_OK) place_points(s);
     for (uint32_t slot = 0; slot < s->count && status == SL_OK; slot++) {
         if (slot % 64 == 0) status = sl_check_cancelled(context);
@@ -130,6 +161,7 @@ sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_v
         s->first[s->count] = s->words.count;
         sl_shrink(context, &s->words.items, &s->words.capacity, s->words.count,
                   sizeof *s->words.items);
+        memset(row, 0, s->bundles * sizeof *row);
         for (uint32_t slot = 0; slot < s->count; slot++) sl_bits_add(row, slot);
         number_parts(s, queue, row);
     }
@@ -151,10 +183,10 @@ static void end(sl_context *context, void *all, void *walker) {
 
 static sl_status measure_unit(sl_context *context, void *all, void *walker, size_t unit) {
     const sli_vga_searches *searches = all;
-    const uint32_t count = searches->sights->count;
-    for (uint32_t slot = (uint32_t)unit * 64; slot < count && slot < unit * 64 + 64; slot++) {
+    const sli_vga_sights *s = searches->sights;
+    for (size_t i = unit * 64; i < s->count && i < unit * 64 + 64; i++) {
         SL_TRY(sl_check_cancelled(context));
-        SL_TRY(searches->measure(context, walker, slot));
+        SL_TRY(searches->measure(context, walker, s->starts[i]));
     }
     return SL_OK;
 }

@@ -28,28 +28,34 @@ typedef struct sli_vga_box {
 /// pairs have one way, or none.
 #define SLI_VGA_WAYS_A_PAIR 2
 
-/// Turns that each thread keeps (angular.c): 64 MiB.
-#define SLI_VGA_KEPT_TURNS ((size_t)1 << 24)
-
 /// About how many entries the queue of a search holds: of a metric one for each point beside walls,
 /// of an angular one for each point. Told to those who ask for memory before the work.
 #define SLI_VGA_QUEUE      2
 #define SLI_VGA_TURN_QUEUE 15
 
-/// The graph for searches. Points are numbered by slot: those near each other have near numbers.
+/// The graph for searches. Points are numbered by slot: first those at which paths may turn. In
+/// both groups, points near each other have near numbers.
 typedef struct sli_vga_sights {
     const sli_vga_job *job;
     uint32_t count;
+    uint32_t turning_count; ///< slots at which paths may turn
     size_t bundles;
     uint32_t *slots, *points; ///< by point, its slot; by slot, its point
+    uint32_t *starts;         ///< all slots, in the order of searches: each start is near the last
     float *x, *y;             ///< by slot: the square
     uint32_t *parts;          ///< by slot: points of other parts are never reached
     sl_bits *turning;         ///< slots at which paths may turn
     sli_vga_box *boxes;       ///< by bundle
     size_t *first;            ///< by slot, and one more: into `words`
+    size_t *others;           ///< by slot: its first word of points at which no path turns
     SL_ARRAY(sli_vga_word) words;
     size_t kept_ways; ///< SLI_VGA_KEPT_WAYS
 } sli_vga_sights;
+
+/// Numbers the points by slot. `starts`: all slots along the Z-curve. Returns how many turn paths.
+sl_status sli_vga_order_paths(sl_context *context, const sl_vga_grid *grid, const sl_bits *turning,
+                              uint32_t *slots, uint32_t *points, uint32_t *starts,
+                              uint32_t *turning_count);
 
 sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *out);
 void sli_vga_sights_destroy(sl_context *context, sli_vga_sights *sights);
