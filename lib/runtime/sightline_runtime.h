@@ -1850,17 +1850,24 @@ static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     return found;
 }
 
-/// The cell of the tree with the quadrant to the right of a point or left of it, over or under it.
-static uint32_t slrt_descend(const sl_runtime *rt, double x, double y, bool left, bool under) {
+/// The cell of the tree that a point is in, or that is right of it and over it.
+static uint32_t slrt_descend(const sl_runtime *rt, double x, double y) {
     int32_t at = rt->root;
     while (at >= 0) {
         const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
-        const bool upright = slrt_i32(node + 8) == 0;
-        const double value = upright ? x : y, split = slrt_f64(node);
-        const bool above = value > split || (value == split && !(upright ? left : under));
-        at = slrt_i32(node + (above ? 16 : 12));
+        at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
     }
     return (uint32_t)~at;
+}
+
+/// The next smaller number: it is below the same split lines, and below one through the number.
+static double slrt_before(double number) {
+    int64_t bits;
+    if (number == 0) return -4.9406564584124654e-324;
+    memcpy(&bits, &number, sizeof bits);
+    bits += number > 0 ? -1 : 1;
+    memcpy(&number, &bits, sizeof number);
+    return number;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
@@ -1870,7 +1877,8 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
         return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
-        const uint32_t cell = slrt_descend(runtime, x, y, side & 1, side & 2);
+        const uint32_t cell =
+            slrt_descend(runtime, side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
         if (!sl_runtime_is_solid(runtime, cell)) return cell;
         if (!side) first = cell;
     }

@@ -169,15 +169,12 @@ static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     return found;
 }
 
-/// The cell of a kd-tree with the quadrant to the right of a point or left of it, over or under it.
-static uint32_t descend(const sl_space *space, sl_point point, bool left, bool under) {
+/// The cell of a kd-tree that a point is in, or that is right of it and over it.
+static uint32_t descend(const sl_space *space, sl_point point) {
     int32_t at = space->root;
     while (at >= 0) {
         const sl_node *node = &space->nodes[at];
-        const double value = node->axis ? point.y : point.x;
-        const bool below = node->axis ? under : left;
-        at = value < node->position || (below && value == node->position) ? node->below
-                                                                          : node->above;
+        at = (node->axis ? point.y : point.x) < node->position ? node->below : node->above;
     }
     return (uint32_t)~at;
 }
@@ -188,10 +185,12 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
         !(point.y >= b->min.y && point.y <= b->max.y))
         return SL_NO_CELL;
     if (space->neighbour) return locate_in_bucket(space, point);
-    const uint32_t first = descend(space, point, false, false);
+    const uint32_t first = descend(space, point);
     uint32_t cell = first;
+    // The next smaller number is below the same split lines, and below one through the point.
     for (int side = 1; side < 4 && space->cells[cell].solid; side++)
-        cell = descend(space, point, side & 1, side & 2);
+        cell = descend(space, (sl_point){side & 1 ? nextafter(point.x, -INFINITY) : point.x,
+                                         side & 2 ? nextafter(point.y, -INFINITY) : point.y});
     return space->cells[cell].solid ? first : cell;
 }
 
