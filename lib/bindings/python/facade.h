@@ -171,6 +171,7 @@ SLP_API void slp_level_polygon_points(const slp_level *level, double *points);
 typedef struct slp_vga {
     double step, range, metric_radius, angular_radius;
     uint32_t parts, radius, threads;
+    uint32_t turned; ///< with one-way glass: who sees a point, in place of what it sees
 } slp_vga;
 /// Measures a grid and keeps the result. `from`: points from which steps are counted, if any.
 SLP_API int slp_level_vga(slp_level *level, const slp_vga *options, const double *seeds,

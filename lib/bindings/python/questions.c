@@ -436,6 +436,7 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, const
     if (!level->measures) return SL_NO_MEMORY;
     sl_status status =
         sl_vga_graph_make(context, outline, &level->grid, given->range, given->threads, &graph);
+    if (status == SL_OK && given->turned) status = sl_vga_graph_turn(context, &graph);
     if (status == SL_OK && given->parts)
         status = check_measures(context, outline, &level->grid, &graph, &options);
     if (status == SL_OK && given->parts)

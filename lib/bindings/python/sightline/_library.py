@@ -50,7 +50,7 @@ class Vga(ctypes.Structure):
     """As slp_vga of facade.h."""
     _fields_ = [("step", _double), ("range", _double), ("metric_radius", _double),
                 ("angular_radius", _double), ("parts", _uint32), ("radius", _uint32),
-                ("threads", _uint32)]
+                ("threads", _uint32), ("turned", _uint32)]
 
 
 # Name: result, arguments.

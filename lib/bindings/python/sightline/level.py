@@ -476,9 +476,11 @@ class Level(drawing.InNotebooks, Handle):
 
     def _vga(self, step: float, seeds: Optional[ArrayLike], limit: float, parts: int, radius: int,
              metric_radius: float, angular_radius: float, threads: int,
-             depth_from: Optional[ArrayLike]) -> tuple[Floats, Floats, Integers]:
+             depth_from: Optional[ArrayLike],
+             seen_from: bool) -> tuple[Floats, Floats, Integers]:
         options = Vga(step, limit, metric_radius, angular_radius, parts,
-                      as_count(radius, "radius", 2**32 - 1), as_count(threads, "threads", 1024))
+                      as_count(radius, "radius", 2**32 - 1), as_count(threads, "threads", 1024),
+                      bool(seen_from))
         if not (math.isfinite(step) and step > 0):
             raise ValueError("the grid's step must be over 0")
         for value, what in ((limit, "range"), (metric_radius, "metric_radius"),
@@ -502,13 +504,13 @@ class Level(drawing.InNotebooks, Handle):
 
         `seeds`: only what these points lead to.
         """
-        return self._vga(step, seeds, 0, 0, 0, 0, 0, 1, None)[0]
+        return self._vga(step, seeds, 0, 0, 0, 0, 0, 1, None, False)[0]
 
     def vga(self, grid: float, *, seeds: Optional[ArrayLike] = None,
             measures: Union[str, Sequence[str]] = ("visual",), range: Optional[float] = None,
             radius: int = 0, metric_radius: float = 0, angular_radius: float = 0,
-            depth_from: Optional[ArrayLike] = None, threads: int = 0, geometry: bool = False,
-            arrays: bool = False) -> Any:
+            depth_from: Optional[ArrayLike] = None, seen_from: bool = False, threads: int = 0,
+            geometry: bool = False, arrays: bool = False) -> Any:
         """Visibility graph analysis of a grid of points, under the names of depthmapX.
 
         Which points see each other is exact. Doors count as they are. With one-way glass, values
@@ -528,6 +530,8 @@ class Level(drawing.InNotebooks, Handle):
             Limits of steps, of lengths of paths, and of their turns in right angles; 0 for none.
         depth_from
             Add the column visual_step_depth: steps from these points.
+        seen_from
+            With one-way glass: values of who sees a point, in place of what it sees.
         geometry
             Add the square of each point: a GeoDataFrame.
         arrays
@@ -540,7 +544,7 @@ class Level(drawing.InNotebooks, Handle):
         bits = sum({VGA_PARTS[part]: VGA_PARTS[part] for part in chosen})
         limit = self.range if range is None else range
         points, found, depths = self._vga(grid, seeds, limit, bits, radius, metric_radius,
-                                          angular_radius, threads, depth_from)
+                                          angular_radius, threads, depth_from, seen_from)
         columns: dict[str, NDArray[Any]] = {"x": points[:, 0].copy(), "y": points[:, 1].copy()}
         for i, name in enumerate(self._names("vga")):
             if _part_of(name) in chosen:

@@ -244,11 +244,14 @@ class CommandLine(unittest.TestCase):
 
     def test_vga_through_one_way_glass_is_that_of_the_command(self):
         path = support.MAPS / "effects" / "oneway.map"
-        theirs = support.table(support.command("vga", path, "--grid", "1", "--measures", "all"))
         groups = ("visual", "through", "metric", "angular", "isovist")
-        ours = sightline.Plan.from_file(path).vga(1, measures=groups, arrays=True)
-        for name in theirs:
-            np.testing.assert_array_equal(ours[name], theirs[name], name)
+        for seen_from, option in ((True, ["--seen-from"]), (False, [])):
+            theirs = support.table(support.command("vga", path, "--grid", "1", "--measures", "all",
+                                                   *option))
+            ours = sightline.Plan.from_file(path).vga(1, measures=groups, arrays=True,
+                                                      seen_from=seen_from)
+            for name in theirs:
+                np.testing.assert_array_equal(ours[name], theirs[name], f"{name} {option}")
         walls = sightline.Plan.from_file(path).space(without=("oneway",)).vga(1, arrays=True)
         self.assertTrue((walls["connectivity"] != ours["connectivity"]).any())
 
