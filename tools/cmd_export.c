@@ -81,6 +81,7 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
         .examples =
             "  sightline export office.slv --format json -o office.json\n"
             "  sightline export office.slv --prefix office -o office.h\n"
+            "  sightline bake doom.wad --map E1M1 --sectors --sight open -o e1m1.slv\n"
             "  sightline export e1m1.slv --format reject --wad doom.wad --map E1M1 -o a.wad",
         .options = options,
         .option_count = sizeof options / sizeof *options,

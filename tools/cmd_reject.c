@@ -28,11 +28,13 @@ static double percent(uint64_t part, uint64_t whole) {
 }
 
 static void print_map(const sl_reject_account *map) {
-    printf("  %-8s  %4" PRIu32 " sectors, %" PRIu64 " of %" PRIu64 " pairs hidden (%.1f %%)",
-           map->map, map->sectors, map->hidden, pairs_of(map->sectors),
-           percent(map->hidden, pairs_of(map->sectors)));
+    printf("  %-8s  %4" PRIu32 " sector%s, %" PRIu64 " of %" PRIu64 " pairs hidden (%.1f %%)",
+           map->map, map->sectors, map->sectors == 1 ? "" : "s", map->hidden,
+           pairs_of(map->sectors), percent(map->hidden, pairs_of(map->sectors)));
     if (map->unknown)
-        printf("; %" PRIu32 " sectors that no cell reaches into hide nothing", map->unknown);
+        printf("; %" PRIu32 " %s no cell; nothing is hidden from %s", map->unknown,
+               map->unknown == 1 ? "sector contains" : "sectors contain",
+               map->unknown == 1 ? "it" : "them");
     putchar('\n');
 }
 

@@ -1,9 +1,10 @@
 /// A map of a Doom WAD as walls, seams, doors and starts; and its GL nodes as cells.
 ///
 /// A line with one side is a wall. A line with two sides is seen through, as are doors, unless
-/// doors are asked for. GL nodes are the convex subsectors that a node builder cut the map into
-/// (glBSP's GL nodes, versions 1, 2, 3 and 5, as its document "Specification for GL Nodes" has
-/// them: GL_VERT, GL_SEGS and GL_SSECT; the tree of GL_NODES is not needed).
+/// doors are asked for. Lines of polyobjects are left out: the game moves them. GL nodes are the
+/// convex subsectors that a node builder cut the map into (glBSP's GL nodes, versions 1, 2, 3 and
+/// 5, as its document "Specification for GL Nodes" has them: GL_VERT, GL_SEGS and GL_SSECT; the
+/// tree of GL_NODES is not needed).
 #include "io/wad.h"
 #include "sightline/io.h"
 
@@ -190,7 +191,7 @@ static sl_status doom_add_cells(sl_context *context, const sli_wad *wad, const s
 
 /// What was made of the lines.
 typedef struct line_account {
-    size_t walls, seen_through, zero_length, without_sides, doors, shut;
+    size_t walls, seen_through, zero_length, without_sides, moves, doors, shut;
 } line_account;
 
 typedef struct doom_import {
@@ -231,6 +232,10 @@ static sl_status add_line(doom_import *import, const sli_doom_line *line) {
         lines->without_sides++;
         return SL_OK;
     }
+    if (line->moves) {
+        lines->moves++;
+        return SL_OK;
+    }
     if (line->right != SLI_NO_SECTOR && line->left != SLI_NO_SECTOR) {
         lines->seen_through++;
         if (import->seams && line->right != line->left)
@@ -263,20 +268,28 @@ static sl_status add_starts_of(doom_import *import, int kind, bool all) {
 }
 
 /// The starts of the players; those of a deathmatch where there are none.
-static sl_status add_starts(doom_import *import, const char *name) {
-    const sli_doom_level *level = import->level;
+static sl_status add_starts(doom_import *import) {
     for (int player = 1; player <= SLI_DOOM_PLAYERS; player++)
         SL_TRY(add_starts_of(import, player, false));
-    const size_t count = import->map->start_count;
-    if (!count) SL_TRY(add_starts_of(import, SLI_DOOM_DEATHMATCH, true));
-    const size_t all = import->map->start_count;
-    if (all)
-        sl_note(import->context, "%s: map %s: taken: %zu start%s of %s", name, level->name, all,
-                all == 1 ? "" : "s",
-                count ? "players, the last of each" : "a deathmatch: players have none");
-    else
-        sl_note(import->context, "%s: map %s: no player has a start", name, level->name);
+    if (!import->map->start_count) SL_TRY(add_starts_of(import, SLI_DOOM_DEATHMATCH, true));
     return SL_OK;
+}
+
+static void tell_starts(const doom_import *import, const char *name) {
+    const size_t all = import->map->start_count;
+    const char *plural = all == 1 ? "" : "s";
+    bool players = false;
+    for (size_t i = 0; i < import->level->start_count; i++)
+        players |= import->level->starts[i].kind <= SLI_DOOM_PLAYERS;
+    if (!all)
+        sl_note(import->context, "%s: map %s: no player has a start", name, import->level->name);
+    else if (players)
+        sl_note(import->context, "%s: map %s: players start at %zu place%s", name,
+                import->level->name, all, plural);
+    else
+        sl_note(import->context,
+                "%s: map %s: no player has a start; the %zu start%s of a deathmatch %s taken", name,
+                import->level->name, all, plural, all == 1 ? "is" : "are");
 }
 
 static void tell(const doom_import *import, const char *name) {
@@ -287,21 +300,40 @@ static void tell(const doom_import *import, const char *name) {
         snprintf(doors, sizeof doors, " (%zu of them doors, %zu shut)", lines->doors, lines->shut);
     sl_note(import->context,
             "%s: map %s (%s): of %zu lines %zu with one side are walls, %zu with two are seen "
-            "through%s; left out %zu of zero length, %zu without sides",
+            "through%s",
             name, level->name, level->format, level->line_count, lines->walls, lines->seen_through,
-            doors, lines->zero_length, lines->without_sides);
+            doors);
 }
 
-/// How many doors are seen through, as nobody asked for doors.
+/// Notes of what few maps have.
+static void tell_unusual(const doom_import *import, const char *name) {
+    const line_account *lines = &import->lines;
+    const char *what[] = {"of zero length", "without sides",
+                          "of polyobjects, which the game moves"};
+    const size_t counts[] = {lines->zero_length, lines->without_sides, lines->moves};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+        if (counts[i])
+            sl_note(import->context, "%s: map %s: left out: %zu line%s %s", name,
+                    import->level->name, counts[i], counts[i] == 1 ? "" : "s", what[i]);
+    const size_t portals = sli_doom_count_portals(import->level);
+    if (portals)
+        sl_note(
+            import->context,
+            "%s: map %s: %zu line%s of portals: portals are not followed; a REJECT may hide what "
+            "they show",
+            name, import->level->name, portals, portals == 1 ? "" : "s");
+}
+
+/// How many doors are seen through, as nobody asked for doors. A REJECT, which wants sectors, has
+/// no use for them.
 static void tell_doors_left_out(sl_context *context, const char *name, const sli_doom_level *level,
-                                const bool *is_door) {
+                                bool sectors, const bool *is_door) {
     size_t doors = 0;
     for (size_t i = 0; i < level->sector_count; i++) doors += is_door[i];
     if (doors)
-        sl_note(context,
-                "%s: map %s: %zu sectors are doors and seen through, shut ones too; "
-                "--doors takes them as doors",
-                name, level->name, doors);
+        sl_note(context, "%s: map %s: %zu %s and seen through, shut ones too%s", name, level->name,
+                doors, doors == 1 ? "sector is a door" : "sectors are doors",
+                sectors ? "" : "; --doors takes them as doors");
 }
 
 /// "linedef 117", and its line in a TEXTMAP.
@@ -324,9 +356,9 @@ static sl_status add_lines(doom_import *import) {
     return SL_OK;
 }
 
-static sl_status make_map(sl_context *context, const sli_wad *wad, const sli_wad_map *chosen,
-                          const sli_doom_level *level, const sl_import_options *options,
-                          sl_map *map) {
+sl_status sli_doom_make_map(sl_context *context, const sli_wad *wad, const sli_wad_map *chosen,
+                            const sli_doom_level *level, const sl_import_options *options,
+                            bool brief, sl_map *map) {
     const char *name = wad->name;
     bool *is_door = sl_alloc_array(context, level->sector_count, sizeof *is_door);
     if (!is_door) return SL_NO_MEMORY;
@@ -338,10 +370,16 @@ static sl_status make_map(sl_context *context, const sli_wad *wad, const sli_wad
                           .map = map};
     sl_status status = add_lines(&import);
     if (status == SL_OK && options->cells) status = doom_add_cells(context, wad, chosen, map);
-    if (status == SL_OK) tell(&import, name);
-    if (status == SL_OK) status = add_starts(&import, name);
-    if (status == SL_OK && !options->doors) tell_doors_left_out(context, name, level, is_door);
+    if (status == SL_OK) status = add_starts(&import);
+    if (status == SL_OK && !brief) {
+        tell(&import, name);
+        tell_starts(&import, name);
+        if (!options->doors) tell_doors_left_out(context, name, level, options->sectors, is_door);
+    }
+    if (status == SL_OK) tell_unusual(&import, name);
     sl_free(context, is_door);
+    // The map's lines are numbers of linedefs: a start is none of them.
+    for (size_t i = 0; i < map->start_count; i++) map->starts[i].line = 0;
     return status;
 }
 
@@ -354,10 +392,9 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
     SL_TRY(sli_wad_open(context, name, text, size, &wad));
     SL_TRY(sli_wad_find_map(context, &wad, options->map, &chosen));
     SL_TRY(sli_doom_read(context, &wad, &chosen, &level));
-    const sl_status status = make_map(context, &wad, &chosen, &level, options, &read);
+    const sl_status status =
+        sli_doom_make_map(context, &wad, &chosen, &level, options, false, &read);
     sli_doom_level_destroy(context, &level);
-    // The map's lines are numbers of linedefs: a start is none of them.
-    for (size_t i = 0; i < read.start_count; i++) read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

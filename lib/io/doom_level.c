@@ -8,6 +8,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -536,6 +537,73 @@ static sl_status find_lines(const lookup *look, sli_doom_level *level) {
     return SL_OK;
 }
 
+// --- polyobjects: a line that starts one, and the lines from end to end up to its beginning; or
+// --- lines that each say so. The game moves them as one, and begins by moving most of them away.
+
+typedef struct line_start {
+    sl_point at;
+    size_t line;
+} line_start;
+
+static int compare_points(sl_point a, sl_point b) {
+    if (a.x != b.x) return a.x < b.x ? -1 : 1;
+    return (a.y > b.y) - (a.y < b.y);
+}
+
+static int compare_starts(const void *left, const void *right) {
+    const line_start *a = left, *b = right;
+    const int order = compare_points(a->at, b->at);
+    return order ? order : (a->line > b->line) - (a->line < b->line);
+}
+
+/// The first line that starts at a point; `count` for none.
+static size_t find_start(const line_start *starts, size_t count, sl_point at) {
+    size_t low = 0, high = count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (compare_points(starts[middle].at, at) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && compare_points(starts[low].at, at) == 0 ? starts[low].line : count;
+}
+
+/// Each step marks a line, or is the chain's last.
+static void mark_chain(sli_doom_level *level, const line_start *starts, size_t first) {
+    for (size_t i = first; i < level->line_count && !level->lines[i].moves;
+         i = find_start(starts, level->line_count, level->lines[i].to))
+        level->lines[i].moves = true;
+}
+
+static sl_status mark_polyobjects(sl_context *context, sli_doom_level *level) {
+    enum { START_LINE = 1, EXPLICIT_LINE = 5 };
+    const size_t count = level->line_count;
+    if (!level->hexen_specials) return SL_OK;
+    line_start *starts = sl_alloc_array(context, count, sizeof *starts);
+    if (!starts) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) starts[i] = (line_start){level->lines[i].from, i};
+    if (count) qsort(starts, count, sizeof *starts, compare_starts);
+    for (size_t i = 0; i < count; i++)
+        if (level->lines[i].special == START_LINE) mark_chain(level, starts, i);
+    for (size_t i = 0; i < count; i++)
+        if (level->lines[i].special == EXPLICIT_LINE) level->lines[i].moves = true;
+    sl_free(context, starts);
+    return SL_OK;
+}
+
+size_t sli_doom_count_portals(const sli_doom_level *level) {
+    enum { SECTOR_PORTAL = 57, LINE_PORTAL = 156, QUICK_PORTAL = 301 };
+    size_t count = 0;
+    for (size_t i = 0; i < level->line_count && level->hexen_specials; i++) {
+        const int special = level->lines[i].special;
+        count += special == SECTOR_PORTAL || special == LINE_PORTAL || special == QUICK_PORTAL;
+    }
+    return count;
+}
+
+// --- the level
+
 sl_status sli_doom_read(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                         sli_doom_level *level) {
     doom_records records = {0};
@@ -544,12 +612,13 @@ sl_status sli_doom_read(sl_context *context, const sli_wad *wad, const sli_wad_m
     sl_status status = map->is_text ? doom_read_textmap(context, wad, map, &records)
                                     : doom_read_lumps(context, wad, map, &records);
     if (status == SL_OK) status = find_lines(&look, &read);
+    read.hexen_specials = records.hexen_specials;
+    if (status == SL_OK) status = mark_polyobjects(context, &read);
     sl_free(context, records.vertices.items);
     sl_free(context, records.linedefs.items);
     sl_free(context, records.sidedefs.items);
     memcpy(read.name, map->name, sizeof read.name);
     read.format = records.format;
-    read.hexen_specials = records.hexen_specials;
     read.sectors = records.sectors.items;
     read.sector_count = records.sectors.count;
     read.starts = records.starts.items;

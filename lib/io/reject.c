@@ -125,7 +125,7 @@ static hit meet_first(const finder *find, sl_point point) {
     hit nearest = {.x = HUGE_VAL, .sector = SLI_NO_SECTOR};
     for (size_t i = 0; i < find->nearby.count; i++) {
         const sli_doom_line *line = &find->level->lines[find->nearby.items[i]];
-        if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
+        if (line->moves || (line->from.y <= point.y) == (line->to.y <= point.y)) continue;
         const bool up = line->from.y <= point.y;
         hit met = {up ? line->from : line->to, up ? line->to : line->from, 0,
                    up ? line->left : line->right};

@@ -71,17 +71,38 @@ static sl_status check_baked(sl_context *context, const sl_baked *baked) {
     return SL_OK;
 }
 
+/// Whether a line parts two sectors: if so, a bake with sectors has seams.
+static bool parts_sectors(const sli_doom_level *level) {
+    for (size_t i = 0; i < level->line_count; i++) {
+        const sli_doom_line *line = &level->lines[i];
+        if (line->right != SLI_NO_SECTOR && line->left != SLI_NO_SECTOR &&
+            line->right != line->left && !line->moves)
+            return true;
+    }
+    return false;
+}
+
 static sl_status write_reject(const reject_export *export, const char *path) {
     const sli_wad_edit edit = {
         .map = export->map, .name = "REJECT", .lump = {export->reject.bytes, export->reject.size}};
     SL_TRY(sli_wad_write(export->context, &export->wad, &edit, 1, path));
     const sl_reject_account *account = &export->reject.account;
     const double pairs = (double)account->sectors * ((double)account->sectors - 1) / 2;
-    sl_note(export->context,
-            "map %s: of %u sectors %llu pairs (%.1f %%) are hidden; %u sectors that no "
-            "looked-at cell reaches into hide nothing",
+    sl_note(export->context, "map %s: of %u sectors %llu pairs (%.1f %%) are hidden",
             export->map.name, account->sectors, (unsigned long long)account->hidden,
-            pairs > 0 ? 100 * (double)account->hidden / pairs : 0, account->unknown);
+            pairs > 0 ? 100 * (double)account->hidden / pairs : 0);
+    if (account->unknown)
+        sl_note(export->context,
+                "map %s: %u sector%s no cell that was looked from; nothing is "
+                "hidden from %s",
+                export->map.name, account->unknown,
+                account->unknown == 1 ? " contains" : "s contain",
+                account->unknown == 1 ? "it" : "them");
+    if (!export->baked->map.seam_count && parts_sectors(&export->level))
+        sl_note(export->context,
+                "map %s: cells reach into several sectors, so that less is hidden: bake with "
+                "--sectors --sight open for the table that 'sightline reject' makes",
+                export->map.name);
     return SL_OK;
 }
 
@@ -128,6 +149,7 @@ void sl_reject_report_destroy(sl_context *context, sl_reject_report *report) {
 typedef struct map_work {
     sli_wad_map map;
     sli_reject reject;
+    SL_ARRAY(char) notes; ///< lines, each with a 0 behind it
 } map_work;
 
 typedef struct wad_job {
@@ -228,12 +250,16 @@ static sl_status make_reject(sl_context *context, const wad_job *job, map_work *
     import.map = work->map.name;
     import.sectors = true;
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    SL_TRY(sl_map_read_wad(context, job->wad.name, job->bytes.data, job->bytes.size, &import,
-                           &state->map));
+    SL_TRY(sli_doom_read(context, &job->wad, &work->map, &state->level));
+    SL_TRY(sli_doom_make_map(context, &job->wad, &work->map, &state->level, &import, true,
+                             &state->map));
+    char source[SL_LINE_TEXT];
+    snprintf(source, sizeof source, "%s: map %s", job->wad.name, work->map.name);
+    state->map.source = sl_copy_text(context, source, strlen(source));
+    if (!state->map.source) return SL_NO_MEMORY;
     SL_TRY(sl_map_clean(context, &state->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&state->map)->subdivide(context, &state->map, &rules, &state->space));
     SL_TRY(see(context, job, state));
-    SL_TRY(sli_doom_read(context, &job->wad, &work->map, &state->level));
     SL_TRY(sli_reject_make(context, &state->space, &state->visibility.pvs, &state->level,
                            &work->reject));
     memcpy(work->reject.account.map, work->map.name, sizeof work->map.name);
@@ -254,16 +280,53 @@ static sl_status do_map(sl_context *context, const wad_job *job, map_work *work)
     return sl_fail(context, status, "map %s: %s", work->map.name, message);
 }
 
+/// The hooks of one of several maps at work: the caller's, but notes wait until all maps are done.
+typedef struct map_hooks {
+    sl_context *context; ///< the caller's
+    map_work *work;
+} map_hooks;
+
+static void *resize_for_map(void *user, void *block, size_t bytes) {
+    const sl_hooks *hooks = &((const map_hooks *)user)->context->hooks;
+    return hooks->resize(hooks->user, block, bytes);
+}
+
+static bool is_cancelled_for_map(void *user) {
+    const sl_hooks *hooks = &((const map_hooks *)user)->context->hooks;
+    return hooks->cancelled(hooks->user);
+}
+
+/// Without memory for it, a note is lost.
+static void keep_note(void *user, const char *message) {
+    const map_hooks *own = user;
+    const size_t size = strlen(message) + 1;
+    if (SL_ARRAY_ROOM(own->context, &own->work->notes, size) != SL_OK) return;
+    memcpy(own->work->notes.items + own->work->notes.count, message, size);
+    own->work->notes.count += size;
+}
+
 /// With several maps at work, only the number of maps that are done is reported.
 static sl_status do_unit(sl_context *context, void *user, void *state, size_t unit) {
     (void)state;
     wad_job *job = user;
+    map_work *work = &job->maps.items[job->order[unit]];
+    map_hooks hooks = {context, work};
     sl_context own = *context;
-    own.hooks.note = NULL;
-    own.hooks.progress = NULL;
-    const sl_status status = do_map(&own, job, &job->maps.items[job->order[unit]]);
+    own.hooks = (sl_hooks){.user = &hooks,
+                           .resize = context->hooks.resize ? resize_for_map : NULL,
+                           .cancelled = context->hooks.cancelled ? is_cancelled_for_map : NULL,
+                           .note = keep_note};
+    const sl_status status = do_map(&own, job, work);
     memcpy(context->message, own.message, sizeof own.message);
     return status;
+}
+
+static void pass_on_notes(const wad_job *job) {
+    for (size_t i = 0; i < job->maps.count; i++) {
+        const map_work *work = &job->maps.items[i];
+        for (size_t at = 0; at < work->notes.count; at += strlen(work->notes.items + at) + 1)
+            sl_note(job->context, "%s", work->notes.items + at);
+    }
 }
 
 static sl_status make_rejects(wad_job *job) {
@@ -273,7 +336,9 @@ static sl_status make_rejects(wad_job *job) {
     if (job->maps.count == 1) return do_map(job->context, job, &job->maps.items[0]);
     SL_TRY(order_maps(job));
     const sl_work work = {.job = job, .unit = do_unit, .stage = "reject", .units = "maps"};
-    return sl_work_run(job->context, &work, job->maps.count, job->at_work);
+    const sl_status status = sl_work_run(job->context, &work, job->maps.count, job->at_work);
+    if (status == SL_OK) pass_on_notes(job);
+    return status;
 }
 
 static sl_status write_copy(const wad_job *job, const char *output) {
@@ -310,8 +375,10 @@ sl_status sl_reject_wad(sl_context *context, const char *path, const sl_reject_o
     wad_job job = {.context = context, .options = options};
     SL_TRY(sl_file_read(context, path, &job.bytes));
     const sl_status status = do_wad(&job, path, output, report);
-    for (size_t i = 0; i < job.maps.count; i++)
+    for (size_t i = 0; i < job.maps.count; i++) {
         sli_reject_destroy(context, &job.maps.items[i].reject);
+        sl_free(context, job.maps.items[i].notes.items);
+    }
     sl_free(context, job.maps.items);
     sl_free(context, job.order);
     sl_free(context, job.bytes.data);

@@ -4,6 +4,7 @@
 #ifndef SL_WAD_H
 #define SL_WAD_H
 
+#include "sightline/import.h"
 #include "sightline/map.h"
 #include "sightline/pvs.h"
 #include "sightline/reject.h"
@@ -97,6 +98,7 @@ typedef struct sli_doom_line {
     uint32_t right, left; ///< the sectors at its sides; SLI_NO_SECTOR where it has no such side
     int special, tag;     ///< of a line with Hexen's specials, the tag is its first argument
     uint32_t line;        ///< of the TEXTMAP; 0 in lumps of records
+    bool moves;           ///< a polyobject's: the game may move it away
 } sli_doom_line;
 
 typedef struct sli_doom_sector {
@@ -128,6 +130,15 @@ typedef struct sli_doom_level {
 sl_status sli_doom_read(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                         sli_doom_level *level);
 void sli_doom_level_destroy(sl_context *context, sli_doom_level *level); ///< and zeroes it
+
+/// How many lines are portals: what is seen through them stands elsewhere on the map.
+size_t sli_doom_count_portals(const sli_doom_level *level);
+
+/// Makes the walls, doors, seams, cells and starts of a level that was read from the WAD's map.
+/// `brief`: notes only of what is unusual. `map` must be empty; on failure it is left half made.
+sl_status sli_doom_make_map(sl_context *context, const sli_wad *wad, const sli_wad_map *chosen,
+                            const sli_doom_level *level, const sl_import_options *options,
+                            bool brief, sl_map *map);
 
 /// Marks the sectors that are doors: those that a door special of a line moves, and those whose
 /// ceiling meets the floor when the map begins. `is_door` has one flag a sector, all false.

@@ -64,11 +64,15 @@ static inline bool sli_lines_next(sli_lines *lines, sli_word *line) {
     return true;
 }
 
-/// Refuses NUL bytes. A file that has one is not text, or text of 16-bit characters.
+/// Refuses NUL bytes. A file that has one is not text, or text of 16-bit characters; or an archive.
 static inline sl_status sli_refuse_nul(sl_context *context, const char *name, const char *text,
                                        size_t size) {
     const char *nul = size ? memchr(text, '\0', size) : NULL;
     if (!nul) return SL_OK;
+    if (size >= 4 && memcmp(text, "PK\3\4", 4) == 0)
+        return sl_fail_at(
+            context, name, 0,
+            "a ZIP archive, as .pk3 files are: unpack it, and give a file that it holds");
     unsigned line = 1;
     for (const char *at = text; at < nul; at++) line += *at == '\n';
     return sl_fail_at(context, name, line, "a NUL byte: expected plain text (ASCII or UTF-8)");

@@ -477,9 +477,9 @@ static sl_status mark(inside *m, bool marked, uint32_t *reached) {
     }
     if (reopened)
         sl_note(m->context,
-                "%s: %zu regions behind one-sided walls are taken as open, as they hold a start, a "
-                "door or the front of a wall",
-                source_of(m), reopened);
+                "%s: %zu region%s behind one-sided walls hold%s a start, a door or the front of a "
+                "wall: taken as open",
+                source_of(m), reopened, reopened == 1 ? "" : "s", reopened == 1 ? "s" : "");
     if (s->inside_count) return SL_OK;
     for (uint32_t i = 0; i < s->cell_count; i++) s->cells[i].inside = !s->cells[i].solid;
     s->inside_count = s->cell_count - solid;

@@ -8,7 +8,7 @@ import signal
 import time
 
 import sandbox
-from wad import lumps_of_wad, make_wad, pillars, rooms
+from wad import blocked_passage, lumps_of_wad, make_wad, pillars, rooms
 
 OTHER = [("BEFORE", b"kept"), ("PLAYPAL", bytes(range(200)))]
 
@@ -87,6 +87,32 @@ class Reject(sandbox.ProgramTest):
             return [each["hidden"] for each in json.loads(told)["maps"]]
         for closed, opened in zip(hidden("--sight", "closed"), hidden("--sight", "open")):
             self.assertLessEqual(closed, opened)
+
+    def test_unusual(self):
+        """A polyobject hides nothing. Of several maps, notes say what is unusual, by the map."""
+        passage = "special = %d; arg0 = 7;"
+        self.write("poly.wad", make_wad(MAPS[0], blocked_passage("MAP02", passage % 0),
+                                        blocked_passage("MAP03", passage % 1),
+                                        blocked_passage("MAP04", passage % 156)))
+        result = self.run_well("reject", "poly.wad", "-o", "x.wad", "--json")
+        told = json.loads(result.stdout)["maps"]
+        self.assertEqual([each["hidden"] > 0 for each in told], [True, True, False, True])
+        self.assertEqual(result.stderr.splitlines(), [
+            "note: poly.wad: map MAP02: 3 regions behind one-sided walls hold a start, a door or the "
+            "front of a wall: taken as open",
+            "note: poly.wad: map MAP03: left out: 4 lines of polyobjects, which the game moves",
+            "note: poly.wad: map MAP04: 1 line of portals: portals are not followed; a REJECT may "
+            "hide what they show",
+            "note: poly.wad: map MAP04: 3 regions behind one-sided walls hold a start, a door or the "
+            "front of a wall: taken as open"])
+        one = self.run_well("reject", "poly.wad", "-o", "x.wad", "--map", "MAP03")
+        self.assertEqual(one.stderr.splitlines(), result.stderr.splitlines()[1:2])
+
+    def test_export_without_sectors(self):
+        self.run_well("bake", "in.wad", "--map", "MAP01", "-o", "map.slv", "-q")
+        result = self.run_well("export", "map.slv", "--format", "reject", "--wad", "in.wad", "--map",
+                               "MAP01", "-o", "x.wad")
+        self.assertIn("bake with --sectors --sight open", result.stderr)
 
     def test_refused(self):
         self.refuse("-o OUT.wad is needed", "in.wad")

@@ -26,6 +26,35 @@ def lumps_of_map(name, lines, sector_count, reject=None):
     return lumps + [("BLOCKMAP", b"any")]
 
 
+def text_of_map(name, lines, sector_count, specials):
+    """The same as text (UDMF), with Hexen's specials: the number of a line -> its fields."""
+    text = 'namespace = "zdoom";\nthing { x = 32; y = 32; type = 1; }\n'
+    text += sector_count * "sector { heightceiling = 128; }\n"
+    side = 0
+    for i, line in enumerate(lines):
+        text += "".join("vertex { x = %d; y = %d; }\n" % point for point in (line[:2], line[2:4]))
+        fields = "v1 = %d; v2 = %d;" % (2 * i, 2 * i + 1)
+        for key, sector in zip(("sidefront", "sideback"), line[4:]):
+            if sector is not None:
+                text += "sidedef { sector = %d; }\n" % sector
+                fields += " %s = %d;" % (key, side)
+                side += 1
+        text += "linedef { %s %s }\n" % (fields, specials.get(i, ""))
+    return [(name, b""), ("TEXTMAP", text.encode()), ("ENDMAP", b"")]
+
+
+def blocked_passage(name, special):
+    """Two rooms, a passage between them, and a block that fills the passage, with a special."""
+    lines = [(0, 0, 0, 256, 0, None), (0, 256, 256, 256, 0, None), (256, 256, 256, 192, 0, None),
+             (256, 192, 256, 64, 0, 1), (256, 64, 256, 0, 0, None), (256, 0, 0, 0, 0, None),
+             (256, 192, 320, 192, 1, None), (320, 192, 320, 64, 1, 2), (320, 64, 256, 64, 1, None),
+             (320, 256, 576, 256, 2, None), (576, 256, 576, 0, 2, None), (576, 0, 320, 0, 2, None),
+             (320, 0, 320, 64, 2, None), (320, 192, 320, 256, 2, None),
+             (280, 64, 296, 64, 1, None), (296, 64, 296, 192, 1, None),
+             (296, 192, 280, 192, 1, None), (280, 192, 280, 64, 1, None)]
+    return text_of_map(name, lines, 3, {14: special})
+
+
 def rooms(name, count, skew=0, reject=None):
     """Rooms in a row, doorways between them that go up and down, each room and doorway a sector."""
     lines = []

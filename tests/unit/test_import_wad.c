@@ -270,6 +270,58 @@ static void test_textmap(void **state) {
     sl_context_destroy(context);
 }
 
+/// A room with a pillar of four lines, of which the first has a special, a line within with
+/// another, and a wall with a third.
+static size_t walls_with_specials(const char *name_space, int pillar, int within, int wall,
+                                  noted *notes) {
+    const sl_hooks hooks = {.user = notes, .note = keep_note};
+    sl_context *context = sl_context_create(&hooks);
+    char text[2048];
+    snprintf(
+        text, sizeof text,
+        "namespace = \"%s\"; sidedef { sector = 0; } sector { }\n"
+        "vertex { x = 0; y = 0; } vertex { x = 0; y = 64; } vertex { x = 64; y = 64; }\n"
+        "vertex { x = 64; y = 0; } vertex { x = 16; y = 16; } vertex { x = 32; y = 16; }\n"
+        "vertex { x = 32; y = 32; } vertex { x = 16; y = 32; } vertex { x = 48; y = 48; }\n"
+        "linedef { v1 = 0; v2 = 1; sidefront = 0; special = %d; }\n"
+        "linedef { v1 = 1; v2 = 2; sidefront = 0; } linedef { v1 = 2; v2 = 3; sidefront = 0; }\n"
+        "linedef { v1 = 3; v2 = 0; sidefront = 0; } linedef { v1 = 6; v2 = 7; sidefront = 0; }\n"
+        "linedef { v1 = 4; v2 = 5; sidefront = 0; special = %d; arg0 = 7; }\n"
+        "linedef { v1 = 7; v2 = 4; sidefront = 0; } linedef { v1 = 5; v2 = 6; sidefront = 0; }\n"
+        "linedef { v1 = 8; v2 = 6; sidefront = 0; special = %d; }\n",
+        name_space, wall, pillar, within);
+    wad_made wad;
+    text_wad(&wad, text);
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, "MAP01", false, &map));
+    const size_t walls = map.wall_count;
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    sl_context_destroy(context);
+    return walls;
+}
+
+/// A polyobject is the lines from its first one on, or those that say so each. Only Hexen's
+/// specials have them, and portals.
+static void test_polyobjects(void **state) {
+    (void)state;
+    noted notes = {""}, none = {""}, portal = {""};
+    assert_int_equal(walls_with_specials("zdoom", 1, 5, 0, &notes), 4);
+    assert_non_null(strstr(notes.text, "left out: 5 lines of polyobjects, which the game moves\n"));
+    assert_int_equal(walls_with_specials("zdoom", 5, 0, 0, &none), 8);
+    assert_int_equal(walls_with_specials("zdoom", 0, 1, 0, &none), 4);
+    none.text[0] = '\0';
+    assert_int_equal(walls_with_specials("doom", 1, 5, 156, &none), 9);
+    assert_null(strstr(none.text, "left out"));
+    assert_null(strstr(none.text, "portal"));
+    const int portals[] = {57, 156, 301};
+    for (size_t i = 0; i < sizeof portals / sizeof *portals; i++) {
+        portal.text[0] = '\0';
+        assert_int_equal(walls_with_specials("zdoom", 0, 0, portals[i], &portal), 9);
+        assert_non_null(strstr(portal.text, "1 line of portals: portals are not followed"));
+    }
+}
+
 static void assert_starts(const char *things, const char *expected, const char *note) {
     noted notes = {""};
     const sl_hooks hooks = {.user = &notes, .note = keep_note};
@@ -297,9 +349,9 @@ static void test_starts(void **state) {
 #define THING(x, type) "thing { x = " x "; y = 2; type = " type "; }\n"
     assert_starts(THING("3", "2") THING("1", "1") THING("2", "1") THING("4", "4") THING("5", "11")
                       THING("6", "3001"),
-                  "2 3 4 ", "taken: 3 starts of players, the last of each");
+                  "2 3 4 ", "map MAP01: players start at 3 places");
     assert_starts(THING("5", "11") THING("6", "11") THING("7", "5"), "5 6 ",
-                  "taken: 2 starts of a deathmatch: players have none");
+                  "no player has a start; the 2 starts of a deathmatch are taken");
     assert_starts(THING("6", "3001"), "", "no player has a start");
 }
 
@@ -455,8 +507,8 @@ static void test_memory(void **state) {
     const long outside = memory.live;
     wad_made wads[2];
     two_rooms(&wads[0], 1, 0, 0);
-    text_wad(&wads[1], SQUARE "linedef { v1 = 0; v2 = 1; sidefront = 0; }"
-                              "thing { x = 1; y = 2; type = 1; }");
+    text_wad(&wads[1], "namespace = \"zdoom\";" SQUARE "linedef { v1 = 0; v2 = 1; sidefront = 0; }"
+                       "thing { x = 1; y = 2; type = 1; }");
     for (size_t i = 0; i < 2; i++) {
         for (long fail_at = 1;; fail_at++) {
             memory.fail_at = memory.calls + fail_at;
@@ -481,6 +533,7 @@ int main(void) {
         cmocka_unit_test(test_textmap_broken), cmocka_unit_test(test_directory_broken),
         cmocka_unit_test(test_lumps_broken),   cmocka_unit_test(test_references_broken),
         cmocka_unit_test(test_memory),         cmocka_unit_test(test_starts),
+        cmocka_unit_test(test_polyobjects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,6 +150,8 @@ static void test_refusals(void **state) {
     refused(context, two, strlen(two), "t.map:3: ", "the first is on line 2");
     const char nul[] = "sightline 1\nwall 0 0\0 1 0\n";
     refused(context, nul, sizeof nul - 1, "t.map:2: ", "NUL byte");
+    const char archive[] = "PK\3\4\24\0\0";
+    refused(context, archive, sizeof archive - 1, "t.map: a ZIP archive", "unpack it");
     sl_context_destroy(context);
 }
 

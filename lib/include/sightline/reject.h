@@ -25,7 +25,7 @@ SL_API sl_reject_options sl_reject_options_default(void);
 typedef struct sl_reject_account {
     char map[9];
     uint32_t sectors, cells;
-    uint32_t unknown; ///< sectors that no looked-at cell reaches into: they hide nothing
+    uint32_t unknown; ///< sectors without a cell that was looked from: nothing is hidden from them
     uint64_t hidden;  ///< unordered pairs of sectors
 } sl_reject_account;
 
