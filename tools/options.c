@@ -20,6 +20,8 @@ typedef struct parsing {
     option_spec options[MAX_OPTIONS];
     const char *arguments[MAX_OPTIONS];
     size_t count;
+    char **operands; ///< words that are no options, moved to the front of argv
+    size_t operand_count;
 } parsing;
 
 // --- tables
@@ -49,11 +51,6 @@ static void add_options(parsing *p, const option_spec *options, size_t count) {
 
 static sl_status fail_unknown(const parsing *p, const char *word) {
     const char *command = p->usage->name;
-    if (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'))
-        return sl_fail(p->context, SL_BAD_ARGUMENT,
-                       "'%s...' looks like an option; 'sightline %s [options] -- ...' takes what "
-                       "follows the -- as it is",
-                       word, command);
     const name_table names = {"option", p->options, sizeof *p->options, p->count, NULL};
     const char *bare = word + strspn(word, "-");
     const size_t length = strcspn(bare, "=");
@@ -74,6 +71,7 @@ static sl_status fail_unknown(const parsing *p, const char *word) {
 
 /// The input of getopt_long: the long options, coded by their place in the table, and the letters.
 static void fill_getopt(const parsing *p, struct option *longs, char *letters) {
+    *letters++ = '-'; // return words that are no options where they stand, coded 1
     *letters++ = ':'; // tell a missing argument from an unknown option
     for (size_t i = 0; i < p->count; i++) {
         const option_spec *option = &p->options[i];
@@ -110,14 +108,31 @@ static sl_status take_argument(parsing *p, size_t i) {
     return SL_OK;
 }
 
-static sl_status take_arguments(parsing *p, int argc, char **argv) {
+/// Whether a word is a negative number, or a point that begins with one.
+static bool is_negative(const char *word) {
+    return word[0] == '-' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
+}
+
+static sl_status take_words(parsing *p, int argc, char **argv) {
     struct option longs[MAX_OPTIONS + 1];
-    char letters[2 * MAX_OPTIONS + 2];
+    char letters[2 * MAX_OPTIONS + 3];
     fill_getopt(p, longs, letters);
     opterr = 0;
+    p->operands = argv + 1;
     for (;;) {
+        if (optind < argc && is_negative(argv[optind])) {
+            p->operands[p->operand_count++] = argv[optind++];
+            continue;
+        }
         const int code = getopt_long(argc, argv, letters, longs, NULL);
-        if (code == -1) return SL_OK;
+        if (code == 1) {
+            p->operands[p->operand_count++] = optarg;
+            continue;
+        }
+        if (code == -1) {
+            while (optind < argc) p->operands[p->operand_count++] = argv[optind++];
+            return SL_OK;
+        }
         size_t i = find_option(p, code);
         if (i < p->count) {
             SL_TRY(take_argument(p, i));
@@ -136,11 +151,11 @@ static sl_status take_arguments(parsing *p, int argc, char **argv) {
     }
 }
 
-static sl_status take_operands(const parsing *p, int argc, char **argv, const char **operands) {
+static sl_status take_operands(const parsing *p, const char **operands) {
     const command_usage *usage = p->usage;
     size_t wanted = 0;
     while (wanted < 4 && usage->operands[wanted]) wanted++;
-    const size_t given = (size_t)(argc - optind);
+    const size_t given = p->operand_count;
     if (given < wanted)
         return sl_fail(p->context, SL_BAD_ARGUMENT,
                        "%s is missing; 'sightline %s --help' shows how", usage->operands[given],
@@ -148,9 +163,9 @@ static sl_status take_operands(const parsing *p, int argc, char **argv, const ch
     if (given > wanted && !usage->more)
         return sl_fail(p->context, SL_BAD_ARGUMENT,
                        "'%s' is one argument too many; 'sightline %s --help' shows how",
-                       argv[optind + (int)wanted], usage->name);
+                       p->operands[wanted], usage->name);
     for (size_t i = 0; i < wanted; i++) {
-        operands[i] = argv[optind + (int)i];
+        operands[i] = p->operands[i];
         if (!operands[i][0])
             return sl_fail(p->context, SL_BAD_ARGUMENT,
                            "%s is empty; 'sightline %s --help' shows how", usage->operands[i],
@@ -161,7 +176,7 @@ static sl_status take_operands(const parsing *p, int argc, char **argv, const ch
         if (list->count == OPTION_LIST_MOST)
             return sl_fail(p->context, SL_BAD_ARGUMENT, "more than %d arguments after %s",
                            OPTION_LIST_MOST, usage->operands[wanted - 1]);
-        list->items[list->count++] = argv[optind + (int)i];
+        list->items[list->count++] = p->operands[i];
     }
     return SL_OK;
 }
@@ -419,12 +434,12 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
     *helped = false;
     add_options(&p, usage->options, usage->option_count);
     add_options(&p, common, sizeof common / sizeof *common);
-    SL_TRY(take_arguments(&p, argc, argv));
+    SL_TRY(take_words(&p, argc, argv));
     if (*helped) {
-        help_print(usage, p.options, p.count, help_form_of(optind < argc ? argv[optind] : NULL));
+        help_print(usage, p.options, p.count, help_form_of(p.operand_count ? p.operands[0] : NULL));
         return SL_OK;
     }
-    SL_TRY(take_operands(&p, argc, argv, operands));
+    SL_TRY(take_operands(&p, operands));
     for (size_t i = 0; i < p.count; i++) {
         const option_spec *option = &p.options[i];
         if (!p.arguments[i]) continue;
