@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "sightline/support.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -139,8 +140,9 @@ static void print_option_roff(const option_spec *option) {
 }
 
 static void print_manual(const command_usage *usage, const option_spec *options, size_t count) {
-    printf(".TH SIGHTLINE-%s 1 \"\" \"sightline %s\" \"Sightline\"\n", usage->name,
-           SIGHTLINE_VERSION);
+    fputs(".TH SIGHTLINE\\-", stdout);
+    for (const char *at = usage->name; *at; at++) putchar(toupper((unsigned char)*at));
+    puts(" 1 \"" SIGHTLINE_DATE "\" \"sightline " SIGHTLINE_VERSION "\" \"Sightline\"");
     printf(".SH NAME\nsightline\\-%s \\- %s\n", usage->name, command_summary(usage->name));
     printf(".SH SYNOPSIS\n.B sightline %s\n", usage->name);
     print_roff(usage->synopsis);
@@ -156,9 +158,9 @@ static void print_manual(const command_usage *usage, const option_spec *options,
     puts(".SH EXAMPLES\n.nf");
     print_roff(usage->examples);
     puts("\n.fi\n.SH EXIT STATUS\n"
-         "0: done. 1: the work failed. 2: the arguments or an input file are wrong. "
-         "3: \\fBcheck \\-\\-strict\\fR found a fault.\n"
-         ".SH SEE ALSO\n.BR sightline (1)");
+         "0: done. 1: the work failed. 2: the arguments or an input file are wrong.");
+    if (strcmp(usage->name, "check") == 0) puts("3: \\fB\\-\\-strict\\fR found a fault.");
+    puts(".SH SEE ALSO\n.BR sightline (1)");
 }
 
 // --- words for shells

@@ -73,14 +73,15 @@ static void print_help(void) {
 }
 
 static void print_manual(void) {
-    puts(".TH SIGHTLINE 1 \"\" \"sightline " SIGHTLINE_VERSION "\" \"Sightline\"\n"
-         ".SH NAME\nsightline \\- 2D cell-and-portal visibility\n"
-         ".SH SYNOPSIS\n.B sightline\nCOMMAND ...\n.SH DESCRIPTION\n" PURPOSE
-         "\n.SH COMMANDS\n.nf");
+    puts(
+        ".TH SIGHTLINE 1 \"" SIGHTLINE_DATE "\" \"sightline " SIGHTLINE_VERSION "\" \"Sightline\"\n"
+        ".SH NAME\nsightline \\- 2D cell-and-portal visibility\n"
+        ".SH SYNOPSIS\n.B sightline\nCOMMAND ...\n.SH DESCRIPTION\n" PURPOSE "\n.SH COMMANDS\n.nf");
     print_commands();
     puts(".fi\n.SH SEE ALSO");
     for (size_t i = 0; i < COMMAND_COUNT; i++)
-        printf(".BR sightline\\-%s (1)%s\n", commands[i].name, i + 1 < COMMAND_COUNT ? "," : "");
+        printf(".BR sightline\\-%s (1),\n", commands[i].name);
+    puts(".BR sightline\\-view (1)");
 }
 
 static void print_help_form(const char *word) {

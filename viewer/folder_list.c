@@ -2,12 +2,12 @@
 
 #include "sightline/import.h"
 
+#include <SDL.h>
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { ENTRIES_MOST = 10000, PATH_ROOM = 4096, HEAD = 1 << 20, DEEPEST = 4 };
 
@@ -200,18 +200,13 @@ static bool is_folder(const char *path) {
 }
 
 bool folder_of_samples(char *path, size_t room) {
-    char program[PATH_ROOM];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    char *slash = NULL;
-    if (length > 0) {
-        program[length] = '\0';
-        slash = strrchr(program, '/');
+    static const char *const folders[] = {SIGHTLINE_SAMPLES, SIGHTLINE_SAMPLES_IN_PLACE};
+    char *program = SDL_GetBasePath(); // ends with a slash
+    bool found = false;
+    for (size_t i = 0; program && i < sizeof folders / sizeof *folders && !found; i++) {
+        snprintf(path, room, "%s%s", program, folders[i]);
+        found = is_folder(path);
     }
-    if (slash) {
-        *slash = '\0';
-        snprintf(path, room, "%s/" SIGHTLINE_SAMPLES_FROM_PROGRAM, program);
-        if (is_folder(path)) return true;
-    }
-    snprintf(path, room, "%s", SIGHTLINE_SAMPLES);
-    return is_folder(path);
+    SDL_free(program);
+    return found;
 }

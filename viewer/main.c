@@ -89,7 +89,8 @@ static void print_help(void) {
 
 /// A manual page, in the macros of man(7).
 static void print_manual(void) {
-    puts(".TH SIGHTLINE\\-VIEW 1 \"\" \"sightline " SIGHTLINE_VERSION "\" \"Sightline\"\n"
+    puts(".TH SIGHTLINE\\-VIEW 1 \"" SIGHTLINE_DATE "\" \"sightline " SIGHTLINE_VERSION
+         "\" \"Sightline\"\n"
          ".SH NAME\nsightline\\-view \\- viewer of 2D cell-and-portal visibility\n"
          ".SH SYNOPSIS\n.B sightline\\-view\n[MAP] [options]\n"
          ".SH DESCRIPTION\n" PURPOSE "\n.SH OPTIONS");

@@ -74,6 +74,9 @@ foreach(part io study glpk draw)
 endforeach()
 if(SIGHTLINE_TOOLS)
   install(TARGETS sightline_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(TARGET sightline_mpi)
+    install(TARGETS sightline_mpi RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  endif()
   if(TARGET sightline_manual)
     install(DIRECTORY "${PROJECT_BINARY_DIR}/tools/manual/"
       DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" FILES_MATCHING PATTERN "*.1")
@@ -93,6 +96,9 @@ write_basic_package_version_file("${out}/sightline-config-version.cmake"
 install(FILES "${out}/sightline-config.cmake" "${out}/sightline-config-version.cmake"
   DESTINATION "${package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+if(SIGHTLINE_GLPK)
+  install(FILES "${in}/NOTICE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+endif()
 
 # `cpack --config build/release/CPackConfig.cmake`: an archive that can be unpacked anywhere.
 set(CPACK_GENERATOR TGZ)

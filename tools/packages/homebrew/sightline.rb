@@ -1,7 +1,7 @@
 # Untried. URL and checksum are those of a release archive, once there is one.
 class Sightline < Formula
   desc "2D cell-and-portal visibility toolkit"
-  license "GPL-3.0-only" # because of GLPK; the library without it is MIT
+  license all_of: ["MIT", "GPL-3.0-or-later"] # the second because of GLPK
   head "https://example.org/sightline.git", branch: "main"
 
   depends_on "cmake" => :build
