@@ -305,6 +305,17 @@ static void tell(const doom_import *import, const char *name) {
             doors);
 }
 
+/// How many lines are portals: what is seen through them stands elsewhere on the map.
+static size_t count_portals(const sli_doom_level *level) {
+    enum { SECTOR_PORTAL = 57, LINE_PORTAL = 156, QUICK_PORTAL = 301 };
+    size_t count = 0;
+    for (size_t i = 0; i < level->line_count && level->hexen_specials; i++) {
+        const int special = level->lines[i].special;
+        count += special == SECTOR_PORTAL || special == LINE_PORTAL || special == QUICK_PORTAL;
+    }
+    return count;
+}
+
 /// Notes of what few maps have.
 static void tell_unusual(const doom_import *import, const char *name) {
     const line_account *lines = &import->lines;
@@ -315,7 +326,7 @@ static void tell_unusual(const doom_import *import, const char *name) {
         if (counts[i])
             sl_note(import->context, "%s: map %s: left out: %zu line%s %s", name,
                     import->level->name, counts[i], counts[i] == 1 ? "" : "s", what[i]);
-    const size_t portals = sli_doom_count_portals(import->level);
+    const size_t portals = count_portals(import->level);
     if (portals)
         sl_note(
             import->context,

@@ -592,16 +592,6 @@ static sl_status mark_polyobjects(sl_context *context, sli_doom_level *level) {
     return SL_OK;
 }
 
-size_t sli_doom_count_portals(const sli_doom_level *level) {
-    enum { SECTOR_PORTAL = 57, LINE_PORTAL = 156, QUICK_PORTAL = 301 };
-    size_t count = 0;
-    for (size_t i = 0; i < level->line_count && level->hexen_specials; i++) {
-        const int special = level->lines[i].special;
-        count += special == SECTOR_PORTAL || special == LINE_PORTAL || special == QUICK_PORTAL;
-    }
-    return count;
-}
-
 // --- the level
 
 sl_status sli_doom_read(sl_context *context, const sli_wad *wad, const sli_wad_map *map,

@@ -88,8 +88,9 @@ static sl_status write_reject(const reject_export *export, const char *path) {
     SL_TRY(sli_wad_write(export->context, &export->wad, &edit, 1, path));
     const sl_reject_account *account = &export->reject.account;
     const double pairs = (double)account->sectors * ((double)account->sectors - 1) / 2;
-    sl_note(export->context, "map %s: of %u sectors %llu pairs (%.1f %%) are hidden",
-            export->map.name, account->sectors, (unsigned long long)account->hidden,
+    sl_note(export->context, "map %s: of %u sector%s %llu pairs (%.1f %%) are hidden",
+            export->map.name, account->sectors, account->sectors == 1 ? "" : "s",
+            (unsigned long long)account->hidden,
             pairs > 0 ? 100 * (double)account->hidden / pairs : 0);
     if (account->unknown)
         sl_note(export->context,

@@ -131,9 +131,6 @@ sl_status sli_doom_read(sl_context *context, const sli_wad *wad, const sli_wad_m
                         sli_doom_level *level);
 void sli_doom_level_destroy(sl_context *context, sli_doom_level *level); ///< and zeroes it
 
-/// How many lines are portals: what is seen through them stands elsewhere on the map.
-size_t sli_doom_count_portals(const sli_doom_level *level);
-
 /// Makes the walls, doors, seams, cells and starts of a level that was read from the WAD's map.
 /// `brief`: notes only of what is unusual. `map` must be empty; on failure it is left half made.
 sl_status sli_doom_make_map(sl_context *context, const sli_wad *wad, const sli_wad_map *chosen,
