@@ -452,7 +452,7 @@ void compare_eye_print_columns(void) {
          "  fov                 the view cone, degrees\n"
          "  method, guarantee   as 'sightline eye --help' lists them\n"
          "  share, reduction    the area kept, as a share of all inside; 1 / share\n"
-         "  cells               those kept; blank for visible_area, which is not made of cells\n"
+         "  cells               those kept; blank for visible_area, which has none\n"
          "  nodes               cells looked at; exact: nodes of the stab tree visited\n"
          "  orientations        orientation tests\n"
          "  seconds             a query, on one thread (the median)\n"

@@ -60,7 +60,7 @@ static void find_range(picture *p, double least, double most) {
         low = fmin(low, p->values[i]);
         high = fmax(high, p->values[i]);
     }
-    if (high - low <= ROUNDING * fmax(fabs(low), fabs(high))) high = low;
+    if (low < high && high - low <= ROUNDING * fmax(fabs(low), fabs(high))) high = low;
     p->least = least < most ? least : low;
     p->most = least < most ? most : high;
     p->under = low < p->least;

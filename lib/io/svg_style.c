@@ -133,9 +133,9 @@ static uint64_t weight_of(sli_word selector, size_t number) {
 static sl_status add_rules(sl_context *context, sli_svg_style *style, sli_word selectors,
                            sli_word body) {
     const char *end = selectors.at + selectors.length;
-    declared declared[PROPERTIES] = {0};
-    declare_all(declared, body, 0);
-    if (!declared[DISPLAY].any && !declared[VISIBILITY].any) return SL_OK;
+    declared found[PROPERTIES] = {0};
+    declare_all(found, body, 0);
+    if (!found[DISPLAY].any && !found[VISIBILITY].any) return SL_OK;
     for (const char *at = selectors.at; at < end; at++) {
         const char *stop = find(at, end, ",");
         const sli_word selector = trimmed(at, stop);
@@ -218,17 +218,17 @@ void sli_svg_style_destroy(sl_context *context, sli_svg_style *style) {
 }
 
 bool sli_svg_hides(const sli_svg_style *style, const xmlNode *node) {
-    declared declared[PROPERTIES] = {0};
+    declared found[PROPERTIES] = {0};
     for (int i = 0; i < PROPERTIES; i++) {
         char *text = sli_xml_attribute(node, names[i]);
-        if (text) declare(declared, i, trimmed(text, text + strlen(text)), 0);
+        if (text) declare(found, i, trimmed(text, text + strlen(text)), 0);
         sli_xml_free(text);
     }
     for (size_t i = 0; i < style->rules.count; i++)
         if (selector_matches(style->rules.items[i].selector, node))
-            declare_all(declared, style->rules.items[i].body, style->rules.items[i].weight);
+            declare_all(found, style->rules.items[i].body, style->rules.items[i].weight);
     char *own = sli_xml_attribute(node, "style");
-    if (own) declare_all(declared, (sli_word){own, strlen(own)}, OWN_STYLE);
+    if (own) declare_all(found, (sli_word){own, strlen(own)}, OWN_STYLE);
     sli_xml_free(own);
-    return declared[DISPLAY].hides || declared[VISIBILITY].hides;
+    return found[DISPLAY].hides || found[VISIBILITY].hides;
 }

@@ -191,7 +191,7 @@ for (const name of wanted)
             const page = await open({}, '', room.replace('wall 10 6', 'door front 10 4 10 6\nwall 10 6'));
             assert.equal(await fact(page, 'The eye sees'), '2 cells');
             await page.uncheck('#door-list input');
-            await page.waitForFunction(() => /^1 cell/.test(document.querySelector('#facts dd:last-child').textContent));
+            await page.waitForSelector('dt:text-is("The eye sees") + dd:text-matches("^1 cell")');
             await context.close();
         });
 
