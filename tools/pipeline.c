@@ -110,21 +110,21 @@ sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *p) 
 
 // --- commands to run next
 
+/// Puts a text at a place of a longer one, as far as it has room. Returns the place after it.
+static size_t put(char *text, size_t size, size_t at, const char *part) {
+    const int length = at < size ? snprintf(text + at, size - at, "%s", part) : (int)strlen(part);
+    return at + (size_t)length;
+}
+
 size_t pipeline_shell_word(const char *word, char *text, size_t size) {
     const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
-    const bool quoted = !word[0] || word[strspn(word, plain)];
-    size_t length = 0;
-    if (quoted) length += (size_t)snprintf(text, size, "'");
+    const char *quote = !word[0] || word[strspn(word, plain)] ? "'" : "";
+    size_t length = put(text, size, 0, quote);
     for (; *word; word++) {
         const char letter[2] = {*word, '\0'};
-        length +=
-            (size_t)snprintf(text + (length < size ? length : 0), length < size ? size - length : 0,
-                             "%s", *word == '\'' ? "'\\''" : letter);
+        length = put(text, size, length, *word == '\'' ? "'\\''" : letter);
     }
-    if (quoted)
-        length += (size_t)snprintf(text + (length < size ? length : 0),
-                                   length < size ? size - length : 0, "'");
-    return length;
+    return put(text, size, length, quote);
 }
 
 /// Adds a word, with what stands before it, to a command.
