@@ -26,6 +26,7 @@
 /// it is reached.
 #include "visibility_graph/paths.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -97,15 +98,14 @@ typedef struct walker {
 
 // --- buckets
 
-static sl_status push(sl_context *context, walker *w, entry e) {
-    SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
+/// There is room for the entry.
+static inline void push(walker *w, entry e) {
     uint32_t *bucket = &w->buckets[(uint64_t)(e.key * PARTS) & w->bucket_mask];
     e.number = w->sights->points[e.slot];
     e.next = *bucket;
     *bucket = (uint32_t)w->entries.count;
     w->entries.items[w->entries.count++] = e;
     w->waiting++;
-    return SL_OK;
 }
 
 static bool is_before(const entry *a, const entry *b) {
@@ -145,7 +145,7 @@ static sl_status take_bucket(sl_context *context, walker *w, uint64_t parts) {
 // --- paths
 
 /// The turn of a path whose last step is known, and all before it.
-static float turn_to(walker *w, uint32_t slot) {
+static inline float turn_to(walker *w, uint32_t slot) {
     const uint32_t at = w->last[slot], before = w->before[at];
     if (before == SLI_VGA_NONE) return 0;
     known_turn *known = &w->turns[slot];
@@ -155,41 +155,37 @@ static float turn_to(walker *w, uint32_t slot) {
     return w->turn[at] + known->turn;
 }
 
-/// Whether a step of this length, rounded to single precision, may lead to a gain.
-static inline bool may_gain(float key, float step, float old) {
-    return step * (1 - 1e-6f) < old - key;
-}
-
-/// Tries the way on from a point to another.
-static sl_status try_point(sl_context *context, walker *w, const entry *at, uint32_t q,
-                           uint32_t number) {
-    const sli_vga_sights *s = w->sights;
-    const float old = w->length[q];
-    const double step = sli_vga_distance(s, at->slot, q);
-    if (at->key + step >= old) return SL_OK;
-    w->hop[q] = (float)step;
-    w->length[q] = at->key + w->hop[q];
-    w->last[q] = at->slot;
+/// Tries a way on. There is room for an entry. Single precision decides where it can: its sum is
+/// off by less than 3e-7 of itself, and is never longer than that of a gain.
+static inline void try_way(walker *w, const entry *at, way_on way) {
+    const float old = w->length[way.slot], length = at->key + way.length;
+    if (length > old) return;
+    if (length * (1 + 3e-7f) >= old &&
+        at->key + sli_vga_distance(w->sights, at->slot, way.slot) >= old)
+        return;
+    w->hop[way.slot] = way.length;
+    w->length[way.slot] = length;
+    w->last[way.slot] = at->slot;
     // A path that is shorter by less than a float tells is there already, with its way so far.
-    if (w->length[q] == old || !sl_bits_has(s->turning, q)) return SL_OK;
-    return push(context, w,
-                (entry){.key = w->length[q], .slot = q, .before = at->slot, .step = number});
+    if (length == old || way.slot >= w->sights->turning_count) return;
+    push(w, (entry){.key = length, .slot = way.slot, .before = at->slot, .step = way.step});
 }
 
 /// Tries all ways on.
 static sl_status expand_row(sl_context *context, walker *w, const entry *at) {
     const sli_vga_sights *s = w->sights;
     const float x = s->x[at->slot], y = s->y[at->slot];
-    const bool numbered = w->ways && sl_bits_has(s->turning, at->slot);
+    const bool numbered = w->ways && at->slot < s->turning_count;
     uint32_t step = numbered ? w->ways->first_step[at->slot] : SLI_VGA_NONE;
     for (size_t i = s->first[at->slot]; i < s->first[at->slot + 1]; i++) {
         const sli_vga_word *word = &s->words.items[i];
+        SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 64));
         for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
             const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
             const float dx = s->x[q] - x, dy = s->y[q] - y, left = w->length[q] - at->key;
             if (left > 0 && (dx * dx + dy * dy) * (1 - 1e-6f) < left * left)
-                SL_TRY(try_point(context, w, at, q, step));
-            step += numbered && sl_bits_has(s->turning, q);
+                try_way(w, at, (way_on){q, step, (float)sli_vga_distance(s, at->slot, q)});
+            step += numbered && q < s->turning_count;
         }
     }
     return SL_OK;
@@ -203,9 +199,8 @@ static sl_status expand(sl_context *context, walker *w, const entry *at) {
     const uint32_t *starts = &a->starts[at->step + bundle];
     const way_on *way = a->lists[bundle].ways.items + starts[0];
     const way_on *end = a->lists[bundle].ways.items + starts[1];
-    for (; way < end; way++)
-        if (may_gain(at->key, way->length, w->length[way->slot]))
-            SL_TRY(try_point(context, w, at, way->slot, way->step));
+    SL_TRY(SL_ARRAY_ROOM(context, &w->entries, starts[1] - starts[0]));
+    for (; way < end; way++) try_way(w, at, *way);
     return SL_OK;
 }
 
@@ -253,7 +248,8 @@ static sl_status find_shortest(sl_context *context, walker *w, uint32_t from) {
     w->order.count = 0;
     w->old_from = from;
     w->length[from] = w->turn[from] = 0;
-    SL_TRY(push(context, w, (entry){.slot = from, .before = SLI_VGA_NONE, .step = SLI_VGA_NONE}));
+    SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
+    push(w, (entry){.slot = from, .before = SLI_VGA_NONE, .step = SLI_VGA_NONE});
     bool within = true;
     for (uint64_t parts = 0; w->waiting; parts++) {
         if (w->buckets[parts & w->bucket_mask] == SLI_VGA_NONE) continue;
@@ -303,10 +299,11 @@ static sl_status measure(sl_context *context, void *state, uint32_t from) {
     const double step = s->job->grid->step;
     double length = 0, turn = 0, straight = 0, nodes = 0;
     SL_TRY(find_paths(context, w, from));
+    const double limit =
+        options->metric_radius > 0 ? fmin(options->metric_radius, DBL_MAX) : DBL_MAX;
     for (uint32_t p = 0; p < s->count; p++) {
         const uint32_t slot = s->slots[p];
-        if (w->length[slot] == INFINITY) continue;
-        if (options->metric_radius > 0 && w->length[slot] * step > options->metric_radius) continue;
+        if (w->length[slot] * step > limit) continue;
         length += w->length[slot] * step;
         if (slot != from) turn += w->turn[slot] == INFINITY ? turn_to(w, slot) : w->turn[slot];
         straight += step * sli_vga_distance(s, slot, from);
@@ -368,16 +365,19 @@ static void end_lists(sl_context *context, void *all, void *state) {
 
 static sl_status begin_lists(sl_context *context, void *all, void **state) {
     const all_ways *a = all;
-    *state = sl_alloc_array(context, a->sights->bundles * 64, sizeof(float));
+    *state = sl_alloc_array(context, a->sights->bundles, 64 * sizeof(float) + sizeof(uint64_t));
     return *state ? SL_OK : SL_NO_MEMORY;
 }
 
-/// Finds the least length of one step or two from p, by slot.
-static void find_two_steps(const sli_vga_sights *s, uint32_t p, float *two) {
+/// Finds the least length of one step or two from p, by slot. What p sees is nearest by one step.
+/// `far`: scratch, for what p does not see.
+static void find_two_steps(const sli_vga_sights *s, uint32_t p, float *two, uint64_t *far) {
     for (uint32_t q = 0; q < s->count; q++) two[q] = INFINITY;
+    memset(far, 0xff, s->bundles * sizeof *far);
     two[p] = 0;
     for (size_t i = s->first[p]; i < s->first[p + 1]; i++) {
         const sli_vga_word *word = &s->words.items[i];
+        far[word->bundle] &= ~word->seen;
         for (uint64_t rest = word->seen; rest; rest &= rest - 1) {
             const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
             two[q] = (float)sli_vga_distance(s, p, q);
@@ -390,7 +390,7 @@ static void find_two_steps(const sli_vga_sights *s, uint32_t p, float *two) {
             const float x = s->x[u], y = s->y[u], hop = (float)sli_vga_distance(s, p, u);
             for (size_t k = s->first[u]; k < s->first[u + 1]; k++) {
                 const sli_vga_word *next = &s->words.items[k];
-                for (uint64_t more = next->seen; more; more &= more - 1) {
+                for (uint64_t more = next->seen & far[next->bundle]; more; more &= more - 1) {
                     const uint32_t q = next->bundle * 64 + (uint32_t)__builtin_ctzll(more);
                     const float dx = s->x[q] - x, dy = s->y[q] - y, left = two[q] - hop;
                     const float square = dx * dx + dy * dy;
@@ -438,14 +438,15 @@ static sl_status list_unit(sl_context *context, void *all, void *state, size_t u
     const all_ways *a = all;
     const sli_vga_sights *s = a->sights;
     const size_t room = s->kept_ways / s->bundles;
+    float *two = state;
     size_t most = 0; // what the points so far may list
     way_list *list = &a->lists[unit];
     size_t start = 0; // place in `starts`
     for (uint32_t p = (uint32_t)unit * 64; p < s->count && p < unit * 64 + 64; p++) {
         if (!sl_bits_has(s->turning, p)) continue;
         SL_TRY(sl_check_cancelled(context));
-        find_two_steps(s, p, state);
-        most = least(most + SLI_VGA_WAYS_A_PAIR * count_reached(s, state), room);
+        find_two_steps(s, p, two, (uint64_t *)(two + s->bundles * 64));
+        most = least(most + SLI_VGA_WAYS_A_PAIR * count_reached(s, two), room);
         const size_t before = list->ways.count;
         start = a->first_step[p] + unit;
         for (size_t i = s->first[p]; i < s->first[p + 1]; i++) {
@@ -453,7 +454,7 @@ static sl_status list_unit(sl_context *context, void *all, void *state, size_t u
             for (uint64_t rest = word->seen & s->turning[word->bundle]; rest; rest &= rest - 1) {
                 const uint32_t u = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
                 a->starts[start++] = (uint32_t)list->ways.count;
-                if (list->ways.count <= most) SL_TRY(list_ways(context, a, p, u, state, list));
+                if (list->ways.count <= most) SL_TRY(list_ways(context, a, p, u, two, list));
             }
         }
         a->starts[start] = (uint32_t)list->ways.count;
