@@ -59,6 +59,7 @@ static bool cursor_key(app_state *app, const char *key, sl_box plan) {
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
         if (strcmp(key + (fine ? 6 : 0), arrows[i].key) != 0) continue;
         cursor_move(app, plan, step * arrows[i].x, step * arrows[i].y);
+        app->ui.hover_seconds = -1e9; // the tooltip would cover the place
         return true;
     }
     if (strcmp(key, "Return") == 0)
@@ -109,7 +110,7 @@ static bool focus_key(app_state *app, const char *key) {
     }
     if (hit.kind == HIT_NONE) return false;
     if (strcmp(key, "Escape") == 0 && app->tool.drag.kind != DRAG_NONE) {
-        app->tool.drag = (drag_state){0};
+        if (!edit_cancel(app)) app->tool.drag = (drag_state){0};
         return true;
     }
     if (strcmp(key, "Escape") == 0 && !app->ui.help) {

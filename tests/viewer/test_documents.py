@@ -80,6 +80,14 @@ class Cases:
                  "expect *plan.map\nkey Ctrl+S\nexpect plan.map - Sightline\nkey Ctrl+Z\n"
                  "expect *plan.map\nkey Ctrl+Y\nexpect plan.map - Sightline\n")
 
+    def escape_puts_back(self):
+        """Escape during a drag by keys does what it does during one with the mouse."""
+        path = self.write("plan.map", PLAN)
+        grab = "key F3\nkey Tab\nkey Right\nkey Space\n" + "key Left\n" * 6
+        self.run("held", path, grab + "key Space\nexpect *plan.map\n")
+        self.run("put back", path, grab + "key Escape\nexpect back where it was\n"
+                 "expect plan.map - Sightline\n")
+
     def saves_as(self):
         path = self.write("plan.map", PLAN)
         other = self.folder / "other.map"

@@ -456,6 +456,22 @@ static void test_exported(void **state) {
 }
 
 /// Words about what was done go after a while, errors do not.
+/// The tooltip of the plan goes once its cursor moves: it would cover the place.
+static void test_cursor_tip(void **state) {
+    (void)state;
+    app_state *app = viewer_start(true);
+    open_map(app, MAPS "/office.map");
+    viewer_press(app, "F3");
+    script_frame(app);
+    viewer_press(app, "Tab");
+    app_tick(app, 1);
+    assert_int_equal(ui_tip_of(&app->ui).kind, HIT_PLAN);
+    viewer_press(app, "Right");
+    app_tick(app, 1);
+    assert_int_equal(ui_tip_of(&app->ui).kind, HIT_NONE);
+    viewer_end(app);
+}
+
 static void test_message(void **state) {
     (void)state;
     app_state *app = viewer_start(true);
@@ -481,7 +497,7 @@ int main(void) {
         cmocka_unit_test(test_taken_back), cmocka_unit_test(test_new_wall),
         cmocka_unit_test(test_mended),     cmocka_unit_test(test_exported),
         cmocka_unit_test(test_stopped),    cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_message),
+        cmocka_unit_test(test_message),    cmocka_unit_test(test_cursor_tip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

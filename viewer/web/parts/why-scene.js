@@ -64,9 +64,9 @@ export function tellWhy(why) {
     if (why.seen) return `${pair} see each other.${effects}`;
     const miss = why.misses?.[0];
     if (!miss) return `${pair}: there is no way from one to the other, so no line joins them.${effects}`;
-    const ends = miss.ends.map((e) => `the ${e.side} end of portal ${e.portal}`).join(', ');
+    const ends = miss.ends.map((e) => `${e.side === 'left' ? 'L' : 'R'}${e.portal}`).join(', ');
     const what = miss.reason === 'conflict'
-        ? `No line passes ${ends} on their right sides.`
+        ? `No line has all these ends of portals on the right sides: ${ends}.`
         : 'A line would have to turn back.';
     return `${pair} are hidden from each other. ${what} L marks ends that a line must have at its left, ` +
         `R those at its right. The picture shows one sequence of portals that leads there.${effects}`;

@@ -74,3 +74,25 @@ export class Keys {
         this.app.cancelTool();
     }
 }
+
+/**
+ * Acts on what is chosen in a list. By keys only after Enter, or when the list is left: each arrow chooses anew.
+ * @param {HTMLSelectElement} list @param {(value: string) => any} act
+ */
+export function onChosen(list, act) {
+    let typed = false, waits = false;
+    const go = () => {
+        if (waits) act(list.value);
+        typed = waits = false;
+    };
+    list.addEventListener('keydown', (event) => {
+        typed = true;
+        if (event.key === 'Enter') go();
+    });
+    list.addEventListener('pointerdown', () => (typed = false));
+    list.addEventListener('change', () => {
+        waits = true;
+        if (!typed) go();
+    });
+    list.addEventListener('blur', go);
+}

@@ -8,7 +8,7 @@ import { drawWhy } from '../parts/why-scene.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
 import { HeatMap } from './heat.js';
-import { Keys } from './keys.js';
+import { Keys, onChosen } from './keys.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
@@ -54,7 +54,7 @@ class Playground extends Sight {
             if (get('file').files[0]) this.openFile(get('file').files[0]);
             get('file').value = '';
         });
-        get('gallery').addEventListener('change', () => this.openGallery(get('gallery').value));
+        onChosen(get('gallery'), (name) => this.openGallery(name));
         acceptDrops((file) => this.openFile(file));
         addEventListener('hashchange', () => this.openShared());
         addEventListener('pagehide', () => this.keep());
@@ -105,7 +105,8 @@ class Playground extends Sight {
         panel.showWhy('');
         this.tools.look.pinned = false;
         this.doc.select(-1);
-        this.doc.change(items);
+        if (this.doc.canUndo || this.doc.items.length) this.doc.change(items);
+        else this.doc.replace(items); // the first map is no step to undo
         this.act('fit');
         if (message) panel.showMessage(message);
     }
@@ -157,6 +158,7 @@ class Playground extends Sight {
     }
     snap(place, except = null) {
         if (!isOn('snap') || this.free) return place;
+        if (this.keys.cross) return snapTo([], ...place, this.step(), 0);
         return snapTo(this.doc.items, ...place, this.step(), this.reach(), except);
     }
     middle() {

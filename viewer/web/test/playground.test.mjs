@@ -187,6 +187,54 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('takes the places of the grid by keyboard, also beside the end of a wall', async () => {
+            const page = await open();
+            const points = await page.evaluate(async () => {
+                const { playground: p } = window, [x, y] = p.snap(p.middle()), step = p.step();
+                p.doc.add({ kind: 'wall', points: [x + 0.1 * step, y, x + 0.1 * step, y + 4 * step] });
+                return [x, y, x - step, y];
+            });
+            await page.focus('#plan');
+            for (const key of ['w', 'ArrowRight', 'ArrowLeft', 'Enter', 'ArrowLeft', 'Enter', 'Escape']) await page.keyboard.press(key);
+            assert.deepEqual(await page.evaluate(() => window.playground.doc.items.at(-1).points), points);
+            await context.close();
+        });
+
+        test('opens a map of the list by keys only after Enter', async () => {
+            const page = await open(), walls = () => page.evaluate(() => window.playground.doc.text());
+            await page.waitForFunction(() => document.querySelectorAll('#gallery option').length > 3);
+            // The arrows of a list that is shut are up to the system: the events alone are the same on each.
+            const choose = (index) => page.evaluate((i) => {
+                const list = document.getElementById('gallery');
+                list.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowDown' }));
+                list.selectedIndex = i;
+                list.dispatchEvent(new Event('change'));
+            }, index);
+            const before = await walls();
+            await page.evaluate(() => {
+                window.asked = [];
+                window.playground.openGallery = (name) => window.asked.push(name);
+            });
+            await page.focus('#gallery');
+            await choose(1);
+            await choose(2);
+            assert.deepEqual([await walls(), await page.evaluate(() => window.asked)], [before, []]);
+            const third = await page.inputValue('#gallery');
+            await page.keyboard.press('Enter');
+            assert.deepEqual(await page.evaluate(() => window.asked), [third]);
+            await choose(3);
+            await page.focus('#plan');
+            assert.equal(await page.evaluate(() => window.asked.length), 2);
+            await context.close();
+        });
+
+        test('keeps no step to undo before the first map', async () => {
+            const page = await open({}, '', null);
+            await page.waitForFunction(() => window.playground?.doc.items.length > 0);
+            assert.equal(await page.evaluate(() => window.playground.doc.canUndo), false);
+            await context.close();
+        });
+
         test('opens and shuts doors without a bake', async () => {
             const page = await open({}, '', room.replace('wall 10 6', 'door front 10 4 10 6\nwall 10 6'));
             assert.equal(await fact(page, 'The eye sees'), '2 cells');
