@@ -74,11 +74,11 @@ double sli_marked_precision(const sl_map *map, double finest, const char *mark, 
     char expected[20];
     double precision;
     snprintf(expected, sizeof expected, "%016llx ", (unsigned long long)sum);
-    if (mark && strncmp(mark, expected, 17) == 0 &&
-        sl_number_read(mark + 17, strlen(mark + 17), &precision) && precision >= 0 &&
-        precision <= SL_COORDINATE_MAX)
-        return precision;
-    return precision_of(map, finest);
+    const bool marked = mark && strncmp(mark, expected, 17) == 0 &&
+                        sl_number_read(mark + 17, strlen(mark + 17), &precision) &&
+                        precision >= 0 && precision <= SL_COORDINATE_MAX;
+    if (!marked) precision = precision_of(map, finest);
+    return precision < SL_COORDINATE_MIN ? 0 : precision; // map text has no smaller numbers
 }
 
 // --- the pen

@@ -232,6 +232,20 @@ static void assert_precision(import_reader *read, const char *text, double expec
         fail_msg("%g is not %g: %s", precision, expected, text);
 }
 
+/// What map text cannot hold is no precision.
+static void test_tiny(void **state) {
+    (void)state;
+    const sl_import_options options = sl_import_options_default();
+    static const char text[] = "<svg><path d=\"M0,0L1.28001e-147,0\"/></svg>";
+    sl_context *context = sl_context_create(NULL);
+    sl_map map = {0};
+    assert_ok(context, sl_map_read_svg(context, "tiny", text, sizeof text - 1, &options, &map));
+    assert_int_equal(map.wall_count, 1);
+    assert_true(map.precision == 0);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 /// The finest digit counts, in the map's unit.
 static void test_precision(void **state) {
     (void)state;
@@ -312,7 +326,7 @@ int main(void) {
         cmocka_unit_test(test_corners),   cmocka_unit_test(test_junctions),
         cmocka_unit_test(test_slits),     cmocka_unit_test(test_axial),
         cmocka_unit_test(test_precision), cmocka_unit_test(test_short_walls),
-        cmocka_unit_test(test_jittered),
+        cmocka_unit_test(test_jittered),  cmocka_unit_test(test_tiny),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
