@@ -34,9 +34,10 @@ static void check_baked(sl_context *context, const sl_baked *baked) {
         // Several cells of a mesh hold their common corner; those of a loose space may leave
         // bounds.
         const uint32_t found = sl_space_locate(space, corner);
-        if (space->cells[cell].solid && found != cell) // the border of solid ground is not solid
-            FUZZ_CHECK(found == SL_NO_CELL || !space->cells[found].solid || space->neighbour);
-        else
+        const bool open = found != SL_NO_CELL && !space->cells[found].solid;
+        // The border of solid ground is not solid.
+        FUZZ_CHECK(open || space->cells[cell].solid || space->loose);
+        if (!(open && space->cells[cell].solid))
             FUZZ_CHECK(space->neighbour ? found <= cell || space->loose : found == cell);
     }
     check_trees(baked);
