@@ -551,52 +551,12 @@ static sl_status read_spline(drawing *dxf, dxf_range entity, spline *out, bool *
     return SL_OK;
 }
 
-/// The blossom of the piece between knots k and k + 1: for three equal arguments the curve's point,
-/// else a control point of it as a Bézier curve. A lower degree takes the mean over its arguments.
-static sl_point blossom(const spline *s, size_t k, const double at[3]) {
-    static const int choices[4][3][3] = {
-        {{0}}, {{0}, {1}, {2}}, {{0, 1}, {0, 2}, {1, 2}}, {{0, 1, 2}}};
-    const int degree = s->degree, count = degree == 3 ? 1 : 3;
-    sl_point mean = {0, 0};
-    for (int c = 0; c < count; c++) {
-        sl_point points[4];
-        for (int i = 0; i <= degree; i++) points[i] = s->points.items[k - (size_t)(degree - i)];
-        for (int round = 1; round <= degree; round++) {
-            const double t = at[choices[degree][c][round - 1]];
-            for (int i = degree; i >= round; i--) {
-                const double low = s->knots.items[k + (size_t)i - (size_t)degree],
-                             high = s->knots.items[k + (size_t)i + 1 - (size_t)round];
-                const double share = (t - low) / (high - low);
-                points[i].x = (1 - share) * points[i - 1].x + share * points[i].x;
-                points[i].y = (1 - share) * points[i - 1].y + share * points[i].y;
-            }
-        }
-        mean.x += points[degree].x / count;
-        mean.y += points[degree].y / count;
-    }
-    return mean;
-}
-
-static sl_status draw_pieces(drawing *dxf, const spline *s) {
-    bool begun = false;
-    for (size_t k = (size_t)s->degree; k < s->points.count; k++) {
-        const double a = s->knots.items[k], b = s->knots.items[k + 1];
-        if (!(a < b)) continue;
-        if (!begun) dxf->pen.at = blossom(s, k, (const double[3]){a, a, a});
-        begun = true;
-        SL_TRY(sli_pen_cubic(&dxf->pen, blossom(s, k, (const double[3]){a, a, b}),
-                             blossom(s, k, (const double[3]){a, b, b}),
-                             blossom(s, k, (const double[3]){b, b, b})));
-    }
-    return SL_OK;
-}
-
 static sl_status draw_spline(drawing *dxf, dxf_range entity, sli_word layer) {
     spline s = {0};
     bool plain = true;
     sl_status status = read_spline(dxf, entity, &s, &plain);
     if (status == SL_OK && plain) {
-        status = draw_pieces(dxf, &s);
+        status = sli_pen_spline(&dxf->pen, s.degree, s.knots.items, s.points.items, s.points.count);
     } else if (status == SL_OK) {
         dxf->drawn--;
         status = leave_out(dxf, dxf_at(dxf, entity.begin)->value, layer);

@@ -72,6 +72,10 @@ sl_status sli_pen_arc(sli_pen *pen, sl_point centre, sl_point u, sl_point v, dou
                       sl_point to);
 /// A cubic Bézier curve with two control points.
 sl_status sli_pen_cubic(sli_pen *pen, sl_point first, sl_point second, sl_point to);
+/// A B-spline of a degree from 1 to 3 without weights, from its own beginning. There are `count`
+/// points, more than the degree, and count + degree + 1 knots that never fall.
+sl_status sli_pen_spline(sli_pen *pen, int degree, const double *knots, const sl_point *points,
+                         size_t count);
 
 // --- tiles, gathered block by block (layers, chunks, levels), then made into walls. Places are in
 // --- pixels, y down, as the files have them; the walls have y up
