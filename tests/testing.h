@@ -55,19 +55,22 @@ static inline sl_context *testing_context(testing_memory *memory) {
                      sl_status_name(testing_status));                                              \
     } while (0)
 
-/// How many random inputs a test tries: as many as SIGHTLINE_SEEDS of the environment says, else as
-/// usual. Under a sanitizer each takes several times as long: there it is a fifth, and said.
+/// How many random inputs a test tries: as many as SIGHTLINE_SEEDS of the environment says, with
+/// "/20" a twentieth of the usual number, else that number. Under a sanitizer each takes several
+/// times as long: there it is a fifth. A smaller part is said.
 static inline uint64_t testing_seeds(uint64_t usual) {
     const char *text = getenv("SIGHTLINE_SEEDS");
-    const uint64_t told = text ? strtoull(text, NULL, 10) : 0;
-    if (told) return told;
 #ifdef SIGHTLINE_SANITIZED
-    print_message("%llu of %llu random inputs: a sanitizer is on\n",
-                  (unsigned long long)(usual + 4) / 5, (unsigned long long)usual);
-    return (usual + 4) / 5;
-#else
-    return usual;
+    if (!text) text = "/5";
 #endif
+    const bool part = text && *text == '/';
+    const uint64_t told = text ? strtoull(text + part, NULL, 10) : 0;
+    if (!told) return usual;
+    if (!part) return told;
+    const uint64_t some = (usual + told - 1) / told;
+    print_message("%llu of %llu random inputs\n", (unsigned long long)some,
+                  (unsigned long long)usual);
+    return some;
 }
 
 /// A method of cell-to-cell visibility by its name.
@@ -78,6 +81,16 @@ static inline const sl_see_method *testing_method(const char *name) {
         if (strcmp(methods[i].name, name) == 0) return &methods[i];
     fail_msg("no method '%s'", name);
     return NULL;
+}
+
+/// For hooks: cancelled from the start.
+static inline bool testing_cancelled(void *user) {
+    (void)user;
+    return true;
+}
+
+static inline bool testing_same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
 }
 
 /// Whether visible sets are the same to the byte.

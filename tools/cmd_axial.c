@@ -5,6 +5,7 @@
 #include "pipeline.h"
 #include "sightline/axial.h"
 #include "sightline/support.h"
+#include "within.h"
 
 #include <inttypes.h>
 #include <stddef.h>
@@ -41,6 +42,7 @@ typedef struct axial_plan {
     const char *input, *output, *picture;
     door_choice doors;
     map_pipeline pipeline;
+    within_plan within;
     option_list radii;
     size_t lines, measure;
     const char *lines_given;
@@ -50,6 +52,7 @@ typedef struct axial_plan {
 
 typedef struct axial_work {
     sl_baked baked;
+    sl_space part; ///< of --within
     sl_map drawn;
     sl_outline outline;
     sl_axial_lines lines;
@@ -74,7 +77,10 @@ static sl_status find_lines(sl_context *context, const axial_plan *plan, axial_w
     if (!input_ends_with(plan->input, ".slv"))
         SL_TRY(pipeline_need_inside(context, &plan->pipeline, &w->baked.map, &w->baked.space, ""));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
-    SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
+    if (plan->within.path)
+        SL_TRY(
+            within_space(context, &plan->within, &plan->pipeline.input, &w->baked.space, &w->part));
+    SL_TRY(sl_outline_make(context, plan->within.path ? &w->part : &w->baked.space, &w->outline));
     SL_TRY(sl_axial_all_lines(context, &w->outline, plan->threads, &w->lines));
     if (!w->lines.count)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -145,10 +151,12 @@ static sl_status check_lines(sl_context *context, axial_plan *plan) {
                            "some in; give the map",
                            kinds[plan->lines].name)
                      : SL_OK;
+    if (plan->within.path)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--within: drawn lines are measured as they are, all of them");
     if (!plan->doors.shut && !plan->doors.open) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--%s: drawn lines are measured as they are, without "
-                   "doors",
+                   "--%s: drawn lines are measured as they are, without doors",
                    plan->doors.shut ? "shut" : "open");
 }
 
@@ -156,6 +164,7 @@ static sl_status work(command_console *console, axial_plan *plan, axial_work *w)
     sl_context *context = console->context;
     SL_TRY(check_radii(context, plan));
     SL_TRY(check_lines(context, plan));
+    SL_TRY(within_check(context, &plan->within));
     const bool drawn = plan->lines == LINES_DRAWN;
     SL_TRY(pipeline_plan(context, plan->input, &plan->pipeline));
     SL_TRY(drawn ? take_drawn(context, plan, w) : find_lines(context, plan, w));
@@ -183,6 +192,9 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
     const option_table doors = door_option_table(&plan.doors);
+    const option_table within = within_option_table(
+        &plan.within, "only lines within the closed outlines of a drawing or map; they end there "
+                      "as at walls");
     const option_spec options[] = {
         {"lines", 0, "NAME",
          "all: the all-line map; subsets, fewest (default): lines of it that cover the plan; "
@@ -202,6 +214,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
          .list = &plan.radii},
         {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &plan.threads,
          .most = 1024, .rare = true},
+        {.group = &within},
         {.group = &doors},
         {.group = &picture},
         {.group = &pipeline},
@@ -231,6 +244,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
     sl_line_graph_destroy(console->context, &w.graph);
     sl_axial_lines_destroy(console->context, &w.lines);
     sl_outline_destroy(console->context, &w.outline);
+    sl_space_destroy(console->context, &w.part);
     sl_map_destroy(console->context, &w.drawn);
     sl_baked_destroy(console->context, &w.baked);
     return status;

@@ -26,9 +26,6 @@ typedef struct bake_report {
     } seconds;
 } bake_report;
 
-sl_status bake_report_print(sl_context *context, const bake_report *report);
-sl_status bake_report_print_json(sl_context *context, const bake_report *report);
-
 // --- the report
 
 // --- JSON
@@ -93,7 +90,7 @@ static void add_visibility(json_fields *fields, const sl_visibility *visibility)
     json_add_count(fields, "trees_left_out", trees->left_out);
 }
 
-sl_status bake_report_print_json(sl_context *context, const bake_report *report) {
+static sl_status bake_report_print_json(sl_context *context, const bake_report *report) {
     const sl_baked *baked = report->baked;
     const sl_space *space = &baked->space;
     const bool has_sets = !sl_baked_is_shard(baked);
@@ -158,7 +155,7 @@ static void print_effect_work(const sl_visibility *visibility) {
         size_write(sl_door_sets_bytes(doors), size);
         printf("  doors     %s of door sets", size);
         if (account->door_fallbacks)
-            printf("; %" PRIu64 " pairs have too many sets and count as seen (--door-sets)",
+            printf("; %" PRIu64 " pairs have too many sets and count as seen (--door-limit)",
                    account->door_fallbacks);
         putchar('\n');
     }
@@ -205,7 +202,7 @@ static void print_seconds(const bake_report *report) {
     printf(", cell to cell %.3f, write %.3f\n", report->seconds.see, report->seconds.write);
 }
 
-sl_status bake_report_print(sl_context *context, const bake_report *report) {
+static sl_status bake_report_print(sl_context *context, const bake_report *report) {
     const sl_space *space = &report->baked->space;
     const bool has_sets = !sl_baked_is_shard(report->baked);
     pvs_means mean;
@@ -395,7 +392,7 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1; 0: none)",
          .count32 = &bake_options->mirror_depth, .most = 16, .topic = "computing visibility",
          .rare = true},
-        {"door-sets", 0, "N",
+        {"door-limit", 0, "N",
          "largest number of sets of doors kept for a pair (default 16); a pair with more counts as "
          "seen",
          .count32 = &bake_options->door_limit, .most = 65535, .topic = "computing visibility",

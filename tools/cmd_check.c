@@ -1,497 +1,11 @@
 /// `sightline check`: leaks, gaps, overlaps and thin cells of a map; closes gaps with --snap.
 #include "commands.h"
-#include "json_print.h"
-#include "pipeline.h"
+#include "faults_report.h"
 #include "sightline/draw.h"
-#include "sightline/faults.h"
 #include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-/// A map with its space and its faults.
-typedef struct checked {
-    sl_map map;     ///< as read: walls with their lines
-    sl_baked baked; ///< its space, and the rest of the map for the picture
-    sl_faults faults;
-    sl_inside inside;
-    double gap;  ///< up to which gaps were looked for
-    bool mended; ///< snapped: the map's own cells are gone
-} checked;
-
-typedef struct faults_report {
-    const char *input;
-    const checked *found;
-    double gap, thin;
-    const char *mended; ///< the file written; NULL for none
-    sl_snap_account snap;
-    const checked *left; ///< the mended map
-    double helps;        ///< a larger gap that closes a leak; 0 for none
-    double weld;         ///< a tolerance that closes gaps of rounding; 0 for none
-    uint64_t most;       ///< of a kind, in the text
-    const char *picture; ///< NULL for none
-    const options_given *given;
-} faults_report;
-
-// --- the report
-
-/// The digits for a place in a map, which may lie far from the origin.
-static int digits_in(const sl_map *map) {
-    const sl_box box = sl_map_bounds(map);
-    const double most =
-        fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
-    const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
-    if (!(across > 0 && most > 0)) return 6;
-    return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
-}
-
-/// The digits that tell two points of a map apart, to about a hundredth of their distance.
-static int digits_for(const sl_map *map, sl_segment at) {
-    const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
-    const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
-    const int least = digits_in(map);
-    if (!(most > 0)) return least;
-    if (!(apart > 0)) return at.a.x == at.b.x && at.a.y == at.b.y ? least : 17;
-    return (int)fmin(fmax(ceil(log10(most / apart)) + 3, least), 17);
-}
-
-/// "(1,2.5)"
-static void print_point(const char *before, sl_point point, int digits) {
-    printf("%s(%.*g,%.*g)", before, digits, point.x, digits, point.y);
-}
-
-/// "from (1,2) to (3,4)"
-static void print_ends(const sl_map *map, sl_segment at) {
-    const int digits = digits_for(map, at);
-    print_point("from ", at.a, digits);
-    print_point(" to ", at.b, digits);
-}
-
-/// "lines 3 and 7", or "line 12 (layer WALLS) and line 30 (layer WALLS)", where walls have lines.
-static void print_lines(const sl_map *map, const sl_fault *fault) {
-    uint32_t lines[2] = {0, 0};
-    char text[2][SL_LINE_TEXT];
-    size_t count = 0;
-    for (int i = 0; i < 2; i++) {
-        if (fault->walls[i] == UINT32_MAX) continue;
-        const uint32_t line = map->walls[fault->walls[i]].line;
-        if (line && !(count && line == lines[0])) lines[count++] = line;
-    }
-    for (size_t i = 0; i < count; i++) sl_map_say_line(map, lines[i], text[i]);
-    const bool plain = !map->label_count && !map->lines_are_items;
-    if (count == 2 && plain)
-        printf(", lines %u and %u", (unsigned)lines[0], (unsigned)lines[1]);
-    else if (count)
-        printf(", %s%s%s", text[0], count == 2 ? " and " : "", count == 2 ? text[1] : "");
-}
-
-static void print_width(double width) {
-    if (width > 0)
-        printf("    %.6g wide, ", width);
-    else
-        printf("    narrower than rounding, ");
-}
-
-static void print_leak(const checked *found, const sl_fault *fault) {
-    const sl_point *way = found->faults.points + fault->first_point;
-    print_width(fault->size);
-    print_ends(&found->map, fault->at);
-    print_lines(&found->map, fault);
-    print_point("; the way to it begins at ", way[0], digits_in(&found->map));
-    // A wider one is no matter of snapping.
-    if (fault->stays && fault->size <= found->gap) printf("; needs a decision");
-    putchar('\n');
-}
-
-static void print_fault(const checked *found, const sl_fault *fault) {
-    switch (fault->kind) {
-    case SL_FAULT_LEAK:
-        print_leak(found, fault);
-        return;
-    case SL_FAULT_GAP:
-        print_width(fault->size);
-        print_ends(&found->map, fault->at);
-        print_lines(&found->map, fault);
-        if (fault->stays) printf("; needs a decision");
-        break;
-    case SL_FAULT_OVERLAP:
-        printf("    %.6g long, ", fault->size);
-        print_ends(&found->map, fault->at);
-        print_lines(&found->map, fault);
-        break;
-    case SL_FAULT_CROSSING:
-        print_point("    at ", fault->at.a, digits_in(&found->map));
-        print_lines(&found->map, fault);
-        break;
-    case SL_FAULT_THIN:
-        printf("    cell %u, %.6g wide", (unsigned)fault->cell, fault->size);
-        print_point(" at ", fault->at.a, digits_for(&found->map, fault->at));
-        break;
-    default:
-        printf("    %u cell%s, area %.6g", (unsigned)fault->cells, fault->cells == 1 ? "" : "s",
-               fault->size);
-        print_point(", about ", fault->at.a, digits_in(&found->map));
-    }
-    putchar('\n');
-}
-
-/// What kinds of faults are called.
-static const struct {
-    const char *one, *several, *what;
-} kinds[SL_FAULT_KINDS] = {
-    {"leak", "leaks", "openings through which a start leads out of the map"},
-    {"gap", "gaps", "places where a wall ends near another one"},
-    {"overlap", "overlaps", "pieces that two walls share; bake joins them"},
-    {"crossing", "crossings", "places where two walls cross; no mistake if they are meant to"},
-    {"thin cell", "thin cells", "cells thinner than --thin"},
-    {"unreachable room", "unreachable rooms", "rooms that no start leads to"}};
-
-/// "3 gaps"
-static void print_count(const char *before, sl_fault_kind kind, uint32_t count) {
-    printf("%s%u %s", before, (unsigned)count, count == 1 ? kinds[kind].one : kinds[kind].several);
-}
-
-static void print_kind(const checked *found, sl_fault_kind kind, uint64_t most) {
-    const sl_faults *faults = &found->faults;
-    const uint32_t count = faults->counts[kind];
-    if (!count) return;
-    print_count("  ", kind, count);
-    printf(" (%s):\n", kinds[kind].what);
-    uint64_t printed = 0;
-    for (uint32_t i = 0; i < faults->count && printed < most; i++) {
-        if (faults->items[i].kind != kind) continue;
-        print_fault(found, &faults->items[i]);
-        printed++;
-    }
-    if (printed < count)
-        printf("    ... and %u more (--most N, --json)\n", (unsigned)(count - printed));
-}
-
-/// The faults of a kind that snapping closes.
-static uint32_t closable(const sl_faults *faults, sl_fault_kind kind) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < faults->count; i++)
-        count += faults->items[i].kind == kind && !faults->items[i].stays;
-    return count;
-}
-
-static void print_mended(const faults_report *report) {
-    const sl_faults *left = &report->left->faults;
-    const size_t moved = report->snap.moved, vanished = report->snap.vanished;
-    printf("%s: %zu wall end%s moved", report->mended, moved, moved == 1 ? "" : "s");
-    if (moved) printf(", by %.6g at most", report->snap.farthest);
-    if (vanished) printf("; %zu piece%s of walls vanished", vanished, vanished == 1 ? "" : "s");
-    const char *before = "; left: ";
-    for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
-        if (!left->counts[kind]) continue;
-        print_count(before, (sl_fault_kind)kind, left->counts[kind]);
-        before = ", ";
-    }
-    putchar('\n');
-    if (report->snap.ground_dropped)
-        puts("  the marks of solid ground are left out, as walls have moved: starts say what is "
-             "inside");
-    if (left->counts[SL_FAULT_LEAK] || left->counts[SL_FAULT_GAP])
-        printf("  what is left needs a decision (by %s of %s):\n",
-               report->left->map.lines_are_items ? "the names" : "lines", report->input);
-    print_kind(report->left, SL_FAULT_LEAK, report->most);
-    print_kind(report->left, SL_FAULT_GAP, report->most);
-}
-
-/// "the gap", "all 3 gaps", "2 of 3 gaps"
-static void print_share(const char *before, uint32_t count, uint32_t all, const char *what) {
-    const char *several = all == 1 ? "" : "s";
-    if (count == all && all == 1)
-        printf("%sthe %s", before, what);
-    else if (count == all)
-        printf("%sall %u %s%s", before, (unsigned)all, what, several);
-    else
-        printf("%s%u of %u %s%s", before, (unsigned)count, (unsigned)all, what, several);
-}
-
-static void print_snap_advice(const faults_report *report) {
-    const sl_faults *faults = &report->found->faults;
-    const uint32_t gaps = faults->counts[SL_FAULT_GAP], leaks = faults->counts[SL_FAULT_LEAK];
-    const uint32_t gaps_closed = closable(faults, SL_FAULT_GAP);
-    const uint32_t leaks_closed = closable(faults, SL_FAULT_LEAK);
-    if (gaps_closed || leaks_closed) {
-        printf("  --snap FIXED.map closes ");
-        if (gaps_closed) print_share("", gaps_closed, gaps, "gap");
-        if (leaks_closed) print_share(gaps_closed ? " and " : "", leaks_closed, leaks, "leak");
-        if (gaps_closed < gaps)
-            printf("; %u gap%s a decision", (unsigned)(gaps - gaps_closed),
-                   gaps - gaps_closed == 1 ? " needs" : "s need");
-        if (faults->leaks_left)
-            printf("; then %u leak%s left", (unsigned)faults->leaks_left,
-                   faults->leaks_left == 1 ? " is" : "s are");
-        putchar('\n');
-    } else if (gaps) {
-        puts("  --snap does not close these gaps: each needs a decision");
-    }
-    if (report->helps > 0)
-        printf("  --gap %.2g is wide enough for --snap to close a leak\n", report->helps);
-    if (report->weld > 0)
-        printf("  --weld %.2g joins the ends that miss each other by rounding, in all commands\n",
-               report->weld);
-}
-
-// --- the next command
-
-static void print_word(const char *before, const char *word) {
-    const size_t size = pipeline_shell_word(word, NULL, 0) + 1;
-    char *text = malloc(size);
-    if (text) pipeline_shell_word(word, text, size);
-    printf("%s%s", before, text ? text : word);
-    free(text);
-}
-
-/// A file's name; one that looks like an option is led by its folder.
-static void print_file(const char *before, const char *name) {
-    fputs(before, stdout);
-    print_word(name[0] == '-' && name[1] ? "./" : "", name);
-}
-
-static bool is_among(const char *name, const char *const *names) {
-    for (; *names; names++)
-        if (strcmp(*names, name) == 0) return true;
-    return false;
-}
-
-/// What a next command is for.
-typedef enum next_use { NEXT_CHECK, NEXT_BAKE, NEXT_CHECK_MENDED, NEXT_BAKE_MENDED } next_use;
-
-/// Repeats an option unless it is for this run alone, or for reading a file that the next command
-/// does not read.
-static bool is_repeated(const struct option_given *option, next_use use) {
-    static const char *const own[] = {"gap",    "snap", "output", "width", "dark", "most",
-                                      "strict", "json", "quiet",  "help",  NULL};
-    static const char *const for_check[] = {"thin", NULL};
-    static const char *const reading[] = {"map",   "slice",       "layers",  "tolerance",
-                                          "unit",  "threshold",   "sectors", "doors",
-                                          "start", "start-names", "without", NULL};
-    const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
-    if (is_among(option->name, own)) return false;
-    if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;
-    if (!mended) return true;
-    const bool given = strcmp(option->name, "subdivide") == 0 && *option->argument == 'g';
-    return !given && !is_among(option->name, reading);
-}
-
-/// "next: sightline check MAP", with the options that count, and the width of gaps.
-static void print_command(const faults_report *report, next_use use, double gap) {
-    const bool bakes = use == NEXT_BAKE || use == NEXT_BAKE_MENDED;
-    const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
-    print_file(bakes ? "next: sightline bake " : "next: sightline check ",
-               mended ? report->mended : report->input);
-    for (size_t i = 0; i < report->given->count; i++) {
-        const struct option_given *option = &report->given->items[i];
-        if (strcmp(option->name, "gap") == 0 && !bakes && !(gap > 0)) {
-            print_word(" --gap ", option->argument);
-        } else if (is_repeated(option, use)) {
-            printf(" --%s", option->name);
-            if (option->argument) print_word(" ", option->argument);
-        }
-    }
-    if (gap > 0) printf(" --gap %.2g", gap);
-}
-
-/// " --snap office-fixed.map"
-static void print_name(const faults_report *report, const char *option, const char *end) {
-    size_t length;
-    char name[256];
-    const char *base = input_base_name(report->input, &length);
-    const bool fits = length < sizeof name / 2 && strcmp(report->input, "-") != 0;
-    snprintf(name, sizeof name, "%.*s%s", fits ? (int)length : 3, fits ? base : "map", end);
-    print_file(option, name);
-}
-
-/// The middle of the largest cell that may be inside. Solid ground is not.
-static sl_point likely_start(const sl_space *space) {
-    double largest = -1;
-    bool inside = false;
-    sl_point at = {0, 0};
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        const sl_cell *cell = &space->cells[i];
-        const double area = sl_space_area(space, i);
-        if (cell->solid || (inside && !cell->inside) || (inside == cell->inside && area <= largest))
-            continue;
-        inside = cell->inside;
-        largest = area;
-        at = (sl_point){0, 0};
-        for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            at.x += space->vertices[cell->first_vertex + k].x / cell->vertex_count;
-            at.y += space->vertices[cell->first_vertex + k].y / cell->vertex_count;
-        }
-    }
-    return at;
-}
-
-/// Checks again, with a start.
-static void print_next_start(const faults_report *report, next_use use, const checked *found) {
-    const sl_point start = likely_start(&found->baked.space);
-    const int digits = digits_in(&found->map);
-    puts("  the next command has a start in the largest cell: put another place there if that is "
-         "outside");
-    print_command(report, use, 0);
-    printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
-}
-
-static void print_next_of_mended(const faults_report *report) {
-    const uint32_t *counts = report->left->faults.counts;
-    const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
-    bool gap_given = false;
-    if (!left && !report->left->faults.has_starts) {
-        print_next_start(report, NEXT_CHECK_MENDED, report->left);
-        return;
-    }
-    for (size_t i = 0; i < report->given->count; i++)
-        gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
-    print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
-    if (left && !gap_given) printf(" --gap %.6g", report->gap);
-    if (left) print_name(report, " -o ", "-fixed.png");
-}
-
-static void print_next(const faults_report *report) {
-    const sl_faults *faults = &report->found->faults;
-    const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
-    if (report->mended) {
-        print_next_of_mended(report);
-    } else if (report->helps > 0) {
-        print_command(report, NEXT_CHECK, report->helps);
-        print_name(report, " --snap ", "-fixed.map");
-    } else if (closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK)) {
-        print_command(report, NEXT_CHECK, 0);
-        print_name(report, " --snap ", "-fixed.map");
-    } else if (!faults->has_starts && report->found->inside != SL_INSIDE_NONE) {
-        print_next_start(report, NEXT_CHECK, report->found);
-    } else if (grave && !report->picture) {
-        print_command(report, NEXT_CHECK, 0);
-        print_name(report, " -o ", "-check.png");
-    } else if (grave) {
-        puts("  mend the walls named above before the next command");
-        print_command(report, NEXT_CHECK, 0);
-    } else if (input_ends_with(report->input, ".slv")) {
-        print_file("next: sightline info ", report->input);
-    } else {
-        print_command(report, NEXT_BAKE, 0);
-    }
-    putchar('\n');
-}
-
-/// What sets the tolerance.
-static const char *how_welded(const faults_report *report) {
-    for (size_t i = 0; i < report->given->count; i++)
-        if (strcmp(report->given->items[i].name, "weld") == 0) return "--weld";
-    return report->found->map.precision > 0 ? "the digits of the file; --weld 0 closes none"
-                                            : "the map's own tolerance";
-}
-
-static sl_status faults_print(const faults_report *report) {
-    const checked *found = report->found;
-    const sl_faults *faults = &found->faults;
-    printf("%s: %zu walls, %u cells; looked for gaps up to %.4g and cells thinner than %.4g\n",
-           report->input, found->map.wall_count, (unsigned)found->baked.space.cell_count,
-           report->gap, report->thin);
-    for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
-        print_kind(found, (sl_fault_kind)kind, report->most);
-    if (faults->welded)
-        printf("  %u gap%s up to %.3g wide %s closed on import (by %s); no fault\n",
-               (unsigned)faults->welded, faults->welded == 1 ? "" : "s", faults->weld,
-               faults->welded == 1 ? "is" : "are", how_welded(report));
-    if (found->inside == SL_INSIDE_SMALL)
-        puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
-    else if (found->inside == SL_INSIDE_FEW)
-        puts("  inside is doubtful: most of the area is in rooms that no start leads to");
-    else if (found->inside == SL_INSIDE_NONE)
-        puts("  nothing is inside: all is solid ground");
-    else if (!faults->count)
-        puts("  nothing found");
-    if (!faults->has_starts)
-        puts("  leaks and unreachable rooms are found only from a start: give --start X,Y");
-    if (report->mended)
-        print_mended(report);
-    else
-        print_snap_advice(report);
-    print_next(report);
-    return SL_OK;
-}
-
-// --- JSON
-
-static json_fields fault_fields(const checked *found, const sl_fault *fault) {
-    const sl_map *map = &found->map;
-    json_fields fields = json_begin();
-    const sl_point at[2] = {fault->at.a, fault->at.b};
-    json_add_text(&fields, "kind", sl_fault_name(fault->kind));
-    json_add_real(&fields, "size", fault->size);
-    json_add_points(&fields, "at", at, 2);
-    static const char *const walls[] = {"wall", "other_wall"};
-    static const char *const lines[] = {"line", "other_line"}, *const items[] = {"item",
-                                                                                 "other_item"};
-    static const char *const labels[] = {"label", "other_label"};
-    for (int i = 0; i < 2; i++) {
-        if (fault->walls[i] == UINT32_MAX) continue;
-        const uint32_t line = map->walls[fault->walls[i]].line;
-        const char *label = sl_map_label(map, line);
-        json_add_count(&fields, walls[i], fault->walls[i]);
-        json_add_count(&fields, (map->lines_are_items ? items : lines)[i], line);
-        if (label) json_add_text(&fields, labels[i], label);
-    }
-    if (fault->cell != SL_NO_CELL) json_add_count(&fields, "cell", fault->cell);
-    if (fault->kind == SL_FAULT_GAP || fault->kind == SL_FAULT_LEAK)
-        json_add_flag(&fields, "needs_decision", fault->stays);
-    if (fault->cells) json_add_count(&fields, "cells", fault->cells);
-    if (fault->point_count)
-        json_add_points(&fields, "way", found->faults.points + fault->first_point,
-                        fault->point_count);
-    return fields;
-}
-
-static void add_counts(json_fields *fields, const char *key,
-                       const uint32_t counts[SL_FAULT_KINDS]) {
-    json_fields inner = json_begin();
-    for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
-        json_add_count(&inner, sl_fault_name((sl_fault_kind)kind), counts[kind]);
-    json_add_fields(fields, key, &inner);
-}
-
-static sl_status faults_print_json(sl_context *context, const faults_report *report) {
-    static const char *const inside[] = {"sure", "leaks", "doubtful", "few", "none"};
-    const checked *found = report->found;
-    const uint32_t count = found->faults.count;
-    json_fields fields = json_begin();
-    json_fields *items = sl_alloc_array(context, count, sizeof *items);
-    if (!items) return SL_NO_MEMORY;
-    json_add_text(&fields, "file", report->input);
-    json_add_count(&fields, "walls", found->map.wall_count);
-    json_add_count(&fields, "cells", found->baked.space.cell_count);
-    json_add_real(&fields, "gap", report->gap);
-    json_add_real(&fields, "thin", report->thin);
-    json_add_flag(&fields, "has_starts", found->faults.has_starts);
-    json_add_text(&fields, "inside", inside[found->inside]);
-    if (report->helps > 0) json_add_real(&fields, "gap_that_helps", report->helps);
-    if (report->weld > 0) json_add_real(&fields, "suggested_weld", report->weld);
-    json_add_count(&fields, "closed_on_import", found->faults.welded);
-    json_add_real(&fields, "weld", found->faults.weld);
-    add_counts(&fields, "counts", found->faults.counts);
-    for (uint32_t i = 0; i < count; i++) items[i] = fault_fields(found, &found->faults.items[i]);
-    json_add_list(&fields, "faults", items, count);
-    if (report->mended) {
-        json_fields mended = json_begin();
-        json_add_text(&mended, "file", report->mended);
-        json_add_count(&mended, "moved", report->snap.moved);
-        json_add_real(&mended, "farthest", report->snap.farthest);
-        json_add_count(&mended, "vanished", report->snap.vanished);
-        json_add_flag(&mended, "ground_dropped", report->snap.ground_dropped);
-        add_counts(&mended, "counts", report->left->faults.counts);
-        json_add_fields(&fields, "mended", &mended);
-    }
-    sl_free(context, items);
-    return json_print(context, &fields);
-}
-
-// --- the command
 
 typedef struct check_plan {
     map_pipeline pipeline;
@@ -499,7 +13,7 @@ typedef struct check_plan {
     sl_draw_options drawing;
     const char *output, *snap;
     uint64_t most;
-    bool json, strict;
+    bool json, strict, every;
 } check_plan;
 
 static void destroy(sl_context *context, checked *c) {
@@ -613,10 +127,80 @@ static sl_status check(command_console *console, const check_plan *plan, checked
         drawing.faults = &c->faults;
         SL_TRY(sl_draw_file(context, &c->baked, &drawing, plan->output));
     }
-    console->fault = plan->strict && (c->faults.count || c->inside == SL_INSIDE_SMALL ||
-                                      c->inside == SL_INSIDE_NONE);
+    console->fault = plan->strict && checked_has_fault(c);
     progress_line_clear(&console->line);
-    return plan->json ? faults_print_json(context, &report) : faults_print(&report);
+    if (plan->json) return faults_print_json(context, &report);
+    faults_print(&report);
+    return SL_OK;
+}
+
+// --- every map of a file
+
+static json_fields refused_fields(const char *name, const sl_context *context) {
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", name);
+    json_add_text(&fields, "error", sl_context_message(context));
+    return fields;
+}
+
+/// `done`: so many items are there. A map that is broken does not keep others from being checked.
+static sl_status check_each(command_console *console, const check_plan *plan,
+                            const sl_map_list *list, json_fields *items, size_t *done,
+                            size_t *broken) {
+    sl_context *context = console->context;
+    for (; *done < list->count; ++*done) {
+        const char *name = list->names[*done];
+        checked c = {0};
+        check_plan one = *plan;
+        one.pipeline.input.import.map = name;
+        sl_status status = read_map(context, &one.pipeline, &c.map);
+        if (status == SL_OK) status = examine(context, &one, plan->faults.gap, &c);
+        progress_line_clear(&console->line);
+        const bool refused = status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
+        if (plan->json && (refused || status == SL_OK))
+            items[*done] = refused ? refused_fields(name, context) : faults_line_fields(name, &c);
+        else if (refused)
+            printf("%s: %s\n", name, sl_context_message(context));
+        else if (status == SL_OK)
+            faults_print_line(name, &c);
+        console->fault |= status == SL_OK && plan->strict && checked_has_fault(&c);
+        *broken += refused;
+        destroy(context, &c);
+        if (!refused) SL_TRY(status);
+    }
+    return SL_OK;
+}
+
+static sl_status check_every(command_console *console, const check_plan *plan) {
+    sl_context *context = console->context;
+    const char *path = plan->pipeline.path;
+    if (plan->snap || plan->output || plan->pipeline.input.import.map)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s is for one map",
+                       plan->snap     ? "--snap"
+                       : plan->output ? "--output"
+                                      : "--map");
+    sl_map_list list = {0};
+    SL_TRY(sl_map_list_read(context, path, &list));
+    size_t done = 0, broken = 0;
+    json_fields *items = sl_alloc_array(context, list.count, sizeof *items);
+    sl_status status = items ? SL_OK : SL_NO_MEMORY;
+    if (!list.count)
+        status = sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s does not name maps", path);
+    if (status == SL_OK) status = check_each(console, plan, &list, items, &done, &broken);
+    if (plan->json && status == SL_OK) {
+        json_fields fields = json_begin();
+        json_add_text(&fields, "file", path);
+        json_add_list(&fields, "maps", items, done);
+        status = json_print(context, &fields);
+    } else if (plan->json) {
+        for (size_t i = 0; i < done; i++) json_drop(&items[i]);
+    }
+    if (status == SL_OK && broken)
+        status = sl_fail(context, SL_BAD_INPUT, "%s: %zu of %zu maps cannot be checked", path,
+                         broken, list.count);
+    sl_free(context, items);
+    sl_map_list_destroy(context, &list);
+    return status;
 }
 
 static void print_tables(void) {
@@ -646,6 +230,9 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         {"most", 0, "N", "print up to N faults of each kind (default 10)", .count = &plan.most,
          .most = UINT32_MAX, .rare = true},
         {"strict", 0, NULL, "exit with status 3 if there is a fault", .flag = &plan.strict},
+        {"every-map", 0, NULL,
+         "check each map of a file that holds several, such as a WAD; one line a map",
+         .flag = &plan.every},
         {"json", 0, NULL, "print all faults as one JSON object", .flag = &plan.json},
         {.group = &pipeline},
     };
@@ -662,6 +249,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
                 "with 'needs a decision'.",
         .tables = print_tables,
         .examples = "  sightline check office.map -o office-check.png\n"
+                    "  sightline check doom.wad --every-map --strict\n"
                     "  sightline check plan.dxf --start 3,5\n"
                     "  sightline check plan.dxf --start 3,5 --gap 0.02 --snap plan-fixed.map",
         .options = options,
@@ -674,7 +262,8 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;
     SL_TRY(pipeline_plan(console->context, input, &plan.pipeline));
-    const sl_status status = check(console, &plan, &c, &after);
+    const sl_status status =
+        plan.every ? check_every(console, &plan) : check(console, &plan, &c, &after);
     destroy(console->context, &c);
     destroy(console->context, &after);
     return status;

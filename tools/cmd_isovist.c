@@ -3,6 +3,7 @@
 #include "eye_run.h"
 #include "heat_map.h"
 #include "isovist.h"
+#include "isovist_union.h"
 #include "json_print.h"
 #include "outputs.h"
 #include "pipeline.h"
@@ -15,19 +16,20 @@
 #include <string.h>
 
 typedef struct isovist_plan {
-    const char *input, *path, *csv, *output, *picture;
+    const char *input, *path, *points, *output, *picture;
     map_pipeline pipeline;
     door_choice doors;
     within_plan within;
     option_list at;
     eye_place like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
-    uint32_t cells, mirror_depth;
-    const char *look_given, *cells_given, *range_given, *measure_given;
+    uint32_t squares, mirror_depth;
+    const char *look_given, *squares_given, *range_given, *measure_given;
     size_t measure;
     sl_point scale; ///< from x to y
     const char *scale_given;
     unsigned threads;
+    bool together;
     sl_draw_options drawing;
 } isovist_plan;
 
@@ -40,16 +42,18 @@ typedef struct isovist_work {
     isovist_scene scene;
     eye_places eyes;
     isovist_result *isovists;
+    isovist_union together;
 } isovist_work;
 
 // --- the options
 
 static sl_status make_plan(sl_context *context, isovist_plan *p) {
-    const bool grid = p->grid > 0 || p->cells_given;
-    const int ways = (p->at.count > 0) + (p->grid > 0) + !!p->cells_given + !!p->path + !!p->csv;
+    const bool grid = p->grid > 0 || p->squares_given;
+    const int ways =
+        (p->at.count > 0) + (p->grid > 0) + !!p->squares_given + !!p->path + !!p->points;
     if (ways > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "where to look from: give one of --at, --grid, --cells, --path, --csv");
+                       "where to look from: give one of --at, --grid, --squares, --path, --points");
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
     if (p->measure_given && !(p->picture && grid))
@@ -61,7 +65,10 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
                        "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
                        p->scale.y);
     if (p->within.path && !grid)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--within is for a grid (--grid, --cells)");
+        return sl_fail(context, SL_BAD_ARGUMENT, "--within is for a grid (--grid, --squares)");
+    if (p->together && grid)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--union is for single viewpoints (--at, --path, --points), not for a grid");
     SL_TRY(within_check(context, &p->within));
     return pipeline_plan(context, p->input, &p->pipeline);
 }
@@ -113,30 +120,30 @@ static sl_status add_starts(sl_context *context, const isovist_plan *plan, isovi
     const sl_map *map = &w->baked.map;
     if (!map->start_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "the map has no start to look from: give one of --at, --grid, --cells, "
-                       "--path, --csv");
+                       "the map has no start to look from: give one of --at, --grid, --squares, "
+                       "--path, --points");
     const sl_space *space = &w->baked.space;
     for (size_t i = input_next_start(map, space, 0); i < map->start_count;
          i = input_next_start(map, space, i + 1)) {
-        const double look = plan->look_given ? plan->like.look : map->starts[i].heading;
+        const double look = plan->look_given ? plan->like.heading : map->starts[i].heading;
         SL_TRY(eyes_add(context, &w->eyes, (eye_place){map->starts[i].at, look, plan->like.fov}));
     }
     if (w->eyes.list.count) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "the map's starts are on the border of solid ground: give one of --at, --grid, "
-                   "--cells, --path, --csv");
+                   "--squares, --path, --points");
 }
 
 static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const sl_space *space = &w->baked.space;
     if (plan->at.count) return add_points(context, plan, w);
     if (plan->path) return add_path(context, plan, w);
-    if (plan->csv) return eyes_read_csv(context, plan->csv, space, plan->like, &w->eyes);
-    if (!(plan->grid > 0) && !plan->cells_given) return add_starts(context, plan, w);
+    if (plan->points) return eyes_read_csv(context, plan->points, space, plan->like, &w->eyes);
+    if (!(plan->grid > 0) && !plan->squares_given) return add_starts(context, plan, w);
     double step = plan->grid;
-    if (plan->cells_given) {
+    if (plan->squares_given) {
         const sl_box *b = &space->bounds;
-        step = fmax(b->max.x - b->min.x, b->max.y - b->min.y) / (double)plan->cells;
+        step = fmax(b->max.x - b->min.x, b->max.y - b->min.y) / (double)plan->squares;
     }
     SL_TRY(eyes_add_grid(context, space, step, plan->like, &w->eyes));
     if (!plan->within.path) return SL_OK;
@@ -189,7 +196,54 @@ static sl_status gather_parts(sl_context *context, const isovist_work *w, seen_p
     return status;
 }
 
+/// A viewpoint outside would count what is no part of the plan.
+static sl_status need_inside(sl_context *context, const isovist_work *w) {
+    const sl_space *space = &w->baked.space;
+    for (size_t i = 0; i < w->eyes.list.count; i++) {
+        const sl_point at = w->eyes.list.items[i].at;
+        const uint32_t cell = sl_space_locate(space, at);
+        if (cell != SL_NO_CELL && !space->cells[cell].inside && !space->cells[cell].solid)
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "--union counts what is inside, and the viewpoint %.9g,%.9g is outside; "
+                           "--start %.9g,%.9g takes all that it reaches as inside",
+                           at.x, at.y, at.x, at.y);
+    }
+    if (space->inside_count) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--union: nothing of the map is inside");
+}
+
+static sl_status join_regions(sl_context *context, isovist_work *w) {
+    seen_parts parts = {0};
+    sl_region region = {0};
+    sl_status status = need_inside(context, w);
+    for (size_t i = 0; i < w->eyes.list.count && status == SL_OK; i++) {
+        const sl_view view = eye_view(&w->baked.space, &w->eyes.list.items[i]);
+        status = sl_region_make(context, &w->outline, &view, w->scene.range, &region);
+        if (status == SL_OK)
+            status = seen_parts_add_region(context, &w->baked.space, &region, &parts);
+    }
+    if (status == SL_OK)
+        status = isovist_union_make(context, &w->baked.space, &parts, &w->together);
+    sl_region_destroy(context, &region);
+    seen_parts_destroy(context, &parts);
+    return status;
+}
+
+/// "2 viewpoints see 52 m² of 60 m² (87 %)"
+static void say_union(const isovist_work *w, char *text, size_t size) {
+    const double *areas = w->together.areas;
+    const char *name = w->baked.map.unit, *space = *name ? " " : "",
+               *square = *name ? "\xc2\xb2" : "";
+    snprintf(text, size, "%zu viewpoint%s %.6g%s%s%s of %.6g%s%s%s inside (%.3g %%)",
+             w->together.count, w->together.count == 1 ? " sees" : "s see", areas[1], space, name,
+             square, areas[0], space, name, square, 100 * areas[1] / areas[0]);
+}
+
 static void write_caption(const isovist_work *w, char *text, size_t size) {
+    if (w->together.count) {
+        say_union(w, text, size);
+        return;
+    }
     const isovist_result *isovist = &w->isovists[0];
     const sl_region_measures *m = &isovist->measures;
     const char *name = w->baked.map.unit, *space = *name ? " " : "",
@@ -213,20 +267,15 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
     sl_status status = gather_parts(context, w, &parts);
     if (status == SL_OK)
         status = sl_draw_regions_file(context, &w->baked, parts.items, parts.count,
-                                      w->eyes.list.count == 1 ? caption : NULL, &plan->drawing,
-                                      plan->picture);
+                                      w->eyes.list.count == 1 || plan->together ? caption : NULL,
+                                      &plan->drawing, plan->picture);
     seen_parts_destroy(context, &parts);
     return status;
 }
 
-/// One outline serves all eyes: glass is a wall on its dark side alone.
 static sl_status make_outline(sl_context *context, isovist_work *w) {
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    const sl_space *space = &w->baked.space;
-    if (w->baked.map.oneway_count) {
-        SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &w->dark));
-        space = &w->dark;
-    }
+    const sl_space *space;
+    SL_TRY(pipeline_look_through(context, &w->baked.map, &w->baked.space, &w->dark, &space));
     return sl_outline_make(context, space, &w->outline);
 }
 
@@ -234,7 +283,7 @@ static sl_status make_outline(sl_context *context, isovist_work *w) {
 static sl_status note_inside(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
     const sl_map *map = &w->baked.map;
     const sl_space *space = &w->baked.space;
-    if (!(plan->grid > 0) && !plan->cells_given)
+    if (!(plan->grid > 0) && !plan->squares_given)
         return pipeline_note_inside(context, &plan->pipeline, map, space);
     return pipeline_need_inside(context, &plan->pipeline, map, space, "");
 }
@@ -257,12 +306,18 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     w->isovists = sl_alloc_array(context, w->eyes.list.count, sizeof *w->isovists);
     if (!w->isovists) return SL_NO_MEMORY;
     SL_TRY(isovist_run(context, &w->scene, &w->eyes, plan->threads, w->isovists));
+    if (plan->together) SL_TRY(join_regions(context, w));
     if (plan->picture)
         SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
     progress_line_clear(&console->line);
     if (plan->picture && !plan->output && w->eyes.columns) return SL_OK; // a long table
-    return isovist_write(context, &w->scene, &w->eyes, w->isovists,
-                         plan->output ? plan->output : "-");
+    const char *path = plan->output ? plan->output : "-";
+    if (!plan->together) return isovist_write(context, &w->scene, &w->eyes, w->isovists, path);
+    char text[256];
+    say_union(w, text, sizeof text);
+    SL_TRY(isovist_union_write(context, &w->together, path));
+    sl_note(context, "%s", text);
+    return SL_OK;
 }
 
 static void print_tables(void) {
@@ -281,7 +336,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, true);
     const option_table doors = door_option_table(&plan.doors);
-    const option_table within = within_option_table(&plan.within);
+    const option_table within = within_option_table(&plan.within, WITHIN_GRID);
     const option_spec options[] = {
         {"at", 0, "X,Y", "look from a point; may be given several times", .list = &plan.at},
         {"grid", 0, "STEP", "look from all points of a grid that are inside", .number = &plan.grid,
@@ -296,23 +351,28 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"scale", 0, "MIN,MAX",
          "the ends of the colour scale, to compare pictures (default: smallest and largest value)",
          .point = &plan.scale, .given = &plan.scale_given},
-        {"look", 0, "DEGREES", "heading in degrees, counter-clockwise from +x",
-         .number = &plan.like.look, .given = &plan.look_given},
-        {"fov", 0, "DEGREES", "width of the view cone (default: 360)", .number = &plan.like.fov,
+        {"union", 0, NULL,
+         "the area that at least 1, 2, ... viewpoints see, in place of each one's measures; in a "
+         ".geojson table the pieces of it",
+         .flag = &plan.together},
+        {"look", 0, "DEG", "heading in degrees, counter-clockwise from +x",
+         .number = &plan.like.heading, .given = &plan.look_given},
+        {"fov", 0, "DEG", "width of the view cone (default: 360)", .number = &plan.like.fov,
          .most = 360, .needs = "0 to 360 degrees are needed", .rare = true},
         {"range", 0, "R", "see no farther than R (default: the map's range)", .number = &plan.range,
          .over_0 = true, .given = &plan.range_given},
-        {"cells", 0, "N", "look from a grid with N squares along the map's longer side",
-         .count32 = &plan.cells, .least = 1, .most = 8192, .given = &plan.cells_given,
+        {"squares", 0, "N", "look from a grid with N squares along the map's longer side",
+         .count32 = &plan.squares, .least = 1, .most = 8192, .given = &plan.squares_given,
          .rare = true},
         {"path", 0, "NAME", "look from the points of a path of the map", .text = &plan.path,
          .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
-        {"csv", 0, "FILE",
-         "look from the points of a table: x,y or x,y,angle or x,y,angle,fov; its first line may "
+        {"points", 0, "CSV",
+         "look from the points of a table: x,y or x,y,heading or x,y,heading,fov; its first line "
+         "may "
          "name the columns",
-         .text = &plan.csv, .is_input = true, .rare = true},
+         .text = &plan.points, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},
         {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &plan.threads,
@@ -329,9 +389,11 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         .what = "Computes the region that is visible from each of many points, exactly, and its "
                 "measures under the names of depthmapX. Default viewpoints: the map's starts.",
         .tables = print_tables,
-        .examples = "  sightline isovist office.map --at 53,20 --picture seen.png\n"
-                    "  sightline isovist office.map --grid 0.5 --picture heat.png -o all.csv\n"
-                    "  sightline isovist office.map --grid 2 -o seen.geojson",
+        .examples =
+            "  sightline isovist office.map --at 53,20 --picture seen.png\n"
+            "  sightline isovist office.map --grid 0.5 --picture heat.png -o all.csv\n"
+            "  sightline isovist office.map --grid 2 -o seen.geojson\n"
+            "  sightline isovist office.map --points cameras.csv --union --picture seen.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,
@@ -343,6 +405,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     isovist_work w = {0};
     const sl_status status = work(console, &plan, &w);
     sl_free(console->context, w.isovists);
+    isovist_union_destroy(console->context, &w.together);
     eyes_destroy(console->context, &w.eyes);
     sl_room_mirrors_destroy(console->context, &w.mirrors);
     sl_outline_destroy(console->context, &w.outline);

@@ -31,7 +31,7 @@ static sl_status check_same(sl_context *context, const sl_from_region_result *a,
                    first, second);
 }
 
-static sl_status run_methods(sl_context *context, const sl_regions *regions,
+static sl_status run_methods(sl_context *context, const sl_from_region_scene *regions,
                              const sl_from_region_options *how, regions_row *row,
                              sl_from_region_result results[REGIONS_METHODS_MOST]) {
     size_t count;
@@ -55,27 +55,29 @@ static sl_status run_methods(sl_context *context, const sl_regions *regions,
     return SL_OK;
 }
 
-static void name_view_cells(const sl_regions_options *what, char *text, size_t size) {
+static void name_view_cells(const sl_from_region_scene_options *what, char *text, size_t size) {
     if (what->view_cells == SL_VIEW_CELLS_GRID)
         snprintf(text, size, "%u x %u", what->grid, what->grid);
     else
         snprintf(text, size, "%s", what->view_cells == SL_VIEW_CELLS_BOXES ? "boxes" : "leaves");
 }
 
-sl_status regions_measure(sl_context *context, const sl_map *map, const char *name,
-                          const sl_regions_options *what, const sl_from_region_options *how,
-                          regions_rows *rows) {
-    sl_regions *regions;
+/// Runs all methods and adds a row. SL_BAD_INPUT where two methods see different objects, which
+/// must not happen.
+static sl_status regions_measure(sl_context *context, const sl_map *map, const char *name,
+                                 const sl_from_region_scene_options *what,
+                                 const sl_from_region_options *how, regions_rows *rows) {
+    sl_from_region_scene *regions;
     SL_TRY(SL_ARRAY_ROOM(context, rows, 1));
-    SL_TRY(sl_regions_create(context, map, what, &regions));
-    regions_row row = {.counts = sl_regions_count(regions)};
+    SL_TRY(sl_from_region_scene_create(context, map, what, &regions));
+    regions_row row = {.counts = sl_from_region_scene_count(regions)};
     snprintf(row.map, sizeof row.map, "%s", name);
     name_view_cells(what, row.view_cells, sizeof row.view_cells);
     sl_from_region_result results[REGIONS_METHODS_MOST] = {{0}};
     const sl_status status = run_methods(context, regions, how, &row, results);
     for (size_t i = 0; i < REGIONS_METHODS_MOST; i++)
         sl_from_region_result_destroy(context, &results[i]);
-    sl_regions_destroy(context, regions);
+    sl_from_region_scene_destroy(context, regions);
     if (status == SL_OK) rows->items[rows->count++] = row;
     return status;
 }
@@ -86,7 +88,7 @@ enum { GRIDS_MOST = 8 };
 
 typedef struct regions_plan {
     map_pipeline pipeline; ///< its input, and what to leave out
-    sl_regions_options what;
+    sl_from_region_scene_options what;
     sl_from_region_options how;
     option_list also;
     const char *output, *grid;
@@ -164,7 +166,7 @@ static sl_status measure_map(sl_context *context, const regions_plan *plan, cons
     sl_map map = {0};
     map_pipeline pipeline = plan->pipeline;
     pipeline.path = path;
-    sl_regions_options what = plan->what;
+    sl_from_region_scene_options what = plan->what;
     what.grid = grid;
     char name[48];
     size_t length;
@@ -230,7 +232,7 @@ static void print_tables(void) {
 
 sl_status cmd_regions(command_console *console, int argc, char **argv) {
     regions_plan plan = {.pipeline = pipeline_default(),
-                         .what = sl_regions_options_default(),
+                         .what = sl_from_region_scene_options_default(),
                          .how = sl_from_region_options_default(),
                          .grid = "2,4,8"};
     plan.pipeline.settles_doors = true;
@@ -270,7 +272,7 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
          .count32 = &plan.how.points, .most = 1u << 20, .given = sampling, .rare = true},
         {"pixels", 0, "N", "sampling: lines from a point in half a quadrant (default 32)",
          .count32 = &plan.how.pixels, .most = 1u << 16, .given = sampling, .rare = true},
-        {"seed", 0, "S", "sampling: seed of the lines (default 1)", .count = &plan.how.seed,
+        {"seed", 0, "N", "sampling: seed of the lines (default 1)", .count = &plan.how.seed,
          .given = sampling, .rare = true},
         {"stab", 0, "NAME", "stabs: the stabbing solver (default: funnel)", .choice = &plan.stab,
          .names = solver_table(), .given = stabs, .rare = true},

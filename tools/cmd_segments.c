@@ -5,7 +5,6 @@
 #include "sightline/axial.h"
 #include "sightline/support.h"
 
-#include <math.h>
 #include <stddef.h>
 #include <string.h>
 

@@ -87,7 +87,8 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
                        "--measure %s needs --from X,Y: where the steps begin",
                        name_table_at(&measures, p->measure));
     }
-    if (p->from.count && !(part & steps & ~(unsigned)VGA_PART_STEPS)) p->parts |= VGA_PART_STEPS;
+    p->parts |= part;
+    if (p->from.count) p->parts |= VGA_PART_STEPS;
     if (p->from.count && p->parts & VGA_PART_METRIC) p->parts |= VGA_PART_STEP_LENGTHS;
     if (p->from.count && p->parts & VGA_PART_ANGULAR) p->parts |= VGA_PART_STEP_TURNS;
     if (part == VGA_PART_AGENTS && !p->agents_given)
@@ -97,7 +98,6 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --agents N",
                        p->agent_option ? p->agent_option : "agents-from");
     if (p->agents_given) p->parts |= VGA_PART_AGENTS;
-    p->parts |= part;
     if (!p->parts)
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
@@ -298,14 +298,9 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     return plan->parts & VGA_PART_ISOVIST ? measure_regions(context, plan, w) : SL_OK;
 }
 
-/// Glass is a wall on its dark side.
 static sl_status make_outline(sl_context *context, vga_work *w) {
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    const sl_space *space = &w->baked.space;
-    if (w->baked.map.oneway_count) {
-        SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &w->dark));
-        space = &w->dark;
-    }
+    const sl_space *space;
+    SL_TRY(pipeline_look_through(context, &w->baked.map, &w->baked.space, &w->dark, &space));
     return sl_outline_make(context, space, &w->outline);
 }
 
@@ -505,7 +500,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          "what the picture shows and the summary ranks (default: visual_integration_hh)",
          .choice = &plan.measure, .names = vga_measures(), .given = &plan.measure_given},
         {"measures", 0, "GROUP,...",
-         "what to compute: visual (default), through, metric, angular, isovist, all",
+         "what to compute: visual, through, metric, angular, isovist, all (default: the group of "
+         "--measure, else visual)",
          .choices = &plan.parts, .names = vga_parts(), .given = &plan.parts_given},
         {.group = &doors},
         {"from", 0, "X,Y",
@@ -523,10 +519,10 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .text = &plan.pairs, .check = CHECK_TABLE, .rare = true},
         {"seen-from", 0, NULL, "with one-way glass: who sees a point (default: what a point sees)",
          .flag = &plan.turned, .rare = true},
-        {"range", 0, "R", "nothing farther is seen (default: the map's range, if any)",
-         .number = &plan.range, .over_0 = true, .given = &plan.range_given},
+        {"range", 0, "R", "see no farther than R (default: the map's range)", .number = &plan.range,
+         .over_0 = true, .given = &plan.range_given},
         {"scale", 0, "MIN,MAX",
-         "ends of the colour scale, to compare pictures (default: lowest and highest value)",
+         "the ends of the colour scale, to compare pictures (default: smallest and largest value)",
          .point = &plan.scale, .given = &plan.scale_given, .rare = true},
         {"threads", 0, "N", "number of threads (default: one per core)",
          .count32 = &plan.options.threads, .most = 1024},

@@ -255,7 +255,7 @@ static sl_status write_places(sl_context *context, const view_run *run, const me
         sl_geojson_end_feature(&out);
     }
     sl_geojson_end(&out);
-    sl_view_shapes_free(context, &shapes);
+    sl_view_shapes_destroy(context, &shapes);
     return SL_OK;
 }
 
@@ -302,7 +302,7 @@ static sl_status view_report_draw(sl_context *context, const view_report *report
     patches.lines = lines;
     if (status == SL_OK)
         status = sl_draw_patches_file(context, &run->baked, &patches, caption, options, path);
-    sl_view_borders_free(context, lines);
+    sl_free(context, lines);
     sl_free(context, values);
     return status;
 }
@@ -476,7 +476,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     const option_spec options[] = {
         {"cells", 0, "N", "make this number of view cells", .count = &run->cells, .least = 1,
          .most = MAX_COUNT, .given = &plan.cells_given},
-        {"memory", 0, "BYTES", "make as many as their visible sets fit into: 4096, 64K, 2M",
+        {"memory", 0, "SIZE", "make as many as their visible sets fit into: 4096, 64K, 2M",
          .bytes = &run->bytes, .given = &plan.memory_given},
         {"tolerance", 0, "X",
          "make the fewest whose cost is within a factor 1 + X of the minimum (default 0.1)",
@@ -541,7 +541,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     };
     const command_usage usage = {
         .name = "viewcells",
-        .synopsis = "MAP [--cells N | --memory BYTES] [options]",
+        .synopsis = "MAP [--cells N | --memory SIZE] [options]",
         .operands = {"MAP"},
         .what =
             "Makes view cells that adapt to what is seen (Mattausch et al. 2006): regions of the "

@@ -114,7 +114,7 @@ static sl_status walk_write_frames(sl_context *context, const walk_rows *rows,
                                    const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    fputs("method,test,frame,x,y,look,", output.stream);
+    fputs("method,test,frame,x,y,heading,", output.stream);
     put_figure_names(output.stream);
     for (size_t i = 0; i < rows->count; i++) {
         if (!frames[i]) continue;
@@ -124,7 +124,7 @@ static sl_status walk_write_frames(sl_context *context, const walk_rows *rows,
             fprintf(output.stream, "%zu,", k);
             put_number(output.stream, eye->at.x, ',');
             put_number(output.stream, eye->at.y, ',');
-            put_number(output.stream, eye->look, ',');
+            put_number(output.stream, eye->heading, ',');
             put_figures(output.stream, frames[i] + k * FIGURES);
         }
     }
@@ -207,7 +207,7 @@ static sl_status walk_draw_chances(sl_context *context, const walk_rows *rows, c
 // --- the command
 
 typedef struct walk_plan {
-    const char *input, *path, *csv, *frames, *output;
+    const char *input, *path, *table, *frames, *output;
     door_choice doors;
     map_pipeline pipeline;
     uint64_t steps; ///< of a whole path at speed 1
@@ -223,7 +223,8 @@ typedef struct walk_plan {
 /// The space, the way through it, and the results.
 typedef struct walk_work {
     sl_baked baked;
-    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
+    sl_space dark;           ///< with walls on the dark sides of one-way glass; empty without glass
+    const sl_space *through; ///< what culling by baked sets looks through
     sl_hierarchy hierarchy;
     walk_way way;
     double step; ///< at speed 1
@@ -317,8 +318,7 @@ static sl_status add_row(command_console *console, const walk_plan *plan, walk_w
                          const walk_choice *choice, double speed, const eye_places *eyes,
                          double **frames) {
     sl_context *context = console->context;
-    const sl_space *through = w->baked.map.oneway_count ? &w->dark : &w->baked.space;
-    const walk_scene scene = {&w->baked, &w->hierarchy, through, 1e-9 * plan->wall_cost,
+    const walk_scene scene = {&w->baked, &w->hierarchy, w->through, 1e-9 * plan->wall_cost,
                               plan->repeat};
     walk_row row = {.choice = *choice, .speed = speed, .steps = eyes->list.count};
     SL_TRY(SL_ARRAY_ROOM(context, &w->rows, 1));
@@ -362,7 +362,7 @@ static sl_status walk_once(command_console *console, const walk_plan *plan, walk
     for (size_t i = 0; i < count && status == SL_OK; i++)
         status = add_row(console, plan, w, &choices[i], plan->speed, &eyes, &frames[i]);
     progress_line_clear(&console->line);
-    if (status == SL_OK && plan->csv) status = walk_write_rows(context, &w->rows, plan->csv);
+    if (status == SL_OK && plan->table) status = walk_write_rows(context, &w->rows, plan->table);
     if (status == SL_OK && plan->frames)
         status = walk_write_frames(context, &w->rows, &eyes, frames, plan->frames);
     if (status == SL_OK) {
@@ -475,13 +475,6 @@ static void note_effects(sl_context *context, const sl_map *map) {
         sl_note(context, "the walk's own methods keep what is farther than the view range, too");
 }
 
-/// The space that culling by baked sets looks through.
-static sl_status make_dark(sl_context *context, walk_work *w) {
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    if (!w->baked.map.oneway_count) return SL_OK;
-    return sl_filtered_space_make(context, &w->baked.space, &filtered, NULL, &w->dark);
-}
-
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
     const unsigned all = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE;
     SL_TRY(pipeline_read_space(console->context, &plan->pipeline, "walk", all, NULL, &w->baked));
@@ -490,7 +483,8 @@ static sl_status work(command_console *console, const walk_plan *plan, walk_work
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
     SL_TRY(doors_shut(console->context, &plan->doors, &w->baked));
-    SL_TRY(make_dark(console->context, w));
+    SL_TRY(pipeline_look_through(console->context, &w->baked.map, &w->baked.space, &w->dark,
+                                 &w->through));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);
@@ -536,9 +530,9 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
         {"steps", 0, "N", "number of frames of the whole path at speed 1 (default 980)",
          .count = &plan.steps, .least = 1, .most = 1000000, .given = &plan.steps_given},
         {"speed", 0, "S", "relative speed (default 1)", .number = &plan.speed, .over_0 = true},
-        {"fov", 0, "DEGREES", "width of the view cone (default 60)", .number = &plan.fov,
+        {"fov", 0, "DEG", "width of the view cone (default 60)", .number = &plan.fov,
          .over_0 = true, .most = 360, .needs = "over 0 to 360 degrees are needed"},
-        {"csv", 0, "FILE.csv", "write all figures of the table", .text = &plan.csv,
+        {"table", 0, "FILE.csv", "write all figures of the table", .text = &plan.table,
          .check = CHECK_TABLE},
         {"frames", 0, "FILE.csv", "write all figures of each frame", .text = &plan.frames,
          .check = CHECK_TABLE},

@@ -163,9 +163,6 @@ typedef struct eye_comparison {
 sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan, const sl_map *map,
                           const sl_space *space, sl_sight sight, eye_comparison *out);
 
-/// The paper's figures for a method. False where it has none.
-bool compare_eye_paper(const char *name, double fov, double *share, double *reduction);
-
 void compare_eye_print(const eye_comparison *comparison);
 sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comparison);
 sl_status compare_eye_write_csv(sl_context *context, const eye_comparison *comparison,

@@ -9,7 +9,6 @@
 #include "sightline/support.h"
 
 #include <inttypes.h>
-#include <string.h>
 
 // The comparison as a chart: time across, pairs too many up and pairs too few down.
 
@@ -33,33 +32,23 @@ typedef struct chart_parts {
     sl_chart chart;
 } chart_parts;
 
-/// Adds to a text, as far as there is room.
-static void append(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
-
-static void append(char *text, size_t size, const char *format, ...) {
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, size - used, format, arguments);
-    va_end(arguments);
-}
-
 /// "53.4 ms, 129 x · 43 us a test · 12 pairs doubtful"
 static void write_note(const compare_run *run, char *note) {
     const sl_see_account *account = &run->visibility.account;
     char seconds[SECONDS_TEXT];
     seconds_write(run->seconds, MICRO, seconds);
-    append(note, NOTE_TEXT, "%s", seconds);
+    text_append(note, NOTE_TEXT, "%s", seconds);
     if (run->ratio > 1)
-        append(note, NOTE_TEXT, ", %.*f " TIMES " as long", run->ratio < 9.95 ? 1 : 0, run->ratio);
+        text_append(note, NOTE_TEXT, ", %.*f " TIMES " as long", run->ratio < 9.95 ? 1 : 0,
+                    run->ratio);
     if (account->tests) {
         seconds_write(run->seconds / (double)account->tests, MICRO, seconds);
-        append(note, NOTE_TEXT, DOT "%s a test", seconds);
+        text_append(note, NOTE_TEXT, DOT "%s a test", seconds);
     }
-    if (run->too_many) append(note, NOTE_TEXT, DOT "%" PRIu64 " too many", run->too_many);
-    if (run->too_few) append(note, NOTE_TEXT, DOT "%" PRIu64 " too few", run->too_few);
+    if (run->too_many) text_append(note, NOTE_TEXT, DOT "%" PRIu64 " too many", run->too_many);
+    if (run->too_few) text_append(note, NOTE_TEXT, DOT "%" PRIu64 " too few", run->too_few);
     if (account->doubtful_pairs)
-        append(note, NOTE_TEXT, DOT "%" PRIu64 " doubtful", account->doubtful_pairs);
+        text_append(note, NOTE_TEXT, DOT "%" PRIu64 " doubtful", account->doubtful_pairs);
 }
 
 /// A run that errs both ways stands where it errs more, with a whisker to the other side.
@@ -129,10 +118,10 @@ static void list_runs(const compare_result *comparison, run_outcome outcome, con
         if (comparison->runs[i].outcome != outcome) continue;
         char name[RUN_NAME];
         run_name(&comparison->runs[i], name);
-        append(notes, NOTES_TEXT, "%s%s", begun ? ", " : lead, name);
+        text_append(notes, NOTES_TEXT, "%s%s", begun ? ", " : lead, name);
         begun = true;
     }
-    if (begun) append(notes, NOTES_TEXT, "\n");
+    if (begun) text_append(notes, NOTES_TEXT, "\n");
 }
 
 static void write_notes(const compare_result *comparison, char *notes) {
@@ -141,10 +130,11 @@ static void write_notes(const compare_result *comparison, char *notes) {
     for (size_t i = 0; i < comparison->run_count; i++)
         done += comparison->runs[i].outcome == RUN_DONE;
     if (comparison->reference == NO_RUN)
-        append(notes, NOTES_TEXT, "No exact run is done: how right the others are is not known.\n");
+        text_append(notes, NOTES_TEXT,
+                    "No exact run is done: how right the others are is not known.\n");
     else if (done > 1 && compare_all_agree(comparison))
-        append(notes, NOTES_TEXT, "All %zu runs agree on every pair: what differs is the time.\n",
-               done);
+        text_append(notes, NOTES_TEXT,
+                    "All %zu runs agree on every pair: what differs is the time.\n", done);
     snprintf(lead, sizeof lead, "Not done in %g s: ", comparison->limit);
     list_runs(comparison, RUN_NOT_DONE, lead, notes);
     list_runs(comparison, RUN_REFUSED, "Refused the map: ", notes);
@@ -158,16 +148,18 @@ static void write_heading(chart_parts *parts) {
     const char *name = input_base_name(readable, &length);
     snprintf(parts->title, sizeof parts->title, "%.*s: what accuracy costs in time", (int)length,
              name);
-    append(parts->subtitle, sizeof parts->subtitle, "%" PRIu32 " cells" DOT "%" PRIu32 " portals",
-           comparison->space->cell_count, comparison->space->portal_count);
+    text_append(parts->subtitle, sizeof parts->subtitle,
+                "%" PRIu32 " cells" DOT "%" PRIu32 " portals", comparison->space->cell_count,
+                comparison->space->portal_count);
     if (comparison->reference != NO_RUN) {
         const compare_run *exact = &comparison->runs[comparison->reference];
         char by[RUN_NAME];
         run_name(exact, by);
-        append(parts->subtitle, sizeof parts->subtitle, DOT "%" PRIu64 " pairs seen, by %s",
-               exact->visibility.account.pairs, by);
+        text_append(parts->subtitle, sizeof parts->subtitle, DOT "%" PRIu64 " pairs seen, by %s",
+                    exact->visibility.account.pairs, by);
     }
-    append(parts->subtitle, sizeof parts->subtitle, DOT "%s sight", sight_name(comparison->sight));
+    text_append(parts->subtitle, sizeof parts->subtitle, DOT "%s sight",
+                sight_name(comparison->sight));
 }
 
 static void fill_chart(chart_parts *parts, bool dark) {

@@ -4,6 +4,7 @@
 #include "eye_run.h"
 #include "json_print.h"
 #include "names.h"
+#include "pipeline.h"
 #include "report.h"
 #include "sightline/region.h"
 #include "sightline/solvers.h"
@@ -12,7 +13,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// The number of queries that are timed together, and how often. The shortest time counts, since
@@ -212,11 +212,6 @@ static sl_status run_batch(comparing *all, const contender *who, const sl_view *
     return SL_OK;
 }
 
-static int compare_doubles(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// Turns sums into means. `seconds` has the times of all batches; their median is the result.
 static void finish_row(const comparing *all, double *seconds, size_t batches,
                        compare_eye_row *row) {
@@ -225,7 +220,7 @@ static void finish_row(const comparing *all, double *seconds, size_t batches,
     row->cells /= n;
     row->nodes /= n;
     row->orientations /= n;
-    qsort(seconds, batches, sizeof *seconds, compare_doubles);
+    sort_doubles(seconds, batches);
     row->seconds = (seconds[(batches - 1) / 2] + seconds[batches / 2]) / 2;
 }
 
@@ -275,15 +270,6 @@ static sl_status run_cones(comparing *all, eye_comparison *out) {
     return status;
 }
 
-/// The space that eyes look through: with glass, a wall stands on its dark side.
-static sl_status look_through(comparing *all, const sl_space **out) {
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    *out = all->space;
-    if (!all->map->oneway_count) return SL_OK;
-    *out = &all->dark;
-    return sl_filtered_space_make(all->context, all->space, &filtered, NULL, &all->dark);
-}
-
 /// The visible sets, with glass and the range. Mirrors are walls, and shut doors are by now.
 static sl_status see(comparing *all, const sl_space *through, sl_sight sight, double *seconds) {
     size_t count;
@@ -298,7 +284,7 @@ static sl_status see(comparing *all, const sl_space *through, sl_sight sight, do
     SL_TRY(sl_see_methods(&count)->see(all->context, all->space, &options, &all->visibility));
     *seconds = sl_seconds() - start;
     SL_TRY(sl_eye_search_create(all->context, through, &all->visibility, &all->search));
-    sl_eye_search_limit(all->search, all->map->range);
+    sl_eye_search_set_range(all->search, all->map->range);
     return SL_OK;
 }
 
@@ -319,7 +305,7 @@ sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan
     eye_comparison result = {.space = space, .sight = sight, .plan = plan};
     sl_status status = draw_viewpoints(context, &all);
     if (status == SL_OK) status = make_answers(&all);
-    if (status == SL_OK) status = look_through(&all, &through);
+    if (status == SL_OK) status = pipeline_look_through(context, map, space, &all.dark, &through);
     if (status == SL_OK) status = see(&all, through, sight, &result.pvs_seconds);
     if (status == SL_OK) status = sl_outline_make(context, through, &all.outline);
     if (status == SL_OK) status = run_cones(&all, &result);
@@ -340,7 +326,8 @@ sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan
 
 // --- the report
 
-bool compare_eye_paper(const char *name, double fov, double *share, double *reduction) {
+/// The paper's figures for a method. False where it has none.
+static bool compare_eye_paper(const char *name, double fov, double *share, double *reduction) {
     // Teller & Séquin 1991, Results; the reduction factors are rounded there.
     static const struct {
         const char *name;

@@ -1,6 +1,7 @@
 /// The results of a comparison as a table, as CSV and as JSON.
 #include "compare.h"
 
+#include "inputs.h"
 #include "json_print.h"
 #include "names.h"
 #include "report.h"
@@ -179,18 +180,6 @@ void compare_print_columns(void) {
 
 // --- pairs that runs disagree on
 
-/// A point inside a cell: the mean of its corners.
-static sl_point middle_of(const sl_space *space, uint32_t number) {
-    const sl_cell *cell = &space->cells[number];
-    const sl_point *corners = &space->vertices[cell->first_vertex];
-    sl_point middle = {0, 0};
-    for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        middle.x += corners[i].x / cell->vertex_count;
-        middle.y += corners[i].y / cell->vertex_count;
-    }
-    return middle;
-}
-
 static void write_point(FILE *stream, sl_point point) {
     char x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
     sl_number_write(point.x, x);
@@ -207,8 +196,8 @@ typedef struct disagreement {
 static void write_pair(FILE *stream, const disagreement *d, uint32_t a, uint32_t b) {
     const sl_space *space = d->comparison->space;
     fprintf(stream, "%" PRIu32 ",%" PRIu32, a, b);
-    write_point(stream, middle_of(space, a));
-    write_point(stream, middle_of(space, b));
+    write_point(stream, input_middle(space, a));
+    write_point(stream, input_middle(space, b));
     for (size_t k = 0; k < d->comparison->run_count; k++)
         if (d->comparison->runs[k].outcome == RUN_DONE)
             fprintf(stream, ",%d", sl_bits_has(d->rows + k * d->words, b));

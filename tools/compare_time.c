@@ -5,7 +5,6 @@
 #include "sightline/support.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 
 /// Default of --repeat: at least three runs and 0.2 seconds, but none after 5 seconds.
 enum { LEAST_TIMINGS = 3 };
@@ -44,11 +43,6 @@ static bool is_enough(const run_timing *timing, size_t count, double sum) {
     return (count >= LEAST_TIMINGS && sum >= ENOUGH_SECONDS) || sum >= MOST_SECONDS;
 }
 
-static int compare_doubles(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 typedef SL_ARRAY(double) durations;
 
 /// Runs until the time is known well enough. Keeps the first answer; the others are the same.
@@ -75,7 +69,7 @@ static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
 
 static void summarise(const durations *taken, compare_run *run) {
     const size_t n = taken->count;
-    qsort(taken->items, n, sizeof *taken->items, compare_doubles);
+    sort_doubles(taken->items, n);
     run->timings = (unsigned)n;
     run->low = taken->items[(n - 1) / 4];
     run->high = taken->items[n - 1 - (n - 1) / 4];

@@ -19,10 +19,7 @@ void progress_line_clear(progress_line *line) {
     line->visible = false;
 }
 
-/// Adds to the text, as far as there is room.
-static void append(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
-
-static void append(char *text, size_t size, const char *format, ...) {
+void text_append(char *text, size_t size, const char *format, ...) {
     const size_t used = strlen(text);
     va_list arguments;
     va_start(arguments, format);
@@ -32,11 +29,11 @@ static void append(char *text, size_t size, const char *format, ...) {
 
 static void append_time(char *text, size_t size, double seconds) {
     if (seconds < 100)
-        append(text, size, ", %.0f s", seconds);
+        text_append(text, size, ", %.0f s", seconds);
     else if (seconds < 6000)
-        append(text, size, ", %.0f min", seconds / 60);
+        text_append(text, size, ", %.0f min", seconds / 60);
     else
-        append(text, size, ", %.1f h", seconds / 3600);
+        text_append(text, size, ", %.1f h", seconds / 3600);
 }
 
 /// The width of the terminal in characters, at most `most`. A longer text would continue on the
@@ -50,17 +47,17 @@ static int room_of_terminal(int most) {
 static void write_line(const progress_line *line, double elapsed) {
     char text[80] = "";
     const uint64_t more = line->done - line->first;
-    append(text, sizeof text, "%s: %" PRIu64, line->stage, line->done);
-    if (line->total) append(text, sizeof text, "/%" PRIu64, line->total);
-    append(text, sizeof text, " %s", line->unit);
+    text_append(text, sizeof text, "%s: %" PRIu64, line->stage, line->done);
+    if (line->total) text_append(text, sizeof text, "/%" PRIu64, line->total);
+    text_append(text, sizeof text, " %s", line->unit);
     if (line->total)
-        append(text, sizeof text, ", %.0f %%", 100 * (double)line->done / (double)line->total);
+        text_append(text, sizeof text, ", %.0f %%", 100 * (double)line->done / (double)line->total);
     if (more && elapsed > 0) {
         const double rate = (double)more / elapsed;
-        append(text, sizeof text, ", %.*f/s", rate < 10 ? 1 : 0, rate);
+        text_append(text, sizeof text, ", %.*f/s", rate < 10 ? 1 : 0, rate);
         if (line->total >= line->done) {
             append_time(text, sizeof text, (double)(line->total - line->done) / rate);
-            append(text, sizeof text, " left");
+            text_append(text, sizeof text, " left");
         }
     } else {
         append_time(text, sizeof text, elapsed);
@@ -78,7 +75,7 @@ static void show(progress_line *line) {
     line->visible = true;
 }
 
-void progress_line_report(progress_line *line, const sl_progress *progress) {
+static void progress_line_report(progress_line *line, const sl_progress *progress) {
     if (!line->shows) return;
     if (strcmp(line->stage, progress->stage) != 0 || progress->done < line->done) {
         snprintf(line->stage, sizeof line->stage, "%s", progress->stage);
@@ -93,7 +90,8 @@ void progress_line_report(progress_line *line, const sl_progress *progress) {
     show(line);
 }
 
-void progress_line_tick(progress_line *line) {
+/// Call it often while a stage runs: it keeps the line alive between reports.
+static void progress_line_tick(progress_line *line) {
     const bool running = line->shows && line->stage[0] && line->done != line->total;
     if (running && ++line->ticks % 64 == 0) show(line);
 }

@@ -20,11 +20,6 @@ typedef struct progress_line {
     unsigned ticks;
 } progress_line;
 
-void progress_line_report(progress_line *line, const sl_progress *progress);
-
-/// Call it often while a stage runs: it keeps the line alive between reports.
-void progress_line_tick(progress_line *line);
-
 void progress_line_clear(progress_line *line);
 
 typedef struct command_console {
@@ -49,6 +44,9 @@ bool console_is_asked(void);
 void console_print_text(FILE *stream, const char *text, size_t length);
 /// Prints a line of such text.
 void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
+
+/// Adds to a text in `size` bytes, as far as there is room.
+void text_append(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
 
 /// Checks that all of stdout was written, prints the message of a failure, and gives the exit
 /// status of the program: 0 done, 1 the work failed, 2 the arguments or an input file are wrong, 3

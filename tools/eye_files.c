@@ -116,7 +116,8 @@ static sl_status gather_parts(sl_context *context, const sl_space *space, const 
 }
 
 sl_status eye_files_write(sl_context *context, const sl_baked *baked, const eye_run *run,
-                          const eye_objects *objects, double look, double fov, const char *path) {
+                          const eye_objects *objects, double heading, double fov,
+                          const char *path) {
     named_set sets[SETS_MOST];
     const size_t count = find_sets(run, objects, sets);
     seen_parts parts = {0};
@@ -129,7 +130,7 @@ sl_status eye_files_write(sl_context *context, const sl_baked *baked, const eye_
         sl_geojson_writer out = sl_geojson_begin(output.stream);
         sl_geojson_put_point(&out, "eye", run->view.eye);
         sl_geojson_add_count(&out, "cell", run->cell);
-        sl_geojson_add_real(&out, "look", look);
+        sl_geojson_add_real(&out, "heading", heading);
         sl_geojson_add_real(&out, "fov", fov);
         sl_geojson_end_feature(&out);
         put_regions(&out, run, objects, parts.items);

@@ -10,6 +10,6 @@
 /// Writes a file by the ending of its name. GeoJSON: the eye, the visible region, what is seen by
 /// mirror, the objects, and each cell that a method keeps. CSV: a line for each such cell.
 sl_status eye_files_write(sl_context *context, const sl_baked *baked, const eye_run *run,
-                          const eye_objects *objects, double look, double fov, const char *path);
+                          const eye_objects *objects, double heading, double fov, const char *path);
 
 #endif

@@ -6,7 +6,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// A question is timed in rounds of at least ROUND_SECONDS each. The result is the median of
@@ -18,11 +17,6 @@ double eye_reach(const sl_space *space) {
     const sl_box b = space->bounds;
     const double x = fmax(fabs(b.min.x), fabs(b.max.x)), y = fmax(fabs(b.min.y), fabs(b.max.y));
     return fmax(fmax(x, y), fmax(b.max.x - b.min.x, b.max.y - b.min.y));
-}
-
-static int compare_doubles(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
 }
 
 /// A question of one kind, to be asked again and again.
@@ -55,7 +49,7 @@ static sl_status time_question(const question *q, double *out) {
         seconds[round++] = taken / (double)queries;
         SL_TRY(sl_check_cancelled(q->context));
     }
-    qsort(seconds, ROUNDS, sizeof *seconds, compare_doubles);
+    sort_doubles(seconds, ROUNDS);
     *out = seconds[ROUNDS / 2];
     return SL_OK;
 }
@@ -69,8 +63,9 @@ static double area_of_side(const sl_baked *baked, uint32_t cell) {
     return whole;
 }
 
-void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells, uint32_t *count,
-                 double *share) {
+/// Counts the cells of a set, adding to *count, and finds their share of the area.
+static void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells,
+                        uint32_t *count, double *share) {
     const sl_space *space = &baked->space;
     const bool side = sl_baked_counts(baked, eye_cell);
     const double whole = area_of_side(baked, eye_cell);

@@ -41,10 +41,6 @@ typedef struct eye_run {
 /// A distance for sl_view_cone: as large as anything in the map.
 double eye_reach(const sl_space *space);
 
-/// Counts the cells of a set, and finds their share as above. Adds to *count.
-void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells, uint32_t *count,
-                 double *share);
-
 /// The eye must be within the bounds. `mirror_depth` is that of the query. `timed`: repeats each
 /// question until its time is known.
 sl_status eye_run_make(sl_context *context, sl_query *query, const sl_view *view,

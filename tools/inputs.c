@@ -192,8 +192,9 @@ void input_print_formats(void) {
     sl_context_destroy(context);
 }
 
-sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
-                             sl_box bounds) {
+/// SL_BAD_ARGUMENT: the point of an option or operand lies outside the map's bounds.
+static sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
+                                    sl_box bounds) {
     const double values[4] = {bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y};
     char numbers[4][SL_NUMBER_TEXT];
     for (int i = 0; i < 4; i++) sl_number_write(values[i], numbers[i]);
@@ -209,6 +210,16 @@ sl_status input_locate(sl_context *context, const char *name, const char *text,
     if (!space->cells[found].solid) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "%s %s: the point is in solid ground; choose a point in a room", name, text);
+}
+
+sl_point input_middle(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    sl_point middle = {0, 0};
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        middle.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
+        middle.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
+    }
+    return middle;
 }
 
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {

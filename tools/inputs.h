@@ -58,14 +58,13 @@ sl_status input_parse_either(sl_context *context, const char *path, const sl_byt
 /// Prints the formats of maps that can be read.
 void input_print_formats(void);
 
-/// SL_BAD_ARGUMENT: the point of an option or operand lies outside the map's bounds.
-sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
-                             sl_box bounds);
-
 /// Finds the cell of a place to look from, which an option or operand gives. SL_BAD_ARGUMENT where
 /// it lies outside the map's bounds or in solid ground. `cell` may be NULL.
 sl_status input_locate(sl_context *context, const char *name, const char *text,
                        const sl_space *space, sl_point at, uint32_t *cell);
+
+/// A place in a cell, but for rounding: the mean of its corners.
+sl_point input_middle(const sl_space *space, uint32_t cell);
 
 /// The map's first start from the given one on that is in no solid ground; start_count for none.
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from);

@@ -113,7 +113,7 @@ static bool next_field(const char *line, size_t length, size_t *at, const char *
 /// Names of columns: x and y, with others in any order. Without these two, the first columns count.
 static eye_columns find_columns(const char *line, size_t length) {
     static const char *const names[EYE_FIELDS][3] = {
-        {"x", "", ""}, {"y", "", ""}, {"angle", "look", "heading"}, {"fov", "", ""}};
+        {"x", "", ""}, {"y", "", ""}, {"heading", "angle", "look"}, {"fov", "", ""}};
     eye_columns columns = {.at = {SIZE_MAX, SIZE_MAX, SIZE_MAX, SIZE_MAX}};
     const char *field;
     size_t wide, place = 0;
@@ -159,13 +159,13 @@ static bool is_header(const char *line, size_t length) {
 static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
                            size_t length, const eye_columns *columns, const sl_space *space,
                            eye_place like, eye_places *eyes) {
-    double fields[EYE_FIELDS] = {0, 0, like.look, like.fov};
+    double fields[EYE_FIELDS] = {0, 0, like.heading, like.fov};
     if (!read_fields(line, length, columns, fields))
         return sl_fail_at(context, path, number,
-                          "two to four finite numbers are needed: x, y, angle, field of view");
+                          "two to four finite numbers are needed: x, y, heading, fov");
     const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
     if (!(eye.fov >= 0 && eye.fov <= 360))
-        return sl_fail_at(context, path, number, "the field of view must be 0 to 360 degrees");
+        return sl_fail_at(context, path, number, "fov must be 0 to 360 degrees");
     const uint32_t cell = sl_space_locate(space, eye.at);
     if (cell == SL_NO_CELL)
         return sl_fail_at(context, path, number, "the point lies outside the map");
@@ -254,7 +254,7 @@ void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *all)
 sl_view eye_view(const sl_space *space, const eye_place *eye) {
     const sl_box *b = &space->bounds;
     const double reach = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
-    return sl_view_cone(eye->at, eye->look, eye->fov, reach);
+    return sl_view_cone(eye->at, eye->heading, eye->fov, reach);
 }
 
 sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
@@ -321,7 +321,7 @@ static void put(FILE *out, double value, char after) {
 
 static sl_status write_rows(sl_context *context, bool mirrors, const eye_places *eyes,
                             const isovist_result *isovists, FILE *out) {
-    fputs("x,y,look,fov,", out);
+    fputs("x,y,heading,fov,", out);
     for (size_t k = 0; k < MEASURES; k++) fprintf(out, "%s,", measures[k].name);
     fputs(mirrors ? "corners,mirrored_area,parts\n" : "corners\n", out);
     for (size_t i = 0; i < eyes->list.count; i++) {
@@ -329,7 +329,7 @@ static sl_status write_rows(sl_context *context, bool mirrors, const eye_places 
         const eye_place *eye = &eyes->list.items[i];
         put(out, eye->at.x, ',');
         put(out, eye->at.y, ',');
-        put(out, eye->look, ',');
+        put(out, eye->heading, ',');
         put(out, eye->fov, ',');
         for (size_t k = 0; k < MEASURES; k++) put(out, isovist_value(&isovists[i], k), ',');
         fprintf(out, "%zu", isovists[i].corners);
@@ -349,7 +349,7 @@ static void put_direct(sl_geojson_writer *out, bool mirrors, const eye_place *ey
     sl_geojson_put_polygon(out, "isovist", part->points, part->count);
     sl_geojson_add_real(out, "x", eye->at.x);
     sl_geojson_add_real(out, "y", eye->at.y);
-    sl_geojson_add_real(out, "look", eye->look);
+    sl_geojson_add_real(out, "heading", eye->heading);
     sl_geojson_add_real(out, "fov", eye->fov);
     isovist_put_measures(out, &isovist->measures);
     sl_geojson_add_count(out, "corners", isovist->corners);

@@ -11,7 +11,7 @@
 /// A place to look from, with its heading and view cone in degrees.
 typedef struct eye_place {
     sl_point at;
-    double look, fov;
+    double heading, fov;
 } eye_place;
 
 typedef struct eye_places {
@@ -39,7 +39,7 @@ void eyes_keep_within(const sl_map *outlines, eye_places *eyes);
 sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
                         eye_places *eyes);
 
-/// A table: lines of x,y or x,y,angle or x,y,angle,fov. A first line of words that has x and y
+/// A table: lines of x,y or x,y,heading or x,y,heading,fov. A first line of words that has x and y
 /// names the columns, of which others may be there too; any other first line of words is skipped.
 /// SL_BAD_INPUT with FILE:LINE on anything else, and on points outside the map.
 sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,

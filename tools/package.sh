@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds packages: sh tools/package.sh [deb | tarball] [FOLDER]
 #
-# deb      Debian packages (default), by dpkg-buildpackage from a copy of the sources
+# deb      Debian packages (default), by dpkg-buildpackage from a copy of the sources, of a clone or a release archive
 # tarball  an archive of what 'cmake --install' puts down; it can be unpacked anywhere
 #
 # Packages are written to FOLDER (default: build/packages). tools/packages/ has the recipes, those for
@@ -27,9 +27,13 @@ deb)
     copy=$folder/sightline-$version
     rm -rf "$copy"
     mkdir "$copy"
-    git ls-files -z | tar -c --null -T - | tar -x -C "$copy"
+    if [ -e .git ]; then
+        git ls-files -z
+    else # a release archive
+        find . \( -path ./build -o -path ./out -o -path "./${copy#"$PWD"/}" \) -prune -o ! -type d -print0
+    fi | tar -c --null -T - | tar -x -C "$copy"
     mv "$copy/tools/packages/debian" "$copy/debian"
-    (cd "$copy" && dpkg-buildpackage -us -uc -b)
+    (cd "$copy" && DEB_BUILD_PROFILES=nocheck dpkg-buildpackage -us -uc -b)
     rm -rf "$copy"
     ;;
 tarball)

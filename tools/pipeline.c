@@ -2,6 +2,7 @@
 
 #include "help.h"
 #include "inputs.h"
+#include "sightline/effects.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
 #include "solvers.h"
@@ -279,6 +280,14 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
                 "sightline check %s -o check.png",
                 path);
     return SL_OK;
+}
+
+sl_status pipeline_look_through(sl_context *context, const sl_map *map, const sl_space *space,
+                                sl_space *dark, const sl_space **out) {
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    *out = map->oneway_count ? dark : space;
+    if (!map->oneway_count) return SL_OK;
+    return sl_filtered_space_make(context, space, &filtered, NULL, dark);
 }
 
 // --- help

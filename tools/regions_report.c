@@ -8,7 +8,8 @@
 
 // --- the table
 
-const regions_cost *regions_cost_of(const regions_row *row, const char *method) {
+/// The cost of a method by name; NULL where it did not run.
+static const regions_cost *regions_cost_of(const regions_row *row, const char *method) {
     for (size_t i = 0; i < row->cost_count; i++)
         if (strcmp(row->costs[i].method, method) == 0) return &row->costs[i];
     return NULL;
@@ -58,7 +59,7 @@ static void write_row(FILE *stream, const regions_row *row, const regions_cost *
     sl_number_write(regions_mean_pvs(row), pvs);
     sl_number_write(cost->refined, refined);
     sl_number_write(cost->seconds, seconds);
-    const sl_regions_counts *c = &row->counts;
+    const sl_from_region_counts *c = &row->counts;
     for (const char *at = row->map; *at; at++) fputc(*at == ',' || *at == '"' ? '_' : *at, stream);
     fprintf(stream, ",%s,%" PRIu32 ",%" PRIu32 ",%" PRIu32 ",%" PRIu32 ",%" PRIu32 ",%" PRIu32,
             row->view_cells, c->view_cells, c->objects, c->leaves, c->faces, c->boundary_faces,

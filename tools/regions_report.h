@@ -19,7 +19,7 @@ typedef struct regions_cost {
 /// A map with one set of view cells.
 typedef struct regions_row {
     char map[64], view_cells[32];
-    sl_regions_counts counts;
+    sl_from_region_counts counts;
     uint64_t images, rays, pairs;
     regions_cost costs[REGIONS_METHODS_MOST];
     size_t cost_count;
@@ -32,15 +32,6 @@ static inline double regions_mean_pvs(const regions_row *row) {
     const double all = (double)row->counts.view_cells * row->counts.objects;
     return all > 0 ? (double)row->pairs / all : 0;
 }
-
-/// The cost of a method by name; NULL where it did not run.
-const regions_cost *regions_cost_of(const regions_row *row, const char *method);
-
-/// Runs all methods and adds a row. SL_BAD_INPUT where two methods see different objects, which
-/// must not happen.
-sl_status regions_measure(sl_context *context, const sl_map *map, const char *name,
-                          const sl_regions_options *what, const sl_from_region_options *how,
-                          regions_rows *rows);
 
 void regions_print(const regions_rows *rows);
 sl_status regions_write_csv(sl_context *context, const regions_rows *rows, const char *path);

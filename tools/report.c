@@ -5,6 +5,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 // --- the plan
 
@@ -151,6 +152,15 @@ void ground_add_json(json_fields *fields, const sl_space *space) {
 }
 
 // --- times
+
+static int compare_doubles(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+void sort_doubles(double *values, size_t count) {
+    qsort(values, count, sizeof *values, compare_doubles);
+}
 
 void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]) {
     const char *const units[] = {"s", "ms", micro, "ns"};

@@ -38,6 +38,8 @@ void mean_pvs_print(const pvs_means *mean);
 /// As fields "mean_pvs_...".
 void mean_pvs_add_json(json_fields *fields, const pvs_means *mean);
 
+void sort_doubles(double *values, size_t count); ///< ascending
+
 enum { SECONDS_TEXT = 32 };
 
 /// "412 us", "53.4 ms", "61 s"; `micro` is how a millionth is written.

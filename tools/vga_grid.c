@@ -5,7 +5,7 @@
 #include <math.h>
 
 option_table vga_grid_option_table(vga_grid_plan *plan) {
-    const option_table within = within_option_table(&plan->within);
+    const option_table within = within_option_table(&plan->within, WITHIN_GRID);
     const option_spec options[] = {
         {"points", 0, "CSV", "only the grid points nearest to the points x,y of a table",
          .text = &plan->points, .is_input = true, .rare = true},

@@ -1,5 +1,6 @@
 #include "walk_run.h"
 
+#include "inputs.h"
 #include "isovist.h"
 #include "sightline/support.h"
 #include "sightline/walk.h"
@@ -121,13 +122,7 @@ static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, walk_w
         way->items[i] = way->items[--k];
         way->items[k] = swapped;
     }
-    const sl_cell *c = &t->space->cells[cell];
-    sl_point middle = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        middle.x += t->space->vertices[c->first_vertex + i].x / c->vertex_count;
-        middle.y += t->space->vertices[c->first_vertex + i].y / c->vertex_count;
-    }
-    return add_point(context, way, middle);
+    return add_point(context, way, input_middle(t->space, cell));
 }
 
 double way_length(const walk_way *way) {
@@ -313,7 +308,7 @@ static uint32_t walk_draw(walk_canvas *c, const eye_place *eye, const uint64_t *
     const double width = eye->fov / parts;
     camera cameras[4];
     for (int i = 0; i < parts; i++) {
-        const double look = (eye->look + eye->fov / 2 - width * (i + 0.5)) * degree;
+        const double look = (eye->heading + eye->fov / 2 - width * (i + 0.5)) * degree;
         cameras[i] = (camera){.at = eye->at,
                               .ahead = {cos(look), sin(look)},
                               .left = {-sin(look), cos(look)},
@@ -372,7 +367,7 @@ static sl_status start(sl_context *context, running *r) {
     r->visibility = r->scene->baked->visibility;
     if (r->scene->through != space) r->visibility.trees = (sl_stab_trees){0};
     SL_TRY(sl_eye_search_create(context, r->scene->through, &r->visibility, &r->search));
-    sl_eye_search_limit(r->search, r->scene->baked->map.range);
+    sl_eye_search_set_range(r->search, r->scene->baked->map.range);
     return SL_OK;
 }
 

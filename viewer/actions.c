@@ -27,6 +27,16 @@ enum {
     WALKS = EXPLORE | DRAW | LEARN,
 };
 
+/// An action of one statement, and whether a switch is on.
+#define DO(name, statement)                                                                        \
+    static void name(app_state *app) {                                                             \
+        statement;                                                                                 \
+    }
+#define IS(name, value)                                                                            \
+    static bool is_##name(const app_state *app) {                                                  \
+        return value;                                                                              \
+    }
+
 // --- modes
 
 static void set_mode(app_state *app, app_mode mode) {
@@ -40,12 +50,8 @@ static void set_mode(app_state *app, app_mode mode) {
 }
 
 #define MODE(name, value)                                                                          \
-    static void name(app_state *app) {                                                             \
-        set_mode(app, value);                                                                      \
-    }                                                                                              \
-    static bool is_##name(const app_state *app) {                                                  \
-        return app->tool.mode == (value);                                                          \
-    }
+    DO(name, set_mode(app, value))                                                                 \
+    IS(name, app->tool.mode == (value))
 MODE(explore, MODE_EXPLORE)
 MODE(learn, MODE_LEARN)
 MODE(draw, MODE_DRAW)
@@ -64,12 +70,8 @@ MODE(quiz, MODE_QUIZ)
 LAYERS(TOGGLE)
 
 #define SWITCH(name, field)                                                                        \
-    static void name(app_state *app) {                                                             \
-        app->field = !app->field;                                                                  \
-    }                                                                                              \
-    static bool is_##name(const app_state *app) {                                                  \
-        return app->field;                                                                         \
-    }
+    DO(name, app->field = !app->field)                                                             \
+    IS(name, app->field)
 SWITCH(first_person, ui.first_person)
 SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
@@ -84,18 +86,14 @@ static void legend(app_state *app) {
     ui->legend_over = ui->legend;
 }
 
-static bool is_legend(const app_state *app) {
-    return app->ui.legend;
-}
+IS(legend, app->ui.legend)
 
 static void present(app_state *app) {
     app->ui.presents = !app->ui.presents;
     app->ui.legend_over = false;
 }
 
-static bool is_present(const app_state *app) {
-    return app->ui.presents;
-}
+IS(present, app->ui.presents)
 
 static void help(app_state *app) {
     if (app->ui.help)
@@ -104,19 +102,10 @@ static void help(app_state *app) {
         app_open_help(app);
 }
 
-static bool is_help(const app_state *app) {
-    return app->ui.help;
-}
-
+IS(help, app->ui.help)
 SWITCH(fly, view.eye.flies)
-
-static void range(app_state *app) {
-    range_toggle(app);
-}
-
-static bool is_range(const app_state *app) {
-    return app->document.map.range > 0;
-}
+DO(range, range_toggle(app))
+IS(range, app->document.map.range > 0)
 
 static void split_less(app_state *app) {
     if (app->view.split_depth > 1) app->view.split_depth--;
@@ -142,38 +131,19 @@ static void views_merge(app_state *app) {
     if (shown > 1) view_layer_go(app, shown - 1);
 }
 
-static void views_split(app_state *app) {
-    view_layer_go(app, view_layer_shown(app->view.views) + 1);
-}
-
-static void views_largest(app_state *app) {
-    view_layer_mark_next(app);
-}
-
-static void heat_next(app_state *app) {
-    heat_choose(app, 1);
-}
-
-static void heat_back(app_state *app) {
-    heat_choose(app, -1);
-}
-
-static void heat_steps(app_state *app) {
-    heat_toggle_steps(app);
-}
+DO(views_split, view_layer_go(app, view_layer_shown(app->view.views) + 1))
+DO(views_largest, view_layer_mark_next(app))
+DO(heat_next, heat_choose(app, 1))
+DO(heat_back, heat_choose(app, -1))
+DO(heat_steps, heat_toggle_steps(app))
 
 static bool is_heat_steps(const app_state *app) {
     size_t count;
     return !heat_measures(&count)[app->view.heat_choice.measure].part;
 }
 
-static void heat_hold(app_state *app) {
-    heat_toggle_held(app);
-}
-
-static bool is_heat_hold(const app_state *app) {
-    return app->view.heat_choice.held;
-}
+DO(heat_hold, heat_toggle_held(app))
+IS(heat_hold, app->view.heat_choice.held)
 
 static void heat_step_by(app_state *app, int by) {
     int last;
@@ -181,19 +151,25 @@ static void heat_step_by(app_state *app, int by) {
     ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(app));
 }
 
-static void heat_coarser(app_state *app) {
-    heat_step_by(app, -1);
-}
-
-static void heat_finer(app_state *app) {
-    heat_step_by(app, 1);
-}
+DO(heat_coarser, heat_step_by(app, -1))
+DO(heat_finer, heat_step_by(app, 1))
 
 // --- view
 
-static void fit(app_state *app) {
-    app->view.fitted = true;
+/// Shows what lies beside the part of the map that is shown, an eighth of the plan further.
+static void pan(app_state *app, int x, int y) {
+    const sl_box plan = app_layout(app).plan[0];
+    app->view.fitted = false;
+    app->view.motion = 0.2;
+    camera_pan(&app->view.camera, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
 }
+
+DO(pan_left, pan(app, -1, 0))
+DO(pan_right, pan(app, 1, 0))
+DO(pan_up, pan(app, 0, -1))
+DO(pan_down, pan(app, 0, 1))
+
+DO(fit, app->view.fitted = true)
 
 static void zoom(app_state *app, double factor) {
     app->view.fitted = false;
@@ -201,13 +177,8 @@ static void zoom(app_state *app, double factor) {
     if (app->view.camera.scale > 0) camera_zoom(&app->view.camera, factor, (sl_point){0, 0});
 }
 
-static void zoom_in(app_state *app) {
-    zoom(app, 1.25);
-}
-
-static void zoom_out(app_state *app) {
-    zoom(app, 1 / 1.25);
-}
+DO(zoom_in, zoom(app, 1.25))
+DO(zoom_out, zoom(app, 1 / 1.25))
 
 /// Goes to the next size of text, or back.
 static void text_step(app_state *app, bool larger) {
@@ -222,13 +193,8 @@ static void text_step(app_state *app, bool larger) {
     }
 }
 
-static void text_larger(app_state *app) {
-    text_step(app, true);
-}
-
-static void text_smaller(app_state *app) {
-    text_step(app, false);
-}
+DO(text_larger, text_step(app, true))
+DO(text_smaller, text_step(app, false))
 
 static void narrower(app_state *app) {
     app->view.eye.fov =
@@ -240,13 +206,8 @@ static void wider(app_state *app) {
         fmin(app->view.eye.fov < 5 ? app->view.eye.fov + 1 : app->view.eye.fov + 5, 360);
 }
 
-static void all_round(app_state *app) {
-    app->view.eye.fov = app->view.eye.fov >= 360 ? 90 : 360;
-}
-
-static void home(app_state *app) {
-    walk_home(app);
-}
+DO(all_round, app->view.eye.fov = app->view.eye.fov >= 360 ? 90 : 360)
+DO(home, walk_home(app))
 
 // --- methods
 
@@ -269,28 +230,18 @@ static void compare(app_state *app) {
     ui_say(&app->ui, false, "%s", words[app->view.compare]);
 }
 
-static bool is_compare(const app_state *app) {
-    return app->view.compare != COMPARE_OFF;
-}
+IS(compare, app->view.compare != COMPARE_OFF)
 
 // --- the lesson
 
-static void step_next(app_state *app) {
-    lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at + 1);
-}
+DO(step_next, lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at + 1))
 
 static void step_back(app_state *app) {
     if (app->tool.lesson.at) lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at - 1);
 }
 
-static void step_first(app_state *app) {
-    lesson_go(&app->tool.lesson, &app->document, 0);
-}
-
-static void step_last(app_state *app) {
-    lesson_go(&app->tool.lesson, &app->document, SIZE_MAX);
-}
-
+DO(step_first, lesson_go(&app->tool.lesson, &app->document, 0))
+DO(step_last, lesson_go(&app->tool.lesson, &app->document, SIZE_MAX))
 SWITCH(play_steps, tool.lesson.plays)
 
 /// Goes to the next step of a kind, or says that there is none.
@@ -305,17 +256,9 @@ static void seek(app_state *app, bool rejects, bool back) {
         ui_say(&app->ui, false, "this subject has no such steps");
 }
 
-static void found_next(app_state *app) {
-    seek(app, false, false);
-}
-
-static void found_back(app_state *app) {
-    seek(app, false, true);
-}
-
-static void rejected_next(app_state *app) {
-    seek(app, true, false);
-}
+DO(found_next, seek(app, false, false))
+DO(found_back, seek(app, false, true))
+DO(rejected_next, seek(app, true, false))
 
 static void set_speed(app_state *app, int by) {
     lesson_state *lesson = &app->tool.lesson;
@@ -323,14 +266,8 @@ static void set_speed(app_state *app, int by) {
     ui_say(&app->ui, false, "%g steps a second", ldexp(2, lesson->speed));
 }
 
-static void slower(app_state *app) {
-    set_speed(app, -1);
-}
-
-static void faster(app_state *app) {
-    set_speed(app, 1);
-}
-
+DO(slower, set_speed(app, -1))
+DO(faster, set_speed(app, 1))
 SWITCH(program, ui.program)
 
 static void choose_end(app_state *app, bool back) {
@@ -349,22 +286,15 @@ static void choose_end(app_state *app, bool back) {
         ui_say(&app->ui, false, "%s: the arrows move it, Ctrl+Z takes that back", name);
 }
 
-static void choose_next(app_state *app) {
-    choose_end(app, false);
-}
-
-static void choose_back(app_state *app) {
-    choose_end(app, true);
-}
+DO(choose_next, choose_end(app, false))
+DO(choose_back, choose_end(app, true))
 
 static void reset_ends(app_state *app) {
     lesson_reset(&app->tool.lesson, &app->document);
     ui_say(&app->ui, false, "the portal ends and the line are where they were");
 }
 
-static void why_step(app_state *app) {
-    why_go_to_step(app);
-}
+DO(why_step, why_go_to_step(app))
 
 /// From elsewhere it begins with the subdivision: F2 begins with the search.
 static void subject(app_state *app) {
@@ -386,12 +316,13 @@ static void travel(app_state *app, bool redo) {
     if (edit_cancel(app)) return;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
-        ui_say(&app->ui, false, redo ? "nothing to redo" : "nothing to undo");
+        ui_say(&app->ui, false,
+               redo ? "nothing to redo in this map" : "nothing to undo in this map");
         return;
     }
     app_check(app, status);
     ui_say(&app->ui, false, redo ? "redone" : "undone");
-    app->tool.wall = UINT32_MAX;
+    app->tool.chosen = UINT32_MAX;
     if (bake)
         app_after_edit(app);
     else
@@ -406,33 +337,27 @@ static void undo(app_state *app) {
         travel(app, false);
 }
 
-static void redo(app_state *app) {
-    travel(app, true);
+DO(redo, travel(app, true))
+DO(delete_wall, edit_delete(app))
+
+static void draw_doors(app_state *app) {
+    app->tool.draws_doors = !app->tool.draws_doors;
+    ui_say(&app->ui, false, "%s",
+           app->tool.draws_doors ? "drag along a wall, or across a gap: a new door"
+                                 : "drag on free ground: a new wall");
 }
 
-static void delete_wall(app_state *app) {
-    edit_delete(app);
-}
+IS(draw_doors, app->tool.draws_doors)
 
 // --- doors
 
-static void nearest_door(app_state *app) {
-    door_toggle_nearest(app);
-}
+DO(nearest_door, door_toggle_nearest(app))
 
 // --- the quiz
 
-static void answer_yes(app_state *app) {
-    quiz_answer(app, true);
-}
-
-static void answer_no(app_state *app) {
-    quiz_answer(app, false);
-}
-
-static void next_question(app_state *app) {
-    quiz_ask(app);
-}
+DO(answer_yes, quiz_answer(app, true))
+DO(answer_no, quiz_answer(app, false))
+DO(next_question, quiz_ask(app))
 
 // --- recording
 
@@ -445,9 +370,7 @@ static void record(app_state *app) {
     ui_say(&app->ui, false, r->records ? "recording the eye's way" : "recorded");
 }
 
-static bool is_record(const app_state *app) {
-    return app->tool.recorder.records;
-}
+IS(record, app->tool.recorder.records)
 
 /// Without a recording the map's first path is walked.
 static void play(app_state *app) {
@@ -465,9 +388,7 @@ static void play(app_state *app) {
     r->waited = 0;
 }
 
-static bool is_play(const app_state *app) {
-    return app->tool.recorder.plays;
-}
+IS(play, app->tool.recorder.plays)
 
 static void take_export(app_state *app, int answer) {
     if (answer == 0 && !app->file.locked)
@@ -490,38 +411,19 @@ static void export_frames(app_state *app) {
 
 // --- files
 
-static void file_menu(app_state *app) {
-    menu_open(app);
-}
-
-static void file_new(app_state *app) {
-    map_file_new(app);
-}
-
-static void file_open(app_state *app) {
-    browser_open(app);
-}
-
-static void file_import(app_state *app) {
-    import_open_again(app);
-}
-
-static void file_save(app_state *app) {
-    map_file_save(app);
-}
-
-static void file_save_as(app_state *app) {
-    map_file_save_as(app);
-}
+DO(file_menu, menu_open(app))
+DO(file_new, map_file_new(app))
+DO(file_open, browser_open(app))
+DO(file_import, import_open_again(app))
+DO(file_save, map_file_save(app))
+DO(file_save_as, map_file_save_as(app))
 
 static void file_notes(app_state *app) {
     const char *notes = app->document.notes;
     question_tell(app, "What was read", *notes ? notes : "The reader of this file has no notes.");
 }
 
-static bool is_doors(const app_state *app) {
-    return app->document.source.options.doors;
-}
+IS(doors, app->document.source.options.doors)
 
 static void doors(app_state *app) {
     sl_import_options options = app->document.source.options;
@@ -541,29 +443,12 @@ static void cut_by(app_state *app, double share) {
     if (options.slice != source->options.slice) files_open_again(app, &options);
 }
 
-static void cut_lower(app_state *app) {
-    cut_by(app, -0.02);
-}
-
-static void cut_higher(app_state *app) {
-    cut_by(app, 0.02);
-}
-
-static void save_png(app_state *app) {
-    save_numbered(app, "png");
-}
-
-static void save_svg(app_state *app) {
-    save_numbered(app, "svg");
-}
-
-static void save_pdf(app_state *app) {
-    save_numbered(app, "pdf");
-}
-
-static void quit(app_state *app) {
-    map_file_quit(app);
-}
+DO(cut_lower, cut_by(app, -0.02))
+DO(cut_higher, cut_by(app, 0.02))
+DO(save_png, save_numbered(app, "png"))
+DO(save_svg, save_numbered(app, "svg"))
+DO(save_pdf, save_numbered(app, "pdf"))
+DO(quit, map_file_quit(app))
 
 static void escape(app_state *app) {
     if (app->ui.help)
@@ -585,8 +470,10 @@ static void escape(app_state *app) {
         app->tool.lesson.chosen_next = 0;
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
-    else
+    else if (app->tool.quiz.asked || app->tool.quiz.answered)
         quiz_forget(app);
+    else
+        app->ui.presents = false;
 }
 
 #define HOLD(name, key, what, modes, bit)                                                          \
@@ -598,7 +485,7 @@ static void escape(app_state *app) {
 static const action_row actions[] = {
     {"explore", "F1", "Explore", "explore: walk about", 0, 0, explore, is_explore},
     {"learn", "F2", "Learn", "learn: step by step", 0, 0, learn, is_learn},
-    {"draw", "F3", "Draw", "draw: walls by hand", 0, 0, draw, is_draw},
+    {"draw", "F3", "Draw", "draw: walls and doors by hand", 0, 0, draw, is_draw},
     {"quiz", "F4", "Quiz", "quiz: seen or not?", 0, 0, quiz, is_quiz},
 
     HOLD("forward", "W", "walk ahead", WALKS, HOLD_FORWARD),
@@ -666,7 +553,10 @@ static const action_row actions[] = {
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
-    {"delete", "Delete", "Delete", "draw: delete the chosen wall", DRAW, 0, delete_wall, NULL},
+    {"delete", "Delete", "Delete", "draw: delete the chosen wall or door", DRAW, 0, delete_wall,
+     NULL},
+    {"draw_doors", "X", "New doors, no walls", "draw: new doors, or new walls", DRAW, 0, draw_doors,
+     is_draw_doors},
 
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
      EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
@@ -698,6 +588,10 @@ static const action_row actions[] = {
     {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},
     {"zoom_in", "PageUp", NULL, "zoom in", 0, 0, zoom_in, NULL},
     {"zoom_out", "PageDown", NULL, "zoom out", 0, 0, zoom_out, NULL},
+    {"pan_left", "Shift+Left", NULL, "move the plan: what lies to the left", 0, 0, pan_left, NULL},
+    {"pan_right", "Shift+Right", NULL, "what lies to the right", 0, 0, pan_right, NULL},
+    {"pan_up", "Shift+Up", NULL, "what lies above", 0, 0, pan_up, NULL},
+    {"pan_down", "Shift+Down", NULL, "what lies below", 0, 0, pan_down, NULL},
     {"dark", "T", "Dark", "light or dark", 0, 0, dark, is_dark},
     {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
@@ -709,7 +603,7 @@ static const action_row actions[] = {
     {"present", "F12", "Present", "for a projector: large text, strong tones, few panels", 0, 0,
      present, is_present},
     {"help", "?", "?", "this help", 0, 0, help, is_help},
-    {"escape", "Escape", "Stop", "stop, close", 0, 0, escape, NULL},
+    {"escape", "Escape", "Stop", "stop, close, end the presentation", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},
 };
 enum { COUNT = sizeof actions / sizeof *actions };

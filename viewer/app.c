@@ -33,7 +33,7 @@ void app_init(app_state *app, sl_context *context) {
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
-        .tool = {.pointer = {-1, -1}, .wall = UINT32_MAX, .quiz = {.random = 1}},
+        .tool = {.pointer = {-1, -1}, .chosen = UINT32_MAX, .quiz = {.random = 1}},
         .ui = {.bar_rows = 1,
                .time_lines = 1,
                .scrolling = -1,
@@ -151,7 +151,7 @@ static void take_document(app_state *app, bool opened) {
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
         say_subdivision(app, was_mesh);
     if (!opened || !app->document.baked) return;
-    app->tool.wall = UINT32_MAX;
+    app->tool.chosen = UINT32_MAX;
     app->view.fitted = true;
     app->tool.drag = (drag_state){0};
     app->document.stale = false;

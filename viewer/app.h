@@ -60,6 +60,7 @@ typedef enum drag_kind {
     DRAG_LINE, ///< the lesson's line, in the plan
     DRAG_END,  ///< a portal end of the lesson
     DRAG_NEW_WALL,
+    DRAG_NEW_DOOR,
     DRAG_WALL,
     DRAG_CORNER,
     DRAG_DOOR,
@@ -141,7 +142,9 @@ typedef struct tool_state {
     unsigned held;    ///< keys, of hold_key
     sl_point pointer; ///< negative: outside
     drag_state drag;
-    uint32_t wall;           ///< chosen, of the map; UINT32_MAX: none
+    bool draws_doors;        ///< new doors instead of walls
+    int chosen_kind;         ///< of edit.c
+    uint32_t chosen;         ///< a wall or a door of the map; UINT32_MAX: none
     SL_ARRAY(held_end) ends; ///< that are dragged
     lesson_state lesson;
     quiz_state quiz;

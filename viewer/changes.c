@@ -155,7 +155,8 @@ int plan_items_compare(const plan_items *a, const plan_items *b, sl_box boxes[CH
     return count;
 }
 
-void plan_keep_pens(sl_scene *scene, double *size) {
+void plan_keep_pens(sl_scene *scene, double *size, double stronger) {
     if (*size > 0) scene->cell_size = *size;
     *size = scene->cell_size;
+    scene->cell_size *= stronger;
 }

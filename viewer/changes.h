@@ -24,7 +24,8 @@ enum { CHANGES_MOST = 6 };
 int plan_items_compare(const plan_items *a, const plan_items *b, sl_box boxes[CHANGES_MOST]);
 
 /// Gives a scene the line widths of an earlier one, which follow the size of cells: parts of both
-/// are in one picture. *size is 0 for the first scene, and set by it.
-void plan_keep_pens(sl_scene *scene, double *size);
+/// are in one picture. *size is 0 for the first scene, and set by it. All lines are `stronger`
+/// times as wide as usual.
+void plan_keep_pens(sl_scene *scene, double *size, double stronger);
 
 #endif

@@ -5,6 +5,8 @@
 #include "sightline/support.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 double edit_step(const app_state *app) {
     const double wanted = 11 * app->ui.density / app->view.camera.scale;
@@ -29,14 +31,16 @@ double edit_reach(const app_state *app) {
     return 7 * app->ui.density / app->view.camera.scale;
 }
 
-uint32_t edit_pick(const app_state *app, sl_point at) {
+/// The wall that is near to both places; UINT32_MAX for none.
+static uint32_t pick_along(const app_state *app, sl_point from, sl_point to) {
     const sl_map *map = &app->document.map;
     double nearest = edit_reach(app);
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->wall_count; i++) {
-        const double distance = edit_distance(at, map->walls[i].a, map->walls[i].b);
-        if (distance > nearest) continue;
-        nearest = distance;
+        const sl_wall *w = &map->walls[i];
+        const double off = fmax(edit_distance(from, w->a, w->b), edit_distance(to, w->a, w->b));
+        if (off > nearest) continue;
+        nearest = off;
         found = (uint32_t)i;
     }
     return found;
@@ -116,18 +120,19 @@ drag_kind edit_take(app_state *app, drag_state *drag) {
     sl_point corner;
     app->tool.ends.count = 0;
     drag->segment = (sl_segment){{0, 0}, {0, 0}};
-    if (find_corner(app, drag->at, &corner)) {
+    app->tool.chosen = UINT32_MAX;
+    if (!app->tool.draws_doors && find_corner(app, drag->at, &corner)) {
         hold_corner(app, corner);
-        app->tool.wall = UINT32_MAX;
         return DRAG_CORNER;
     }
     const uint32_t door = pick_door(app, drag->at);
-    app->tool.wall = door == UINT32_MAX ? edit_pick(app, drag->at) : UINT32_MAX;
-    drag->index = door == UINT32_MAX ? app->tool.wall : door;
-    if (drag->index == UINT32_MAX) return DRAG_NEW_WALL;
     const int kind = door == UINT32_MAX ? WALLS : DOORS;
-    hold(app, kind, drag->index, false);
-    hold(app, kind, drag->index, true);
+    if (app->tool.draws_doors && kind == WALLS) return DRAG_NEW_DOOR;
+    app->tool.chosen_kind = kind;
+    app->tool.chosen = kind == WALLS ? pick_along(app, drag->at, drag->at) : door;
+    if (app->tool.chosen == UINT32_MAX) return DRAG_NEW_WALL;
+    hold(app, kind, app->tool.chosen, false);
+    hold(app, kind, app->tool.chosen, true);
     return kind == WALLS ? DRAG_WALL : DRAG_DOOR;
 }
 
@@ -181,7 +186,92 @@ static bool begin_wall(app_state *app, drag_state *drag, sl_point now) {
     return status == SL_OK && hold(app, WALLS, app->document.map.wall_count - 1, true);
 }
 
+// --- new doors
+
+/// The place of a wall nearest to a place of the grid; near an end of the wall, that end.
+static sl_point place_on(const app_state *app, const sl_wall *wall, sl_point at) {
+    const sl_point a = wall->a, b = wall->b, to = edit_snap(app, at);
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    const double share = ((to.x - a.x) * dx + (to.y - a.y) * dy) / (dx * dx + dy * dy);
+    if (share <= 0 || hypot(at.x - a.x, at.y - a.y) <= edit_reach(app)) return a;
+    if (share >= 1 || hypot(at.x - b.x, at.y - b.y) <= edit_reach(app)) return b;
+    if (dx == 0) return (sl_point){a.x, to.y};
+    if (dy == 0) return (sl_point){to.x, a.y};
+    return (sl_point){a.x + share * dx, a.y + share * dy};
+}
+
+/// The place of a corner that is near, else of the grid.
+static sl_point place_at(const app_state *app, sl_point at) {
+    sl_point corner;
+    return find_corner(app, at, &corner) ? corner : edit_snap(app, at);
+}
+
+/// Along a wall a door lies in that wall, which is the drag's index.
+static sl_segment door_between(const app_state *app, drag_state *drag, sl_point now) {
+    drag->index = pick_along(app, drag->at, now);
+    if (drag->index == UINT32_MAX) return (sl_segment){place_at(app, drag->at), place_at(app, now)};
+    const sl_wall *wall = &app->document.map.walls[drag->index];
+    return (sl_segment){place_on(app, wall, drag->at), place_on(app, wall, now)};
+}
+
+/// A name that no door has: "door1".
+static void name_door(const sl_map *map, char name[32]) {
+    bool used = true;
+    for (unsigned number = 1; used; number++) {
+        snprintf(name, 32, "door%u", number);
+        used = false;
+        for (size_t i = 0; i < map->door_count; i++) used |= !strcmp(map->doors[i].name, name);
+    }
+}
+
+/// A new door is open, and its ends are held.
+static bool begin_door(app_state *app, drag_state *drag, sl_segment at) {
+    sl_map *map = &app->document.map;
+    char name[32];
+    begin_change(app, drag);
+    name_door(map, name);
+    const sl_status status = sl_map_add_door(app->context, map, name, at, true, 0);
+    app_check(app, status);
+    return status == SL_OK && hold(app, DOORS, map->door_count - 1, false) &&
+           hold(app, DOORS, map->door_count - 1, true);
+}
+
+static void drag_door(app_state *app, drag_state *drag, sl_point now) {
+    sl_map *map = &app->document.map;
+    const uint32_t before = drag->index;
+    const sl_segment at = door_between(app, drag, now);
+    if (is_same(at.a, at.b) || !is_usable(at.a) || !is_usable(at.b)) {
+        drag->index = before;
+        return;
+    }
+    if (!drag->changed && !begin_door(app, drag, at)) return;
+    if (!app->tool.ends.count || !map->door_count) return;
+    map->doors[map->door_count - 1].segment = at;
+    app_after_step(app);
+}
+
+/// What a door leaves of the wall that it lies in.
+static void cut_wall(app_state *app, uint32_t wall, sl_segment door) {
+    sl_map *map = &app->document.map;
+    sl_wall parts[2] = {map->walls[wall], map->walls[wall]};
+    const sl_point a = parts[0].a;
+    const bool turned =
+        hypot(door.b.x - a.x, door.b.y - a.y) < hypot(door.a.x - a.x, door.a.y - a.y);
+    parts[0].b = turned ? door.b : door.a;
+    parts[1].a = turned ? door.a : door.b;
+    map->walls[wall] = map->walls[--map->wall_count];
+    for (int i = 0; i < 2; i++)
+        if (!is_same(parts[i].a, parts[i].b))
+            app_check(app, sl_map_add_walls(app->context, map, &parts[i], 1));
+}
+
+// --- drags
+
 void edit_drag(app_state *app, drag_state *drag, sl_point now) {
+    if (drag->kind == DRAG_NEW_DOOR) {
+        drag_door(app, drag, now);
+        return;
+    }
     if (drag->kind == DRAG_NEW_WALL && !drag->changed) {
         if (begin_wall(app, drag, now)) app_after_step(app);
         return;
@@ -202,6 +292,11 @@ static void say_moved(app_state *app, const drag_state *drag) {
     if (drag->kind == DRAG_NEW_WALL) {
         const sl_point from = *end_of(&app->document.map, WALLS, e->index, false);
         ui_say(&app->ui, false, "wall from %g,%g to %g,%g", from.x, from.y, at.x, at.y);
+    } else if (drag->kind == DRAG_NEW_DOOR) {
+        const sl_door *door = &app->document.map.doors[e->index];
+        const sl_segment s = door->segment;
+        ui_say(&app->ui, false, "%s from %g,%g to %g,%g, open; in Explore a click shuts it",
+               door->name, s.a.x, s.a.y, s.b.x, s.b.y);
     } else if (drag->kind == DRAG_CORNER) {
         ui_say(&app->ui, false, "corner at %g,%g, %zu end%s moved", at.x, at.y,
                app->tool.ends.count, app->tool.ends.count == 1 ? "" : "s");
@@ -212,7 +307,7 @@ static void say_moved(app_state *app, const drag_state *drag) {
 }
 
 void edit_drop(app_state *app, const drag_state *drag) {
-    bool moved = drag->kind == DRAG_NEW_WALL;
+    bool moved = drag->kind == DRAG_NEW_WALL || drag->kind == DRAG_NEW_DOOR;
     for (size_t i = 0; i < app->tool.ends.count && drag->changed; i++) {
         const held_end *e = &app->tool.ends.items[i];
         if (e->index >= count_of(&app->document.map, e->kind)) return;
@@ -221,7 +316,10 @@ void edit_drop(app_state *app, const drag_state *drag) {
     if (drag->changed && app->tool.ends.count) {
         if (!moved) history_take_back(app->context, &app->document.history, &app->document.map);
         if (moved) say_moved(app, drag);
-        app->tool.wall = UINT32_MAX;
+        if (drag->kind == DRAG_NEW_DOOR && drag->index < app->document.map.wall_count)
+            cut_wall(app, drag->index,
+                     app->document.map.doors[app->tool.ends.items[0].index].segment);
+        app->tool.chosen = UINT32_MAX;
         app_after_edit(app);
     }
     app->tool.ends.count = 0;
@@ -234,29 +332,41 @@ bool edit_cancel(app_state *app) {
     app->tool.ends.count = 0;
     if (drag.changed &&
         history_take_back(app->context, &app->document.history, &app->document.map)) {
-        app->tool.wall = UINT32_MAX;
+        app->tool.chosen = UINT32_MAX;
         ui_say(&app->ui, false, "everything is back where it was");
         app_after_edit(app);
     }
     return true;
 }
 
+static void drop_door(app_state *app, uint32_t door) {
+    sl_map *map = &app->document.map;
+    sl_free(app->context, map->doors[door].name);
+    sl_free(app->context, map->doors[door].parts);
+    map->doors[door] = map->doors[--map->door_count];
+}
+
 void edit_delete(app_state *app) {
     sl_map *map = &app->document.map;
+    const uint32_t chosen = app->tool.chosen;
+    const bool door = app->tool.chosen_kind == DOORS;
     if (app->tool.drag.changed) return; // what is held stays
-    if (app->tool.wall >= map->wall_count) {
-        ui_say(&app->ui, false, "no wall is chosen: click on one");
+    if (chosen >= count_of(map, app->tool.chosen_kind)) {
+        ui_say(&app->ui, false, "nothing is chosen: click on a wall or a door");
         return;
     }
-    if (map->wall_count == 1) {
+    if (!door && map->wall_count == 1) {
         ui_say(&app->ui, true, "the last wall stays: a map without walls has no cells");
         return;
     }
     app_before_edit(app);
     map->ground_guessed = true;
-    map->walls[app->tool.wall] = map->walls[--map->wall_count];
-    app->tool.wall = UINT32_MAX;
-    ui_say(&app->ui, false, "wall deleted");
+    if (door)
+        drop_door(app, chosen);
+    else
+        map->walls[chosen] = map->walls[--map->wall_count];
+    app->tool.chosen = UINT32_MAX;
+    ui_say(&app->ui, false, "%s deleted", door ? "door" : "wall");
     app_after_edit(app);
 }
 
@@ -310,9 +420,10 @@ void edit_draw(app_state *app, const sl_frame *frame) {
     const sl_colour colour = app->ui.palette.start;
     draw_grid(app, frame);
     const window_layout l = app_layout(app);
-    if (app->tool.wall < map->wall_count)
-        sl_draw_line(app->ui.cairo, frame, map->walls[app->tool.wall].a,
-                     map->walls[app->tool.wall].b, colour, 5 * frame->unit);
+    const int kind = app->tool.chosen_kind;
+    if (app->tool.chosen < count_of(map, kind))
+        sl_draw_line(app->ui.cairo, frame, *end_of(map, kind, app->tool.chosen, false),
+                     *end_of(map, kind, app->tool.chosen, true), colour, 5 * frame->unit);
     draw_held(app, frame);
     if (box_has(l.plan[0], app->tool.pointer))
         draw_corner(app, frame, camera_point(&app->view.camera, l.plan[0], app->tool.pointer));

@@ -9,13 +9,11 @@ double edit_step(const app_state *app);
 /// The grid's point nearest to a place.
 sl_point edit_snap(const app_state *app, sl_point at);
 
-/// The wall within a few pixels of a place of the map; UINT32_MAX for none.
-uint32_t edit_pick(const app_state *app, sl_point at);
-
 void edit_delete(app_state *app);
 
 /// What is under the pointer is held from now on: a corner with all ends there, a door, a wall; on
-/// free ground a new wall begins. Returns what it is.
+/// free ground a new wall begins. Where doors are drawn, a new one begins anywhere but on a door.
+/// Returns what it is.
 drag_kind edit_take(app_state *app, drag_state *drag);
 /// Moves what is held, by steps of the grid. The plan follows at once.
 void edit_drag(app_state *app, drag_state *drag, sl_point now);

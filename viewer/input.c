@@ -29,10 +29,32 @@ static void cursor_begin(app_state *app, sl_box plan) {
     input_point(app, box_has(plan, eye) ? eye : middle_of(plan));
 }
 
-static void cursor_move(app_state *app, sl_box plan, double dx, double dy) {
+/// Moves the plan under the pointer, by pixels.
+static void pan(app_state *app, double dx, double dy) {
+    app->view.fitted = false;
+    app->view.motion = 0.2;
+    camera_pan(&app->view.camera, dx, dy);
+}
+
+/// At the border of the plan the plan moves instead.
+static void cursor_move(app_state *app, sl_box plan, sl_point to) {
+    const sl_point at = {fmin(fmax(to.x, plan.min.x), plan.max.x - 1),
+                         fmin(fmax(to.y, plan.min.y), plan.max.y - 1)};
+    if (at.x != to.x || at.y != to.y) pan(app, at.x - to.x, at.y - to.y);
+    input_point(app, at);
+}
+
+/// A step of the cursor. In Draw mode it goes from one place of the grid to the next.
+static sl_point cursor_step(const app_state *app, sl_box plan, int x, int y, bool fine) {
     const sl_point at = app->tool.pointer;
-    input_point(app, (sl_point){fmin(fmax(at.x + dx, plan.min.x), plan.max.x - 1),
-                                fmin(fmax(at.y + dy, plan.min.y), plan.max.y - 1)});
+    const double step = fine ? 1 : 10 * ui_scale(&app->ui);
+    if (fine || app->tool.mode != MODE_DRAW || !app->document.baked)
+        return (sl_point){at.x + step * x, at.y + step * y};
+    const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
+    sl_point place = edit_snap(app, camera_point(&app->view.camera, plan, at));
+    place.x += edit_step(app) * x;
+    place.y -= edit_step(app) * y;
+    return sl_frame_point(&frame, place);
 }
 
 /// Takes hold of what is under the cursor, or lets it go.
@@ -54,11 +76,10 @@ static bool cursor_key(app_state *app, const char *key, sl_box plan) {
         int x, y;
     } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, -1}, {"Down", 0, 1}};
     const bool fine = strncmp(key, "Shift+", 6) == 0;
-    const double step = fine ? 1 : 10 * ui_scale(&app->ui);
     cursor_begin(app, plan);
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
         if (strcmp(key + (fine ? 6 : 0), arrows[i].key) != 0) continue;
-        cursor_move(app, plan, step * arrows[i].x, step * arrows[i].y);
+        cursor_move(app, plan, cursor_step(app, plan, arrows[i].x, arrows[i].y, fine));
         app->ui.hover_seconds = -1e9; // the tooltip would cover the place
         return true;
     }
@@ -383,9 +404,7 @@ static void input_point(app_state *app, sl_point to) {
     switch (drag->kind) {
     case DRAG_PAN:
         if (!drag->moved) return;
-        app->view.fitted = false;
-        app->view.motion = 0.2;
-        camera_pan(&app->view.camera, dx, dy);
+        pan(app, dx, dy);
         break;
     case DRAG_LOOK:
         app->view.eye.heading = fmod(app->view.eye.heading - 0.4 * dx + 720, 360);
@@ -412,6 +431,7 @@ static void input_point(app_state *app, sl_point to) {
         if (drag->moved) object_move(app, drag, now);
         break;
     case DRAG_NEW_WALL:
+    case DRAG_NEW_DOOR:
     case DRAG_WALL:
     case DRAG_CORNER:
     case DRAG_DOOR:
@@ -424,7 +444,7 @@ static void input_point(app_state *app, sl_point to) {
 }
 
 static bool is_edit(drag_kind kind) {
-    return kind == DRAG_NEW_WALL || kind == DRAG_WALL || kind == DRAG_CORNER || kind == DRAG_DOOR;
+    return kind >= DRAG_NEW_WALL && kind <= DRAG_DOOR;
 }
 
 void input_release(app_state *app, sl_point at) {

@@ -73,8 +73,9 @@ static const mode_row modes[] = {
                       quiz_draw_below, quiz_draw_above, true, true},
     [MODE_LEARN] = {"Left and Right step, Space plays, . chooses the line or an end", pane_learn,
                     lesson_below, lesson_above, true, false},
-    [MODE_DRAW] = {"Drag to draw a wall, or to move a wall, a corner or a door; Ctrl+Z undoes",
-                   pane_draw, NULL, edit_draw, true, false},
+    [MODE_DRAW] =
+        {"Drag to draw a wall, or to move a wall, a corner or a door; X draws doors; Ctrl+Z undoes",
+         pane_draw, NULL, edit_draw, true, false},
     [MODE_QUIZ] = {"Y or N answers, Space asks again", pane_quiz, quiz_draw_below, quiz_draw_above,
                    false, false},
 };
@@ -139,8 +140,10 @@ static bool account_shown(const app_state *app) {
     return app->ui.accounts;
 }
 
+/// A first door that is drawn must not move the plan, so not in Draw mode.
 static bool effects_shown(const app_state *app) {
-    return app->ui.effects && app->tool.mode != MODE_LEARN && app->document.baked &&
+    const bool looks = app->tool.mode == MODE_EXPLORE || app->tool.mode == MODE_QUIZ;
+    return app->ui.effects && looks && app->document.baked &&
            sl_plan_make(&app->document.map).effects;
 }
 

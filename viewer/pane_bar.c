@@ -1,5 +1,6 @@
 /// The bars at the top and at the bottom, and the time line of the lesson.
 #include "actions.h"
+#include "edit.h"
 #include "modes.h"
 #include "quiz.h"
 #include "sightline/canvas.h"
@@ -103,6 +104,16 @@ static double draw_progress(app_state *app, sl_box box) {
     return left;
 }
 
+/// In Draw mode: the place of the grid under the pointer.
+static void write_place(const app_state *app, char text[64]) {
+    const sl_box plan = app_layout(app).plan[0];
+    text[0] = '\0';
+    if (app->tool.mode != MODE_DRAW || !app->document.baked || !box_has(plan, app->tool.pointer))
+        return;
+    const sl_point at = edit_snap(app, camera_point(&app->view.camera, plan, app->tool.pointer));
+    snprintf(text, 64, "at %g, %g   ", at.x, at.y);
+}
+
 /// What the viewer does, at the right end of the line. Returns its left end.
 static double draw_doing(app_state *app, sl_box box) {
     ui_state *ui = &app->ui;
@@ -112,11 +123,13 @@ static double draw_doing(app_state *app, sl_box box) {
                         : app->tool.recorder.plays ? "playing"
                         : partial                  ? "a partial bake"
                                                    : "";
-    char text[160];
+    char place[64], text[160];
+    write_place(app, place);
     if (app->steady || app->ui.frame_seconds <= 0)
-        snprintf(text, sizeof text, "%s", doing);
+        snprintf(text, sizeof text, "%s%s", place, doing);
     else
-        snprintf(text, sizeof text, "%s   %.1f ms a frame", doing, 1e3 * app->ui.frame_seconds);
+        snprintf(text, sizeof text, "%s%s   %.1f ms a frame", place, doing,
+                 1e3 * app->ui.frame_seconds);
     const double t = ui->text, right = box.max.x - 0.8 * t;
     ui_text_right(ui, right, box.max.y - 0.62 * t, 0.95, ui->palette.faint, text);
     return right - ui_text_width(ui, 0.95, false, text);

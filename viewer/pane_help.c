@@ -39,7 +39,10 @@ static const char *const by_hand[][2] = {
     {"Borders", "drag a panel's border: its size"},
     {"Tab", "the next button, slider or row; Shift+Tab: back"},
     {"Return", "presses it; Left and Right move a slider"},
-    {"Tab to the plan", "arrows move a cursor there, with Shift by a pixel"},
+    {"In this help", "Up, Down, PageUp and PageDown scroll"},
+    {"Tab to the plan",
+     "arrows move a cursor there, in Draw mode by the grid, with Shift by a pixel"},
+    {"At its border", "the cursor moves the plan"},
     {"Return there", "a click; Shift+Return: a right click"},
     {"Space there", "presses the button down or releases it: draws walls, drags things"},
 };
@@ -205,8 +208,9 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
     case HIT_PLAN:
         if (app->ui.hover_is_focus)
             snprintf(text, UI_TIP_TEXT,
-                     "Arrows move the cursor, with Shift by a pixel. Return clicks, Shift+Return "
-                     "asks why, Space presses or releases, Escape leaves.");
+                     "Arrows move the cursor, with Shift by a pixel, and the plan at its border. "
+                     "Return clicks, Shift+Return asks why, Space presses or releases, Escape "
+                     "leaves.");
         break;
     case HIT_TIME:
         snprintf(text, UI_TIP_TEXT, "The steps of the lesson: drag to go to one (Left, Right)");

@@ -27,7 +27,7 @@ static unsigned scene_layers(const app_state *app) {
 
 static bool make_scene(app_state *app) {
     const unsigned layers = scene_layers(app);
-    const uint32_t key = layers | (app->ui.dark ? 1024u : 0u);
+    const uint32_t key = layers | (app->ui.dark ? 1024u : 0u) | (app->ui.presents ? 2048u : 0u);
     if (app->view.scene && app->view.scene_version == app->document.version &&
         app->view.scene_show == key)
         return true;
@@ -41,7 +41,8 @@ static bool make_scene(app_state *app) {
         sl_scene_create(app->context, app->document.baked, &options, NULL, &app->view.scene);
     app_check(app, status);
     if (!app->document.live) app->view.pen_size = 0;
-    if (status == SL_OK) plan_keep_pens(app->view.scene, &app->view.pen_size);
+    if (status == SL_OK)
+        plan_keep_pens(app->view.scene, &app->view.pen_size, ui_strength(&app->ui));
     app->view.scene_version = app->document.version;
     app->view.scene_show = key;
     return status == SL_OK;

@@ -219,7 +219,7 @@ static sl_status place(sl_context *context, present_state *present,
         boxes[i] = (sl_moving_box){document->map.objects[i].box, document->blocks[i]};
         any |= boxes[i].blocks;
     }
-    SL_TRY(sl_moving_place(context, present->moving, boxes, document->object_count));
+    SL_TRY(sl_moving_set_boxes(context, present->moving, boxes, document->object_count));
     sl_moving_space(present->moving, &parents);
     present->parents = any ? parents : NULL;
     return SL_OK;

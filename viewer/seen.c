@@ -168,8 +168,8 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
     take_pvs(seen, document, present, view->eye);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    sl_eye_search_limit(present->search, range);
-    if (present->moving) sl_moving_limit(present->moving, range);
+    sl_eye_search_set_range(present->search, range);
+    if (present->moving) sl_moving_set_range(present->moving, range);
     for (size_t i = 0; i < count && i < SEEN_MOST; i++)
         look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
     SL_TRY(look_at_objects(context, seen, document, present));

@@ -112,6 +112,8 @@ shoot office.map draw <<'END'
 eye 53 20 160 90
 key F3
 drag 180 215 180 262
+key X
+drag 180 228 180 246
 move 700 590
 END
 shoot office.map quiz <<'END'

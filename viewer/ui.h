@@ -117,9 +117,13 @@ typedef struct ui_state {
     int spot_count;
 } ui_state;
 
+/// The factor by which lines and marks are larger than at a desk.
+static inline double ui_strength(const ui_state *ui) {
+    return ui->presents ? 1.7 : 1;
+}
 /// The factor by which lines and marks are larger than usual. It does not follow the text.
 static inline double ui_scale(const ui_state *ui) {
-    return ui->density * (ui->presents ? 1.7 : 1);
+    return ui->density * ui_strength(ui);
 }
 /// The size of plain text, pixels.
 static inline double ui_text_size(const ui_state *ui) {

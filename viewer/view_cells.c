@@ -195,7 +195,7 @@ static void end_job(sl_context *context, view_layer *layer) {
 }
 
 static void drop_mark(sl_context *context, view_layer *layer) {
-    sl_view_borders_free(context, layer->mark_borders);
+    sl_free(context, layer->mark_borders);
     layer->mark_borders = NULL;
     layer->mark_border_count = 0;
     layer->mark = SL_NO_VIEW_CELL;
@@ -205,7 +205,7 @@ void view_layer_destroy(sl_context *context, view_layer *layer) {
     if (!layer) return;
     end_job(context, layer);
     drop_mark(context, layer);
-    sl_view_borders_free(context, layer->borders);
+    sl_free(context, layer->borders);
     view_history_destroy(context, &layer->history);
     sl_free(context, layer->costs);
     sl_free(context, layer->bytes);
@@ -227,7 +227,7 @@ static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
     drop_mark(context, layer);
     SL_TRY(sl_view_cut(context, &h->hierarchy, cells, layer->view_cells, layer->numbers));
     SL_TRY(sl_view_borders(context, &h->tree, layer->view_cells, &borders, &count));
-    sl_view_borders_free(context, layer->borders);
+    sl_free(context, layer->borders);
     layer->borders = borders;
     layer->border_count = count;
     layer->cells = cells;

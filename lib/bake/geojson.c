@@ -6,6 +6,7 @@
 #include "sightline/geojson.h"
 
 #include "bake/export.h"
+#include "geometry/orient.h"
 #include "sightline/support.h"
 
 // --- the writer
@@ -68,17 +69,14 @@ static void put_place(sl_geojson_writer *out, sl_point p) {
     sl_json_put_end(&out->json, ']');
 }
 
-static bool is_same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// A ring ends at the point where it begins.
 static void put_ring(sl_geojson_writer *out, const sl_point *points, size_t count) {
     sl_json_put_list(&out->json);
     for (size_t i = 0; i < count; i++)
-        if (!is_same(points[i], points[i ? i - 1 : count - 1])) put_place(out, points[i]);
+        if (!sli_same_point(points[i], points[i ? i - 1 : count - 1])) put_place(out, points[i]);
     size_t first = 0;
-    while (first + 1 < count && is_same(points[first], points[first ? first - 1 : count - 1]))
+    while (first + 1 < count &&
+           sli_same_point(points[first], points[first ? first - 1 : count - 1]))
         first++;
     put_place(out, points[first]);
     sl_json_put_end(&out->json, ']');
@@ -87,7 +85,7 @@ static void put_ring(sl_geojson_writer *out, const sl_point *points, size_t coun
 static size_t count_different(const sl_point *points, size_t count) {
     size_t different = 0;
     for (size_t i = 0; i < count; i++)
-        different += !is_same(points[i], points[i ? i - 1 : count - 1]);
+        different += !sli_same_point(points[i], points[i ? i - 1 : count - 1]);
     return different;
 }
 

@@ -280,12 +280,6 @@ static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *
     return in_file(r, sl_pvs_check(r->context, pvs));
 }
 
-static uint64_t count_pairs(const sl_pvs *pvs) {
-    uint64_t pairs = 0;
-    for (uint32_t cell = 0; cell < pvs->cell_count; cell++) pairs += sl_pvs_count(pvs, cell);
-    return pairs;
-}
-
 static sl_status load_doors(const reader *r, const char *offsets_tag, const char *bytes_tag,
                             sl_door_sets *sets) {
     const uint32_t cells = r->out->space.cell_count;
@@ -306,7 +300,7 @@ static sl_status load_doors(const reader *r, const char *offsets_tag, const char
 static sl_status load_effects(const reader *r) {
     sl_visibility *v = &r->out->visibility;
     SL_TRY(load_pvs(r, "MIRO", "MIRB", true, &v->mirrored));
-    v->account.mirrored_pairs = count_pairs(&v->mirrored);
+    v->account.mirrored_pairs = sl_pvs_pairs(&v->mirrored);
     SL_TRY(load_doors(r, "DORO", "DORB", &v->doors));
     return load_doors(r, "MDOO", "MDOB", &v->mirrored_doors);
 }

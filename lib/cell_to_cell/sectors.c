@@ -10,7 +10,6 @@
 #include "geometry/length.h"
 #include "sightline/support.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -124,17 +124,12 @@ enum { CORNERS_ASKED = 256 };
 /// Together that is a factor of 1.4 to 1.9 over generated cities, floors, mazes, caves and halls.
 #define WORDS_A_WORD_SEEN 1.6
 
-static void add_cells(sli_word_set *set, const sli_visible *visible) {
-    for (size_t i = 0; i < visible->cells.count; i++)
-        sli_word_set_add(set, visible->cells.items[i].cell);
-}
-
 /// Counts the words that a row needs for what the fan visited last sees.
 static uint64_t count_words(const sli_sweeper *s, sli_word_set *set) {
     uint64_t count = 0;
-    add_cells(set, &s->back);
-    add_cells(set, &s->middle);
-    add_cells(set, &s->ahead);
+    sli_visible_add_to(set, &s->back);
+    sli_visible_add_to(set, &s->middle);
+    sli_visible_add_to(set, &s->ahead);
     for (size_t word = sli_word_set_next(set, set->low); word < set->high;
          word = sli_word_set_next(set, word + 1))
         count++;

@@ -38,6 +38,11 @@ typedef struct sli_sweeper {
     sli_word_set behind, before;
 } sli_sweeper;
 
+static inline void sli_visible_add_to(sli_word_set *set, const sli_visible *visible) {
+    for (size_t i = 0; i < visible->cells.count; i++)
+        sli_word_set_add(set, visible->cells.items[i].cell);
+}
+
 /// `rows`, and `seen_from` where there is one-way glass: empty, or shared with other threads. To be
 /// destroyed also on failure.
 sl_status sli_sweeper_create(sl_context *context, const sli_fans *fans, bool closed,

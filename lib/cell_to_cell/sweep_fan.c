@@ -195,11 +195,6 @@ static sl_status add_rays(sl_context *context, sli_sweeper *s, const sli_fan *fa
 
 // --- what the point sees for the cells that it covers
 
-static void add_visible(sli_word_set *set, const sli_visible *visible) {
-    for (size_t i = 0; i < visible->cells.count; i++)
-        sli_word_set_add(set, visible->cells.items[i].cell);
-}
-
 /// What the rotating line does not join with a cell of the fan anyway: see turn_line. Cells
 /// beside each other mostly get the same.
 static sl_status cover(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
@@ -214,9 +209,9 @@ static sl_status cover(sl_context *context, sli_sweeper *s, const sli_fan *fan) 
             sli_word_set_clear(set);
             has = NOTHING;
         }
-        if (gets & ~has & MIDDLE) add_visible(set, &s->middle);
-        if (gets & ~has & BACK) add_visible(set, &s->back);
-        if (gets & ~has & AHEAD) add_visible(set, &s->ahead);
+        if (gets & ~has & MIDDLE) sli_visible_add_to(set, &s->middle);
+        if (gets & ~has & BACK) sli_visible_add_to(set, &s->back);
+        if (gets & ~has & AHEAD) sli_visible_add_to(set, &s->ahead);
         has = gets;
         SL_TRY(sli_bit_rows_add(context, &s->rows, cells[k].cell, set));
     }

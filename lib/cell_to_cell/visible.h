@@ -8,6 +8,7 @@
 #define SL_VISIBLE_H
 
 #include "cell_to_cell/fans.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 
 /// Ranks of events at one angle.
@@ -146,10 +147,6 @@ static inline sl_point sli_end_of(const sli_visible_finder *r, uint32_t end) {
 static inline sl_point sli_towards(const sli_visible_finder *r, uint32_t end) {
     const sl_point at = sli_end_of(r, end);
     return (sl_point){at.x - r->from.x, at.y - r->from.y};
-}
-
-static inline double sli_cross(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
 }
 
 /// Where rounding may have changed a cross product's sign. It must not be inlined: it is rare.

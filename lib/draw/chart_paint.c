@@ -31,12 +31,6 @@ static void line(cairo_t *cairo, double x0, double y0, double x1, double y1) {
     cairo_line_to(cairo, x1, y1);
 }
 
-static void stroke(cairo_t *cairo, sl_colour colour, double width) {
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_stroke(cairo);
-}
-
 // --- heading, key, notes
 
 double sli_chart_heading(cairo_t *cairo, const sli_chart_page *page, bool paint) {
@@ -66,7 +60,7 @@ static void draw_disc(cairo_t *cairo, const sl_palette *palette, sl_colour colou
     cairo_arc(cairo, at.x, at.y, radius, 0, 2 * 3.14159265358979323846);
     sl_set_colour(cairo, colour);
     cairo_fill_preserve(cairo);
-    stroke(cairo, palette->floor[0], 0.28 * radius);
+    sli_pen_stroke(cairo, palette->floor[0], 0.28 * radius);
 }
 
 static void set_frontier_dash(cairo_t *cairo, double size) {
@@ -86,7 +80,7 @@ static void draw_swatch(cairo_t *cairo, const sli_chart_page *page, const sl_cha
         return;
     case SL_CHART_LINE:
         line(cairo, box.min.x, middle, box.max.x, middle);
-        stroke(cairo, series_colour(palette, series), 0.14 * size);
+        sli_pen_stroke(cairo, series_colour(palette, series), 0.14 * size);
         return;
     case SL_CHART_FRONTIER_OVER:
     case SL_CHART_FRONTIER_UNDER:
@@ -98,7 +92,7 @@ static void draw_swatch(cairo_t *cairo, const sli_chart_page *page, const sl_cha
         cairo_fill(cairo);
         line(cairo, box.min.x, middle, box.max.x, middle);
         set_frontier_dash(cairo, size);
-        stroke(cairo, palette->ink, 0.09 * size);
+        sli_pen_stroke(cairo, palette->ink, 0.09 * size);
         cairo_set_dash(cairo, NULL, 0, 0);
         return;
     }
@@ -272,7 +266,7 @@ static void draw_x_numbers(cairo_t *cairo, const sli_chart_page *page) {
         const double x = sli_axis_place(&page->x, tick->value);
         const double long_tick = (tick->minor ? 0.25 : 0.45) * page->text;
         line(cairo, x, page->frame.max.y, x, page->frame.max.y + long_tick);
-        stroke(cairo, page->palette.faint, 0.07 * page->text);
+        sli_pen_stroke(cairo, page->palette.faint, 0.07 * page->text);
         const double wide = sl_text_width(cairo, tick->text), left = x - wide / 2;
         if (tick->minor || left < free_from || left + wide > page->width) continue;
         sl_text_show(cairo, page->palette.ink, left, base, tick->text);
@@ -355,7 +349,7 @@ static void draw_frontier(cairo_t *cairo, const sli_chart_page *page,
     cairo_new_path(cairo);
     add_stairs(cairo, page, series);
     set_frontier_dash(cairo, page->text);
-    stroke(cairo, page->palette.ink, 0.09 * page->text);
+    sli_pen_stroke(cairo, page->palette.ink, 0.09 * page->text);
     cairo_set_dash(cairo, NULL, 0, 0);
 }
 
@@ -365,7 +359,7 @@ static void draw_line(cairo_t *cairo, const sli_chart_page *page, const sl_chart
         cairo_line_to(cairo, sli_axis_place(&page->x, series->marks[i].x),
                       sli_axis_place(&page->y, series->marks[i].y));
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    stroke(cairo, series_colour(&page->palette, series), 0.14 * page->text);
+    sli_pen_stroke(cairo, series_colour(&page->palette, series), 0.14 * page->text);
 }
 
 static void draw_spans(cairo_t *cairo, const sli_chart_page *page, const sli_spot *spot) {
@@ -392,7 +386,7 @@ static void draw_spans(cairo_t *cairo, const sli_chart_page *page, const sli_spo
         line(cairo, spot->at.x - cap, y0, spot->at.x + cap, y0);
         line(cairo, spot->at.x - cap, y1, spot->at.x + cap, y1);
     }
-    stroke(cairo, colour, 0.1 * page->text);
+    sli_pen_stroke(cairo, colour, 0.1 * page->text);
 }
 
 static void draw_label(cairo_t *cairo, const sli_chart_page *page, size_t i) {
@@ -421,7 +415,7 @@ static void draw_leaders(cairo_t *cairo, const sli_chart_page *page) {
         if (label->placed)
             line(cairo, label->anchor.x, label->anchor.y, label->knee.x, label->knee.y);
     }
-    stroke(cairo, page->palette.faint, 0.06 * page->text);
+    sli_pen_stroke(cairo, page->palette.faint, 0.06 * page->text);
 }
 
 static void draw_frame(cairo_t *cairo, const sli_chart_page *page) {
@@ -429,11 +423,11 @@ static void draw_frame(cairo_t *cairo, const sli_chart_page *page) {
     if (page->chart->y.over && page->chart->y.under) {
         const double zero = sli_axis_place(&page->y, 0);
         line(cairo, frame->min.x, zero, frame->max.x, zero);
-        stroke(cairo, page->palette.ink, 0.1 * page->text);
+        sli_pen_stroke(cairo, page->palette.ink, 0.1 * page->text);
     }
     cairo_rectangle(cairo, frame->min.x, frame->min.y, frame->max.x - frame->min.x,
                     frame->max.y - frame->min.y);
-    stroke(cairo, page->palette.outline, 0.08 * page->text);
+    sli_pen_stroke(cairo, page->palette.outline, 0.08 * page->text);
 }
 
 static void draw_series(cairo_t *cairo, const sli_chart_page *page) {

@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #define CAPTION_TEXT 512
 #define LINE_HEIGHT  1.5

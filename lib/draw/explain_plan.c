@@ -80,15 +80,9 @@ static void pen_stop(cairo_t *cairo, const sli_explained *pic, double unit) {
     stroke_cased(cairo, palette->ink, 3 * unit, palette->page, 3 * unit);
 }
 
-/// The mark of a portal's end: a disc for left ones, a square for right ones.
 static void mark_end(cairo_t *cairo, const sli_explained *pic, sl_point at, bool left,
                      double radius) {
-    cairo_new_sub_path(cairo);
-    if (left)
-        cairo_arc(cairo, at.x, at.y, radius, 0, FULL_TURN);
-    else
-        cairo_rectangle(cairo, at.x - 0.88 * radius, at.y - 0.88 * radius, 1.76 * radius,
-                        1.76 * radius);
+    sli_path_portal_end(cairo, at, left, radius);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
     cairo_set_line_width(cairo, 0.6 * radius);
     sl_set_colour(cairo, pic->scene.palette.page);

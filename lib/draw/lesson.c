@@ -4,8 +4,6 @@
 #include "draw/marks.h"
 #include "sightline/support.h"
 
-#include <math.h>
-
 #define FULL_TURN 6.283185307179586
 
 static void fill(cairo_t *cairo, const sl_frame *frame, const sl_point *corners, size_t count,
@@ -13,13 +11,6 @@ static void fill(cairo_t *cairo, const sl_frame *frame, const sl_point *corners,
     sl_path_polygon(cairo, frame, corners, count);
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
     cairo_fill(cairo);
-}
-
-/// Strokes the path.
-static void stroke(cairo_t *cairo, sl_colour colour, double width) {
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_stroke(cairo);
 }
 
 // --- a kd-tree
@@ -36,8 +27,8 @@ void sli_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_frame *
         for (uint32_t i = 0; i < count; i++)
             if (splits[i].depth == level)
                 sl_path_segment(cairo, frame, splits[i].along.a, splits[i].along.b);
-        stroke(cairo, sl_palette_ramp(palette->dark, 1 - 0.75 * share),
-               (3.2 - 2.2 * share) * frame->unit);
+        sli_pen_stroke(cairo, sl_palette_ramp(palette->dark, 1 - 0.75 * share),
+                       (3.2 - 2.2 * share) * frame->unit);
     }
 }
 
@@ -52,11 +43,11 @@ void sli_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_frame *f
     const sli_split *now = &splits[node];
     for (uint32_t i = 0; i < node; i++)
         sl_path_segment(cairo, frame, splits[i].along.a, splits[i].along.b);
-    stroke(cairo, palette->portal, 1.2 * frame->unit);
+    sli_pen_stroke(cairo, palette->portal, 1.2 * frame->unit);
     fill_box(cairo, frame, now->below, palette->glass, 0.22);
     fill_box(cairo, frame, now->above, palette->source, 0.30);
     sl_path_segment(cairo, frame, now->along.a, now->along.b);
-    stroke(cairo, palette->start, 4 * frame->unit);
+    sli_pen_stroke(cairo, palette->start, 4 * frame->unit);
 }
 
 // --- a mesh
@@ -89,7 +80,7 @@ void sli_draw_mesh_points(cairo_t *cairo, const sl_palette *palette, const sl_fr
 static void draw_sides(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                        const sli_triangulation *t) {
     for (size_t i = 0; i < t->halves.count / 2; i++) add_edge(cairo, frame, t, i);
-    stroke(cairo, palette->portal, 1.2 * frame->unit);
+    sli_pen_stroke(cairo, palette->portal, 1.2 * frame->unit);
 }
 
 /// Adds sides that the points alone do not have: with `lines` walls and seams, else the others.
@@ -104,16 +95,16 @@ void sli_draw_mesh_delaunay(cairo_t *cairo, const sl_palette *palette, const sl_
                             const sli_mesh_steps *steps) {
     draw_sides(cairo, palette, frame, &steps->delaunay);
     add_fresh(cairo, frame, steps, true);
-    stroke(cairo, palette->start, 6 * frame->unit);
+    sli_pen_stroke(cairo, palette->start, 6 * frame->unit);
 }
 
 void sli_draw_mesh_triangles(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                              const sli_mesh_steps *steps) {
     draw_sides(cairo, palette, frame, &steps->triangles);
     add_fresh(cairo, frame, steps, false);
-    stroke(cairo, palette->glass, 2.6 * frame->unit);
+    sli_pen_stroke(cairo, palette->glass, 2.6 * frame->unit);
     add_fresh(cairo, frame, steps, true);
-    stroke(cairo, palette->start, 6 * frame->unit);
+    sli_pen_stroke(cairo, palette->start, 6 * frame->unit);
 }
 
 /// Fills the cell at the left of a half-edge.
@@ -145,12 +136,12 @@ static void draw_cells(cairo_t *cairo, const sl_palette *palette, const sl_frame
     for (size_t i = place; i < steps->sides.count; i++)
         add_edge(cairo, frame, t, steps->sides.items[i].half / 2);
     cairo_set_dash(cairo, dashes, 2, 0);
-    stroke(cairo, palette->faint, 0.9 * frame->unit);
+    sli_pen_stroke(cairo, palette->faint, 0.9 * frame->unit);
     cairo_set_dash(cairo, NULL, 0, 0);
     for (size_t i = 0; i < place && i < steps->sides.count; i++)
         if (steps->sides.items[i].stuck != SLI_OUTSIDE)
             add_edge(cairo, frame, t, steps->sides.items[i].half / 2);
-    stroke(cairo, palette->portal, 1.6 * frame->unit);
+    sli_pen_stroke(cairo, palette->portal, 1.6 * frame->unit);
 }
 
 sl_status sli_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palette *palette,
@@ -168,7 +159,7 @@ sl_status sli_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palet
     draw_cells(cairo, palette, frame, steps, place);
     add_edge(cairo, frame, &steps->triangles, side->half / 2);
     if (!stays) cairo_set_dash(cairo, dashes, 2, 0);
-    stroke(cairo, palette->start, 4 * frame->unit);
+    sli_pen_stroke(cairo, palette->start, 4 * frame->unit);
     cairo_set_dash(cairo, NULL, 0, 0);
     return SL_OK;
 }
@@ -180,7 +171,7 @@ void sli_draw_mesh_corner(cairo_t *cairo, const sl_palette *palette, const sl_fr
     sli_mesh_steps_corner(steps, place, corner);
     sl_path_segment(cairo, frame, corner[0], corner[1]);
     sl_path_segment(cairo, frame, corner[1], corner[2]);
-    stroke(cairo, palette->mirrored, 3.4 * frame->unit);
+    sli_pen_stroke(cairo, palette->mirrored, 3.4 * frame->unit);
     draw_disc(cairo, frame, corner[1], 6.5);
     sl_set_colour(cairo, palette->mirrored);
     cairo_fill(cairo);

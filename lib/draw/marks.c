@@ -149,6 +149,12 @@ static void stroke(cairo_t *cairo, sl_colour colour, double width, cairo_line_ca
     cairo_stroke(cairo);
 }
 
+void sli_pen_stroke(cairo_t *cairo, sl_colour colour, double width) {
+    sl_set_colour(cairo, colour);
+    cairo_set_line_width(cairo, width);
+    cairo_stroke(cairo);
+}
+
 static void stroke_dashed(cairo_t *cairo, sl_colour colour, double width, double on, double off,
                           cairo_line_cap_t cap) {
     const double dashes[2] = {on, off};

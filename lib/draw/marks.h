@@ -13,6 +13,7 @@ typedef struct sli_pens {
 sli_pens sli_pens_for(const sl_scene *scene, const sl_frame *frame);
 
 /// Each strokes the path.
+void sli_pen_stroke(cairo_t *cairo, sl_colour colour, double width);
 void sli_pen_wall(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
 void sli_pen_portal(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
 void sli_pen_outline(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
@@ -23,6 +24,9 @@ void sli_pen_object(cairo_t *cairo, const sl_palette *palette, const sli_pens *p
 void sli_pen_tree(cairo_t *cairo, sl_colour colour, const sli_pens *pens, uint32_t depth);
 void sli_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth); ///< fills the path
 double sli_tree_width(const sli_pens *pens, uint32_t depth);
+
+/// Adds the mark of a portal's end to the path: a disc for left ones, a square for right ones.
+void sli_path_portal_end(cairo_t *cairo, sl_point at, bool left, double radius);
 
 /// Slanting lines over a box; `phase` moves them.
 void sli_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,

@@ -45,18 +45,6 @@ void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, 
     cairo_stroke(cairo);
 }
 
-void sl_draw_region(cairo_t *cairo, const sl_frame *frame, const sl_region *region,
-                    sl_colour colour) {
-    if (region->count < 3) return;
-    sl_path_polygon(cairo, frame, region->points, region->count);
-    set_faded(cairo, colour, 0.6);
-    cairo_fill_preserve(cairo);
-    set_faded(cairo, colour, 0.9);
-    cairo_set_line_width(cairo, 1.3 * frame->unit);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_stroke(cairo);
-}
-
 void sl_draw_cone(cairo_t *cairo, const sl_frame *frame, sl_point eye, double heading, double fov,
                   double reach, sl_colour colour) {
     sl_point at;
@@ -100,7 +88,7 @@ void sl_draw_line(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b,
     cairo_stroke(cairo);
 }
 
-static void add_end(cairo_t *cairo, sl_point at, bool left, double radius) {
+void sli_path_portal_end(cairo_t *cairo, sl_point at, bool left, double radius) {
     cairo_new_sub_path(cairo);
     if (left)
         cairo_arc(cairo, at.x, at.y, radius, 0, FULL_TURN);
@@ -122,7 +110,7 @@ void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const sl_fra
         sl_point at;
         if (!sl_frame_holds(frame, left ? portals[i / 2].left : portals[i / 2].right, &at))
             continue;
-        add_end(cairo, at, left, radius);
+        sli_path_portal_end(cairo, at, left, radius);
         sl_set_colour(cairo, palette->page);
         cairo_set_line_width(cairo, 0.7 * radius);
         cairo_stroke_preserve(cairo);
@@ -239,7 +227,7 @@ void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame 
         sl_point place;
         if (conflict->turns && end.left) draw_crossing(cairo, palette, frame, at);
         if (!sl_frame_holds(frame, end.left ? at->left : at->right, &place)) continue;
-        add_end(cairo, place, end.left, 6.4 * frame->unit);
+        sli_path_portal_end(cairo, place, end.left, 6.4 * frame->unit);
         sl_set_colour(cairo, palette->ink);
         cairo_set_line_width(cairo, 3.4 * frame->unit);
         cairo_stroke_preserve(cairo);

@@ -5,24 +5,19 @@
 /// Reflections in oblique mirrors are rounded, and say so.
 #include "effects/mirrors.h"
 
-// --- images of points
+#include "geometry/length.h"
 
-/// a + b, and what that leaves out (Knuth's TwoSum).
-static double add(double a, double b, double *rest) {
-    const double sum = a + b, part = sum - a;
-    *rest = (a - (sum - part)) + (b - part);
-    return sum;
-}
+// --- images of points
 
 /// 2 axis - (at + rest).
 static void fold_coordinate(double axis, double *at, double *rest, bool *rounded) {
     double first, second, third;
-    const double sum = add(2 * axis, -*at, &first);
-    const double low = add(first, -*rest, &second);
-    *at = add(sum, low, &third);
-    *rest = add(third, second, &first);
+    const double sum = sli_two_sum(2 * axis, -*at, &first);
+    const double low = sli_two_sum(first, -*rest, &second);
+    *at = sli_two_sum(sum, low, &third);
+    *rest = sli_two_sum(third, second, &first);
     // What is left of the tail may have to go up again.
-    *at = add(*at, *rest, rest);
+    *at = sli_two_sum(*at, *rest, rest);
     *rounded |= first != 0;
 }
 

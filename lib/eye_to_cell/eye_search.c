@@ -156,7 +156,7 @@ static bool reaches(const sli_pivot *pivot, const sli_arc *arc, const sl_directe
     return sight == SL_OPEN ? sign < 0 : sign <= 0;
 }
 
-void sl_eye_search_limit(sl_eye_search *search, double range) {
+void sl_eye_search_set_range(sl_eye_search *search, double range) {
     search->range = range;
 }
 

@@ -121,7 +121,7 @@ bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_ste
 /// Marks the targets that are met in a cell just entered; `first` for the eye's own cell.
 void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool first);
 
-/// Checks boxes as sl_moving_place does.
+/// Checks boxes as sl_moving_set_boxes does.
 sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count);
 
 /// Finds the cells of boxes, which must outlive the lists.

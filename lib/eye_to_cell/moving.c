@@ -286,14 +286,14 @@ static sl_status place(sl_context *context, sl_moving *m) {
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
-    sl_eye_search_limit(m->search, m->range);
+    sl_eye_search_set_range(m->search, m->range);
     if (m->mirrors) SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->mirrors, m->depth));
     m->search->targets = (sli_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
 
-sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
-                          size_t count) {
+sl_status sl_moving_set_boxes(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
+                              size_t count) {
     SL_TRY(sli_moving_boxes_check(context, boxes, count));
     sl_moving made = {.ground = moving->ground,
                       .visibility = moving->visibility,
@@ -317,7 +317,7 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
     if (!moving) return SL_NO_MEMORY;
     moving->visibility = visibility;
     sl_status status = sli_box_ground_create(context, space, &moving->ground);
-    if (status == SL_OK) status = sl_moving_place(context, moving, NULL, 0);
+    if (status == SL_OK) status = sl_moving_set_boxes(context, moving, NULL, 0);
     if (status == SL_OK)
         *out = moving;
     else
@@ -347,9 +347,9 @@ sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_out
     return SL_OK;
 }
 
-void sl_moving_limit(sl_moving *moving, double range) {
+void sl_moving_set_range(sl_moving *moving, double range) {
     moving->range = range;
-    sl_eye_search_limit(moving->search, range);
+    sl_eye_search_set_range(moving->search, range);
 }
 
 static bool holds(sl_box box, sl_point p) {
@@ -405,7 +405,7 @@ sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving) {
     const bool was = moving->one_way;
     moving->boxes = NULL;
     moving->one_way = true;
-    const sl_status status = sl_moving_place(context, moving, boxes, moving->count);
+    const sl_status status = sl_moving_set_boxes(context, moving, boxes, moving->count);
     if (status == SL_OK) {
         sl_free(context, boxes);
     } else {

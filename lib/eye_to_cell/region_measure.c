@@ -3,7 +3,7 @@
 /// The region is star-shaped about the eye. Each edge and the eye make a triangle, or a sector
 /// where the edge is an arc:
 ///
-///       q ----- p      area = sum of cross(p, q) / 2, with p and q as offsets from the eye.
+///       q ----- p      area = sum of sli_cross(p, q) / 2, with p and q as offsets from the eye.
 ///        `.   .'       A radial edge (occluding, or the cone's border) adds no area.
 ///          eye
 ///
@@ -16,16 +16,12 @@
 
 static const double pi = 3.14159265358979323846;
 
-static double cross(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 static double dot(sl_point a, sl_point b) {
     return a.x * b.x + a.y * b.y;
 }
 
 static double angle_between(sl_point a, sl_point b) {
-    return atan2(cross(a, b), dot(a, b));
+    return atan2(sli_cross(a, b), dot(a, b));
 }
 
 /// The angle of an arc. Rounding may turn the sign of half a circle.
@@ -48,7 +44,7 @@ static double double_area(const sl_region *region, size_t i) {
     if (is_radial(&region->edges[i])) return 0;
     if (region->edges[i].kind == SL_EDGE_ARC)
         return region->range * region->range * angle_of_arc(p, q);
-    return cross(p, q);
+    return sli_cross(p, q);
 }
 
 double sl_region_area(const sl_region *region) {
@@ -76,11 +72,11 @@ static moments moments_of(const sl_region *region, size_t i) {
     }
     const double length = sli_length(q.x - p.x, q.y - p.y);
     const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
-    const double h = cross(p, along), from = dot(p, along), to = dot(q, along);
+    const double h = sli_cross(p, along), from = dot(p, along), to = dot(q, along);
     if (!(h > 0)) return (moments){0};
     const double turned = asinh(to / h) - asinh(from / h);
     m.first = h * turned;
-    m.second = cross(p, q);
+    m.second = sli_cross(p, q);
     m.third = h * (to * sli_length(h, to) - from * sli_length(h, from) + h * h * turned) / 2;
     return m;
 }
@@ -90,7 +86,7 @@ static double distance_to(sl_point p, sl_point q) {
     const double square = dot(d, d), share = square > 0 ? -dot(p, d) / square : 0;
     if (!(share > 0)) return sli_length(p.x, p.y);
     if (!(share < 1)) return sli_length(q.x, q.y);
-    return fabs(cross(p, d)) / sqrt(square);
+    return fabs(sli_cross(p, d)) / sqrt(square);
 }
 
 /// Three times the first moment of the area between an edge and the eye.
@@ -101,7 +97,7 @@ static sl_point pull_of(const sl_region *region, size_t i) {
         const double square = region->range * region->range;
         return (sl_point){square * (q.y - p.y), square * (p.x - q.x)};
     }
-    const double half = cross(p, q) / 2;
+    const double half = sli_cross(p, q) / 2;
     return (sl_point){half * (p.x + q.x), half * (p.y + q.y)};
 }
 

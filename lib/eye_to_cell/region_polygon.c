@@ -65,20 +65,13 @@ sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_po
     return (sl_point){d.x * share, d.y * share};
 }
 
-/// The sum of two doubles, and what it leaves out.
-static double two_sum(double a, double b, double *rest) {
-    const double sum = a + b, part = sum - a;
-    *rest = (a - (sum - part)) + (b - part);
-    return sum;
-}
-
 /// (a + a_rest) - (b + b_rest), good to little more than one rounding. Where nearly all cancels,
 /// the error is below 2^-104 times the largest of the four.
 static double fine_difference(double a, double a_rest, double b, double b_rest) {
     double low, lower, lowest;
-    const double high = two_sum(a, -b, &low);
-    const double rests = two_sum(a_rest, -b_rest, &lower);
-    const double middle = two_sum(low, rests, &lowest);
+    const double high = sli_two_sum(a, -b, &low);
+    const double rests = sli_two_sum(a_rest, -b_rest, &lower);
+    const double middle = sli_two_sum(low, rests, &lowest);
     return high + (middle + (lowest + lower));
 }
 
@@ -239,10 +232,6 @@ static sl_point pulled_in(sl_point offset, double range, bool *moved) {
     return (sl_point){offset.x / length * range, offset.y / length * range};
 }
 
-static double cross(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// The part of the segment from p to q that is inside the circle about the eye: `from` to `to`
 /// along it. It is empty where `from` is not less than `to`.
 typedef struct chord {
@@ -253,7 +242,7 @@ typedef struct chord {
 static chord chord_of(sl_point p, sl_point q, double range) {
     const double length = sli_length(q.x - p.x, q.y - p.y);
     const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
-    const double distance = fabs(cross(p, along)), foot = -(p.x * along.x + p.y * along.y);
+    const double distance = fabs(sli_cross(p, along)), foot = -(p.x * along.x + p.y * along.y);
     const double half =
         distance < range ? sqrt((range - distance) * (range + distance)) : -INFINITY;
     return (chord){along, length, fmax(foot - half, 0), fmin(foot + half, length)};
@@ -269,7 +258,7 @@ static sl_status add_edge(sl_context *context, sl_region *region, sl_point start
     if (start.x == end.x && start.y == end.y) return SL_OK;
     const bool arc = edge.kind == SL_EDGE_ARC;
     if (arc && region->count && region->edges[region->count - 1].kind == SL_EDGE_ARC &&
-        cross(region->offsets[region->count - 1], end) > 0)
+        sli_cross(region->offsets[region->count - 1], end) > 0)
         return SL_OK;
     const sl_point eye = region->view.eye;
     if (!edge.exact) point = (sl_point){eye.x + start.x, eye.y + start.y};
@@ -315,7 +304,7 @@ static void join_first_arc(sl_region *region) {
     const size_t last = region->count - 1;
     if (region->count < 3 || region->edges[0].kind != SL_EDGE_ARC ||
         region->edges[last].kind != SL_EDGE_ARC ||
-        !(cross(region->offsets[last], region->offsets[1]) > 0))
+        !(sli_cross(region->offsets[last], region->offsets[1]) > 0))
         return;
     region->points[0] = region->points[last];
     region->offsets[0] = region->offsets[last];
@@ -352,7 +341,7 @@ static bool within_range(sl_point p, sl_point q, double range, sl_point *from, s
 /// Drops what lies to the right of the point where the circle meets the mirror, an arc.
 static void trim_start(sl_region *region, sl_point start) {
     size_t drop = 0;
-    while (drop + 1 < region->count && cross(start, region->offsets[drop + 1]) <= 0) drop++;
+    while (drop + 1 < region->count && sli_cross(start, region->offsets[drop + 1]) <= 0) drop++;
     for (size_t i = drop; i < region->count; i++) {
         region->points[i - drop] = region->points[i];
         region->offsets[i - drop] = region->offsets[i];
@@ -382,7 +371,8 @@ sl_status sli_region_cut_mirrored(sl_context *context, sl_region *region) {
     while (region->count && region->edges[region->count - 1].kind == SL_EDGE_MIRROR)
         region->count--;
     if (cut_right && region->count) trim_start(region, to);
-    while (cut_left && region->count > 1 && cross(region->offsets[region->count - 1], from) <= 0)
+    while (cut_left && region->count > 1 &&
+           sli_cross(region->offsets[region->count - 1], from) <= 0)
         region->count--;
     sl_region_edge edge = near.edge;
     edge.exact = edge.exact && !cut_left;

@@ -18,7 +18,7 @@
 /// same. Cost: brute O(view cells x objects); multipass tests at most K candidates for each
 /// relation that it finds, where K is the number of view cells that depend on one (Laine 2005,
 /// section 6.3).
-#include "from_region/regions.h"
+#include "from_region/scene.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ struct region_thread;
 
 /// A method at work. Each method numbers its own units of work.
 typedef struct region_work {
-    const sl_regions *scene;
+    const sl_from_region_scene *scene;
     const sl_from_region_options *options;
     const sli_from_region_solver_calls *solver;
     pthread_mutex_t lock;
@@ -52,7 +52,7 @@ typedef struct region_thread {
 } region_thread;
 
 /// Whether sightlines of a quadrant leave by a face.
-static bool faces_quadrant(const sl_regions *scene, uint32_t face, int quadrant) {
+static bool faces_quadrant(const sl_from_region_scene *scene, uint32_t face, int quadrant) {
     return scene->passes[quadrant].leaves.faces[scene->faces.items[face].directed] != SLI_NO_FACE;
 }
 
@@ -135,12 +135,12 @@ static sl_status run_units(sl_context *context, region_work *work, size_t count,
 /// A view cell on its own: all objects through all of its faces.
 static sl_status brute_unit(sl_context *context, region_work *work, region_thread *thread,
                             size_t unit) {
-    const sl_regions *scene = work->scene;
+    const sl_from_region_scene *scene = work->scene;
     sl_bits *row = work->seen + unit * scene->words;
     for (uint32_t face = scene->first_face[unit]; face < scene->first_face[unit + 1]; face++)
         SL_TRY(solve_face(context, work, thread, face, -1, work->all, row));
-    thread->candidates += SLI_QUADRANTS * (uint64_t)sli_regions_objects(scene);
-    add_row(row, sli_regions_inside(scene, (uint32_t)unit), scene->words);
+    thread->candidates += SLI_QUADRANTS * (uint64_t)sli_from_region_objects(scene);
+    add_row(row, sli_from_region_inside(scene, (uint32_t)unit), scene->words);
     return SL_OK;
 }
 
@@ -175,7 +175,8 @@ typedef struct hierarchy {
     sl_bits *sets;  ///< by node
 } hierarchy;
 
-static sl_status place_cells(sl_context *context, const sl_regions *scene, sli_placed *cells) {
+static sl_status place_cells(sl_context *context, const sl_from_region_scene *scene,
+                             sli_placed *cells) {
     const uint32_t count = scene->counts.view_cells;
     sl_box *boxes = sl_alloc_array(context, count, sizeof *boxes);
     if (!boxes) return SL_NO_MEMORY;
@@ -249,7 +250,7 @@ static size_t rank_of(const task *t) {
     return 2 * (size_t)t->depth + (t->face != UINT32_MAX);
 }
 
-static sl_status list_tasks(sl_context *context, const sl_regions *scene, hierarchy *h) {
+static sl_status list_tasks(sl_context *context, const sl_from_region_scene *scene, hierarchy *h) {
     const size_t nodes = h->nodes.count, count = nodes + scene->counts.faces;
     uint32_t depth = h->nodes.items[nodes - 1].depth;
     const size_t ranks = 2 * (size_t)depth + 2;
@@ -278,14 +279,14 @@ static sl_status list_tasks(sl_context *context, const sl_regions *scene, hierar
 
 /// Makes the set of a node: what lies in it and what its outer faces see; all objects for the root.
 static void make_set(const region_work *work, uint32_t number) {
-    const sl_regions *scene = work->scene;
+    const sl_from_region_scene *scene = work->scene;
     const hierarchy *h = work->own;
     const node *n = &h->nodes.items[number];
     sl_bits *set = h->sets + number * scene->words;
     if (number == 0) memcpy(set, work->all, scene->words * sizeof *set);
     for (uint32_t i = n->first; i < n->end && number; i++) {
         const uint32_t cell = h->cells[i].number;
-        add_row(set, sli_regions_inside(scene, cell), scene->words);
+        add_row(set, sli_from_region_inside(scene, cell), scene->words);
         for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
             const uint32_t to = scene->faces.items[f].to;
             bool outer = to == SL_NO_VIEW_CELL;
@@ -300,7 +301,7 @@ static void make_set(const region_work *work, uint32_t number) {
     if (n->end - n->first != 1) return;
     sl_bits *row = work->seen + h->cells[n->first].number * scene->words;
     // A compound of one view cell has its root for a leaf.
-    memcpy(row, number ? set : sli_regions_inside(scene, h->cells[n->first].number),
+    memcpy(row, number ? set : sli_from_region_inside(scene, h->cells[n->first].number),
            scene->words * sizeof *row);
 }
 
@@ -327,7 +328,7 @@ static sl_status task_unit(sl_context *context, region_work *work, region_thread
 }
 
 static sl_status run(sl_context *context, region_work *work, hierarchy *h) {
-    const sl_regions *scene = work->scene;
+    const sl_from_region_scene *scene = work->scene;
     const size_t cells = scene->counts.view_cells, faces = scene->counts.faces;
     if (!cells) return SL_OK;
     h->cells = sl_alloc_array(context, cells, sizeof *h->cells);
@@ -382,7 +383,7 @@ static sl_bits *directed_of(const region_work *work, int quadrant, uint32_t view
 
 static sl_status visit_unit(sl_context *context, region_work *work, region_thread *thread,
                             size_t unit) {
-    const sl_regions *scene = work->scene;
+    const sl_from_region_scene *scene = work->scene;
     const passes *p = work->own;
     const visit v = p->visits[unit];
     sl_bits *row = directed_of(work, v.quadrant, v.view_cell);
@@ -395,7 +396,7 @@ static sl_status visit_unit(sl_context *context, region_work *work, region_threa
         add_row(thread->set, refine, scene->words);
         SL_TRY(solve_face(context, work, thread, f, v.quadrant, refine, row));
     }
-    add_row(row, sli_regions_inside(scene, v.view_cell), scene->words);
+    add_row(row, sli_from_region_inside(scene, v.view_cell), scene->words);
     thread->candidates += count_row(thread->set, scene->words);
     thread->relations += count_row(row, scene->words);
     pthread_mutex_lock(&work->lock);
@@ -405,7 +406,7 @@ static sl_status visit_unit(sl_context *context, region_work *work, region_threa
 }
 
 /// Lists all view cells of all quadrants by level. Each is a component of its own: no cycles.
-static sl_status list_visits(sl_context *context, const sl_regions *scene, passes *p) {
+static sl_status list_visits(sl_context *context, const sl_from_region_scene *scene, passes *p) {
     uint32_t levels = 0;
     for (int q = 0; q < SLI_QUADRANTS; q++)
         if (scene->passes[q].view_cells.level_count > levels)
@@ -430,7 +431,7 @@ static sl_status list_visits(sl_context *context, const sl_regions *scene, passe
 }
 
 static sl_status multipass_method(sl_context *context, region_work *work) {
-    const sl_regions *scene = work->scene;
+    const sl_from_region_scene *scene = work->scene;
     const size_t count = (size_t)SLI_QUADRANTS * scene->counts.view_cells;
     passes p = {.visits = sl_alloc_array(context, count, sizeof *p.visits),
                 .after = sl_alloc_array(context, count, sizeof *p.after),
@@ -498,11 +499,11 @@ static sl_status check_options(sl_context *context, const sl_from_region_options
 
 /// Removes occluders that are no objects from the rows, and fills the result.
 static void fill(const region_work *work, sl_from_region_result *out) {
-    const sl_regions *scene = work->scene;
+    const sl_from_region_scene *scene = work->scene;
     const uint32_t objects = scene->counts.objects;
     for (uint32_t i = 0; i < scene->counts.view_cells && scene->occluders; i++) {
         sl_bits *row = work->seen + i * scene->words;
-        for (uint32_t k = objects; k < sli_regions_objects(scene); k++)
+        for (uint32_t k = objects; k < sli_from_region_objects(scene); k++)
             row[k / 64] &= ~((sl_bits)1 << (k % 64));
     }
     *out = (sl_from_region_result){.view_cells = scene->counts.view_cells,
@@ -516,7 +517,7 @@ static void fill(const region_work *work, sl_from_region_result *out) {
                                    .relations = work->relations};
 }
 
-static sl_status see(sl_context *context, const sl_regions *scene,
+static sl_status see(sl_context *context, const sl_from_region_scene *scene,
                      const sl_from_region_options *options,
                      sl_status (*method)(sl_context *, region_work *), sl_from_region_result *out) {
     SL_TRY(check_options(context, options));
@@ -528,7 +529,7 @@ static sl_status see(sl_context *context, const sl_regions *scene,
     work.seen = sl_alloc_array(context, scene->counts.view_cells, scene->words * sizeof(sl_bits));
     pthread_mutex_init(&work.lock, NULL);
     sl_status status = work.all && work.seen ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t i = 0; i < sli_regions_objects(scene) && status == SL_OK; i++)
+    for (uint32_t i = 0; i < sli_from_region_objects(scene) && status == SL_OK; i++)
         sl_bits_add(work.all, i);
     if (status == SL_OK) status = method(context, &work);
     pthread_mutex_destroy(&work.lock);
@@ -540,17 +541,17 @@ static sl_status see(sl_context *context, const sl_regions *scene,
     return status;
 }
 
-static sl_status see_brute(sl_context *context, const sl_regions *scene,
+static sl_status see_brute(sl_context *context, const sl_from_region_scene *scene,
                            const sl_from_region_options *options, sl_from_region_result *out) {
     return see(context, scene, options, brute, out);
 }
 
-static sl_status see_hierarchy(sl_context *context, const sl_regions *scene,
+static sl_status see_hierarchy(sl_context *context, const sl_from_region_scene *scene,
                                const sl_from_region_options *options, sl_from_region_result *out) {
     return see(context, scene, options, hierarchy_method, out);
 }
 
-static sl_status see_multipass(sl_context *context, const sl_regions *scene,
+static sl_status see_multipass(sl_context *context, const sl_from_region_scene *scene,
                                const sl_from_region_options *options, sl_from_region_result *out) {
     return see(context, scene, options, multipass_method, out);
 }

@@ -3,7 +3,7 @@
 /// Walls are found on the sides of leaves: walls are sorted by their lines, and each side of a leaf
 /// finds those on its own line by binary search. Boxes are found down the kd-tree. Groups of walls
 /// are made like a kd-tree: halved by number along the longer side, O(n log^2 n).
-#include "from_region/regions.h"
+#include "from_region/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ static void line_walls(const sl_space *space, lined_wall *lined) {
     if (space->wall_count) qsort(lined, space->wall_count, sizeof *lined, compare_lined);
 }
 
-static sl_status add_item(sl_context *context, sl_regions *scene, sli_item item) {
+static sl_status add_item(sl_context *context, sl_from_region_scene *scene, sli_item item) {
     SL_TRY(SL_ARRAY_ROOM(context, &scene->items, 1));
     scene->items.items[scene->items.count++] = item;
     return SL_OK;
@@ -60,7 +60,7 @@ static size_t find_on_line(const lined_wall *lined, size_t count, int axis, doub
 
 /// Adds the pieces of walls on a side of a leaf from a to b, counter-clockwise. Each wall is an
 /// object for now.
-static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wall *lined,
+static sl_status add_side(sl_context *context, sl_from_region_scene *scene, const lined_wall *lined,
                           uint32_t leaf, sl_point a, sl_point b) {
     const int axis = a.x == b.x ? 0 : 1;
     const double at = axis ? a.y : a.x;
@@ -81,7 +81,7 @@ static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wa
     return SL_OK;
 }
 
-static sl_status add_walls(sl_context *context, sl_regions *scene) {
+static sl_status add_walls(sl_context *context, sl_from_region_scene *scene) {
     const sl_space *space = &scene->space;
     lined_wall *lined = sl_alloc_array(context, space->wall_count, sizeof *lined);
     if (!lined) return SL_NO_MEMORY;
@@ -145,7 +145,7 @@ static void divide(sli_placed *walls, size_t count, uint32_t groups, uint32_t ob
 
 /// Numbers the walls that have items, from `first` on: in `groups` groups, or each on its own (0).
 /// *count: how many numbers there are.
-static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t groups,
+static sl_status number_walls(sl_context *context, sl_from_region_scene *scene, uint32_t groups,
                               uint32_t first, uint32_t *count) {
     const sl_space *space = &scene->space;
     uint32_t *of_wall = sl_alloc_array(context, space->wall_count, sizeof *of_wall);
@@ -179,8 +179,8 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
 
 // --- objects that are seen through
 
-static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t object, uint32_t leaf,
-                             sl_box box) {
+static sl_status add_through(sl_context *context, sl_from_region_scene *scene, uint32_t object,
+                             uint32_t leaf, sl_box box) {
     const sl_box own = sli_leaf_box(&scene->space, leaf);
     const sl_point low = {fmax(own.min.x, box.min.x), fmax(own.min.y, box.min.y)};
     const sl_point high = {fmin(own.max.x, box.max.x), fmin(own.max.y, box.max.y)};
@@ -189,8 +189,8 @@ static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t ob
 }
 
 /// Adds a box to each leaf that it meets, down the kd-tree.
-static sl_status add_box(sl_context *context, sl_regions *scene, uint32_t object, sl_box box,
-                         int32_t *stack) {
+static sl_status add_box(sl_context *context, sl_from_region_scene *scene, uint32_t object,
+                         sl_box box, int32_t *stack) {
     const sl_space *space = &scene->space;
     uint32_t count = 0;
     stack[count++] = space->root;
@@ -209,7 +209,7 @@ static sl_status add_box(sl_context *context, sl_regions *scene, uint32_t object
     return SL_OK;
 }
 
-static sl_status add_boxes(sl_context *context, sl_regions *scene) {
+static sl_status add_boxes(sl_context *context, sl_from_region_scene *scene) {
     const sl_map *map = &scene->map;
     int32_t *stack = sl_alloc_array(context, (size_t)scene->space.tree_depth + 2, sizeof *stack);
     uint32_t *numbers = sl_alloc_array(context, map->object_count, sizeof *numbers);
@@ -225,7 +225,7 @@ static sl_status add_boxes(sl_context *context, sl_regions *scene) {
     return status;
 }
 
-static sl_status add_leaves(sl_context *context, sl_regions *scene) {
+static sl_status add_leaves(sl_context *context, sl_from_region_scene *scene) {
     for (uint32_t leaf = 0; leaf < scene->space.cell_count; leaf++)
         if (scene->space.cells[leaf].inside)
             SL_TRY(add_through(context, scene, scene->counts.objects++, leaf,
@@ -243,8 +243,8 @@ static int compare_items(const void *left, const void *right) {
     return (a->left.y > b->left.y) - (a->left.y < b->left.y);
 }
 
-static sl_status index_items(sl_context *context, sl_regions *scene) {
-    const uint32_t objects = sli_regions_objects(scene), leaves = scene->space.cell_count;
+static sl_status index_items(sl_context *context, sl_from_region_scene *scene) {
+    const uint32_t objects = sli_from_region_objects(scene), leaves = scene->space.cell_count;
     const size_t count = scene->items.count;
     sli_item *items = scene->items.items;
     if (count) qsort(items, count, sizeof *items, compare_items);
@@ -272,8 +272,9 @@ static sl_status index_items(sl_context *context, sl_regions *scene) {
     return SL_OK;
 }
 
-sl_status sli_regions_find_objects(sl_context *context, const sl_regions_options *options,
-                                   sl_regions *scene) {
+sl_status sli_from_region_find_objects(sl_context *context,
+                                       const sl_from_region_scene_options *options,
+                                       sl_from_region_scene *scene) {
     SL_TRY(add_walls(context, scene));
     if (options->objects == SL_OBJECTS_BOXES) SL_TRY(add_boxes(context, scene));
     if (options->objects == SL_OBJECTS_CELLS) SL_TRY(add_leaves(context, scene));

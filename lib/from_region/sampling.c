@@ -14,7 +14,7 @@
 /// at its right. Only objects that a point's view frustum meets are drawn.
 ///
 /// Cost: O(points x (objects of the refine set + pixels x items drawn)) for a face and quadrant.
-#include "from_region/regions.h"
+#include "from_region/scene.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
@@ -31,7 +31,7 @@ typedef struct ray {
 } ray;
 
 typedef struct sampler {
-    const sl_regions *scene;
+    const sl_from_region_scene *scene;
     const sl_from_region_options *options;
     double step;                ///< from one line of a direction to the next, along an axis
     SL_ARRAY(ray) found, rays;  ///< as found; by point, then pixel
@@ -39,7 +39,7 @@ typedef struct sampler {
     SL_ARRAY(uint32_t) refined; ///< the refine set after view frustum culling
 } sampler;
 
-static sl_status create(sl_context *context, const sl_regions *scene,
+static sl_status create(sl_context *context, const sl_from_region_scene *scene,
                         const sl_from_region_options *options, void **state) {
     sampler *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
@@ -200,7 +200,7 @@ static void pixels_of(const sampler *s, const extent *from, const extent *what, 
 /// where nothing solid is nearer.
 static void draw(const sampler *s, image i, const sli_item *item, const extent *from,
                  uint32_t behind, ray *rays, size_t count, sl_bits *seen) {
-    const sl_regions *scene = s->scene;
+    const sl_from_region_scene *scene = s->scene;
     const uint32_t place = scene->passes[i.quadrant].place[item->leaf];
     if (place > behind) return; // before the face
     const sl_portal_ends ends = sli_item_ends(item, i.quadrant);
@@ -224,7 +224,7 @@ static void draw(const sampler *s, image i, const sli_item *item, const extent *
 /// Draws one image: a point of the face, half a quadrant.
 static void draw_image(sampler *s, image i, const sli_from_region_query *query, const extent *from,
                        ray *rays, size_t count, sl_bits *seen, sli_from_region_account *account) {
-    const sl_regions *scene = s->scene;
+    const sl_from_region_scene *scene = s->scene;
     const uint32_t behind =
         scene->passes[i.quadrant].place[scene->space.directed[query->face->directed].cell];
     s->refined.count = 0;
@@ -271,7 +271,7 @@ static sl_status run(sl_context *context, void *state, const sli_from_region_que
     const double length =
         fabs(portal->right.x - portal->left.x) + fabs(portal->right.y - portal->left.y);
     const uint32_t points = (uint32_t)fmax(1, ceil(length / s->step));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sli_regions_objects(s->scene)));
+    SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sli_from_region_objects(s->scene)));
     for (int steep = 0; steep < 2; steep++) {
         const image i = {query->quadrant, steep};
         SL_TRY(sl_check_cancelled(context));

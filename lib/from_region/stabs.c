@@ -6,7 +6,7 @@
 /// sequences share no inner lines, and their number is at most the square of the number of portal
 /// ends. This is the exact solver of two dimensions, where three dimensions need Plücker space.
 #include "cell_to_cell/portal_search.h"
-#include "from_region/regions.h"
+#include "from_region/scene.h"
 
 #include <string.h>
 
@@ -17,7 +17,7 @@ typedef struct step {
 } step;
 
 typedef struct searcher {
-    const sl_regions *scene;
+    const sl_from_region_scene *scene;
     const sl_from_region_options *options;
     sli_portal_search search;
     sl_bits *left; ///< of the refine set, what is not seen yet
@@ -36,7 +36,7 @@ static void destroy(sl_context *context, void *state) {
     sl_free(context, s);
 }
 
-static sl_status create(sl_context *context, const sl_regions *scene,
+static sl_status create(sl_context *context, const sl_from_region_scene *scene,
                         const sl_from_region_options *options, void **state) {
     if (!options->stab || !options->stab->toward)
         return sl_fail(context, SL_BAD_ARGUMENT, "the solver 'stabs' needs a stabbing solver");
@@ -73,7 +73,7 @@ static sl_status push(sl_context *context, searcher *s, sl_portal_ends ends,
 
 /// Tries the items of the leaf that a step enters.
 static sl_status try_items(sl_context *context, searcher *s, const step *at) {
-    const sl_regions *scene = s->scene;
+    const sl_from_region_scene *scene = s->scene;
     const uint32_t *index = scene->first_leaf_item;
     for (uint32_t i = index[at->at.cell]; i < index[at->at.cell + 1]; i++) {
         const sli_item *item = &scene->items.items[scene->leaf_items[i]];
@@ -102,7 +102,7 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     searcher *s = job;
     const step *from = last;
     step *to = next;
-    const sl_regions *scene = s->scene;
+    const sl_from_region_scene *scene = s->scene;
     const sl_directed_portal *directed = &scene->space.directed[number];
     if (scene->passes[s->query->quadrant].leaves.faces[number] == SLI_NO_FACE) return SL_OK;
     *to = (step){.at.cell = directed->cell, .cone = from->cone};

@@ -13,7 +13,7 @@
 ///
 /// A cycle is refused, with its view cells named, or the view cell with the most leaves is cut
 /// along the kd-tree until there is no cycle left.
-#include "from_region/regions.h"
+#include "from_region/scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,13 +47,13 @@ static uint32_t square_on(const sl_box *bounds, int axis, uint32_t grid, double 
     return square;
 }
 
-static uint32_t square_of(const sl_regions *scene, uint32_t grid, sl_box leaf) {
+static uint32_t square_of(const sl_from_region_scene *scene, uint32_t grid, sl_box leaf) {
     const sl_box *bounds = &scene->space.bounds;
     return square_on(bounds, 1, grid, leaf.min.y) * grid + square_on(bounds, 0, grid, leaf.min.x);
 }
 
 /// The first box that holds a leaf. Boxes of one name count as the first of them.
-static uint32_t box_of(const sl_regions *scene, sl_box leaf) {
+static uint32_t box_of(const sl_from_region_scene *scene, sl_box leaf) {
     const sl_map *map = &scene->map;
     for (uint32_t i = 0; i < map->object_count; i++) {
         const sl_box *box = &map->objects[i].box;
@@ -81,7 +81,8 @@ static uint32_t number(uint32_t *of_leaf, uint32_t leaves, uint32_t *numbers, ui
     return count;
 }
 
-static sl_status name_boxes(sl_context *context, sl_regions *scene, const uint32_t *numbers) {
+static sl_status name_boxes(sl_context *context, sl_from_region_scene *scene,
+                            const uint32_t *numbers) {
     scene->names = sl_alloc_array(context, scene->counts.view_cells, sizeof *scene->names);
     if (!scene->names) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < scene->map.object_count; i++) {
@@ -93,7 +94,8 @@ static sl_status name_boxes(sl_context *context, sl_regions *scene, const uint32
     return SL_OK;
 }
 
-static sl_status assign(sl_context *context, const sl_regions_options *options, sl_regions *scene) {
+static sl_status assign(sl_context *context, const sl_from_region_scene_options *options,
+                        sl_from_region_scene *scene) {
     const sl_space *space = &scene->space;
     uint32_t most = space->cell_count;
     if (options->view_cells == SL_VIEW_CELLS_GRID) most = options->grid * options->grid;
@@ -129,7 +131,7 @@ static int compare_faces(const void *left, const void *right) {
     return (a->directed > b->directed) - (a->directed < b->directed);
 }
 
-sl_status sli_regions_find_faces(sl_context *context, sl_regions *scene) {
+sl_status sli_from_region_find_faces(sl_context *context, sl_from_region_scene *scene) {
     const sl_space *space = &scene->space;
     scene->faces.count = 0;
     scene->counts.boundary_faces = 0;
@@ -162,18 +164,20 @@ sl_status sli_regions_find_faces(sl_context *context, sl_regions *scene) {
     return SL_OK;
 }
 
-sl_status sli_regions_find_view_cells(sl_context *context, const sl_regions_options *options,
-                                      sl_regions *scene) {
+sl_status sli_from_region_find_view_cells(sl_context *context,
+                                          const sl_from_region_scene_options *options,
+                                          sl_from_region_scene *scene) {
     SL_TRY(assign(context, options, scene));
     scene->face_of = sl_alloc_array(context, scene->space.directed_count, sizeof *scene->face_of);
     if (!scene->face_of) return SL_NO_MEMORY;
-    return sli_regions_find_faces(context, scene);
+    return sli_from_region_find_faces(context, scene);
 }
 
 // --- cycles
 
 /// A face to a view cell of the same component; UINT32_MAX for none.
-static uint32_t face_within(const sl_regions *scene, const sli_regions_pass *pass, uint32_t cell) {
+static uint32_t face_within(const sl_from_region_scene *scene, const sli_from_region_pass *pass,
+                            uint32_t cell) {
     const sli_order *order = &pass->view_cells;
     for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
         const sli_face *face = &scene->faces.items[f];
@@ -191,7 +195,7 @@ static uint32_t cyclic_component(const sli_order *order) {
     return UINT32_MAX;
 }
 
-static void append_name(const sl_regions *scene, uint32_t cell, char *text, size_t size) {
+static void append_name(const sl_from_region_scene *scene, uint32_t cell, char *text, size_t size) {
     const size_t length = strlen(text);
     const char *before = length ? ", " : "";
     if (scene->names && scene->names[cell])
@@ -201,11 +205,11 @@ static void append_name(const sl_regions *scene, uint32_t cell, char *text, size
 }
 
 /// Goes from view cell to view cell within a component until one comes again: a cycle.
-static sl_status refuse(sl_context *context, const sl_regions *scene, int quadrant,
+static sl_status refuse(sl_context *context, const sl_from_region_scene *scene, int quadrant,
                         uint32_t component) {
     static const char *const towards[] = {"up and right", "up and left", "down and left",
                                           "down and right"};
-    const sli_regions_pass *pass = &scene->passes[quadrant];
+    const sli_from_region_pass *pass = &scene->passes[quadrant];
     bool *met = sl_alloc_array(context, scene->counts.view_cells, sizeof *met);
     if (!met) return SL_NO_MEMORY;
     uint32_t cell = pass->view_cells.nodes[pass->view_cells.starts[component]];
@@ -229,7 +233,7 @@ static sl_status refuse(sl_context *context, const sl_regions *scene, int quadra
 
 // --- cutting view cells on cycles
 
-static uint32_t leaves_below(const sl_regions *scene, int32_t child, uint32_t cell,
+static uint32_t leaves_below(const sl_from_region_scene *scene, int32_t child, uint32_t cell,
                              int32_t *stack) {
     uint32_t count = 0, found = 0;
     stack[count++] = child;
@@ -245,7 +249,7 @@ static uint32_t leaves_below(const sl_regions *scene, int32_t child, uint32_t ce
     return found;
 }
 
-static void move_leaves(sl_regions *scene, int32_t child, uint32_t from, uint32_t to,
+static void move_leaves(sl_from_region_scene *scene, int32_t child, uint32_t from, uint32_t to,
                         int32_t *stack) {
     uint32_t count = 0;
     stack[count++] = child;
@@ -260,7 +264,7 @@ static void move_leaves(sl_regions *scene, int32_t child, uint32_t from, uint32_
     }
 }
 
-static sl_status add_name(sl_context *context, sl_regions *scene, uint32_t like) {
+static sl_status add_name(sl_context *context, sl_from_region_scene *scene, uint32_t like) {
     const uint32_t count = scene->counts.view_cells;
     char **names = sl_alloc_array(context, (size_t)count + 1, sizeof *names);
     if (!names) return SL_NO_MEMORY;
@@ -274,7 +278,7 @@ static sl_status add_name(sl_context *context, sl_regions *scene, uint32_t like)
 }
 
 /// Cuts a view cell along the first split of the kd-tree that has some of it on either side.
-static sl_status cut_in_two(sl_context *context, sl_regions *scene, uint32_t cell) {
+static sl_status cut_in_two(sl_context *context, sl_from_region_scene *scene, uint32_t cell) {
     const sl_space *space = &scene->space;
     int32_t *stack = sl_alloc_array(context, (size_t)space->tree_depth + 2, sizeof *stack);
     if (!stack) return SL_NO_MEMORY;
@@ -295,8 +299,8 @@ static sl_status cut_in_two(sl_context *context, sl_regions *scene, uint32_t cel
 
 /// Chooses the view cell of a component with the most leaves. It has several, as leaves have an
 /// order.
-static sl_status choose(sl_context *context, const sl_regions *scene, const sli_order *order,
-                        uint32_t component, uint32_t *cell) {
+static sl_status choose(sl_context *context, const sl_from_region_scene *scene,
+                        const sli_order *order, uint32_t component, uint32_t *cell) {
     uint32_t *leaves = sl_alloc_array(context, scene->counts.view_cells, sizeof *leaves);
     if (!leaves) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < scene->space.cell_count; i++)
@@ -308,8 +312,9 @@ static sl_status choose(sl_context *context, const sl_regions *scene, const sli_
     return SL_OK;
 }
 
-sl_status sli_regions_check_cycles(sl_context *context, const sl_regions_options *options,
-                                   sl_regions *scene, bool *cut) {
+sl_status sli_from_region_check_cycles(sl_context *context,
+                                       const sl_from_region_scene_options *options,
+                                       sl_from_region_scene *scene, bool *cut) {
     *cut = false;
     for (int q = 0; q < SLI_QUADRANTS; q++) {
         const sli_order *order = &scene->passes[q].view_cells;

@@ -22,6 +22,8 @@
 ///           eye               these is the nearest place that is seen.
 #include "geometry/crossing.h"
 
+#include "geometry/length.h"
+
 #include <limits.h>
 #include <math.h>
 
@@ -269,10 +271,6 @@ static rough rough_between(const sli_fine *from, const sli_fine *to) {
     return (rough){sum, 0x1p-51 * (size(at) + size(rest))};
 }
 
-static double cross(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 static double dot(sl_point a, sl_point b) {
     return a.x * b.x + a.y * b.y;
 }
@@ -298,13 +296,13 @@ static int compare_in_doubles(const sli_glance *g, double length) {
     const sli_fine right = {.at = g->right}, left = {.at = g->left};
     const rough p = rough_between(&g->eye, &right), q = rough_between(&g->eye, &left);
     const rough w = rough_between(&right, &left);
-    const double area = cross(p.at, q.at), square = length * length;
+    const double area = sli_cross(p.at, q.at), square = length * length;
     if (!is_sure(area, error_of(&p, &q))) return 0;
     for (int side = 0; side < 2; side++) {
         const rough d = rough_between(&g->eye, side ? &g->to : &g->from);
         const bool away = side ? g->to_away : g->from_away;
         const double along = away ? -dot(d.at, w.at) : dot(d.at, w.at);
-        const double over = cross(d.at, w.at);
+        const double over = sli_cross(d.at, w.at);
         if (!is_sure(along, error_of(&d, &w))) return 0;
         if (side ? along > 0 : along < 0) continue;
         if (!is_sure(over, error_of(&d, &w)) || !is_sure(size(d.at), d.error)) return 0;

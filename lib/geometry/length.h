@@ -1,8 +1,11 @@
-/// Lengths, and the lesser and the greater of two numbers. A length is the same to the last bit on
-/// every machine. The hypot of mathematical libraries is not: they round differently, some by the
-/// processor they find. A difference of one bit is enough to cut a map another way.
+/// Lengths, sums, cross products, and the lesser and the greater of two numbers. A length is the
+/// same to the last bit on every machine. The hypot of mathematical libraries is not: they round
+/// differently, some by the processor they find. A difference of one bit is enough to cut a map
+/// another way.
 #ifndef SLI_LENGTH_H
 #define SLI_LENGTH_H
+
+#include "sightline/geometry.h"
 
 #include <math.h>
 
@@ -18,6 +21,18 @@ static inline double sli_length(double x, double y) {
     frexp(most, &exponent); // powers of 2 are exact
     const double u = ldexp(x, -exponent), v = ldexp(y, -exponent);
     return ldexp(sqrt(u * u + v * v), exponent);
+}
+
+/// a x b, rounded. For its sign there is orient.h.
+static inline double sli_cross(sl_point a, sl_point b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// a + b, and what that leaves out (Knuth's TwoSum).
+static inline double sli_two_sum(double a, double b, double *rest) {
+    const double sum = a + b, part = sum - a;
+    *rest = (a - (sum - part)) + (b - part);
+    return sum;
 }
 
 /// fmin and fmax for numbers, without a call of the C library.

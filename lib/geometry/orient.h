@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 #if FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
-#error "with more bits than doubles have no sign is exact: compile by -msse2 -mfpmath=sse"
+#error "this compiler computes doubles with more bits, so signs are wrong: use -msse2 -mfpmath=sse"
 #endif
 
 static inline bool sli_same_point(sl_point a, sl_point b) {

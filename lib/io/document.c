@@ -185,6 +185,11 @@ sl_status sli_json_text(const sli_json *at, const char **text) {
     return SL_OK;
 }
 
+const char *sli_json_text_of(const sli_json *parent, const char *key) {
+    const char *text = json_string_value(sli_json_member(parent, key).value);
+    return text ? text : "";
+}
+
 double sli_json_number_or_0(const sli_json *at) {
     double number = 0;
     const char *text = at->file->numbers_as_text ? json_string_value(at->value) : NULL;

@@ -53,6 +53,8 @@ sl_status sli_json_number(const sli_json *at, double *number);
 sl_status sli_json_whole(const sli_json *at, int64_t low, int64_t high, int64_t *number);
 /// The text lives as long as the file.
 sl_status sli_json_text(const sli_json *at, const char **text);
+/// The text of a member; "" where there is none.
+const char *sli_json_text_of(const sli_json *parent, const char *key);
 
 /// As sli_json_number and sli_json_whole, but `*number` stays as it is where there is no value.
 sl_status sli_json_number_if(const sli_json *at, double *number);

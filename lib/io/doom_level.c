@@ -4,6 +4,8 @@
 /// passed over, as the format wants). Both give the same records, whose references are then looked
 /// up.
 #include "io/wad.h"
+
+#include "geometry/orient.h"
 #include "map/scan.h"
 
 #include <limits.h>
@@ -545,14 +547,9 @@ typedef struct line_start {
     size_t line;
 } line_start;
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
 static int compare_starts(const void *left, const void *right) {
     const line_start *a = left, *b = right;
-    const int order = compare_points(a->at, b->at);
+    const int order = sli_compare_points(a->at, b->at);
     return order ? order : (a->line > b->line) - (a->line < b->line);
 }
 
@@ -561,12 +558,12 @@ static size_t find_start(const line_start *starts, size_t count, sl_point at) {
     size_t low = 0, high = count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (compare_points(starts[middle].at, at) < 0)
+        if (sli_compare_points(starts[middle].at, at) < 0)
             low = middle + 1;
         else
             high = middle;
     }
-    return low < count && compare_points(starts[low].at, at) == 0 ? starts[low].line : count;
+    return low < count && sli_compare_points(starts[low].at, at) == 0 ? starts[low].line : count;
 }
 
 /// Each step marks a line, or is the chain's last.

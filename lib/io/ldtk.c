@@ -31,12 +31,6 @@ typedef struct place {
     double x, y;
 } place;
 
-static const char *text_of(const sli_json *parent, const char *key) {
-    const sli_json member = sli_json_member(parent, key);
-    const char *text = json_string_value(member.value);
-    return text ? text : "";
-}
-
 /// Whether an IntGrid layer's values have identifiers that say which of them are solid; the layer's
 /// definition is found by its number.
 static sli_json find_values(const ldtk *reader, const sli_json *layer, sli_json defs[3]) {
@@ -167,16 +161,24 @@ static void find_heading(const char *field, const sli_json *value, double *headi
         if (strcasecmp(text, words[i].name) == 0) *heading = words[i].heading;
 }
 
+/// What a field `lockedWith` names is a key: the door is shut. No value, no lock.
+static bool names_key(const char *field, const sli_json *value) {
+    const char *text = json_string_value(value->value);
+    return strcasecmp(field, "lockedWith") == 0 &&
+           ((text && *text) || json_object_size(value->value) || json_array_size(value->value));
+}
+
 /// `own` becomes the text of the field "name", if there is one.
 static void read_fields(const sli_json *entity, sli_says *says, double *heading, const char **own) {
     const sli_json fields = sli_json_member(entity, "fieldInstances");
     for (size_t i = 0; i < json_array_size(fields.value); i++) {
         const sli_json field = sli_json_item(&fields, i);
         const sli_json value = sli_json_member(&field, "__value");
-        const char *name = text_of(&field, "__identifier");
+        const char *name = sli_json_text_of(&field, "__identifier");
         const char *text = json_string_value(value.value);
         if (json_is_boolean(value.value)) sli_says_add(says, name, json_is_true(value.value));
         if (text) sli_says_add_text(says, name, text);
+        if (names_key(name, &value)) sli_says_add(says, "locked", true);
         if (text && *text && strcasecmp(name, "name") == 0) *own = text;
         find_heading(name, &value, heading);
     }
@@ -184,7 +186,7 @@ static void read_fields(const sli_json *entity, sli_says *says, double *heading,
 
 /// Adds an entity that is a start or a door. Its pivot is at its place "px".
 static sl_status read_entity(ldtk *reader, const sli_json *entity, sl_point corner, double step) {
-    const char *name = text_of(entity, "__identifier");
+    const char *name = sli_json_text_of(entity, "__identifier");
     sli_says says = sli_says_of(name, NULL);
     const char *own = name;
     double heading = 0;
@@ -240,13 +242,13 @@ static sl_status read_entities(ldtk *reader, const sli_json *layer, place at) {
 // --- layers
 
 static bool is_int_grid(const sli_json *layer) {
-    return strcmp(text_of(layer, "__type"), "IntGrid") == 0;
+    return strcmp(sli_json_text_of(layer, "__type"), "IntGrid") == 0;
 }
 
 /// Whether a layer is to be read: those asked for; else those whose names say that they are solid;
 /// else all.
 static bool is_taken(const ldtk *reader, const sli_json *layer, bool some_say_solid) {
-    const char *name = text_of(layer, "__identifier");
+    const char *name = sli_json_text_of(layer, "__identifier");
     if (!is_int_grid(layer)) return false;
     if (reader->options->layers) return sli_layers_have(reader->options->layers, name);
     return !some_say_solid || sli_says_solid(name);
@@ -258,7 +260,8 @@ static sl_status check_layers(const ldtk *reader, const sli_json *layers) {
         bool known = false;
         for (size_t i = 0; i < json_array_size(layers->value); i++) {
             const sli_json layer = sli_json_item(layers, i);
-            known |= is_int_grid(&layer) && sli_word_is(name, text_of(&layer, "__identifier"));
+            known |=
+                is_int_grid(&layer) && sli_word_is(name, sli_json_text_of(&layer, "__identifier"));
         }
         if (!known)
             return sl_fail(reader->context, SL_BAD_ARGUMENT, "%s: there is no IntGrid layer '%s'",
@@ -275,7 +278,8 @@ static sl_status read_layers(ldtk *reader, const sli_json *layers, place at) {
     for (size_t i = 0; i < count; i++) {
         const sli_json layer = sli_json_item(layers, i);
         SL_TRY(sli_json_object(&layer));
-        some_say_solid |= is_int_grid(&layer) && sli_says_solid(text_of(&layer, "__identifier"));
+        some_say_solid |=
+            is_int_grid(&layer) && sli_says_solid(sli_json_text_of(&layer, "__identifier"));
     }
     for (size_t i = 0; i < count; i++) {
         const sli_json layer = sli_json_item(layers, i);
@@ -317,7 +321,7 @@ static sl_status read_level(ldtk *reader, const sli_json *level, place at) {
     const double bottom = at.y + (double)pixels;
     reader->bottom = reader->levels ? fmax(reader->bottom, bottom) : bottom;
     if (!reader->levels) {
-        const char *name = text_of(level, "identifier");
+        const char *name = sli_json_text_of(level, "identifier");
         snprintf(reader->taken, sizeof reader->taken, "%s",
                  sli_show((sli_word){name, strlen(name)}).text);
     }
@@ -329,7 +333,7 @@ static sl_status read_level(ldtk *reader, const sli_json *level, place at) {
 /// All levels of a world, or of the project where it has but one, each in its place.
 static sl_status read_world(ldtk *reader, const sli_json *world) {
     const sli_json levels = sli_json_member(world, "levels");
-    const char *layout = text_of(world, "worldLayout");
+    const char *layout = sli_json_text_of(world, "worldLayout");
     const bool across = strcmp(layout, "LinearHorizontal") == 0;
     const bool down = strcmp(layout, "LinearVertical") == 0;
     place at = {0};
@@ -362,8 +366,8 @@ static sl_status read_world(ldtk *reader, const sli_json *world) {
 }
 
 static bool is_named(const sli_json *thing, const char *name) {
-    return strcmp(text_of(thing, "identifier"), name) == 0 ||
-           strcmp(text_of(thing, "iid"), name) == 0;
+    return strcmp(sli_json_text_of(thing, "identifier"), name) == 0 ||
+           strcmp(sli_json_text_of(thing, "iid"), name) == 0;
 }
 
 /// Reads the level that is asked for, or the first; `*found` where it is in this world.
@@ -428,7 +432,7 @@ static void give_account(const ldtk *reader, const sl_map *map) {
 static sl_status read_file(ldtk *reader, sl_map *map) {
     const sli_json levels = sli_json_member(&reader->root, "levels");
     const sli_json worlds = sli_json_member(&reader->root, "worlds");
-    const char *own = text_of(&reader->root, "identifier");
+    const char *own = sli_json_text_of(&reader->root, "identifier");
     SL_TRY(sli_json_object(&reader->root));
     if (levels.value || worlds.value)
         SL_TRY(read_project(reader));

@@ -11,8 +11,6 @@
 #include "io/shapes.h"
 #include "sightline/io.h"
 
-#include <math.h>
-
 // --- the layers asked for: NAME takes all tiles of a layer, or all layers of a group;
 // --- NAME:28+33-35 the tiles of these numbers
 
@@ -105,17 +103,11 @@ static sl_status tiled_check_choice(const sli_json *map, const char *list) {
 
 // --- reading a map
 
-static const char *text_of(const sli_json *parent, const char *key) {
-    const sli_json member = sli_json_member(parent, key);
-    const char *text = json_string_value(member.value);
-    return text ? text : "";
-}
-
 /// Where a layer lies in its group's place, and whether it is solid.
 static sl_status find_place(const sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *outer, sli_tiled_place *own) {
     const sli_json x = sli_json_member(layer, "offsetx"), y = sli_json_member(layer, "offsety");
-    const char *name = text_of(layer, "name");
+    const char *name = sli_json_text_of(layer, "name");
     sl_point offset = {0};
     SL_TRY(sli_json_number_if(&x, &offset.x));
     SL_TRY(sli_json_number_if(&y, &offset.y));
@@ -148,7 +140,7 @@ sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label) {
 /// "layer Walls, object 12 'crate', line 40"
 static sl_status name_object(sli_tiled_reader *reader, const sli_json *layer,
                              const sli_json *object, const sli_tiled_shape *shape) {
-    const char *const names[] = {text_of(layer, "name"), text_of(object, "name")};
+    const char *const names[] = {sli_json_text_of(layer, "name"), sli_json_text_of(object, "name")};
     const sli_json number = sli_json_member(object, "id");
     int64_t id = 0;
     char label[SL_LINE_TEXT];
@@ -167,7 +159,7 @@ static sli_tiled_word word_of_object(const sli_tiled_reader *reader, const sli_j
                                      const sli_tiled_shape *shape) {
     const sli_tiled_word word = sli_tiled_word_of(object, "type");
     if (word != SLI_TILED_UNSAID) return word;
-    if (sli_says_solid(text_of(object, "name"))) return SLI_TILED_SOLID;
+    if (sli_says_solid(sli_json_text_of(object, "name"))) return SLI_TILED_SOLID;
     const uint32_t gid = shape->gid & SLI_TILED_TILE;
     const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
     return set ? sli_tiled_word_of_tile(set, sli_tiled_find_tile(set, gid)) : SLI_TILED_UNSAID;
@@ -214,14 +206,14 @@ static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
                             const sli_tiled_place *at, bool *taken) {
     sli_tiled_shape shape;
     SL_TRY(read_shape(reader, object, &shape));
-    const char *class = text_of(object, "type");
+    const char *class = sli_json_text_of(object, "type");
     const uint32_t gid = shape.gid & SLI_TILED_TILE;
     const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
     sli_says says = sli_tiled_says_of(object, "type");
     if (!says.kind && tile) says = tile->says;
-    SL_TRY(sli_things_ask(&reader->things, text_of(object, "name"),
-                          *class ? class : text_of(object, "class"), &says));
+    SL_TRY(sli_things_ask(&reader->things, sli_json_text_of(object, "name"),
+                          *class ? class : sli_json_text_of(object, "class"), &says));
     *taken = says.kind != SLI_THING_NONE;
     if (!*taken) return SL_OK;
     if (set && shape.width == 0 && shape.height == 0) {
@@ -255,7 +247,7 @@ static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, cons
     const sli_affine outer = reader->pen.affine;
     const sli_affine place = sli_affine_after(outer, affine_of_layer(reader, at));
     const sl_point start = sli_affine_apply(place, (sl_point){shape.x, shape.y});
-    const char *name = text_of(object, "name");
+    const char *name = sli_json_text_of(object, "name");
     if (item.layer == SLI_LAYER_DOOR)
         item.open = sli_tiled_says_of(object, "type").state != SLI_DOOR_SHUT;
     item.name = *name ? name : NULL;
@@ -279,7 +271,7 @@ static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, cons
 /// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
 /// layer is one of the map's own. With --start-names the names of objects decide what is a start.
 static sli_layer kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer) {
-    const char *name = text_of(layer, "name");
+    const char *name = sli_json_text_of(layer, "name");
     const sli_layer kind = reader->lattice.orientation == SLI_TILED_ORTHOGONAL
                                ? sli_layer_of((sli_word){name, strlen(name)}, NULL)
                                : SLI_LAYER_NONE;
@@ -349,8 +341,8 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
                                                           : &reader->objects;
         ++*counted;
         if (counted == &reader->other_objects) {
-            const char *name = text_of(&object, "name");
-            sli_things_leave(&reader->things, *name ? name : text_of(&object, "class"));
+            const char *name = sli_json_text_of(&object, "name");
+            sli_things_leave(&reader->things, *name ? name : sli_json_text_of(&object, "class"));
         }
         if (!taken || shape.kind == SLI_TILED_OTHER) continue;
         SL_TRY(name_object(reader, layer, &object, &shape));
@@ -371,7 +363,7 @@ static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
     for (size_t i = 0; i < count; i++) {
         const sli_json layer = sli_json_item(&layers, i);
         SL_TRY(sli_json_object(&layer));
-        const char *type = text_of(&layer, "type");
+        const char *type = sli_json_text_of(&layer, "type");
         sli_tiled_place own;
         SL_TRY(find_place(reader, &layer, outer, &own));
         if (strcmp(type, "group") == 0)
@@ -425,7 +417,8 @@ static void add_layers(const sli_json *parent, layer_text *out) {
     const sli_json layers = sli_json_member(parent, "layers");
     for (size_t i = 0; i < json_array_size(layers.value); i++) {
         const sli_json layer = sli_json_item(&layers, i);
-        const char *name = text_of(&layer, "name"), *type = text_of(&layer, "type");
+        const char *name = sli_json_text_of(&layer, "name"),
+                   *type = sli_json_text_of(&layer, "type");
         const bool objects = strcmp(type, "objectgroup") == 0;
         if (strcmp(type, "group") == 0) add_layers(&layer, out);
         if (!objects && strcmp(type, "tilelayer") != 0) continue;
@@ -591,7 +584,8 @@ static sl_status list_names(sl_context *context, const sli_json *parent, sl_map_
     const sli_json layers = sli_json_member(parent, "layers");
     for (size_t i = 0; i < json_array_size(layers.value); i++) {
         const sli_json layer = sli_json_item(&layers, i);
-        const char *name = text_of(&layer, "name"), *type = text_of(&layer, "type");
+        const char *name = sli_json_text_of(&layer, "name"),
+                   *type = sli_json_text_of(&layer, "type");
         if (strcmp(type, "group") == 0) SL_TRY(list_names(context, &layer, list));
         if (strcmp(type, "objectgroup") == 0 || strcmp(type, "tilelayer") == 0)
             SL_TRY(sl_map_list_add(context, list, name, strlen(name)));

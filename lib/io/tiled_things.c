@@ -12,15 +12,10 @@
 
 // --- what things say
 
-static const char *text_of(const sli_json *parent, const char *key) {
-    const sli_json member = sli_json_member(parent, key);
-    const char *text = json_string_value(member.value);
-    return text ? text : "";
-}
-
 sli_says sli_tiled_says_of(const sli_json *thing, const char *class_key) {
-    const char *class = text_of(thing, class_key);
-    sli_says says = sli_says_of(text_of(thing, "name"), *class ? class : text_of(thing, "class"));
+    const char *class = sli_json_text_of(thing, class_key);
+    sli_says says = sli_says_of(sli_json_text_of(thing, "name"),
+                                *class ? class : sli_json_text_of(thing, "class"));
     sli_tiled_properties at = sli_tiled_properties_of(thing);
     const char *name;
     for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
@@ -114,7 +109,7 @@ static bool add_properties(json_t *object, const json_t *of_template) {
 
 sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
                              sli_json_file *file) {
-    const char *source = text_of(object, "template");
+    const char *source = sli_json_text_of(object, "template");
     json_t *from = NULL;
     *file = (sli_json_file){
         .context = object->file->context, .name = object->file->name, .numbers_as_text = true};

@@ -23,12 +23,6 @@
 /// So many squares of staggered layers and no more.
 #define MOST_TURNED ((size_t)1 << 27)
 
-static const char *text_of(const sli_json *parent, const char *key) {
-    const sli_json member = sli_json_member(parent, key);
-    const char *text = json_string_value(member.value);
-    return text ? text : "";
-}
-
 // --- what a block's tiles are
 
 /// A rectangle of tiles: a whole layer, or a chunk of one. Staggered ones are turned in the plan,
@@ -247,7 +241,7 @@ static sl_status take_tiles(sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *at, const block *all) {
     const size_t count = all->columns * all->rows;
     if (reader->guess && !*reader->guessed_of) {
-        const char *name = text_of(layer, "name");
+        const char *name = sli_json_text_of(layer, "name");
         snprintf(reader->guessed_of, sizeof reader->guessed_of, "'%s'",
                  sli_show((sli_word){name, strlen(name)}).text);
         SL_TRY(guess_tile(reader, all, &reader->guessed));

@@ -42,19 +42,23 @@ static inline sli_shown sli_show(sli_word word) {
 /// A walk over the lines of a text. `line` is the number of the line last given.
 typedef struct sli_lines {
     const char *at, *end;
+    char ending;
     uint32_t line;
 } sli_lines;
 
-/// Skips a byte order mark at the start.
+/// Skips a byte order mark at the start. Lines end with LF or CR LF; in a text without any LF, with
+/// CR.
 static inline sli_lines sli_lines_of(const char *text, size_t size) {
     const size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    return (sli_lines){.at = size ? text + mark : text, .end = size ? text + size : text};
+    return (sli_lines){.at = size ? text + mark : text,
+                       .end = size ? text + size : text,
+                       .ending = size && !memchr(text, '\n', size) ? '\r' : '\n'};
 }
 
-/// The next line without its end (LF or CR LF); false after the last.
+/// The next line without its end; false after the last.
 static inline bool sli_lines_next(sli_lines *lines, sli_word *line) {
     if (lines->at == lines->end) return false;
-    const char *stop = memchr(lines->at, '\n', (size_t)(lines->end - lines->at));
+    const char *stop = memchr(lines->at, lines->ending, (size_t)(lines->end - lines->at));
     const char *next = stop ? stop + 1 : lines->end;
     if (!stop) stop = lines->end;
     if (stop > lines->at && stop[-1] == '\r') stop--;

@@ -506,7 +506,7 @@ static void print_ends(FILE *stream, sl_point a, sl_point b) {
 }
 
 static void print_notes(FILE *stream, const char *notes) {
-    sli_lines lines = {.at = notes, .end = notes + strlen(notes)};
+    sli_lines lines = {.at = notes, .end = notes + strlen(notes), .ending = '\n'};
     for (sli_word line; sli_lines_next(&lines, &line);) {
         fprintf(stream, line.length ? "#! " : "#!");
         fwrite(line.at, 1, line.length, stream);

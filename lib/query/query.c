@@ -273,7 +273,7 @@ static sl_status make_search(sl_context *context, sl_query *q) {
         }
         q->search = search;
     }
-    sl_eye_search_limit(q->search, q->range);
+    sl_eye_search_set_range(q->search, q->range);
     return SL_OK;
 }
 
@@ -292,9 +292,9 @@ static sl_status create_moving(sl_context *context, sl_query *q) {
 
 static sl_status make_moving(sl_context *context, sl_query *q) {
     if (!q->moving) SL_TRY(create_moving(context, q));
-    if (!q->boxes_placed) SL_TRY(sl_moving_place(context, q->moving, q->boxes, q->box_count));
+    if (!q->boxes_placed) SL_TRY(sl_moving_set_boxes(context, q->moving, q->boxes, q->box_count));
     q->boxes_placed = true;
-    sl_moving_limit(q->moving, q->range);
+    sl_moving_set_range(q->moving, q->range);
     return SL_OK;
 }
 
@@ -365,8 +365,8 @@ uint32_t sl_query_locate(const sl_query *query, sl_point point) {
     return sl_space_locate(&query->baked->space, point);
 }
 
-sl_status sl_query_cell_sees(sl_context *context, sl_query *query, uint32_t from, uint32_t to,
-                             bool *out) {
+sl_status sl_query_can_see(sl_context *context, sl_query *query, uint32_t from, uint32_t to,
+                           bool *out) {
     SL_TRY(make_doors(context, query));
     const sl_pvs *pvs = &query->doors.visibility->pvs;
     if (from >= pvs->cell_count || to >= pvs->cell_count)
@@ -376,8 +376,8 @@ sl_status sl_query_cell_sees(sl_context *context, sl_query *query, uint32_t from
     return SL_OK;
 }
 
-sl_status sl_query_can_see(sl_context *context, sl_query *query, sl_point eye, sl_point point,
-                           bool *out) {
+sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
+                        bool *out) {
     const sl_outline *outline;
     const sl_sight sight = query->baked->visibility.sight;
     bool sees;
@@ -426,7 +426,7 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
     SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &space));
     sl_status status = sl_eye_search_create(context, &space, q->glass.visibility, &search);
     if (status == SL_OK) {
-        sl_eye_search_limit(search, q->range);
+        sl_eye_search_set_range(search, q->range);
         status = method->cull(context, search, view, cells, account);
     }
     sl_eye_search_destroy(context, search);

@@ -16,7 +16,6 @@
 #include "space/mesh.h"
 #include "space/seams.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 typedef struct checker {

@@ -27,7 +27,6 @@
 #include "space/kd_tree.h"
 #include "space/seams.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

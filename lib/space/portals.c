@@ -24,6 +24,9 @@ typedef struct portal_maker {
     SL_ARRAY(int32_t) stack;
     cell_list below, above; ///< the cells that touch a split line, in order along it
     portal_list portals;
+    const sl_node *split;   ///< at work
+    const sli_piece *walls; ///< on its line, in order; those before `next` are behind
+    size_t wall_count, next;
 } portal_maker;
 
 /// Gathers the cells in a subtree that touch the line of a split on `axis`. The subtree lies above
@@ -55,58 +58,55 @@ static void extent(const sl_box *box, int axis, double *lo, double *hi) {
     *hi = axis ? box->max.y : box->max.x;
 }
 
-static sl_status add_portal(sl_context *context, portal_list *portals, const sl_node *split,
-                            uint32_t below, uint32_t above, double lo, double hi) {
-    const double at = split->position;
-    SL_TRY(SL_ARRAY_ROOM(context, portals, 1));
+static sl_status add_portal(sl_context *context, portal_maker *maker, uint32_t below,
+                            uint32_t above, double lo, double hi) {
+    const double at = maker->split->position;
+    SL_TRY(SL_ARRAY_ROOM(context, &maker->portals, 1));
     // On the way up across the split, the left hand is at high y (axis 0) or at low x (axis 1).
-    const sl_portal portal = split->axis == 0 ? (sl_portal){{below, above}, {at, hi}, {at, lo}}
-                                              : (sl_portal){{below, above}, {lo, at}, {hi, at}};
-    portals->items[portals->count++] = portal;
+    maker->portals.items[maker->portals.count++] =
+        maker->split->axis == 0 ? (sl_portal){{below, above}, {at, hi}, {at, lo}}
+                                : (sl_portal){{below, above}, {lo, at}, {hi, at}};
     return SL_OK;
 }
 
 /// Adds lo .. hi, cut where a seam on the line begins or ends.
-static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const sl_node *split,
-                               uint32_t below, uint32_t above, double lo, double hi,
-                               const sli_piece *walls, size_t count, size_t next) {
-    for (size_t i = next; i < count && walls[i].lo < hi; i++) {
-        if (!walls[i].seam || walls[i].hi <= lo) continue;
-        const double cuts[2] = {walls[i].lo, walls[i].hi};
+static sl_status add_cut_piece(sl_context *context, portal_maker *maker, uint32_t below,
+                               uint32_t above, double lo, double hi) {
+    for (size_t i = maker->next; i < maker->wall_count && maker->walls[i].lo < hi; i++) {
+        const sli_piece *seam = &maker->walls[i];
+        if (!seam->seam || seam->hi <= lo) continue;
+        const double cuts[2] = {seam->lo, seam->hi};
         for (int k = 0; k < 2; k++) {
             if (cuts[k] <= lo || cuts[k] >= hi) continue;
-            SL_TRY(add_portal(context, &maker->portals, split, below, above, lo, cuts[k]));
+            SL_TRY(add_portal(context, maker, below, above, lo, cuts[k]));
             lo = cuts[k];
         }
     }
-    return add_portal(context, &maker->portals, split, below, above, lo, hi);
+    return add_portal(context, maker, below, above, lo, hi);
 }
 
-/// Adds the parts of lo .. hi that walls[*next ...] leave free. Moves *next past walls that end
-/// before lo.
-static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
-                                 uint32_t below, uint32_t above, double lo, double hi,
-                                 const sli_piece *walls, size_t count, size_t *next) {
-    while (*next < count && walls[*next].hi <= lo) ++*next;
-    for (size_t i = *next; i < count && walls[i].lo < hi; i++) {
+/// Adds the parts of lo .. hi that walls leave free. Moves on past walls that end before lo.
+static sl_status add_free_pieces(sl_context *context, portal_maker *maker, uint32_t below,
+                                 uint32_t above, double lo, double hi) {
+    const sli_piece *walls = maker->walls;
+    while (maker->next < maker->wall_count && walls[maker->next].hi <= lo) maker->next++;
+    for (size_t i = maker->next; i < maker->wall_count && walls[i].lo < hi; i++) {
         if (walls[i].seam) continue;
-        if (walls[i].lo > lo)
-            SL_TRY(add_cut_piece(context, maker, split, below, above, lo, walls[i].lo, walls, count,
-                                 *next));
+        if (walls[i].lo > lo) SL_TRY(add_cut_piece(context, maker, below, above, lo, walls[i].lo));
         if (walls[i].hi > lo) lo = walls[i].hi;
     }
-    if (lo >= hi) return SL_OK;
-    return add_cut_piece(context, maker, split, below, above, lo, hi, walls, count, *next);
+    return lo < hi ? add_cut_piece(context, maker, below, above, lo, hi) : SL_OK;
 }
 
 static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_t node) {
     const sli_kd_tree *tree = maker->tree;
     const sl_node *split = &tree->nodes.items[node];
-    const sli_piece *walls = tree->on_splits.items + tree->splits.items[node].first;
-    const size_t wall_count = tree->splits.items[node].count;
     SL_TRY(gather_cells(context, maker, split->below, split->axis, false, &maker->below));
     SL_TRY(gather_cells(context, maker, split->above, split->axis, true, &maker->above));
-    size_t next_wall = 0;
+    maker->split = split;
+    maker->walls = tree->on_splits.items + tree->splits.items[node].first;
+    maker->wall_count = tree->splits.items[node].count;
+    maker->next = 0;
     for (size_t i = 0, j = 0; i < maker->below.count && j < maker->above.count;) {
         const uint32_t below = maker->below.items[i], above = maker->above.items[j];
         double lo, hi, other_lo, other_hi;
@@ -116,8 +116,7 @@ static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_
         j += other_hi <= hi;
         if (other_lo > lo) lo = other_lo;
         if (other_hi < hi) hi = other_hi;
-        SL_TRY(add_free_pieces(context, maker, split, below, above, lo, hi, walls, wall_count,
-                               &next_wall));
+        SL_TRY(add_free_pieces(context, maker, below, above, lo, hi));
     }
     return SL_OK;
 }

@@ -23,7 +23,6 @@
 #include "sightline/support.h"
 #include "space/kd_tree.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 /// The boundaries during the work: sides in any order, those of a face linked both ways.

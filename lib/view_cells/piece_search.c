@@ -17,6 +17,7 @@
 /// pay.
 ///
 /// Cost: one test for each portal of each room entered, among the candidates alone.
+#include "geometry/length.h"
 #include "stab/funnel.h"
 #include "view_cells/pieces.h"
 
@@ -151,10 +152,6 @@ static void add_line(const sli_view_piece *piece, sl_point a, sl_point b, sli_vi
     }
 }
 
-static double turn(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// The extent within the piece of the lines of the current sequence.
 static sli_view_extent find_extent(const sli_view_searcher *me, const sli_view_piece *piece,
                                    sli_direction_sector sector) {
@@ -171,7 +168,7 @@ static sli_view_extent find_extent(const sli_view_searcher *me, const sli_view_p
         const sl_point to = {c.to.x - c.from.x, c.to.y - c.from.y};
         add_line(piece, c.from, c.to, &extent);
         for (int k = 0; k < 2; k++)
-            if (turn(ways[k], from) * turn(ways[k], to) < 0)
+            if (sli_cross(ways[k], from) * sli_cross(ways[k], to) < 0)
                 add_line(piece, last.pivot,
                          (sl_point){last.pivot.x + ways[k].x, last.pivot.y + ways[k].y}, &extent);
         last = c;

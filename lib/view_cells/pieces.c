@@ -12,7 +12,6 @@
 #include "sightline/outline.h"
 #include "sightline/support.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 // --- rooms

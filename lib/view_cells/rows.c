@@ -87,7 +87,7 @@ sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
     sl_status status = SL_OK;
     for (size_t i = 0; i < count && status == SL_OK; i++)
         status = sl_map_add_seam(context, map, borders[i], 0);
-    sl_view_borders_free(context, borders);
+    sl_free(context, borders);
     for (uint32_t i = 0; objects && i < objects->portal_count && status == SL_OK; i++) {
         const sl_segment portal = {objects->portals[i].right, objects->portals[i].left};
         status = sl_map_add_seam(context, map, portal, 0);

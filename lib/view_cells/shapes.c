@@ -412,7 +412,7 @@ sl_status sl_view_shapes(sl_context *context, const sl_view_tree *tree, const ui
     if (status == SL_OK)
         *out = made;
     else
-        sl_view_shapes_free(context, &made);
+        sl_view_shapes_destroy(context, &made);
     sl_free(context, s.points.items);
     sl_free(context, s.joined);
     sl_free(context, s.place);
@@ -424,7 +424,7 @@ sl_status sl_view_shapes(sl_context *context, const sl_view_tree *tree, const ui
     return status;
 }
 
-void sl_view_shapes_free(sl_context *context, sl_shapes *shapes) {
+void sl_view_shapes_destroy(sl_context *context, sl_shapes *shapes) {
     sl_free(context, shapes->points);
     sl_free(context, shapes->rings);
     sl_free(context, shapes->polygons);

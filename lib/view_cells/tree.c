@@ -220,7 +220,3 @@ sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree, const u
     *count = found;
     return SL_OK;
 }
-
-void sl_view_borders_free(sl_context *context, sl_segment *borders) {
-    sl_free(context, borders);
-}

@@ -197,10 +197,10 @@ static sl_status expand(sl_context *context, walker *w, const entry *at) {
         return expand_row(context, w, at);
     const size_t bundle = at->before / 64;
     const uint32_t *starts = &a->starts[at->step + bundle];
-    const way_on *way = a->lists[bundle].ways.items + starts[0];
-    const way_on *end = a->lists[bundle].ways.items + starts[1];
-    SL_TRY(SL_ARRAY_ROOM(context, &w->entries, starts[1] - starts[0]));
-    for (; way < end; way++) try_way(w, at, *way);
+    const way_on *ways = a->lists[bundle].ways.items; // NULL where there are none
+    const uint32_t end = starts[1];
+    SL_TRY(SL_ARRAY_ROOM(context, &w->entries, end - starts[0]));
+    for (uint32_t i = starts[0]; i < end; i++) try_way(w, at, ways[i]);
     return SL_OK;
 }
 
@@ -369,6 +369,21 @@ static sl_status begin_lists(sl_context *context, void *all, void **state) {
     return *state ? SL_OK : SL_NO_MEMORY;
 }
 
+/// Lowers the lengths to what u sees, of the slots in `far`, by a second step from there.
+static void step_from(const sli_vga_sights *s, uint32_t u, float hop, const uint64_t *far,
+                      float *two) {
+    const float x = s->x[u], y = s->y[u];
+    for (size_t k = s->first[u]; k < s->first[u + 1]; k++) {
+        const sli_vga_word *next = &s->words.items[k];
+        for (uint64_t rest = next->seen & far[next->bundle]; rest; rest &= rest - 1) {
+            const uint32_t q = next->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
+            const float dx = s->x[q] - x, dy = s->y[q] - y, left = two[q] - hop;
+            const float square = dx * dx + dy * dy;
+            if (left > 0 && square < left * left) two[q] = hop + sqrtf(square);
+        }
+    }
+}
+
 /// Finds the least length of one step or two from p, by slot. What p sees is nearest by one step.
 /// `far`: scratch, for what p does not see.
 static void find_two_steps(const sli_vga_sights *s, uint32_t p, float *two, uint64_t *far) {
@@ -387,16 +402,7 @@ static void find_two_steps(const sli_vga_sights *s, uint32_t p, float *two, uint
         const sli_vga_word *word = &s->words.items[i];
         for (uint64_t rest = word->seen & s->turning[word->bundle]; rest; rest &= rest - 1) {
             const uint32_t u = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
-            const float x = s->x[u], y = s->y[u], hop = (float)sli_vga_distance(s, p, u);
-            for (size_t k = s->first[u]; k < s->first[u + 1]; k++) {
-                const sli_vga_word *next = &s->words.items[k];
-                for (uint64_t more = next->seen & far[next->bundle]; more; more &= more - 1) {
-                    const uint32_t q = next->bundle * 64 + (uint32_t)__builtin_ctzll(more);
-                    const float dx = s->x[q] - x, dy = s->y[q] - y, left = two[q] - hop;
-                    const float square = dx * dx + dy * dy;
-                    if (left > 0 && square < left * left) two[q] = hop + sqrtf(square);
-                }
-            }
+            step_from(s, u, (float)sli_vga_distance(s, p, u), far, two);
         }
     }
 }

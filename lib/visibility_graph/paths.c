@@ -105,28 +105,32 @@ static void join_parts(sli_vga_sights *s, uint32_t *joined, uint32_t parts) {
     for (uint32_t q = 0; q < s->count; q++) s->parts[q] = find_part(joined, s->parts[q]);
 }
 
+/// Gives a number to a slot and to all that paths lead to from there, and takes them out of `left`.
+static void number_part(sli_vga_sights *s, uint32_t slot, uint32_t part, uint32_t *queue,
+                        sl_bits *left) {
+    size_t head = 0, tail = 0;
+    queue[tail++] = slot;
+    sl_bits_flip(left, slot);
+    while (head < tail) {
+        const uint32_t at = queue[head++];
+        s->parts[at] = part;
+        for (size_t i = s->first[at]; i < s->first[at + 1]; i++) {
+            const sli_vga_word *word = &s->words.items[i];
+            for (sl_bits q = word->seen & left[word->bundle]; q; q &= q - 1)
+                queue[tail++] = word->bundle * 64 + (uint32_t)__builtin_ctzll(q);
+            left[word->bundle] &= ~word->seen;
+        }
+    }
+}
+
 /// Numbers the parts of the graph that no path joins, in any direction. `left` holds all slots, and
 /// is used up.
 static void number_parts(sli_vga_sights *s, uint32_t *queue, sl_bits *left) {
     uint32_t parts = 0;
-    for (size_t b = 0; b < s->bundles; b++) {
-        while (left[b]) {
-            size_t head = 0, tail = 0;
-            queue[tail++] = (uint32_t)(b * 64) + (uint32_t)__builtin_ctzll(left[b]);
-            sl_bits_flip(left, queue[0]);
-            while (head < tail) {
-                const uint32_t at = queue[head++];
-                s->parts[at] = parts;
-                for (size_t i = s->first[at]; i < s->first[at + 1]; i++) {
-                    const sli_vga_word *word = &s->words.items[i];
-                    for (sl_bits q = word->seen & left[word->bundle]; q; q &= q - 1)
-                        queue[tail++] = word->bundle * 64 + (uint32_t)__builtin_ctzll(q);
-                    left[word->bundle] &= ~word->seen;
-                }
-            }
-            parts++;
-        }
-    }
+    for (size_t b = 0; b < s->bundles; b++)
+        while (left[b])
+            number_part(s, (uint32_t)(b * 64) + (uint32_t)__builtin_ctzll(left[b]), parts++, queue,
+                        left);
     if (parts > 1) join_parts(s, queue, parts);
 }
 

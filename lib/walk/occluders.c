@@ -67,23 +67,19 @@ void sli_chooser_destroy(sl_context *context, sli_chooser *chooser) {
     sl_free(context, chooser);
 }
 
-static double cross(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// The size of a wall from p to q as seen from the eye: minus the signed square of the angle's
 /// cosine; -2 for a wall outside the cone or edge-on.
 static double wall_size(const sli_chooser *c, sl_point p, sl_point q) {
-    if (cross(p, q) < 0) {
+    if (sli_cross(p, q) < 0) {
         const sl_point turned = p;
         p = q;
         q = turned;
     }
     if (c->cone.kind == SLI_CONE_WEDGE) {
-        if (cross(c->right, p) < 0) p = c->right;
-        if (cross(q, c->left) < 0) q = c->left;
+        if (sli_cross(c->right, p) < 0) p = c->right;
+        if (sli_cross(q, c->left) < 0) q = c->left;
     }
-    const double turn = cross(p, q);
+    const double turn = sli_cross(p, q);
     if (!(turn > 0)) return -2;
     const double dot = p.x * q.x + p.y * q.y;
     const double size = -(dot * fabs(dot)) / ((p.x * p.x + p.y * p.y) * (q.x * q.x + q.y * q.y));

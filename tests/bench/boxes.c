@@ -4,6 +4,8 @@
 // CSV: map, cells, boxes, eyes, what is asked, milliseconds a frame for the boxes' new places and
 // for the eyes, share of the boxes that an eye sees. Times are the processor's, the least of some
 // frames.
+#include "bench.h"
+
 #include "bake/slv.h"
 #include "sightline/generate.h"
 #include "sightline/io.h"
@@ -22,14 +24,9 @@
 
 enum { BOXES = 1000, EYES = 100, FRAMES = 5 };
 
-static void fail(const char *what) {
-    fprintf(stderr, "bench_boxes: %s\n", what);
-    exit(1);
-}
-
 static void *room(size_t count, size_t size) {
     void *block = calloc(count ? count : 1, size);
-    if (!block) fail("out of memory");
+    if (!block) bench_fail("out of memory");
     return block;
 }
 
@@ -52,7 +49,7 @@ static sl_status generate(sl_context *context, const char *name, const char *col
         if (strlen(kinds[i].name) == (size_t)(colon - name) &&
             memcmp(kinds[i].name, name, (size_t)(colon - name)) == 0)
             return sl_generate(context, &kinds[i], &options, map);
-    fail("there is no such kind of map");
+    bench_fail("there is no such kind of map");
     return SL_BAD_ARGUMENT;
 }
 
@@ -72,7 +69,7 @@ static void bake(sl_context *context, const char *name, const char *which, sl_ba
         sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space) !=
             SL_OK ||
         sl_see_methods(&count)->see(context, &baked->space, &options, &baked->visibility) != SL_OK)
-        fail(sl_context_message(context));
+        bench_fail(sl_context_message(context));
 }
 
 // --- what moves: boxes and eyes, on the way through the inside
@@ -90,7 +87,7 @@ static sl_point place(const sl_space *space, sl_random *random) {
         const uint32_t cell = sl_space_locate(space, p);
         if (cell != SL_NO_CELL && space->cells[cell].inside && !space->cells[cell].solid) return p;
     }
-    fail("the map has no inside");
+    bench_fail("the map has no inside");
     return b.min;
 }
 
@@ -149,17 +146,17 @@ static cost ask_query(bench *b, const frame *f, size_t boxes, size_t eyes) {
     cost c = {0};
     const double start = now();
     if (sl_query_set_boxes(b->context, b->query, f->boxes, boxes) != SL_OK)
-        fail(sl_context_message(b->context));
+        bench_fail(sl_context_message(b->context));
     // The boxes are placed when the first question needs them.
     sl_view view = sl_view_all_round(b->baked.space.bounds.min);
     view.eye.x -= 1;
     if (sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL) != SL_OK)
-        fail(sl_context_message(b->context));
+        bench_fail(sl_context_message(b->context));
     const double placed = now();
     for (size_t i = 0; i < eyes; i++) {
         view = sl_view_all_round(f->eyes[i]);
         if (sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL) != SL_OK)
-            fail(sl_context_message(b->context));
+            bench_fail(sl_context_message(b->context));
         for (size_t k = 0; k < boxes; k++) c.seen += b->seen[k];
     }
     c.place = placed - start;
@@ -176,7 +173,7 @@ static cost ask_runtime(bench *b, const frame *f, size_t boxes, size_t eyes) {
     for (uint32_t i = 0; i < boxes; i++) {
         const sl_box at = f->boxes[i].box;
         const sl_runtime_box to = {at.min.x, at.min.y, at.max.x, at.max.y, f->boxes[i].blocks};
-        if (!sl_runtime_boxes_move(placed, i, &to)) fail("there is no room for the boxes");
+        if (!sl_runtime_boxes_move(placed, i, &to)) bench_fail("there is no room for the boxes");
     }
     const double moved = now();
     for (size_t i = 0; i < eyes; i++) {
@@ -192,8 +189,9 @@ static void open_runtime(bench *b) {
     size_t size;
     FILE *stream = open_memstream(&b->bytes, &size);
     if (!stream || sli_slv_print(b->context, &b->baked, stream) != SL_OK || fclose(stream) != 0)
-        fail("out of memory");
-    if (sl_runtime_open(b->bytes, size, &b->runtime) != SL_RUNTIME_OK) fail("the bake is damaged");
+        bench_fail("out of memory");
+    if (sl_runtime_open(b->bytes, size, &b->runtime) != SL_RUNTIME_OK)
+        bench_fail("the bake is damaged");
     b->memory = room(sl_runtime_boxes_count(&b->runtime, BOXES, ROOM), sizeof *b->memory);
     b->scratch = room(sl_runtime_scratch_count(&b->runtime) + 2 * BOXES, sizeof *b->scratch);
 }
@@ -224,15 +222,15 @@ int main(int argc, char **argv) {
         {"runtime: which are seen", ask_runtime, false},
         {"runtime: which are seen past each other", ask_runtime, true},
     };
-    if (argc < 2) fail("usage: bench_boxes KIND:N[:DEGREES] | MAP [LEVEL]");
+    if (argc < 2) bench_fail("usage: bench_boxes KIND:N[:DEGREES] | MAP [LEVEL]");
     bench *b = room(1, sizeof *b);
     b->context = sl_context_create(NULL);
     b->baked = (sl_baked){.method = "dfs", .solver = "funnel"};
     b->name = argv[argc > 2 ? 2 : 1];
-    if (!b->context || sl_io_use(b->context) != SL_OK) fail("out of memory");
+    if (!b->context || sl_io_use(b->context) != SL_OK) bench_fail("out of memory");
     bake(b->context, argv[1], argc > 2 ? argv[2] : NULL, &b->baked);
     if (sl_query_create(b->context, &b->baked, &b->query) != SL_OK)
-        fail(sl_context_message(b->context));
+        bench_fail(sl_context_message(b->context));
     open_runtime(b);
     puts("map,cells,boxes,eyes,asked,place_ms,look_ms,share_seen");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)

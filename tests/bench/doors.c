@@ -2,6 +2,8 @@
 //   bench_doors
 // CSV: machine, sets of doors kept of a pair at most, what was measured, its value, and times the
 // value of the line that it is held against (the one before, where the last column names none).
+#include "bench.h"
+
 #include "bake/slv.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
@@ -15,7 +17,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
-#include <time.h>
 
 enum { ASKED = 1 << 14, LOOKS = 1 << 9, ROUNDS = 15 };
 
@@ -38,12 +39,6 @@ static void check(const bench *b, sl_status status) {
     if (status == SL_OK) return;
     fprintf(stderr, "bench_doors: %s\n", sl_context_message(b->context));
     exit(1);
-}
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
 // --- the bake
@@ -168,9 +163,9 @@ enum { QUESTIONS = sizeof questions / sizeof *questions };
 static double time_question(bench *b, size_t q, uint64_t *sum) {
     double least = INFINITY;
     for (int round = 0; round < ROUNDS; round++) {
-        const double start = now();
+        const double start = bench_seconds();
         for (size_t i = 0; i < questions[q].count; i++) *sum += questions[q].ask(b, i);
-        least = fmin(least, now() - start);
+        least = fmin(least, bench_seconds() - start);
     }
     return least / (double)questions[q].count * 1e9;
 }

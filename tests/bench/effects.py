@@ -3,6 +3,7 @@
 of glass and a view range.
 
 effects.py PROGRAM [--method NAME] [--size N] [--repeat N] [--pictures FOLDER]
+effects.py PROGRAM --mirrors    stabbing tests on three maps with 6 mirrors, by the sweep and depth-first
 
 CSV on stdout: machine, method, effects, seconds for the visible sets (the least of the runs, one
 thread), times the seconds without effects, pairs, pairs by mirror, bytes of door sets, size of the
@@ -17,6 +18,7 @@ import subprocess
 import tempfile
 
 DOORS, MIRRORS, PANES, RANGE = 30, 4, 2, 30
+MIRRORED = {"office": 12, "city": 9, "pillars": 10}  # kinds of maps and their sizes
 EFFECTS = ("doors", "mirrors", "glass", "range")
 
 
@@ -75,6 +77,19 @@ def bake(program, method, plan):
                           "--json", *chosen))
 
 
+def print_mirror_tests(program, folder):
+    plan = folder / "mirrored.map"
+    print("map,cells,sweep,dfs")
+    for kind, size in MIRRORED.items():
+        run(program, "generate", kind, "--size", size, "-o", plan)
+        cells = bake(program, None, plan)["cells"]
+        walls = json.loads(run(program, "export", plan.with_suffix(".slv"), "--format", "json"))["walls"]
+        mirrors = [f"mirror {put(at)}" for at in spread(walls, 6)]
+        plan.write_text("\n".join([plan.read_text(), *mirrors, ""]))
+        tests = [bake(program, method, plan)["tests"] for method in ("sweep", "dfs")]
+        print(kind, cells, *tests, sep=",")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
@@ -82,9 +97,13 @@ def main():
     parser.add_argument("--size", type=int, default=3)
     parser.add_argument("--repeat", type=int, default=15)
     parser.add_argument("--pictures", type=pathlib.Path)
+    parser.add_argument("--mirrors", action="store_true")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        if options.mirrors:
+            print_mirror_tests(options.program, folder)
+            return
         plan = folder / "office.map"
         run(options.program, "generate", "office", "--size", options.size, "-o", plan)
         maps = write_maps(plan, statements(options.program, plan, folder))

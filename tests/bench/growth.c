@@ -9,6 +9,8 @@
 // mean something on an idle machine only. shards_s is cell to cell in four shards and the joining
 // of what they find, longest_s one machine's part of it: the longest shard and the joining. Their
 // set must be that of one run.
+#include "bench.h"
+
 #include "sightline/draw.h"
 #include "sightline/generate.h"
 #include "sightline/io.h"
@@ -73,12 +75,6 @@ typedef struct growth {
     double walls[SIZES], of[SIZES][MEASURES], exponents[MEASURES];
 } growth;
 
-static void must(sl_context *context, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_growth: %s\n", context ? sl_context_message(context) : "failed");
-    exit(1);
-}
-
 static double time_of(clockid_t clock) {
     struct timespec time;
     clock_gettime(clock, &time);
@@ -125,8 +121,8 @@ static void write_map(const growth *g, uint64_t walls, const char *path) {
     options.walls = walls;
     options.turned = g->turned;
     options.in_line = g->in_line;
-    must(context, sl_generate(context, g->made, &options, &map));
-    must(context, sl_map_write_text(context, &map, path));
+    bench_must(context, sl_generate(context, g->made, &options, &map));
+    bench_must(context, sl_map_write_text(context, &map, path));
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
@@ -134,16 +130,16 @@ static void write_map(const growth *g, uint64_t walls, const char *path) {
 static void make_space(sl_context *context, const char *path, sl_baked *baked, double *walls,
                        double *of) {
     double time = time_of(CLOCK_PROCESS_CPUTIME_ID);
-    must(context, sl_io_use(context));
-    must(context, sl_map_read(context, path, NULL, &baked->map));
+    bench_must(context, sl_io_use(context));
+    bench_must(context, sl_map_read(context, path, NULL, &baked->map));
     of[READ_SECONDS] = lap(&time);
     *walls = (double)baked->map.wall_count;
-    must(context, sl_map_clean(context, &baked->map, NULL, NULL));
+    bench_must(context, sl_map_clean(context, &baked->map, NULL, NULL));
     of[CLEAN_SECONDS] = lap(&time);
     const sl_subdivision *way = sl_subdivision_for(&baked->map);
-    must(context, way->subdivide(context, &baked->map, NULL, &baked->space));
+    bench_must(context, way->subdivide(context, &baked->map, NULL, &baked->space));
     of[SUBDIVIDE_SECONDS] = lap(&time);
-    must(context, sl_space_check(context, &baked->space));
+    bench_must(context, sl_space_check(context, &baked->space));
     of[CHECK_SECONDS] = lap(&time);
     of[CELLS] = baked->space.inside_count;
 }
@@ -155,7 +151,7 @@ static double see(sl_context *context, const sl_space *space, unsigned threads,
     options.threads = threads;
     options.inside_only = true;
     const double start = time_of(CLOCK_MONOTONIC);
-    must(context, sweep()->see(context, space, &options, seen));
+    bench_must(context, sweep()->see(context, space, &options, seen));
     return time_of(CLOCK_MONOTONIC) - start;
 }
 
@@ -171,12 +167,12 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
     options.shard_count = SHARDS;
     for (options.shard = 1; options.shard <= SHARDS; options.shard++) {
         sl_partial part = {0};
-        must(context, sweep()->run(context, space, &options, &part));
+        bench_must(context, sweep()->run(context, space, &options, &part));
         const double took = lap(&time);
         sum += took;
         if (took > longest) longest = took;
         if (sl_partial_begun(&all))
-            must(context, sl_partial_merge(context, &all, &part));
+            bench_must(context, sl_partial_merge(context, &all, &part));
         else {
             all = part;
             part = (sl_partial){0};
@@ -184,14 +180,14 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
         sl_partial_destroy(context, &part);
         of[LONGEST_SECONDS] += lap(&time);
     }
-    must(context, sweep()->finish(context, space, &options, &all, &seen));
+    bench_must(context, sweep()->finish(context, space, &options, &all, &seen));
     of[LONGEST_SECONDS] += lap(&time);
     of[SHARDS_SECONDS] = sum + of[LONGEST_SECONDS];
     of[LONGEST_SECONDS] += longest;
     const uint64_t bytes = whole->pvs.offsets[space->cell_count];
     if (seen.pvs.offsets[space->cell_count] != bytes ||
         memcmp(seen.pvs.bytes, whole->pvs.bytes, bytes) != 0)
-        must(NULL, SL_BAD_INPUT);
+        bench_must(NULL, SL_BAD_INPUT);
     sl_visibility_destroy(context, &seen);
     sl_partial_destroy(context, &all);
 }
@@ -204,7 +200,7 @@ static void measure(const char *map_path, const char *path, double *walls, doubl
     of[ONE_WALL_SECONDS] = see(context, &baked.space, 1, &baked.visibility);
     of[SEE_SECONDS] = lap(&time);
     of[PAIRS] = (double)baked.visibility.account.pairs;
-    must(context, sl_baked_write(context, &baked, path));
+    bench_must(context, sl_baked_write(context, &baked, path));
     of[WRITE_SECONDS] = lap(&time);
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
@@ -217,7 +213,7 @@ static void measure(const char *map_path, const char *path, double *walls, doubl
     of[FILE_BYTES] = stat(path, &file) == 0 ? (double)file.st_size : 0;
     sl_baked_destroy(context, &baked);
     lap(&time);
-    must(context, sl_baked_read(context, path, &loaded));
+    bench_must(context, sl_baked_read(context, path, &loaded));
     of[LOAD_SECONDS] = lap(&time);
     sl_baked_destroy(context, &loaded);
     sl_context_destroy(context);
@@ -231,7 +227,7 @@ static void measure_apart(const char *folder, growth *g, int size) {
     double told[MEASURES + 1] = {0};
     int ends[2], status;
     for (int measures = 0; measures < 2; measures++) {
-        if (pipe(ends) != 0) must(NULL, SL_IO);
+        if (pipe(ends) != 0) bench_must(NULL, SL_IO);
         const pid_t child = fork();
         if (child == 0) {
             if (measures)
@@ -244,7 +240,7 @@ static void measure_apart(const char *folder, growth *g, int size) {
         const bool got = read(ends[0], told, sizeof told) == (ssize_t)sizeof told;
         close(ends[0]);
         if (child < 0 || waitpid(child, &status, 0) != child || status != 0 || !got)
-            must(NULL, SL_IO);
+            bench_must(NULL, SL_IO);
     }
     g->walls[size] = told[0];
     memcpy(g->of[size], told + 1, sizeof g->of[size]);
@@ -271,7 +267,7 @@ static double fit(const growth *g, int measure) {
 
 static void print_row(const char *machine, const growth *g, int size) {
     printf("%s,%s,%.0f", machine, g->kind, g->walls[size]);
-    for (int m = 0; m < MEASURES; m++) printf(",%.6g", g->of[size][m]);
+    for (int m = 0; m < MEASURES; m++) printf(",%.9g", g->of[size][m]);
     putchar('\n');
     fflush(stdout);
 }
@@ -317,7 +313,7 @@ static void draw(const char *title, const char *subtitle, const sl_chart_axis *y
         .series_count = count,
         .width = sl_draw_options_default().width};
     sl_context *context = sl_context_create(NULL);
-    must(context, sl_draw_chart_file(context, &chart, path));
+    bench_must(context, sl_draw_chart_file(context, &chart, path));
     sl_context_destroy(context);
 }
 

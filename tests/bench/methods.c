@@ -1,11 +1,11 @@
 // What the whole cell-to-cell stage costs by each method with each solver, on one thread, in one
 // run.
 //   bench_methods MAP [Z]           a map file, and the height of its slice
-//   bench_methods FILE.wad LEVEL[:given] [METHOD]    a level of a WAD; given: cut into the cells of
-//                                   its node builder; by one method alone
+//   bench_methods FILE.wad LEVEL[:given] [METHOD [SOLVER]]    a level of a WAD; given: cut into the
+//                                   cells of its node builder; by one method, with one solver alone
 // CSV: machine, map, cells, sight, method, solver, pairs, seconds of the processor, times those of
 // the sweep. What takes longer than a minute has no figures.
-#include "read_space.h"
+#include "bench.h"
 
 #include "sightline/glpk.h"
 #include "sightline/sightline.h"
@@ -22,20 +22,9 @@ typedef struct clock_hook {
     double deadline;
 } clock_hook;
 
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static bool too_late(void *user) {
     const clock_hook *hook = user;
-    return now() > hook->deadline;
-}
-
-static void fail(const char *what) {
-    fprintf(stderr, "bench_methods: %s\n", what);
-    exit(1);
+    return bench_seconds() > hook->deadline;
 }
 
 typedef struct bench {
@@ -54,10 +43,10 @@ static double least_of_rounds(bench *b, const sl_see_method *method, const sl_se
     double least = 0;
     for (int round = 0; round < ROUNDS; round++) {
         sl_visibility seen;
-        const double start = now();
+        const double start = bench_seconds();
         b->clock->deadline = start + LIMIT_SECONDS;
         if (method->see(b->context, &b->space, options, &seen) != SL_OK) return 0;
-        const double seconds = now() - start;
+        const double seconds = bench_seconds() - start;
         *pairs = seen.account.pairs;
         sl_visibility_destroy(b->context, &seen);
         if (round == 0 || seconds < least) least = seconds;
@@ -88,24 +77,24 @@ static const sl_see_method *method_of(const char *name) {
     const sl_see_method *methods = sl_see_methods(&count);
     for (size_t i = 0; i < count; i++)
         if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail("a method is missing");
+    bench_fail("a method is missing");
     return NULL;
 }
 
 int main(int argc, char **argv) {
     static const sl_solver *(*const solvers[])(void) = {sl_funnel, sl_glpk_simplex, sl_glpk_hybrid,
                                                         sl_glpk_exact};
-    if (argc < 2) fail("usage: bench_methods MAP [Z], or FILE.wad LEVEL");
+    if (argc < 2) bench_fail("usage: bench_methods MAP [Z], or FILE.wad LEVEL");
     clock_hook hook = {.deadline = 1e300};
     const sl_hooks hooks = {.user = &hook, .cancelled = too_late};
     bench b = {.context = sl_context_create(&hooks), .clock = &hook, .map = argv[1]};
-    if (!b.context) fail("out of memory");
+    if (!b.context) bench_fail("out of memory");
     if (bench_read_space(b.context, argv[1], argc > 2 ? argv[2] : NULL, &b.space) != SL_OK)
-        fail(sl_context_message(b.context));
+        bench_fail(sl_context_message(b.context));
     struct utsname machine;
     uname(&machine);
     snprintf(b.machine, sizeof b.machine, "%.40s %.40s", machine.sysname, machine.machine);
-    const char *only = argc > 3 ? argv[3] : NULL;
+    const char *only = argc > 3 ? argv[3] : NULL, *with_only = argc > 4 ? argv[4] : NULL;
     puts("machine,map,cells,sight,method,solver,pairs,seconds,times_the_sweep");
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
@@ -115,8 +104,11 @@ int main(int argc, char **argv) {
             if (strcmp(methods[m].name, only ? only : methods[m].name) != 0) continue;
             if (strcmp(methods[m].name, "sweep") == 0) continue;
             const size_t with = methods[m].stabs ? sizeof solvers / sizeof *solvers : 1;
-            for (size_t i = 0; i < with; i++)
-                run(&b, &methods[m], methods[m].stabs ? solvers[i]() : NULL, (sl_sight)sight);
+            for (size_t i = 0; i < with; i++) {
+                const sl_solver *solver = methods[m].stabs ? solvers[i]() : NULL;
+                if (solver && with_only && strcmp(solver->name, with_only) != 0) continue;
+                run(&b, &methods[m], solver, (sl_sight)sight);
+            }
         }
     }
     sl_space_destroy(b.context, &b.space);

@@ -4,6 +4,8 @@
 //   much
 //                                    of that it shows which DEEPEST reflections show, images
 //                                    rounded
+#include "bench.h"
+
 #include "sightline/draw.h"
 #include "sightline/io.h"
 #include "sightline/mirrored.h"
@@ -14,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
-#include <time.h>
 
 enum { DEPTHS = 5, DEEPEST = 8, EYES = 200, KINDS = 3 };
 #define SECONDS 0.3 // a figure's, at least
@@ -33,26 +34,15 @@ typedef struct scene {
     sl_point eyes[EYES];
 } scene;
 
-static void must(sl_context *context, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_mirrors: %s\n", sl_context_message(context));
-    exit(1);
-}
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static void read_scene(scene *s, const char *path) {
     const sl_import_options options = sl_import_options_default();
-    must(s->context, sl_io_use(s->context));
-    must(s->context, sl_map_read(s->context, path, &options, &s->map));
-    must(s->context, sl_map_clean(s->context, &s->map, NULL, NULL));
-    must(s->context, sl_subdivision_for(&s->map)->subdivide(s->context, &s->map, NULL, &s->space));
-    must(s->context, sl_outline_make(s->context, &s->space, &s->outline));
-    must(s->context, sl_room_mirrors_make(s->context, &s->outline, &s->map, &s->mirrors));
+    bench_must(s->context, sl_io_use(s->context));
+    bench_must(s->context, sl_map_read(s->context, path, &options, &s->map));
+    bench_must(s->context, sl_map_clean(s->context, &s->map, NULL, NULL));
+    bench_must(s->context,
+               sl_subdivision_for(&s->map)->subdivide(s->context, &s->map, NULL, &s->space));
+    bench_must(s->context, sl_outline_make(s->context, &s->space, &s->outline));
+    bench_must(s->context, sl_room_mirrors_make(s->context, &s->outline, &s->map, &s->mirrors));
     sl_random random = {7};
     const sl_box *b = &s->space.bounds;
     for (int i = 0; i < EYES;) {
@@ -77,7 +67,7 @@ static figure bake(const scene *s, uint32_t depth) {
     const sl_see_method *methods = sl_see_methods(&count);
     while (strcmp(methods->name, "prune") != 0) methods++;
     sl_visibility seen = {0};
-    must(s->context, methods->see(s->context, &s->space, &options, &seen));
+    bench_must(s->context, methods->see(s->context, &s->space, &options, &seen));
     figure out = {.rounded = seen.account.rounded_places};
     for (uint32_t a = 0; a < s->space.cell_count; a++)
         for (uint32_t b = 0; b < s->space.cell_count; b++)
@@ -98,12 +88,12 @@ static figure see_cells(const scene *s, uint32_t depth) {
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
     figure out = {0};
-    must(s->context, sl_eye_search_create(s->context, &s->space, &bare, &search));
-    must(s->context, sl_eye_search_add_mirrors(s->context, search, &s->map, depth));
+    bench_must(s->context, sl_eye_search_create(s->context, &s->space, &bare, &search));
+    bench_must(s->context, sl_eye_search_add_mirrors(s->context, search, &s->map, depth));
     for (int i = 0; i < EYES; i++) {
         const sl_view view = sl_view_all_round(s->eyes[i]);
-        must(s->context, exact->cull(s->context, search, &view, sets, &account));
-        must(s->context, exact->mirrored(s->context, search, &view, sets + words, &account));
+        bench_must(s->context, exact->cull(s->context, search, &view, sets, &account));
+        bench_must(s->context, exact->mirrored(s->context, search, &view, sets + words, &account));
         out.rounded += account.rounded;
         for (uint32_t c = 0; c < s->space.cell_count; c++)
             out.shown += sl_eye_sees(sets, c) || sl_eye_sees(sets + words, c);
@@ -119,8 +109,8 @@ static figure see_regions(const scene *s, uint32_t depth) {
     figure out = {0};
     for (int i = 0; i < EYES; i++) {
         const sl_view view = sl_view_all_round(s->eyes[i]);
-        must(s->context,
-             sl_mirrored_region_make(s->context, &s->mirrors, &view, s->map.range, depth, &region));
+        bench_must(s->context, sl_mirrored_region_make(s->context, &s->mirrors, &view, s->map.range,
+                                                       depth, &region));
         out.shown += sl_region_area(&region.direct) + sl_mirrored_area(&region);
         for (size_t k = 0; k < region.part_count; k++) out.rounded += region.parts[k].rounded;
     }
@@ -141,12 +131,12 @@ static const struct kind {
 static figure measure(const scene *s, const struct kind *kind, uint32_t depth) {
     figure out = {0};
     int rounds = 0;
-    const double start = now();
+    const double start = bench_seconds();
     do {
         out = kind->make(s, depth);
         rounds++;
-    } while (now() - start < SECONDS);
-    out.seconds = (now() - start) / rounds / kind->queries;
+    } while (bench_seconds() - start < SECONDS);
+    out.seconds = (bench_seconds() - start) / rounds / kind->queries;
     return out;
 }
 
@@ -183,7 +173,7 @@ static void draw(const scene *s, figure figures[KINDS][DEPTHS], const char *path
         .series = series,
         .series_count = 2 * KINDS,
         .width = 900};
-    must(s->context, sl_draw_chart_file(s->context, &chart, path));
+    bench_must(s->context, sl_draw_chart_file(s->context, &chart, path));
 }
 
 int main(int argc, char **argv) {

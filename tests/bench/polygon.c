@@ -5,6 +5,8 @@
 // CSV: machine, file, cells, eyes compared, those whose polygons differ, points of a polygon,
 // nanoseconds of the library and of the runtime, their ratio. Each batch of eyes is timed three
 // times by both, in turn, and the least counts. Exits with 1 if polygons differ.
+#include "bench.h"
+
 #include "polygon_same.h"
 
 #include "sightline/sightline.h"
@@ -16,7 +18,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/utsname.h>
-#include <time.h>
 
 enum { BATCH = 1000, ROUNDS = 3, ROOM = 1 << 13, EYES = 1000000 };
 
@@ -38,28 +39,13 @@ typedef struct bench {
     uint64_t timed;
 } bench;
 
-static void fail(const char *what) {
-    fprintf(stderr, "bench_polygon: %s\n", what);
-    exit(1);
-}
-
-static void must(sl_context *context, sl_status status) {
-    if (status != SL_OK) fail(sl_context_message(context));
-}
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static void *read_file(const char *name, size_t *size) {
     FILE *file = fopen(name, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) fail("cannot read the file");
+    if (!file || fseek(file, 0, SEEK_END) != 0) bench_fail("cannot read the file");
     *size = (size_t)ftell(file);
     rewind(file);
     void *bytes = malloc(*size + 1);
-    if (!bytes || fread(bytes, 1, *size, file) != *size) fail("cannot read the file");
+    if (!bytes || fread(bytes, 1, *size, file) != *size) bench_fail("cannot read the file");
     fclose(file);
     return bytes;
 }
@@ -99,7 +85,7 @@ static void fill_eyes(bench *b, bool special) {
 
 static void ask_library(bench *b, sl_point eye) {
     const sl_view view = sl_view_all_round(eye);
-    must(b->context, sl_region_make(b->context, &b->outline, &view, b->range, &b->region));
+    bench_must(b->context, sl_region_make(b->context, &b->outline, &view, b->range, &b->region));
 }
 
 static uint32_t ask_header(bench *b, sl_point eye) {
@@ -115,7 +101,7 @@ static bool same(bench *b, sl_point eye) {
     ask_library(b, eye);
     const uint32_t count = ask_header(b, eye);
     const sl_region *is = &b->region;
-    if (count > ROOM) fail("a polygon has too many points for this benchmark");
+    if (count > ROOM) bench_fail("a polygon has too many points for this benchmark");
     b->point_count += count;
     if (!count || is->count < 3) return !count && fabs(sl_region_area(is)) <= error * size;
     const double area = polygon_area(eye, b->points, count);
@@ -136,12 +122,12 @@ static void compare_batch(bench *b) {
 static void time_batch(bench *b) {
     double library = INFINITY, header = INFINITY;
     for (int k = 0; k < ROUNDS; k++) {
-        double start = now();
+        double start = bench_seconds();
         for (int i = 0; i < BATCH; i++) ask_library(b, b->eyes[i]);
-        library = fmin(library, now() - start);
-        start = now();
+        library = fmin(library, bench_seconds() - start);
+        start = bench_seconds();
         for (int i = 0; i < BATCH; i++) ask_header(b, b->eyes[i]);
-        header = fmin(header, now() - start);
+        header = fmin(header, bench_seconds() - start);
     }
     b->library += library;
     b->header += header;
@@ -152,23 +138,23 @@ static void time_batch(bench *b) {
 
 static void open_file(bench *b, const char *name) {
     size_t size;
-    must(b->context, sl_baked_read(b->context, name, &b->baked));
+    bench_must(b->context, sl_baked_read(b->context, name, &b->baked));
     const void *bytes = read_file(name, &size);
     const sl_runtime_status status = sl_runtime_open(bytes, size, &b->runtime);
-    if (status != SL_RUNTIME_OK) fail(sl_runtime_status_text(status));
-    if (b->runtime.loose) fail("the file is loose: bake the map again");
-    if (b->baked.map.oneway_count) fail("the library's outline has no one-way glass");
+    if (status != SL_RUNTIME_OK) bench_fail(sl_runtime_status_text(status));
+    if (b->runtime.loose) bench_fail("the file is loose: bake the map again");
+    if (b->baked.map.oneway_count) bench_fail("the library's outline has no one-way glass");
     const uint32_t doors = b->runtime.door_count;
     bool *shut = calloc(doors + 1, sizeof *shut);
     b->shut = calloc(doors + 1, 1);
     b->scratch = malloc(sl_runtime_scratch_count(&b->runtime) * sizeof *b->scratch);
-    if (!shut || !b->shut || !b->scratch) fail("out of memory");
+    if (!shut || !b->shut || !b->scratch) bench_fail("out of memory");
     for (uint32_t i = 0; i < doors; i++)
         b->shut[i] = shut[i] = !sl_runtime_door_open(&b->runtime, i);
     const sl_filtered_space filtered = {.shut = shut};
-    must(b->context,
-         sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &b->walled));
-    must(b->context, sl_outline_make(b->context, &b->walled, &b->outline));
+    bench_must(b->context,
+               sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &b->walled));
+    bench_must(b->context, sl_outline_make(b->context, &b->walled, &b->outline));
     b->range = b->baked.map.range;
     b->random = (sl_random){7};
     free(shut);
@@ -182,7 +168,7 @@ int main(int argc, char **argv) {
     }
     const uint64_t eyes = argc > 2 ? strtoull(argv[2], NULL, 10) : EYES;
     b.context = sl_context_create(NULL);
-    if (!b.context) fail("out of memory");
+    if (!b.context) bench_fail("out of memory");
     open_file(&b, argv[1]);
     for (uint64_t i = 0; b.compared < eyes; i++) {
         fill_eyes(&b, i % 8 == 7);

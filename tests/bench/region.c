@@ -4,7 +4,7 @@
 //                          nanoseconds a region, of them for the location, points of a region,
 //                          portals passed, nanoseconds for two points, and the share that see each
 //                          other
-#include "read_space.h"
+#include "bench.h"
 
 #include "sightline/sees.h"
 #include "sightline/sightline.h"
@@ -13,21 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/utsname.h>
-#include <time.h>
 
 enum { QUERIES = 20000 };
-
-static void must(sl_context *context, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_region: %s\n", sl_context_message(context));
-    exit(1);
-}
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static void fill_eyes(const sl_space *space, sl_point *eyes) {
     sl_random random = {7};
@@ -44,30 +31,30 @@ static void measure(sl_context *context, const char *path, const sl_space *space
     static sl_point eyes[QUERIES];
     sl_outline outline = {0};
     sl_region region = {0};
-    must(context, sl_outline_make(context, space, &outline));
+    bench_must(context, sl_outline_make(context, space, &outline));
     fill_eyes(space, eyes);
-    double start = now();
+    double start = bench_seconds();
     uint64_t sum = 0;
     for (int i = 0; i < QUERIES; i++) sum += sl_space_locate(space, eyes[i]);
-    const double locate = now() - start;
+    const double locate = bench_seconds() - start;
     uint64_t points = 0, passed = 0;
-    start = now();
+    start = bench_seconds();
     for (int i = 0; i < QUERIES; i++) {
         const sl_view view = sl_view_all_round(eyes[i]);
-        must(context, sl_region_make(context, &outline, &view, 0, &region));
+        bench_must(context, sl_region_make(context, &outline, &view, 0, &region));
         points += region.count;
         passed += region.portals_passed;
     }
-    const double whole = now() - start;
+    const double whole = bench_seconds() - start;
     int seen = 0;
-    start = now();
+    start = bench_seconds();
     for (int i = 0; i < QUERIES; i++) {
         bool sees = false;
-        must(context,
-             sl_sees(context, &outline, eyes[i], eyes[(i + 1) % QUERIES], SL_CLOSED, &sees));
+        bench_must(context,
+                   sl_sees(context, &outline, eyes[i], eyes[(i + 1) % QUERIES], SL_CLOSED, &sees));
         seen += sees;
     }
-    const double pairs = now() - start;
+    const double pairs = bench_seconds() - start;
     struct utsname machine;
     uname(&machine);
     puts("machine,map,walls,cells,rooms,queries,ns_a_query,ns_to_locate,points,portals,"
@@ -88,7 +75,7 @@ int main(int argc, char **argv) {
     sl_space space = {0};
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
-    must(context, bench_read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space));
+    bench_must(context, bench_read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space));
     if (!space.inside_count) {
         fprintf(stderr, "bench_region: %s: nothing in it is inside\n", argv[1]);
         return 1;

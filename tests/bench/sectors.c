@@ -3,6 +3,8 @@
 //   bench_sectors MAP     CSV: machine, map, cells, portals, sectors, cells on cycles (over all
 //                         sectors), candidates, relations, stabbing tests, times the tests of
 //                         "prune", seconds, times those of "prune"
+#include "bench.h"
+
 #include "sightline/io.h"
 #include "sightline/sightline.h"
 
@@ -10,30 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
-#include <time.h>
 
 enum { ROUNDS = 3 };
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void fail(const char *what) {
-    fprintf(stderr, "bench_sectors: %s\n", what);
-    exit(1);
-}
-
-static void read_space(sl_context *context, const char *path, sl_space *space) {
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    sl_map map = {0};
-    if (sl_map_read(context, path, NULL, &map) != SL_OK ||
-        sl_map_clean(context, &map, NULL, NULL) != SL_OK ||
-        sl_subdivision_for(&map)->subdivide(context, &map, &rules, space) != SL_OK)
-        fail(sl_context_message(context));
-    sl_map_destroy(context, &map);
-}
 
 /// The least processor time of some rounds, and what the last one counted.
 static double measure(sl_context *context, const sl_space *space, const char *name,
@@ -42,7 +22,7 @@ static double measure(sl_context *context, const sl_space *space, const char *na
     const sl_see_method *methods = sl_see_methods(&count);
     size_t m = 0;
     while (m < count && strcmp(methods[m].name, name) != 0) m++;
-    if (m == count) fail("a method is missing");
+    if (m == count) bench_fail("a method is missing");
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.threads = 1;
@@ -50,10 +30,10 @@ static double measure(sl_context *context, const sl_space *space, const char *na
     double least = 0;
     for (int round = 0; round < ROUNDS; round++) {
         sl_visibility seen;
-        const double start = now();
+        const double start = bench_seconds();
         if (methods[m].see(context, space, &options, &seen) != SL_OK)
-            fail(sl_context_message(context));
-        const double seconds = now() - start;
+            bench_fail(sl_context_message(context));
+        const double seconds = bench_seconds() - start;
         if (round == 0 || seconds < least) least = seconds;
         *account = seen.account;
         sl_visibility_destroy(context, &seen);
@@ -63,12 +43,12 @@ static double measure(sl_context *context, const sl_space *space, const char *na
 
 int main(int argc, char **argv) {
     static const uint32_t numbers[] = {4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 0};
-    if (argc != 2) fail("a map is to be given");
+    if (argc != 2) bench_fail("a map is to be given");
     sl_context *context = sl_context_create(NULL);
     struct utsname machine;
     sl_space space;
-    if (!context || sl_io_use(context) != SL_OK || uname(&machine) != 0) fail("no memory");
-    read_space(context, argv[1], &space);
+    if (!context || sl_io_use(context) != SL_OK || uname(&machine) != 0) bench_fail("no memory");
+    bench_must(context, bench_read_space(context, argv[1], NULL, &space));
     sl_see_account prune, account;
     const double prune_seconds = measure(context, &space, "prune", 0, &prune);
     puts("machine,map,cells,portals,sectors,on_cycles,candidates,relations,tests,times_prune_tests,"

@@ -2,6 +2,8 @@
 // map are recorded once and played to every solver in turn, round after round, in one run.
 //   bench_solvers MAP [Z]     CSV: machine, map, solver, tests, nanoseconds a test, times the
 //   first's, and the same two without what playing alone takes
+#include "bench.h"
+
 #include "sightline/glpk.h"
 #include "sightline/io.h"
 #include "sightline/sightline.h"
@@ -22,16 +24,11 @@ typedef struct tape {
     size_t count, room;
 } tape;
 
-static void fail(const char *what) {
-    fprintf(stderr, "bench_solvers: %s\n", what);
-    exit(1);
-}
-
 static void record(tape *t, event e) {
     if (t->count == t->room) {
         t->room = t->room ? 2 * t->room : 4096;
         t->events = realloc(t->events, t->room * sizeof *t->events);
-        if (!t->events) fail("out of memory");
+        if (!t->events) bench_fail("out of memory");
     }
     t->events[t->count++] = e;
 }
@@ -50,7 +47,7 @@ static void search(sl_context *context, const sl_space *space, uint32_t cell, co
         sl_stab_verdict verdict;
         if (sl_funnel()->push(context, (void *)(uintptr_t)solver, directed->left, directed->right,
                               &verdict) != SL_OK)
-            fail(sl_context_message(context));
+            bench_fail(sl_context_message(context));
         record(t, (event){{directed->left, directed->right}, false});
         if (verdict != SL_HIDDEN) search(context, space, directed->cell, solver, crossed | bit, t);
         sl_funnel()->pop((void *)(uintptr_t)solver);
@@ -61,7 +58,7 @@ static void search(sl_context *context, const sl_space *space, uint32_t cell, co
 static tape record_map(sl_context *context, const sl_space *space) {
     tape t = {0};
     void *state = NULL;
-    if (sl_funnel()->create(context, space->bounds, &state) != SL_OK) fail("out of memory");
+    if (sl_funnel()->create(context, space->bounds, &state) != SL_OK) bench_fail("out of memory");
     for (uint32_t cell = 0; cell < space->cell_count; cell++)
         search(context, space, cell, state, 0, &t);
     sl_funnel()->destroy(context, state);
@@ -122,27 +119,14 @@ static double play(sl_context *context, const sl_solver *solver, sl_box bounds, 
     return status == SL_OK ? seconds : 0;
 }
 
-static void read_space(sl_context *context, const char *path, const char *slice, sl_space *space) {
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = slice != NULL;
-    options.slice = slice ? strtod(slice, NULL) : 0;
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    sl_map map = {0};
-    if (sl_map_read(context, path, &options, &map) != SL_OK ||
-        sl_map_clean(context, &map, NULL, NULL) != SL_OK ||
-        sl_subdivide_kd(context, &map, &rules, space) != SL_OK)
-        fail(sl_context_message(context));
-    sl_map_destroy(context, &map);
-}
-
 enum { ROUNDS = 5, SOLVERS = 5, NOTHING = SOLVERS - 1 };
 
 int main(int argc, char **argv) {
-    if (argc < 2) fail("usage: bench_solvers MAP [Z]");
+    if (argc < 2) bench_fail("usage: bench_solvers MAP [Z]");
     sl_context *context = sl_context_create(NULL);
     sl_space space = {0};
-    if (!context || sl_io_use(context) != SL_OK) fail("out of memory");
-    read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space);
+    if (!context || sl_io_use(context) != SL_OK) bench_fail("out of memory");
+    bench_must(context, bench_read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space));
     tape t = record_map(context, &space);
     const sl_solver *solvers[SOLVERS] = {sl_funnel(), sl_glpk_simplex(), sl_glpk_hybrid(),
                                          sl_glpk_exact(), &nothing};

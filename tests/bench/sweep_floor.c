@@ -3,7 +3,7 @@
 //   bench_sweep_floor MAP [Z]         a map file, and the height of its slice
 //   bench_sweep_floor FILE.wad LEVEL  a level of a WAD
 // CSV, a line a figure: machine, map, sight, what, value, unit.
-#include "read_space.h"
+#include "bench.h"
 
 #include "cell_to_cell/sweep.h"
 #include "geometry/orient.h"
@@ -27,12 +27,6 @@ typedef struct floors {
     uint64_t pieces;    ///< of cells that the search looks at
     uint64_t words;     ///< of all events
 } floors;
-
-static void must(sl_context *context, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_sweep_floor: %s\n", sl_context_message(context));
-    exit(1);
-}
 
 static double now(void) {
     struct timespec time;
@@ -101,7 +95,7 @@ static double time_fans(sl_context *context, const sl_space *space, const sl_see
     for (int round = 0; round < ROUNDS; round++) {
         sli_fans fans = {0};
         const double start = now();
-        must(context, sli_fans_find(context, space, options, SLI_FANS_MUTUAL, &fans));
+        bench_must(context, sli_fans_find(context, space, options, SLI_FANS_MUTUAL, &fans));
         const double took = now() - start;
         sli_fans_destroy(context, &fans);
         if (took < least) least = took;
@@ -119,7 +113,7 @@ static double time_sweep(sl_context *context, const sl_space *space, sl_see_opti
         for (int round = 0; round < ROUNDS && strcmp(methods[m].name, "sweep") == 0; round++) {
             sl_visibility seen;
             const double start = now();
-            must(context, methods[m].see(context, space, &options, &seen));
+            bench_must(context, methods[m].see(context, space, &options, &seen));
             const double took = now() - start;
             sl_visibility_destroy(context, &seen);
             if (took < least) least = took;
@@ -162,7 +156,7 @@ static double time_tests(const sli_fans *fans, uint64_t count, int64_t *sum) {
 static double bandwidth(sl_context *context) {
     const size_t bytes = (size_t)128 << 20;
     char *from = sl_alloc_array(context, bytes, 1), *to = sl_alloc_array(context, bytes, 1);
-    if (!from || !to) must(context, SL_NO_MEMORY);
+    if (!from || !to) bench_must(context, SL_NO_MEMORY);
     double least = 1e300;
     for (int round = 0; round < ROUNDS; round++) {
         const double start = now();
@@ -188,10 +182,11 @@ static void measure(sl_context *context, const sl_space *space, sl_sight sight, 
     sli_sweeper sweeper;
     floors f = {0};
     int64_t sum = 0;
-    must(context, sli_fans_find(context, space, &options, SLI_FANS_MUTUAL, &fans));
-    must(context, sli_bit_rows_create(context, space->cell_count, &options, &rows));
-    must(context, sli_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, NULL, &sweeper));
-    must(context, sweep_all(context, &fans, &sweeper, &f));
+    bench_must(context, sli_fans_find(context, space, &options, SLI_FANS_MUTUAL, &fans));
+    bench_must(context, sli_bit_rows_create(context, space->cell_count, &options, &rows));
+    bench_must(context,
+               sli_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, NULL, &sweeper));
+    bench_must(context, sweep_all(context, &fans, &sweeper, &f));
     const char *name = sight == SL_CLOSED ? "closed" : "open";
     const double events = (double)f.events.count, bytes = 16 * (double)f.words;
     const struct {
@@ -230,7 +225,7 @@ int main(int argc, char **argv) {
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
     sl_space space = {0};
-    must(context, bench_read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space));
+    bench_must(context, bench_read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space));
     struct utsname name;
     char lead[256];
     uname(&name);

@@ -3,7 +3,7 @@
 //       CSV: machine, map, points, edges, part, seconds, microseconds a point, and how often that
 //       goes into SECONDS: the time that another program takes for the part (0: none).
 //       PART: this part alone.
-#include "read_space.h"
+#include "bench.h"
 
 #include "sightline/sightline.h"
 #include "sightline/support.h"
@@ -12,19 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/utsname.h>
-#include <time.h>
-
-static void must(sl_context *context, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_vga: %s\n", sl_context_message(context));
-    exit(1);
-}
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 typedef struct table {
     const char *map;
@@ -55,25 +42,25 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     sl_outline outline = {0};
     sl_vga_grid grid = {0};
     sl_vga_graph graph = {0};
-    must(context, sl_outline_make(context, space, &outline));
-    double start = now();
-    must(context, sl_vga_grid_fill(context, &outline, step, NULL, 0, &grid));
-    must(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
-    const double made = now() - start;
+    bench_must(context, sl_outline_make(context, space, &outline));
+    double start = bench_seconds();
+    bench_must(context, sl_vga_grid_fill(context, &outline, step, NULL, 0, &grid));
+    bench_must(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
+    const double made = bench_seconds() - start;
     t->points = grid.count;
     t->edges = graph.edges;
     puts("machine,map,points,edges,part,seconds,us_a_point,ratio");
     print_row(t, "graph", made);
     sl_vga_measures *measures = sl_alloc_array(context, grid.count + 1, sizeof *measures);
-    if (!measures) must(context, SL_NO_MEMORY);
+    if (!measures) bench_must(context, SL_NO_MEMORY);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         if (t->only && strcmp(t->only, parts[i].name) != 0) continue;
         sl_vga_options options = sl_vga_options_default();
         options.parts = parts[i].parts;
         options.threads = 1;
-        start = now();
-        must(context, sl_vga_measure(context, &outline, &grid, &graph, &options, measures));
-        print_row(t, parts[i].name, now() - start);
+        start = bench_seconds();
+        bench_must(context, sl_vga_measure(context, &outline, &grid, &graph, &options, measures));
+        print_row(t, parts[i].name, bench_seconds() - start);
         fflush(stdout);
     }
     sl_free(context, measures);
@@ -91,7 +78,7 @@ int main(int argc, char **argv) {
     sl_space space = {0};
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
-    must(context, bench_read_space(context, argv[1], NULL, &space));
+    bench_must(context, bench_read_space(context, argv[1], NULL, &space));
     table t = {.map = argv[1],
                .other = argc > 3 ? strtod(argv[3], NULL) : 0,
                .only = argc > 4 ? argv[4] : NULL};

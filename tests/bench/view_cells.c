@@ -12,6 +12,8 @@
 //          samples=N evaluate=N cells=N, lines to make by, lines to tell costs by, cells at most
 //          chart=FILE.png, drawn beside the table
 // CSV on stdout. Seconds are of this process's processor time.
+#include "bench.h"
+
 #include "sightline/draw.h"
 #include "sightline/io.h"
 #include "sightline/sightline.h"
@@ -23,7 +25,6 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
-#include <time.h>
 
 enum { POINTS_MOST = 64, SERIES_MOST = 7, WALL_SPLITS = 150, BINS = 30 };
 
@@ -49,19 +50,8 @@ typedef struct bench {
     unsigned line_count;
 } bench;
 
-static void fail(const char *what) {
-    fprintf(stderr, "bench_view_cells: %s\n", what);
-    exit(1);
-}
-
 static void check(const bench *b, sl_status status) {
-    if (status != SL_OK) fail(sl_context_message(b->context));
-}
-
-static double seconds(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    if (status != SL_OK) bench_fail(sl_context_message(b->context));
 }
 
 static const sl_view_method *method_named(const char *name) {
@@ -69,7 +59,7 @@ static const sl_view_method *method_named(const char *name) {
     const sl_view_method *methods = sl_view_methods(&count);
     for (size_t i = 0; i < count; i++)
         if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail(name);
+    bench_fail(name);
     return NULL;
 }
 
@@ -134,10 +124,10 @@ static void join(bench *b, const sl_view_method *method, const sl_view_segments 
     sl_view_sets sets = found->sets;
     if (!method->exact)
         check(b, sl_view_sets_sample(b->context, &b->scene, &m->tree, by, 0, &sets));
-    const double start = seconds();
+    const double start = bench_seconds();
     check(b, (method->merges ? sl_view_merge : sl_view_join_splits)(b->context, &b->scene, &m->tree,
                                                                     &sets, &m->told));
-    m->merge = seconds() - start;
+    m->merge = bench_seconds() - start;
     sl_view_sets_destroy(b->context, &sets);
 }
 
@@ -148,7 +138,7 @@ static void tell(bench *b, made *m) {
     sl_view_sets_destroy(b->context, &sets);
     m->told_costs = calloc(m->told.cell_count, sizeof *m->told_costs);
     m->costs = calloc(m->told.cell_count, sizeof *m->costs);
-    if (!m->told_costs || !m->costs) fail("out of memory");
+    if (!m->told_costs || !m->costs) bench_fail("out of memory");
     sl_view_curve(&m->told, m->told_costs, NULL);
     sl_view_curve(&m->others, m->costs, NULL);
 }
@@ -157,9 +147,9 @@ static void make(bench *b, const sl_view_method *method, const sl_view_segments 
                  const sl_view_subdivision *options, made *m) {
     *m = (made){0};
     sl_view_found found = {0};
-    const double start = seconds();
+    const double start = bench_seconds();
     check(b, method->divide(b->context, &b->scene, by, options, &m->tree, &found));
-    m->divide = seconds() - start;
+    m->divide = bench_seconds() - start;
     join(b, method, by, &found, m);
     tell(b, m);
 }
@@ -180,7 +170,7 @@ static uint32_t next_count(uint32_t count, uint32_t most) {
 }
 
 static void begin_series(bench *b, const char *name, sl_chart_style style) {
-    if (b->series_count == SERIES_MOST) fail("too many series");
+    if (b->series_count == SERIES_MOST) bench_fail("too many series");
     snprintf(b->names[b->series_count], sizeof b->names[0], "%s", name);
     sl_chart_series *s = &b->series[b->series_count];
     *s = (sl_chart_series){.name = b->names[b->series_count],
@@ -289,7 +279,7 @@ static void histogram(bench *b) {
         make(b, method_named(names[i]), &b->segments, &options, &m);
         const uint32_t cells = sl_view_cut_by_count(&m.others, wanted);
         uint32_t *of = calloc(m.others.cell_count, sizeof *of), *numbers = calloc(cells, 4);
-        if (!of || !numbers) fail("out of memory");
+        if (!of || !numbers) bench_fail("out of memory");
         check(b, sl_view_cut(b->context, &m.others, cells, of, numbers));
         double bins[BINS] = {0}, most = 0;
         for (uint32_t v = 0; v < cells; v++) most = fmax(most, m.others.cost[numbers[v]]);
@@ -364,7 +354,7 @@ static const struct {
 static void read_option(bench *b, const char *text, sl_import_options *import, sl_point *start,
                         bool *has_start) {
     const char *value = strchr(text, '=');
-    if (!value) fail(text);
+    if (!value) bench_fail(text);
     const size_t length = (size_t)(value++ - text);
     char *end;
     if (strncmp(text, "slice", length) == 0) {
@@ -389,7 +379,7 @@ static void read_option(bench *b, const char *text, sl_import_options *import, s
     } else if (strncmp(text, "chart", length) == 0) {
         b->chart = value;
     } else {
-        fail(text);
+        bench_fail(text);
     }
 }
 
@@ -398,9 +388,9 @@ int main(int argc, char **argv) {
     sl_import_options import = sl_import_options_default();
     sl_point start = {0};
     bool has_start = false;
-    if (argc < 3) fail("a figure and a map are needed; the head of the source tells which");
+    if (argc < 3) bench_fail("a figure and a map are needed; the head of the source tells which");
     b.context = sl_context_create(NULL);
-    if (!b.context) fail("out of memory");
+    if (!b.context) bench_fail("out of memory");
     b.path = argv[2];
     b.name = strrchr(b.path, '/') ? strrchr(b.path, '/') + 1 : b.path;
     for (int i = 3; i < argc; i++) read_option(&b, argv[i], &import, &start, &has_start);
@@ -415,7 +405,7 @@ int main(int argc, char **argv) {
             figures[i].run(&b);
             found = true;
         }
-    if (!found) fail(argv[1]);
+    if (!found) bench_fail(argv[1]);
     sl_view_segments_destroy(b.context, &b.segments);
     sl_view_segments_destroy(b.context, &b.others);
     sl_view_places_destroy(b.context, &b.places);

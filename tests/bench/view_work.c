@@ -5,6 +5,8 @@
 // CSV on stdout: a line a map, and for each kind the exponents of all that, fitted over its maps,
 // in what is found: the pairs of view cell and object. Seconds are of this process's processor
 // time.
+#include "bench.h"
+
 #include "sightline/generate.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
@@ -14,7 +16,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { MAPS_MOST = 12, LEAST_WALLS = 1000 };
 
@@ -27,12 +28,6 @@ static void check(const sl_context *context, sl_status status) {
     if (status == SL_OK) return;
     fprintf(stderr, "bench_view_work: %s\n", sl_context_message(context));
     exit(1);
-}
-
-static double seconds(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
 static const sl_view_method *hybrid(void) {
@@ -67,9 +62,9 @@ static void measure(sl_context *context, const sl_map_kind *kind, uint64_t walls
     options.cells = (uint32_t)(walls / 2);
     options.least_gain = 0;
     options.patience = UINT32_MAX;
-    const double start = seconds();
+    const double start = bench_seconds();
     check(context, hybrid()->divide(context, &scene, NULL, &options, &tree, &found));
-    out[SECONDS] = seconds() - start;
+    out[SECONDS] = bench_seconds() - start;
     const sl_view_work *w = &found.work;
     const double counts[] = {count_pairs(&found.sets), (double)w->looks, (double)w->candidates,
                              (double)w->relations,     (double)w->tests, (double)w->weighed};

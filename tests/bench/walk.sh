@@ -12,11 +12,11 @@ mkdir -p "$out"
 "$sightline" bake "$wad" --map E1M2 -o "$out/doom.slv" --quiet
 for scene in soda doom; do
     echo "== $scene"
-    "$sightline" walk "$out/$scene.slv" --repeat 5 --csv "$out/$scene.csv" --quiet
+    "$sightline" walk "$out/$scene.slv" --repeat 5 --table "$out/$scene.csv" --quiet
     for occluders in 8 16 32 64 1024; do
         echo "== $scene, $occluders occluders"
         "$sightline" walk "$out/$scene.slv" --method classical,updating --occluders $occluders --quiet |
-            sed -n 2,6p
+            sed -n '/^method/,$p'
     done
     "$sightline" walk "$out/$scene.slv" -o "$out/$scene" --quiet
     # As on a machine on which drawing a wall takes longer.

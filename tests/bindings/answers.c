@@ -102,7 +102,7 @@ static void set_door(answerer *a) {
 static void points_see(const answerer *a) {
     const sl_point eye = {number(), number()}, to = {number(), number()};
     bool sees = false;
-    if (sl_query_can_see(a->context, a->query, eye, to, &sees) != SL_OK) abort();
+    if (sl_query_sees(a->context, a->query, eye, to, &sees) != SL_OK) abort();
     printf("%d\n", sees);
 }
 

@@ -1,4 +1,5 @@
 """A folder of its own for runs of a program, with what must hold after every run checked."""
+import contextlib
 import os
 import pathlib
 import re
@@ -38,6 +39,16 @@ class Result:
 
     def text(self):
         return f"status {self.status}\n-- stdout\n{self.stdout}\n-- stderr\n{self.stderr}"
+
+
+def read_terminal(master):
+    """All that is written to a terminal, until nobody can write to it any more."""
+    text = b""
+    with contextlib.suppress(OSError):  # Linux's way to say so
+        while more := os.read(master, 65536):
+            text += more
+    os.close(master)
+    return text
 
 
 class Sandbox:

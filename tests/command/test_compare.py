@@ -208,9 +208,8 @@ class Compare(sandbox.ProgramTest):
         process = self.box.start(["compare", "hall.map", "--time-limit", "1", "--methods", "dfs",
                                   "--solvers", "funnel,glpk"], stderr=slave)
         os.close(slave)
+        text = sandbox.read_terminal(master).decode()
         process.communicate(timeout=30)
-        text = os.read(master, 1 << 20).decode()
-        os.close(master)
         self.assertRegex(text, r"\r\x1b\[K1/2 dfs with funnel: \d+/\d+ cells, ")
         self.assertRegex(text, r"\r\x1b\[K2/2 dfs with glpk: \d+/\d+ cells, ")
 

@@ -34,7 +34,7 @@ OPTIONS = ["", "--subdivide mesh", "--sight open", "--subdivide kd", "--method d
            "--method multipass --without mirror,oneway,range", "--method flood",
            "--method sampling", "--subdivide given", "--inside",
            "--without mirror,door,oneway,range", "--mirror-depth 2", "--stab-trees --without mirror",
-           "--subdivide mesh --sight open --method dfs", "--door-sets 1", "--weld 0.01",
+           "--subdivide mesh --sight open --method dfs", "--door-limit 1", "--weld 0.01",
            "--kd-rules median"]
 
 

@@ -95,7 +95,7 @@ class Files(sandbox.ProgramTest):
                       ["check", "room.map", "--snap", "room_link.map"],
                       ["draw", "room.slv", "-o", "picture.png"],
                       ["merge", "room.slv", "-o", "room.slv"],
-                      ["isovist", "room.map", "--csv", "eyes.csv", "-o", "eyes.csv"]):
+                      ["isovist", "room.map", "--points", "eyes.csv", "-o", "eyes.csv"]):
             with self.subTest(words):
                 result = self.box.run(words)
                 self.assertEqual(result.status, 2)
@@ -109,9 +109,9 @@ class Files(sandbox.ProgramTest):
         self.assertIn("is the input itself", result.stderr)
 
     def test_two_outputs_with_one_name(self):
-        result = self.box.run(["walk", "room.map", "--csv", "a.csv", "--frames", "./a.csv"])
+        result = self.box.run(["walk", "room.map", "--table", "a.csv", "--frames", "./a.csv"])
         self.assertEqual(result.status, 0)
-        result = self.box.run(["walk", "room.map", "--csv", "a.csv", "--frames", "./a.csv"])
+        result = self.box.run(["walk", "room.map", "--table", "a.csv", "--frames", "./a.csv"])
         self.assertEqual((result.status, result.stdout), (2, ""))
         self.assertIn("both write to", result.stderr)
 

@@ -70,7 +70,7 @@ class Places(sandbox.ProgramTest):
         for name in ["office.map", *OBLIQUE, "effects/mirrors.map", "effects/range.map"]:
             for options in [], ["--range", "7", "--look", "30", "--fov", "100"]:
                 with self.subTest(map=name, options=options):
-                    what = ["isovist", MAPS / name, "--cells", "9", *options]
+                    what = ["isovist", MAPS / name, "--squares", "9", *options]
                     kinds = self.features("a.geojson", *what)
                     self.same_rows(self.printed(*what, "-q"), kinds["isovist"])
                     self.assertEqual(set(kinds) - {"mirrored"}, {"isovist"})
@@ -85,8 +85,34 @@ class Places(sandbox.ProgramTest):
                             self.assertTrue(holds(geometry, (properties["x"], properties["y"])))
                     for geometry, properties in kinds.get("mirrored", []):
                         self.assertEqual(list(properties), ["x", "y", "mirror", "reflections", "area"])
-        self.assertTrue(self.features("m.geojson", "isovist", MAPS / "effects/mirrors.map", "--cells",
+        self.assertTrue(self.features("m.geojson", "isovist", MAPS / "effects/mirrors.map", "--squares",
                                       "9")["mirrored"])
+
+    def test_what_viewpoints_see_together(self):
+        """Each place counts as often as regions hold it, so all areas add up to those of regions."""
+        for name in ["office.map", *OBLIQUE]:
+            with self.subTest(map=name):
+                cone = ["--look", "30", "--fov", "200"]
+                table = self.printed("isovist", MAPS / name, "--squares", "9", *cone, "-q")
+                self.box.path("eyes.csv").write_text(table, encoding="utf-8")
+                what = ["isovist", MAPS / name, "--points", "eyes.csv"]
+                regions = self.features("a.geojson", *what)["isovist"]
+                rows = list(csv.DictReader(io.StringIO(self.printed(*what, "--union", "-q"))))
+                every = math.fsum(properties["area"] for _, properties in regions)
+                self.assertAlmostEqual(math.fsum(float(row["area"]) for row in rows[1:]), every,
+                                       delta=1e-9 * every)
+                self.assertEqual([row["viewpoints"] for row in rows],
+                                 [str(k) for k in range(len(rows))])
+                pieces = self.features("b.geojson", *what, "--union")["seen"]
+                self.assertAlmostEqual(math.fsum(p["area"] for _, p in pieces),
+                                       float(rows[1]["area"]), delta=1e-9 * every)
+                tried = [piece for piece in pieces if piece[1]["area"] > 1e-3][::7]
+                self.assertGreater(len(tried), 20)
+                for geometry, properties in tried:
+                    corners = geometry["coordinates"][0][1:]
+                    middle = [math.fsum(c[k] for c in corners) / len(corners) for k in range(2)]
+                    self.assertEqual(sum(holds(region, middle) for region, _ in regions),
+                                     properties["viewpoints"])
 
     def test_slits_and_needles(self):
         """A corner in line with the eye that hides nothing beside itself; a cone of no width."""
@@ -108,7 +134,7 @@ class Places(sandbox.ProgramTest):
                 told = json.loads(self.printed(*what, "--json", "-q"))
                 self.printed(*what, "-o", "a.csv", "-q")
                 table = list(csv.DictReader(io.StringIO(self.box.path("a.csv").read_text())))
-                self.assertEqual([(p["cell"], p["look"], p["fov"]) for _, p in kinds["eye"]],
+                self.assertEqual([(p["cell"], p["heading"], p["fov"]) for _, p in kinds["eye"]],
                                  [(told["cell"], 10, 200)])
                 ((geometry, region),) = kinds["region"]
                 self.assertEqual(region["area"], told["region"]["area"])
@@ -152,7 +178,7 @@ class Places(sandbox.ProgramTest):
         def heat(unit, measure):
             self.box.path("m.dxf").write_text(DXF.format(unit), encoding="utf-8")
             self.printed("isovist", "m.dxf", "--at", "1,1", "-q")
-            result = self.box.run(["isovist", "m.dxf", "--cells", "9", "--measure", measure,
+            result = self.box.run(["isovist", "m.dxf", "--squares", "9", "--measure", measure,
                                    "--picture", f"{measure}{unit}.png", "-q"])
             if "without pictures" in result.stderr:
                 self.skipTest("a build without pictures")

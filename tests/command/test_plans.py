@@ -110,7 +110,7 @@ class Closed(Plans):
 
 class Inside(Plans):
     def test_a_grid_of_wall_cores_is_refused(self):
-        for command in (["vga", "--grid", "60"], ["isovist", "--grid", "60"], ["isovist", "--cells", "99"],
+        for command in (["vga", "--grid", "60"], ["isovist", "--grid", "60"], ["isovist", "--squares", "99"],
                         ["axial"]):
             told = self.refused(command[0], "flat.dxf", *LAYERS, *command[1:])
             self.assertIn("walls enclose only 0.38 % of the area; say where a room is with --start X,Y", told)
@@ -245,17 +245,17 @@ class Viewpoints(Plans):
         """Cameras: a name, and what the table has besides, may stand in any order."""
         self.write("cameras.csv", "name,fov,y,x,heading,price\nC1,90,1000,2000,45,5.5\nC2,,6000,3000,,\n")
         self.write("plain.csv", "2000,1000,45,90\n3000,6000\n")
-        named, plain = (self.rows(*self.AT, "--csv", name) for name in ("cameras.csv", "plain.csv"))
-        self.assertEqual([(row["x"], row["y"], row["look"], row["fov"]) for row in named],
+        named, plain = (self.rows(*self.AT, "--points", name) for name in ("cameras.csv", "plain.csv"))
+        self.assertEqual([(row["x"], row["y"], row["heading"], row["fov"]) for row in named],
                          [("2000", "1000", "45", "90"), ("3000", "6000", "0", "360")])
         self.assertEqual(named, plain)
         for text in ("x,y\n1\n", "x,y\n1,\n", "y,x\n1,b\n", "name,x,y\nC,1,2,\nC\n"):
             self.write("wrong.csv", text)
-            self.assertIn("two to four finite numbers are needed", self.refused(*self.AT, "--csv", "wrong.csv"))
+            self.assertIn("two to four finite numbers are needed", self.refused(*self.AT, "--points", "wrong.csv"))
 
     def test_cameras_of_a_table_are_drawn_as_points_are(self):
         self.write("cameras.csv", "x,y,angle,fov\n2000,1000,45,90\n")
-        drawn = self.picture("table.svg", *self.AT, "--csv", "cameras.csv", "--picture")
+        drawn = self.picture("table.svg", *self.AT, "--points", "cameras.csv", "--picture")
         self.assertEqual(drawn, self.picture("point.svg", *self.AT, "--at", "2000,1000", "--look", "45", "--fov", "90",
                                              "--picture"))
 

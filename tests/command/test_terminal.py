@@ -27,17 +27,7 @@ class Terminal(unittest.TestCase):
             time.sleep(seconds)
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=30)
-            text = b""
-            while True:
-                try:
-                    more = os.read(master, 65536)
-                except OSError:  # Linux's way to say that all is read
-                    break
-                if not more:
-                    break
-                text += more
-            os.close(master)
-            return text.decode(), process.returncode
+            return sandbox.read_terminal(master).decode(), process.returncode
 
     def test_line(self):
         text, status = self.talk()

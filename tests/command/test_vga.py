@@ -107,6 +107,32 @@ def beside_wall(point):
                min(w[1], w[3]) <= y + 1.5 and max(w[1], w[3]) >= y - 1.5 for w in SMALL)
 
 
+def steps(graph, place, start):
+    """Depths by point. `place`: the points that count as one with a point, itself included."""
+    depths, level = dict.fromkeys(place[start], 0), place[start]
+    while level:
+        seen = {r for p in level for q in graph[p] for r in place[q]} - set(depths)
+        depths.update(dict.fromkeys(seen, depths[next(iter(level))] + 1))
+        level = seen
+    return depths
+
+
+def lengths(points, graph, place, turns, start):
+    """Shortest paths, which turn where `turns` says so."""
+    found, heap = {}, [(0.0, start)]
+    while heap:
+        length, p = heapq.heappop(heap)
+        if p in found:
+            continue
+        found[p] = length
+        for q in place[p] - {p}:
+            heapq.heappush(heap, (length, q))
+        if p == start or turns(p):
+            for q in graph[p]:
+                heapq.heappush(heap, (length + math.dist(points[p], points[q]), q))
+    return found
+
+
 class BruteForce(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -124,6 +150,7 @@ class BruteForce(unittest.TestCase):
         cls.graph = [[j for j, q in enumerate(cls.points) if i != j and
                       not any(crosses(p, q, wall) for wall in SMALL)]
                      for i, p in enumerate(cls.points)]
+        cls.place = {i: {i} for i in range(len(cls.points))}
 
     def check(self, measure, expected):
         for row, value in zip(self.rows, expected, strict=True):
@@ -131,24 +158,11 @@ class BruteForce(unittest.TestCase):
                                    msg=f"{measure} at {row['x']},{row['y']}")
 
     def steps(self, start):
-        depths, level = {start: 0}, [start]
-        while level:
-            level = [q for p in level for q in self.graph[p]
-                     if q not in depths and not depths.__setitem__(q, depths[p] + 1)]
-        return depths
+        return steps(self.graph, self.place, start)
 
     def shortest(self, start):
-        lengths, heap = {}, [(0.0, start)]
-        while heap:
-            length, p = heapq.heappop(heap)
-            if p in lengths:
-                continue
-            lengths[p] = length
-            if p != start and not beside_wall(self.points[p]):
-                continue
-            for q in self.graph[p]:
-                heapq.heappush(heap, (length + math.dist(self.points[p], self.points[q]), q))
-        return lengths
+        return lengths(self.points, self.graph, self.place,
+                       lambda p: beside_wall(self.points[p]), start)
 
     def test_grid(self):
         self.assertEqual(self.points, [(x, y) for x in range(1, 9) for y in range(1, 6)])
@@ -222,26 +236,11 @@ class Linked(unittest.TestCase):
                    min(w[1], w[3]) <= y + 1.5 and max(w[1], w[3]) >= y - 1.5 for w in self.FLOORS)
 
     def steps(self, start):
-        depths, level = dict.fromkeys(self.place[start], 0), self.place[start]
-        while level:
-            seen = {r for p in level for q in self.graph[p] for r in self.place[q]} - set(depths)
-            depths.update(dict.fromkeys(seen, depths[next(iter(level))] + 1))
-            level = seen
-        return depths
+        return steps(self.graph, self.place, start)
 
     def lengths(self, start):
-        lengths, heap = {}, [(0.0, start)]
-        while heap:
-            length, p = heapq.heappop(heap)
-            if p in lengths:
-                continue
-            lengths[p] = length
-            for q in self.place[p] - {p}:
-                heapq.heappush(heap, (length, q))
-            if p == start or self.beside(p) or len(self.place[p]) > 1:
-                for q in self.graph[p]:
-                    heapq.heappush(heap, (length + math.dist(self.points[p], self.points[q]), q))
-        return lengths
+        return lengths(self.points, self.graph, self.place,
+                       lambda p: self.beside(p) or len(self.place[p]) > 1, start)
 
     def mean(self, depths, more):
         one_each = {min(self.place[p]): value for p, value in depths.items()}

@@ -1,4 +1,5 @@
 #include "oracle/blockers.h"
+#include "oracle/must.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -16,11 +17,6 @@ struct blockers {
     uint64_t *asked; ///< of each wall, the last question that it was looked at for
     uint64_t question;
 };
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
 
 // --- signs
 

@@ -14,6 +14,7 @@
 // to 32 B^2, places up to 512 B^4 over 64 B^2, and comparing two places takes less than 2^15 B^6 =
 // 2^63.
 #include "oracle/dyadic.h"
+#include "oracle/must.h"
 #include "oracle/oracle.h"
 
 #include <stdlib.h>
@@ -44,11 +45,6 @@ typedef struct job {
     uint32_t *crossed, *gaps; ///< the cells that the line crosses, and behind how many walls
     bool *open;
 } job;
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
 
 static int64_t cross(grid_point u, grid_point v) {
     return u.x * v.y - u.y * v.x;

@@ -1,4 +1,5 @@
 #include "oracle/convex_space.h"
+#include "oracle/must.h"
 
 #include "sightline/support.h"
 
@@ -160,11 +161,6 @@ static sl_point point_at(const plane *p, int a, int b, int eighths, bool far) {
     const double unit = far ? 0x1p-30 : 1, shift = far ? 3 : 0;
     return (sl_point){shift + unit * (double)(8 * u.x + (v.x - u.x) * eighths),
                       shift + unit * (double)(8 * u.y + (v.y - u.y) * eighths)};
-}
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
 }
 
 static void add_portals(plane *p, bool far, sl_space *out) {

@@ -14,6 +14,7 @@
 #include "oracle/eye.h"
 
 #include "oracle/dyadic.h"
+#include "oracle/must.h"
 
 #include <assert.h>
 #include <gmp.h>
@@ -49,11 +50,6 @@ struct oracle_eye {
 /// coordinates of 53 bits, a ray between two others keeps 2^-53 of a last place from what they
 /// pass.
 enum { PLACES = 400, ALONG = 130, DOWN = 330 };
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
 
 static void init(vector *v) {
     mpz_inits(v->x, v->y, NULL);

@@ -11,8 +11,8 @@
 #include "oracle/margin.h"
 
 #include "oracle/dyadic.h"
+#include "oracle/must.h"
 
-#include <assert.h>
 #include <gmp.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -35,11 +35,6 @@ typedef struct job {
     bool any;
     oracle_margin best;
 } job;
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
 
 static int lowest_exponent(const oracle_portal *portals, size_t count) {
     int lowest = INT_MAX;

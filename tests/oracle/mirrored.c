@@ -5,6 +5,7 @@
 #include "oracle/mirrored.h"
 
 #include "oracle/dyadic.h"
+#include "oracle/must.h"
 
 #include <assert.h>
 #include <gmp.h>
@@ -41,11 +42,6 @@ typedef struct looker {
     vector s, t, u; ///< scratch
     mpz_t p, q;
 } looker;
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
 
 static void init(vector *v) {
     mpz_inits(v->x, v->y, NULL);

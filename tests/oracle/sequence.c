@@ -20,11 +20,11 @@
 // (they harm in no case, as each is checked), and open sight is decided by the sum of all
 // candidates that satisfy every sign.
 #include "oracle/dyadic.h"
+#include "oracle/must.h"
 #include "oracle/oracle.h"
 
 #include <assert.h>
 #include <gmp.h>
-#include <limits.h>
 #include <stdlib.h>
 
 typedef struct line {
@@ -56,11 +56,6 @@ struct oracle_sequence {
     vector normal;
     mpz_t side, other, term;
 };
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
 
 static void line_init(line *l) {
     mpz_inits(l->a, l->b, l->c, NULL);

@@ -2,11 +2,11 @@
 #ifndef SL_TESTS_ORACLE_SHARED_H
 #define SL_TESTS_ORACLE_SHARED_H
 
+#include "oracle/must.h"
 #include "oracle/planar_graph.h"
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 /// Describes a fault; returns false.
 __attribute__((format(printf, 2, 3))) static inline bool fault(char *why, const char *format, ...) {
@@ -15,11 +15,6 @@ __attribute__((format(printf, 2, 3))) static inline bool fault(char *why, const 
     vsnprintf(why, ORACLE_WHY, format, arguments);
     va_end(arguments);
     return false;
-}
-
-static inline void *must(void *block) {
-    if (!block) abort();
-    return block;
 }
 
 static inline bool same(sl_point a, sl_point b) {

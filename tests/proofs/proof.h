@@ -16,6 +16,7 @@ double nondet_double(void);
 bool nondet_bool(void);
 
 void __CPROVER_assume(bool holds);
+void __CPROVER_assert(bool holds, const char *what);
 
 #define ASSUME(condition) __CPROVER_assume(condition)
 #define PROVE(condition)  __CPROVER_assert(condition, #condition)

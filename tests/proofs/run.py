@@ -56,7 +56,8 @@ def main():
             began = time.monotonic()
             holds = prove(cbmc, path, name, options.self_test)
             wrong += holds is not (not options.self_test)
-            print(f"{path.stem}: {name}: {'holds' if holds else 'fails'}, "
+            said = {True: "holds", False: "fails", None: "no answer"}[holds]
+            print(f"{path.stem}: {name}: {said}, "
                   f"{time.monotonic() - began:.0f} s", flush=True)
     return 1 if wrong else 0
 

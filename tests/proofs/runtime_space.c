@@ -1,6 +1,6 @@
-// The tree, the grid, the cells, the seams and the view cells of a hostile file: checks read no
-// byte behind their sections, a way down the tree ends, and each cell that passes has its corners
-// and portals. Sections of up to two items.
+// The tree, the grid, the cells, the seams, the walls and the view cells of a hostile file: checks
+// read no byte behind their sections, a way down the tree ends, each cell that passes has its
+// corners and portals, and each wall usable coordinates. Sections of up to two items.
 //
 // unwind 6
 #include "proof.h"
@@ -97,9 +97,11 @@ void seams_are_read_within_their_sections(void) {
 void walls_are_read_within_their_section(void) {
     sl_runtime rt = {0};
     slrt_section found[SLRT_TAGS] = {{0}};
-    ANY_SECTION(SLRT_WALL, FEW, 32);
+    ANY_SECTION(SLRT_WALL, FEW, 32, 0);
     if (!slrt_take_walls(&rt, found)) return;
-    PROVE(rt.wall_count == found[SLRT_WALL].count);
+    const uint32_t wall = nondet_uint();
+    ASSUME(wall < rt.wall_count);
+    PROVE(slrt_usable(rt.walls + (size_t)wall * 32, 4));
 }
 
 /// Empty ones too: that of the numbers of view cells was once read before it was counted.

@@ -23,11 +23,9 @@ SKIPPED = 77
 
 
 def version():
-    """Within which interfaces stay: "1", or "0.2" while the major version is 0. As CMake's SOVERSION."""
+    """Within which interfaces stay: the major one, CMake's SOVERSION."""
     text = (ROOT / "lib/include/sightline/version.h").read_text()
-    major, minor = (re.search(rf"#define SL_VERSION_{part} +(\d+)", text).group(1)
-                    for part in ("MAJOR", "MINOR"))
-    return major if major != "0" else f"0.{minor}"
+    return re.search(r"#define SL_VERSION_MAJOR +(\d+)", text).group(1)
 
 
 class Library:

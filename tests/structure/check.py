@@ -9,6 +9,7 @@ used     what a private header declares serves more than the one source that has
 silent   the library prints nothing of its own accord, and reads nothing from the environment
 format   every source is laid out as .clang-format says
 doxygen  the API reference (lib/Doxyfile) has a text for every public function, type and macro
+versions packages, their changelogs and the programs' metadata say the version of version.h
 tidy     clang-tidy finds nothing (.clang-tidy) in what was built in --build; a minute or two
 
 Prints each fault as FILE:LINE: what; exits 0 without faults, 1 with, 77 when it cannot tell.
@@ -201,6 +202,27 @@ def check_silent(root):
                 yield f"{path.relative_to(root)}:{number}: {found[0]}...) in the library"
 
 
+# Where the version stands besides version.h: what CMake does not write.
+VERSIONS = {
+    "lib/CHANGELOG.md": r"^## (\d\S*?),",
+    "lib/bindings/js/package.json": r'"version": "([^"]*)"',
+    "tools/packages/conan/conanfile.py": r'version = "([^"]*)"',
+    "tools/packages/debian/changelog": r"^sightline \((\S*)\)",
+    "tools/packages/vcpkg/vcpkg.json": r'"version": "([^"]*)"',
+    "viewer/desktop/io.github.sightline.View.metainfo.xml": r'<release version="([^"]*)"',
+}
+
+
+def check_versions(root):
+    header = (root / "lib/include/sightline/version.h").read_text(encoding="utf-8")
+    version = ".".join(re.search(rf"#define SL_VERSION_{part} +(\d+)", header)[1]
+                       for part in ("MAJOR", "MINOR", "PATCH"))
+    for name, pattern in VERSIONS.items():
+        told = re.search(pattern, (root / name).read_text(encoding="utf-8"), re.MULTILINE)
+        if not told or told[1] != version:
+            yield f"{name}: says {told[1] if told else 'nothing'}, version.h says {version}"
+
+
 def check_headers(root, compilers):
     include = root / "lib/include"
     if not compilers:
@@ -303,7 +325,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format",
-                                            "doxygen", "tidy"])
+                                            "doxygen", "versions", "tidy"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
     parser.add_argument("--cxx", help="C++ compiler, for headers")
@@ -319,7 +341,7 @@ def main():
         missing = []
         check = {"layers": check_layers, "sources": check_sources, "used": check_used,
                  "silent": check_silent, "format": check_format,
-                 "doxygen": check_doxygen,
+                 "doxygen": check_doxygen, "versions": check_versions,
                  "tidy": lambda root: check_tidy(root, options.build)}
         found = check[options.subject](options.root)
     try:

@@ -4,6 +4,7 @@ run    every command of a block `sh` runs, in a folder that has maps/ and the ma
        commands of `sightline`. Other blocks say what becomes of them: `sh not-run` (it needs files that are not
        here, or takes long), `sh run-by-ci`, `sh run-by-test` (a test of its own runs it).
 links  every link to a file or to a heading leads somewhere.
+options  every option that a text names in code is one: of the command that stands before it, or of any program here.
 """
 import os
 import pathlib
@@ -15,6 +16,9 @@ import tempfile
 
 # Run by a test of their own, with what their text says beside the commands.
 ELSEWHERE = {"maps/FORMAT.md"}
+# Of esbuild, valgrind and sbatch.
+FOREIGN = {"--bundle", "--tool", "--toggle-collect", "--separate-threads", "--fair-sched", "--branch-sim", "--cache-sim",
+           "--array"}
 
 
 def documents(root):
@@ -87,9 +91,43 @@ def links(root):
         yield "no document has a link"
 
 
+def command_options(folder):
+    """By command: its options, as its help lists them."""
+    def first_words(*arguments):
+        done = subprocess.run([folder / "sightline", *arguments, "--help", "words"], text=True,
+                              capture_output=True, check=True)
+        return {line.split("\t")[0] for line in done.stdout.splitlines()}
+
+    return {name: first_words(name) for name in first_words() if not name.startswith("-")}
+
+
+def options(root, folder):
+    of_commands = command_options(folder)
+    anywhere = FOREIGN.union(*of_commands.values(), {"--help", "--version"})
+    for path in root.rglob("*"):
+        if path.suffix in (".py", ".sh", ".js", ".mjs", ".c", ".json") and path.relative_to(root).parts[0] != "build":
+            anywhere |= set(re.findall(r"(?<![\w-])--[a-z][\w-]*", path.read_text(encoding="utf-8", errors="replace")))
+    count = 0
+    for name, text in documents(root):
+        if name.name == "CHANGELOG.md":  # it names what is gone
+            continue
+        for span in re.findall(r"`([^`]*)`", without_code(text)):
+            command = re.match(r"(?:sightline )?([a-z]+)(?= )", span)
+            known = of_commands.get(command[1], anywhere) if command else anywhere
+            for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", span):
+                count += 1
+                if option not in known:
+                    yield f"{name}: there is no option {option}: {span}"
+    if not count:
+        yield "no document names an option"
+
+
 def main():
     subject, root = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-    faults = list(links(root) if subject == "links" else run(root, pathlib.Path(sys.argv[3]).resolve()))
+    if subject == "links":
+        faults = list(links(root))
+    else:
+        faults = list({"run": run, "options": options}[subject](root, pathlib.Path(sys.argv[3]).resolve()))
     print("\n".join(faults))
     return 1 if faults else 0
 

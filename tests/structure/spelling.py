@@ -1,6 +1,7 @@
 """Spelling of documents, comments and help: spelling.py ROOT [PROGRAM]
 
 aspell knows the words of English. words.txt beside this file has the project's own: names, terms, formats.
+With PROGRAM its help counts as well, and a word there that no text has is a fault.
 Exit status 77 where there is no aspell.
 """
 import pathlib
@@ -67,11 +68,14 @@ def main():
     ask = subprocess.run(["aspell", "list", "--lang=en", "--encoding=utf-8"], input="\n".join(found),
                          text=True, capture_output=True, check=True)
     wrong = sorted(set(ask.stdout.split()) - own, key=str.lower)
+    idle = sorted(own - set(found), key=str.lower) if len(sys.argv) > 2 else []
     for word in wrong:
         print(f"{found.get(word, '?')}: {word}")
+    for word in idle:
+        print(f"{OWN.name}: no text has the word {word}: take it out")
     if not found:
         print("there is no text")
-    return 1 if wrong or not found else 0
+    return 1 if wrong or idle or not found else 0
 
 
 if __name__ == "__main__":

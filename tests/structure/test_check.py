@@ -116,6 +116,23 @@ class CheckTest(unittest.TestCase):
         loud = self.faults(check.check_silent, {"lib/map/m.c": '\n    printf("here")'})
         self.assert_one(loud, "lib/map/m.c:2", "printf")
 
+    def test_versions(self):
+        told = {"lib/CHANGELOG.md": "# Changes\n\n## Unreleased\n\n## 1.2.3, 2026-01-01\n\n## 1.2.2, 2025-01-01\n",
+                "lib/bindings/js/package.json": '{"version": "1.2.3"}',
+                "tools/packages/conan/conanfile.py": '    version = "1.2.3"\n',
+                "tools/packages/debian/changelog": "sightline (1.2.3) unstable; urgency=medium\n",
+                "tools/packages/vcpkg/vcpkg.json": '{"version": "1.2.3"}',
+                "viewer/desktop/io.github.sightline.View.metainfo.xml": '<release version="1.2.3"/>',
+                "lib/include/sightline/version.h": "".join(
+                    f"#define SL_VERSION_{part} {number}\n"
+                    for number, part in enumerate(("MAJOR", "MINOR", "PATCH"), 1))}
+        self.assertEqual(self.faults(check.check_versions, told), [])
+        for name in check.VERSIONS:
+            with self.subTest(name):
+                text = told[name].replace("1.2.3", "1.2.4")
+                self.assert_one(self.faults(check.check_versions, {**told, name: text}), name, "1.2.4")
+                self.assert_one(self.faults(check.check_versions, {**told, name: "\n"}), name, "nothing")
+
     def test_headers(self):
         def faults(text):
             changed = {"lib/include/sightline/draw.h": text}

@@ -117,7 +117,7 @@ static inline void check_conflict(const sl_space *space, const sl_sequence *sequ
     sl_point ends[SL_CONFLICT_MOST];
     bool left[SL_CONFLICT_MOST];
     const uint32_t count = sequence->end_count;
-    assert_in_range(count, 2, SL_CONFLICT_MOST);
+    assert_true(count >= 2 && count <= SL_CONFLICT_MOST);
     for (uint32_t i = 0; i < count; i++) {
         assert_true(sequence->ends[i].portal < sequence->directed_count);
         ends[i] = sl_sequence_end(space, sequence, sequence->ends[i]);

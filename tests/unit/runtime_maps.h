@@ -121,4 +121,21 @@ static inline void grid_rooms(sl_context *context, sl_random *random, int size, 
     }
 }
 
+static inline sl_point runtime_between(sl_point a, sl_point b, double part) {
+    return (sl_point){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+}
+
+/// A point of the cone's border in one of some directions, also along walls; exact to subtract
+/// again. The eye itself where there is none such.
+static inline sl_point runtime_border(sl_random *random, sl_point eye, double reach) {
+    const double step = ldexp(1, ilogb(reach) - 4);
+    const sl_point by = {step * ((double)sl_random_below(random, 9) - 4),
+                         step * ((double)sl_random_below(random, 9) - 4)};
+    const sl_point at = {eye.x + by.x, eye.y + by.y};
+    // Knuth's two-sum leaves nothing over.
+    const bool exact = at.x - eye.x == by.x && at.x - by.x == eye.x && at.y - eye.y == by.y &&
+                       at.y - by.y == eye.y;
+    return exact ? at : eye;
+}
+
 #endif

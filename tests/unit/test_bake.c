@@ -5,7 +5,6 @@
 #include "sightline/glpk.h"
 #include "sightline/support.h"
 
-#include <math.h>
 #include <stdatomic.h>
 #include <unistd.h>
 
@@ -140,7 +139,7 @@ static void threads_do_not_change_the_bytes(void **state) {
             bake(context, text, &options, &baked);
             const uint32_t left_out = baked.visibility.trees.left_out;
             if (limit == 0) assert_int_equal(left_out, 0);
-            if (limit == 1) assert_in_range(left_out, 1, baked.space.cell_count - 1);
+            if (limit == 1) assert_true(left_out >= 1 && left_out < baked.space.cell_count);
             if (limit == 2) assert_int_equal(left_out, baked.space.cell_count);
             sl_bytes bytes = written(context, &baked);
             if (threads == 1)
@@ -242,7 +241,7 @@ static void inside_only_looks_at_inside_cells_only(void **state) {
     options.inside_only = true;
     sl_baked baked;
     bake(context, "walls 0 0 4 0 4 2 2 2 2 4 0 4 0 0\n", &options, &baked);
-    assert_in_range(baked.space.inside_count, 1, baked.space.cell_count - 1);
+    assert_true(baked.space.inside_count >= 1 && baked.space.inside_count < baked.space.cell_count);
     for (uint32_t a = 0; a < baked.space.cell_count; a++)
         for (uint32_t b = 0; b < baked.space.cell_count; b++)
             if (!baked.space.cells[a].inside || !baked.space.cells[b].inside)

@@ -133,7 +133,14 @@ static void large_rows_are_sparse(void **state) {
 
 // --- under the methods
 
-static const char *const methods_with_rows[] = {"sweep", "flood", "sampling", "multipass"};
+/// The next method of the table that keeps rows; the first of all after NULL; NULL at the end.
+static const sl_see_method *next_with_rows(const sl_see_method *method) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (method = method ? method + 1 : methods; method < methods + count; method++)
+        if (method->keeps_rows) return method;
+    return NULL;
+}
 
 static void generate_space(sl_context *context, uint64_t walls, sl_space *space) {
     size_t count;
@@ -156,12 +163,11 @@ static void sparse_rows_give_the_same_bytes(void **state) {
     sl_context *context = testing_context(NULL);
     sl_space space;
     generate_space(context, 1500, &space);
-    for (size_t m = 0; m < sizeof methods_with_rows / sizeof *methods_with_rows; m++) {
+    for (const sl_see_method *method = NULL; (method = next_with_rows(method));) {
         sl_see_options options = sl_see_options_default();
         sl_visibility dense, sparse;
         options.rows = SL_ROWS_DENSE;
         options.threads = 1;
-        const sl_see_method *method = testing_method(methods_with_rows[m]);
         options.solver = method->stabs ? sl_funnel() : NULL;
         assert_ok(context, method->see(context, &space, &options, &dense));
         options.rows = SL_ROWS_SPARSE;
@@ -187,13 +193,12 @@ static void the_limit_is_kept_and_told(void **state) {
     sl_space space;
     generate_space(context, 1500, &space);
     const long live = memory.live;
-    for (size_t m = 0; m < sizeof methods_with_rows / sizeof *methods_with_rows; m++) {
+    for (const sl_see_method *method = NULL; (method = next_with_rows(method));) {
         sl_see_options options = sl_see_options_default();
         sl_visibility seen = {0};
         options.rows = SL_ROWS_SPARSE;
         options.threads = 1; // the allocator that counts is one thread's
         options.row_bytes = 20000;
-        const sl_see_method *method = testing_method(methods_with_rows[m]);
         options.solver = method->stabs ? sl_funnel() : NULL;
         assert_int_equal(method->see(context, &space, &options, &seen), SL_NO_MEMORY);
         assert_non_null(strstr(sl_context_message(context), "allow more memory"));
@@ -212,13 +217,12 @@ static void lack_of_memory_leaves_nothing(void **state) {
     testing_space(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 3 0 3 7\nwall 6 9 6 2\nwall 7 4 9 4\n",
                   &map, &space);
     const long live = memory.live;
-    for (size_t m = 0; m < sizeof methods_with_rows / sizeof *methods_with_rows; m++) {
+    for (const sl_see_method *method = NULL; (method = next_with_rows(method));) {
         sl_status status = SL_NO_MEMORY;
         long calls = 0;
         for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++, calls++) {
             sl_see_options options = sl_see_options_default();
             sl_visibility seen = {0};
-            const sl_see_method *method = testing_method(methods_with_rows[m]);
             options.solver = method->stabs ? sl_funnel() : NULL;
             options.threads = 1;
             options.rows = SL_ROWS_SPARSE;

@@ -5,7 +5,6 @@
 #include "oracle/blockers.h"
 #include "sightline/support.h"
 
-#include <float.h>
 #include <gmp.h>
 #include <math.h>
 
@@ -94,10 +93,6 @@ static sl_segment turned(sl_segment s) {
     return (sl_segment){s.b, s.a};
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// False where they do not cross.
 static bool check(sl_segment s, sl_segment t) {
     if (!strictly_cross(s, t)) return false;
@@ -110,7 +105,7 @@ static bool check(sl_segment s, sl_segment t) {
     mpq_clears(is.x, is.y, NULL);
     const sl_segment pairs[][2] = {{t, s}, {turned(s), t}, {s, turned(t)}, {turned(t), turned(s)}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
-        if (!same(sli_crossing(pairs[i][0], pairs[i][1]), at))
+        if (!testing_same_point(sli_crossing(pairs[i][0], pairs[i][1]), at))
             fail_msg("%a %a to %a %a and %a %a to %a %a cross elsewhere in another order", s.a.x,
                      s.a.y, s.b.x, s.b.y, t.a.x, t.a.y, t.b.x, t.b.y);
     return true;

@@ -7,7 +7,6 @@
 #include "sightline/support.h"
 
 #include <cairo.h>
-#include <dirent.h>
 #include <math.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -20,15 +19,6 @@ static int set_up(void **state) {
     b->map = draw_map_make(b->context, DRAW_PLAIN);
     *state = b;
     return 0;
-}
-
-static int files_in(const char *directory) {
-    DIR *stream = opendir(directory);
-    assert_non_null(stream);
-    int count = -2; // . and ..
-    while (readdir(stream)) count++;
-    closedir(stream);
-    return count;
 }
 
 static sl_draw_options everything(const draw_bench *b) {
@@ -87,7 +77,7 @@ static void expect_refusal(draw_bench *b, const sl_draw_options *options, const 
     assert_int_equal(sl_draw_file(b->context, &b->map.baked, options, path), SL_BAD_ARGUMENT);
     if (!strstr(sl_context_message(b->context), message))
         fail_msg("\"%s\" is not in: %s", message, sl_context_message(b->context));
-    assert_int_equal(files_in(b->directory), 0);
+    assert_int_equal(draw_files_in(b->directory), 0);
 }
 
 static void what_makes_no_sense_is_refused(void **state) {
@@ -149,7 +139,7 @@ static void a_directory_that_is_not_there_is_an_io_failure(void **state) {
                          SL_IO);
         assert_non_null(strstr(sl_context_message(b->context), name));
     }
-    assert_int_equal(files_in(b->directory), 0);
+    assert_int_equal(draw_files_in(b->directory), 0);
 }
 
 /// The system refuses to write beyond a size, as it does when a disk is full.
@@ -170,7 +160,7 @@ static void a_refused_write_leaves_the_old_file(void **state) {
         const sl_status status = sl_draw_file(b->context, &b->map.baked, &options, path);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &usual), 0);
         assert_int_equal(status, SL_IO);
-        assert_int_equal(files_in(b->directory), 1);
+        assert_int_equal(draw_files_in(b->directory), 1);
         sl_bytes file;
         assert_ok(b->context, sl_file_read(b->context, path, &file));
         assert_string_equal(file.data, "old");
@@ -195,7 +185,7 @@ static void every_failing_allocation_is_reported(void **state) {
             if (status != SL_OK) {
                 assert_int_equal(status, SL_NO_MEMORY);
                 assert_string_not_equal(sl_context_message(context), "");
-                assert_int_equal(files_in(b->directory), 0);
+                assert_int_equal(draw_files_in(b->directory), 0);
             }
             assert_int_equal(memory.live, 1); // the context
             sl_context_destroy(context);
@@ -208,12 +198,12 @@ static void every_failing_allocation_is_reported(void **state) {
 static void cancelling_leaves_nothing(void **state) {
     draw_bench *b = *state;
     const sl_draw_options options = everything(b);
-    const sl_hooks hooks = {.cancelled = draw_cancelled};
+    const sl_hooks hooks = {.cancelled = testing_cancelled};
     sl_context *context = sl_context_create(&hooks);
     for (int i = 0; i < 3; i++)
         assert_int_equal(sl_draw_file(context, &b->map.baked, &options, draw_path(b, kinds[i])),
                          SL_CANCELLED);
-    assert_int_equal(files_in(b->directory), 0);
+    assert_int_equal(draw_files_in(b->directory), 0);
     sl_context_destroy(context);
 }
 

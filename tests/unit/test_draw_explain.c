@@ -5,7 +5,6 @@
 
 #include "sightline/support.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <unistd.h>
 
@@ -162,15 +161,6 @@ static void widths_and_titles_of_all_lengths_are_drawn(void **state) {
     sl_explanation_destroy(b->context, &e);
 }
 
-static int files_in(const char *directory) {
-    DIR *stream = opendir(directory);
-    assert_non_null(stream);
-    int count = -2; // . and ..
-    while (readdir(stream)) count++;
-    closedir(stream);
-    return count;
-}
-
 static void what_makes_no_sense_is_refused(void **state) {
     draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 1);
@@ -186,7 +176,7 @@ static void what_makes_no_sense_is_refused(void **state) {
             SL_BAD_ARGUMENT);
         assert_non_null(strstr(sl_context_message(b->context), "width"));
     }
-    assert_int_equal(files_in(b->directory), 0);
+    assert_int_equal(draw_files_in(b->directory), 0);
     sl_explanation_destroy(b->context, &e);
 }
 
@@ -202,7 +192,7 @@ static void every_failing_allocation_is_reported(void **state) {
         status = sl_draw_explanation(context, &b->map.baked, &e, &options, draw_path(b, "a.svg"));
         if (status != SL_OK) {
             assert_int_equal(status, SL_NO_MEMORY);
-            assert_int_equal(files_in(b->directory), 0);
+            assert_int_equal(draw_files_in(b->directory), 0);
         }
         assert_int_equal(memory.live, 1); // the context
         sl_context_destroy(context);
@@ -216,12 +206,12 @@ static void cancelling_leaves_nothing(void **state) {
     draw_bench *b = *state;
     sl_explanation e = explain(b, FIRST, CORNER, 1);
     const sl_draw_options options = sl_draw_options_default();
-    const sl_hooks hooks = {.cancelled = draw_cancelled};
+    const sl_hooks hooks = {.cancelled = testing_cancelled};
     sl_context *context = sl_context_create(&hooks);
     assert_int_equal(
         sl_draw_explanation(context, &b->map.baked, &e, &options, draw_path(b, "a.png")),
         SL_CANCELLED);
-    assert_int_equal(files_in(b->directory), 0);
+    assert_int_equal(draw_files_in(b->directory), 0);
     sl_context_destroy(context);
     sl_explanation_destroy(b->context, &e);
 }

@@ -73,7 +73,7 @@ static void gather(const trial *t, const oracle_ways *ways, uint32_t shut, bool 
     }
 }
 
-static void compare(const trial *t, const oracle_ways *ways, sl_guarantee guarantee,
+static void compare(const trial *t, const oracle_ways *ways, const sl_see_method *method,
                     const sl_pvs *pvs, const sl_door_sets *doors, bool mirrored, uint32_t shut,
                     truth *truths) {
     const uint32_t n = t->space.cell_count;
@@ -85,12 +85,12 @@ static void compare(const trial *t, const oracle_ways *ways, sl_guarantee guaran
             const truth *expected = &truths[a * n + b];
             const bool seen =
                 pvs->cell_count && sl_pvs_sees(pvs, a, b) && sl_door_sets_open(doors, a, b, state);
-            if (seen ? expected->possible || guarantee == SL_CONSERVATIVE
-                     : !expected->sure || guarantee == SL_AGGRESSIVE)
+            if (seen ? expected->possible || method->guarantee == SL_CONSERVATIVE
+                     : !expected->sure || method->guarantee == SL_AGGRESSIVE)
                 continue;
             sl_map_write_text(t->context, &t->map, "-");
-            fail_msg("seed %llu, effects %u, depth %u, shut %x: cell %u %s cell %u%s",
-                     (unsigned long long)t->seed, t->plan.effects, t->depth, shut, a,
+            fail_msg("%s, seed %llu, effects %u, depth %u, shut %x: cell %u %s cell %u%s",
+                     method->name, (unsigned long long)t->seed, t->plan.effects, t->depth, shut, a,
                      seen ? "sees" : "does not see", b, mirrored ? " by mirror" : "");
         }
 }
@@ -145,9 +145,8 @@ static bool try_map(uint64_t seed, unsigned effects, sl_sight sight, uint64_t *s
         if (strcmp(all[which].name, "dfs") == 0) compare_methods(&t, &v);
         if (all[which].guarantee == SL_AGGRESSIVE) *sampled += v.account.mirrored_pairs;
         for (uint32_t shut = 0; shut < (effects & SL_EFFECT_DOOR ? 8u : 1u); shut++) {
-            compare(&t, &ways, all[which].guarantee, &v.pvs, &v.doors, false, shut, truths);
-            compare(&t, &ways, all[which].guarantee, &v.mirrored, &v.mirrored_doors, true, shut,
-                    truths);
+            compare(&t, &ways, &all[which], &v.pvs, &v.doors, false, shut, truths);
+            compare(&t, &ways, &all[which], &v.mirrored, &v.mirrored_doors, true, shut, truths);
         }
         sl_visibility_destroy(t.context, &v);
     }

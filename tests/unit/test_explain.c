@@ -299,7 +299,7 @@ static void a_long_search_reports_and_can_be_cancelled(void **state) {
     bench *b = begin_pillars();
     const uint32_t from = cell_at(b, 32.1, 26.1), to = cell_at(b, 32.1, 34.1);
     sl_explanation e = explained(b, from, to);
-    assert_in_range(b->reported, 1, e.tests);
+    assert_true(b->reported >= 1 && b->reported <= e.tests);
     sl_explanation_destroy(b->context, &e);
     b->cancelled = true;
     const sl_explain_options options = sl_explain_options_default();

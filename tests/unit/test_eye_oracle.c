@@ -6,8 +6,6 @@
 #include "oracle/eye.h"
 #include "oracle/random_map.h"
 
-#include <math.h>
-
 enum { EYES = 7, VIEWS = 9, CELLS_MOST = 90 };
 
 typedef struct trial {

@@ -1,11 +1,9 @@
 // Eye-to-cell culling: each method within the one before, on every map of maps/ and on random ones,
 // for eyes and cones of all kinds; what an eye on a portal, a wall, a corner sees; what is refused.
-#include "testing.h"
+#include "map_files.h"
 
 #include "oracle/random_map.h"
-#include "sightline/import.h"
 
-#include <dirent.h>
 #include <math.h>
 
 typedef struct world {
@@ -173,27 +171,20 @@ static void check_world(world *w, uint64_t seed, int count, const char *where) {
 
 static void chain_on_every_map(void **state) {
     (void)state;
-    const char *folder = SIGHTLINE_SOURCE_DIR "/maps";
-    DIR *entries = opendir(folder);
+    glob_t files = map_files_find(MAP_FILES_OWN);
     size_t maps = 0;
-    assert_non_null(entries);
-    for (struct dirent *e; (e = readdir(entries));) {
-        const char *dot = strrchr(e->d_name, '.');
-        if (!dot || (strcmp(dot, ".map") != 0 && strcmp(dot, ".txt") != 0)) continue;
+    for (size_t i = 0; i < files.gl_pathc; i++) {
         world w = {.context = testing_context(NULL)};
-        char path[1024];
-        snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
-        const sl_import_options import = sl_import_options_default();
         const sl_subdivide_options options = sl_subdivide_options_default();
-        assert_ok(w.context, sl_map_read(w.context, path, &import, &w.map));
+        map_files_read(w.context, files.gl_pathv[i], &w.map);
         assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL, NULL));
         if (sl_subdivide_kd(w.context, &w.map, &options, &w.space) == SL_OK) {
-            check_world(&w, maps, 6, e->d_name);
+            check_world(&w, maps, 6, files.gl_pathv[i]);
             maps++;
         }
         close_world(&w);
     }
-    closedir(entries);
+    globfree(&files);
     assert_true(maps >= 5);
 }
 

@@ -17,8 +17,8 @@ static const sl_from_region_solver *solver_of(const char *name) {
     return NULL;
 }
 
-static sl_from_region_result see(sl_context *context, const sl_regions *scene, size_t method,
-                                 const sl_from_region_options *options) {
+static sl_from_region_result see(sl_context *context, const sl_from_region_scene *scene,
+                                 size_t method, const sl_from_region_options *options) {
     size_t count;
     const sl_from_region_method *methods = sl_from_region_methods(&count);
     sl_from_region_result result = {0};
@@ -40,7 +40,7 @@ static bool same(const sl_from_region_result *a, const sl_from_region_result *b)
 
 /// Every method, on one thread and on two, finds the same from as many images. Returns it.
 static sl_from_region_result compare_methods(sl_context *context, const char *name,
-                                             const sl_regions *scene,
+                                             const sl_from_region_scene *scene,
                                              sl_from_region_options options) {
     options.threads = 1;
     sl_from_region_result first = see(context, scene, 0, &options);
@@ -79,7 +79,7 @@ static void leaves_see_what_cells_see(void **state) {
         for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
             sl_map map = {0};
             sl_space space;
-            sl_regions *scene;
+            sl_from_region_scene *scene;
             read_map(context, paths[i], &map);
             const sl_subdivide_options rules = sl_subdivide_options_default();
             assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
@@ -89,10 +89,10 @@ static void leaves_see_what_cells_see(void **state) {
             by.solver = sl_funnel();
             sl_visibility expected;
             assert_ok(context, by_cells[0].see(context, &space, &by, &expected));
-            sl_regions_options what = sl_regions_options_default();
+            sl_from_region_scene_options what = sl_from_region_scene_options_default();
             what.view_cells = SL_VIEW_CELLS_LEAVES;
             what.objects = SL_OBJECTS_CELLS;
-            assert_ok(context, sl_regions_create(context, &map, &what, &scene));
+            assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
             sl_from_region_options options = sl_from_region_options_default();
             options.solver = solver_of("stabs");
             options.stab = sl_funnel();
@@ -114,7 +114,7 @@ static void leaves_see_what_cells_see(void **state) {
             assert_int_equal(a, seen.view_cells);
             sl_from_region_result_destroy(context, &seen);
             sl_visibility_destroy(context, &expected);
-            sl_regions_destroy(context, scene);
+            sl_from_region_scene_destroy(context, scene);
             sl_space_destroy(context, &space);
             sl_map_destroy(context, &map);
         }
@@ -131,10 +131,10 @@ static void check_subset(const char *name, const sl_from_region_result *some,
 }
 
 static void check_scene(sl_context *context, const char *name, const sl_map *map,
-                        const sl_regions_options *what, uint64_t seed, uint64_t *sampled,
+                        const sl_from_region_scene_options *what, uint64_t seed, uint64_t *sampled,
                         uint64_t *exact) {
-    sl_regions *scene;
-    assert_ok(context, sl_regions_create(context, map, what, &scene));
+    sl_from_region_scene *scene;
+    assert_ok(context, sl_from_region_scene_create(context, map, what, &scene));
     sl_from_region_options options = sl_from_region_options_default();
     options.points = 32;
     options.pixels = 8;
@@ -148,7 +148,7 @@ static void check_scene(sl_context *context, const char *name, const sl_map *map
     *exact += sl_from_region_pairs(&all);
     sl_from_region_result_destroy(context, &some);
     sl_from_region_result_destroy(context, &all);
-    sl_regions_destroy(context, scene);
+    sl_from_region_scene_destroy(context, scene);
 }
 
 static void methods_find_the_same(void **state) {
@@ -167,7 +167,7 @@ static void methods_find_the_same(void **state) {
         assert_ok(context, sl_map_add_object(context, &map, "upper", upper, 0));
         for (int cells = SL_VIEW_CELLS_GRID; cells <= SL_VIEW_CELLS_BOXES; cells++)
             for (int objects = SL_OBJECTS_WALLS; objects <= SL_OBJECTS_CELLS; objects++) {
-                sl_regions_options what = sl_regions_options_default();
+                sl_from_region_scene_options what = sl_from_region_scene_options_default();
                 what.view_cells = (sl_view_cell_kind)cells;
                 what.objects = (sl_object_kind)objects;
                 what.grid = 1 + (uint32_t)(seed % 5);
@@ -192,20 +192,20 @@ static void boundaries_are_counted(void **state) {
                   "walls 0 0 12 0 12 9 0 9 0 0\nwall 6 0 6 4\nwall 6 5 6 9\nstart 1 1 0\n"
                   "object west 0 0 6 9\nobject east 6 0 12 9\n",
                   &map, &space);
-    sl_regions_options what = sl_regions_options_default();
+    sl_from_region_scene_options what = sl_from_region_scene_options_default();
     what.view_cells = SL_VIEW_CELLS_BOXES;
     what.objects = SL_OBJECTS_WALLS;
-    sl_regions *scene;
-    assert_ok(context, sl_regions_create(context, &map, &what, &scene));
-    sl_regions_counts counts = sl_regions_count(scene);
+    sl_from_region_scene *scene;
+    assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
+    sl_from_region_counts counts = sl_from_region_scene_count(scene);
     assert_int_equal(counts.view_cells, 2);
     assert_int_equal(counts.faces, 2);
     assert_int_equal(counts.boundary_faces, 0);
     assert_int_equal(counts.dependents, 1);
-    sl_regions_destroy(context, scene);
+    sl_from_region_scene_destroy(context, scene);
     map.object_count--; // the east is no view cell's: one face leads out of the compound
-    assert_ok(context, sl_regions_create(context, &map, &what, &scene));
-    counts = sl_regions_count(scene);
+    assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
+    counts = sl_from_region_scene_count(scene);
     assert_int_equal(counts.view_cells, 1);
     assert_int_equal(counts.faces, 1);
     assert_int_equal(counts.boundary_faces, 1);
@@ -215,7 +215,7 @@ static void boundaries_are_counted(void **state) {
     assert_int_equal(seen.objects, counts.objects);
     assert_int_equal(sl_from_region_pairs(&seen), counts.objects);
     sl_from_region_result_destroy(context, &seen);
-    sl_regions_destroy(context, scene);
+    sl_from_region_scene_destroy(context, scene);
     map.object_count++;
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
@@ -232,23 +232,23 @@ static void cycles_are_named_and_cut(void **state) {
                   "walls 0 0 9 0 9 9 0 9 0 0\nstart 1 1 0\n"
                   "object hook 0 0 3 9\nobject eye 3 0 6 9\nobject hook 6 0 9 9\n",
                   &map, &space);
-    sl_regions_options what = sl_regions_options_default();
+    sl_from_region_scene_options what = sl_from_region_scene_options_default();
     what.view_cells = SL_VIEW_CELLS_BOXES;
     what.objects = SL_OBJECTS_WALLS;
-    sl_regions *scene = NULL;
-    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_INPUT);
+    sl_from_region_scene *scene = NULL;
+    assert_int_equal(sl_from_region_scene_create(context, &map, &what, &scene), SL_BAD_INPUT);
     assert_null(scene);
     const char *message = sl_context_message(context);
     assert_non_null(strstr(message, "cycle"));
     assert_non_null(strstr(message, "'hook'"));
     assert_non_null(strstr(message, "'eye'"));
     what.cut_cycles = true;
-    assert_ok(context, sl_regions_create(context, &map, &what, &scene));
-    assert_int_equal(sl_regions_count(scene).view_cells, 3);
+    assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
+    assert_int_equal(sl_from_region_scene_count(scene).view_cells, 3);
     sl_from_region_result seen =
         compare_methods(context, "cut", scene, sl_from_region_options_default());
     sl_from_region_result_destroy(context, &seen);
-    sl_regions_destroy(context, scene);
+    sl_from_region_scene_destroy(context, scene);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -262,18 +262,18 @@ static void work_is_bounded_by_output(void **state) {
     sl_map map = {0};
     read_map(context, "maps/office.map", &map);
     for (uint32_t grid = 2; grid <= 16; grid *= 2) {
-        sl_regions_options what = sl_regions_options_default();
+        sl_from_region_scene_options what = sl_from_region_scene_options_default();
         what.grid = grid;
         what.objects = SL_OBJECTS_WALLS;
-        sl_regions *scene;
-        assert_ok(context, sl_regions_create(context, &map, &what, &scene));
-        assert_true(sl_regions_count(scene).dependents <= 2);
-        assert_int_equal(sl_regions_count(scene).boundary_faces, 0);
+        sl_from_region_scene *scene;
+        assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
+        assert_true(sl_from_region_scene_count(scene).dependents <= 2);
+        assert_int_equal(sl_from_region_scene_count(scene).boundary_faces, 0);
         sl_from_region_options options = sl_from_region_options_default();
         sl_from_region_result seen = see(context, scene, 2, &options);
         assert_true(seen.relations > 0 && seen.candidates <= 2 * seen.relations);
         sl_from_region_result_destroy(context, &seen);
-        sl_regions_destroy(context, scene);
+        sl_from_region_scene_destroy(context, scene);
     }
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -296,7 +296,7 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
             long calls = 0;
             for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++, calls++) {
                 size_t count;
-                sl_regions_options what = sl_regions_options_default();
+                sl_from_region_scene_options what = sl_from_region_scene_options_default();
                 what.view_cells = SL_VIEW_CELLS_BOXES;
                 what.objects = SL_OBJECTS_BOXES;
                 what.cut_cycles = true;
@@ -306,17 +306,17 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
                 options.pixels = 4;
                 options.solver = &sl_from_region_solvers(&count)[solver];
                 options.stab = sl_funnel();
-                sl_regions *scene = NULL;
+                sl_from_region_scene *scene = NULL;
                 sl_from_region_result result = {0};
                 memory.calls = 0;
                 memory.fail_at = fail_at;
-                status = sl_regions_create(context, &map, &what, &scene);
+                status = sl_from_region_scene_create(context, &map, &what, &scene);
                 if (status == SL_OK)
                     status =
                         sl_from_region_methods(&count)[m].see(context, scene, &options, &result);
                 memory.fail_at = 0;
                 sl_from_region_result_destroy(context, &result);
-                sl_regions_destroy(context, scene);
+                sl_from_region_scene_destroy(context, scene);
                 assert_int_equal(memory.live, live);
             }
             assert_int_equal(status, SL_OK);
@@ -332,23 +332,23 @@ static void what_makes_no_sense_is_refused(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_regions *scene = NULL;
+    sl_from_region_scene *scene = NULL;
     testing_space(context, "walls 0 0 12 0 12 9 0 9 0 0\n", &map, &space);
-    sl_regions_options what = sl_regions_options_default();
+    sl_from_region_scene_options what = sl_from_region_scene_options_default();
     what.grid = 0;
-    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_from_region_scene_create(context, &map, &what, &scene), SL_BAD_ARGUMENT);
     what.grid = SL_VIEW_GRID_MOST + 1;
-    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_ARGUMENT);
-    what = sl_regions_options_default();
+    assert_int_equal(sl_from_region_scene_create(context, &map, &what, &scene), SL_BAD_ARGUMENT);
+    what = sl_from_region_scene_options_default();
     what.objects = SL_OBJECTS_BOXES;
-    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_INPUT);
+    assert_int_equal(sl_from_region_scene_create(context, &map, &what, &scene), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "no object"));
-    what = sl_regions_options_default();
+    what = sl_from_region_scene_options_default();
     what.groups = 0;
-    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_ARGUMENT);
-    what = sl_regions_options_default();
+    assert_int_equal(sl_from_region_scene_create(context, &map, &what, &scene), SL_BAD_ARGUMENT);
+    what = sl_from_region_scene_options_default();
     what.grid = 2;
-    assert_ok(context, sl_regions_create(context, &map, &what, &scene));
+    assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
     size_t count;
     const sl_from_region_method *methods = sl_from_region_methods(&count);
     sl_from_region_result result;
@@ -361,7 +361,7 @@ static void what_makes_no_sense_is_refused(void **state) {
     options = sl_from_region_options_default();
     options.solver = solver_of("stabs");
     assert_int_equal(methods[0].see(context, scene, &options, &result), SL_BAD_ARGUMENT);
-    sl_regions_destroy(context, scene);
+    sl_from_region_scene_destroy(context, scene);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -373,16 +373,16 @@ static void what_lies_outside_is_no_object(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_regions *scene;
+    sl_from_region_scene *scene;
     testing_space(context,
                   "walls 0 0 8 0 8 8 0 8 0 0\nwalls 10 0 12 0 12 2 10 2 10 0\n"
                   "wall 3 3 5 3\nstart 1 1 0\n",
                   &map, &space);
-    sl_regions_options what = sl_regions_options_default();
+    sl_from_region_scene_options what = sl_from_region_scene_options_default();
     what.objects = SL_OBJECTS_WALLS;
-    assert_ok(context, sl_regions_create(context, &map, &what, &scene));
-    assert_int_equal(sl_regions_count(scene).objects, 5);
-    sl_regions_destroy(context, scene);
+    assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
+    assert_int_equal(sl_from_region_scene_count(scene).objects, 5);
+    sl_from_region_scene_destroy(context, scene);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -401,13 +401,13 @@ static void far_maps_are_sampled(void **state) {
                                {corner.x, corner.y + 8},
                                corner};
         sl_map map = {0};
-        sl_regions *scene;
+        sl_from_region_scene *scene;
         for (int k = 0; k < 4; k++)
             assert_ok(context, sl_map_add_wall(context, &map, at[k], at[k + 1], 0));
-        sl_regions_options what = sl_regions_options_default();
+        sl_from_region_scene_options what = sl_from_region_scene_options_default();
         what.grid = 2;
         what.objects = SL_OBJECTS_WALLS;
-        assert_ok(context, sl_regions_create(context, &map, &what, &scene));
+        assert_ok(context, sl_from_region_scene_create(context, &map, &what, &scene));
         sl_from_region_options options = sl_from_region_options_default();
         options.solver = solver_of("sampling");
         options.points = 64;
@@ -415,7 +415,7 @@ static void far_maps_are_sampled(void **state) {
         sl_from_region_result seen = compare_methods(context, "a far room", scene, options);
         assert_int_equal(sl_from_region_pairs(&seen), 4 * 4);
         sl_from_region_result_destroy(context, &seen);
-        sl_regions_destroy(context, scene);
+        sl_from_region_scene_destroy(context, scene);
         sl_map_destroy(context, &map);
     }
     sl_context_destroy(context);
@@ -425,9 +425,9 @@ static void a_map_without_walls_is_refused(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     const sl_map map = {0};
-    const sl_regions_options what = sl_regions_options_default();
-    sl_regions *scene = NULL;
-    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_INPUT);
+    const sl_from_region_scene_options what = sl_from_region_scene_options_default();
+    sl_from_region_scene *scene = NULL;
+    assert_int_equal(sl_from_region_scene_create(context, &map, &what, &scene), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "no walls"));
     assert_null(scene);
     sl_context_destroy(context);

@@ -38,13 +38,10 @@ static void complain(const walk *w, const char *what) {
     fail_msg("%s (%s): %s", w->solver->name, random_kind_name(w->kind), what);
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static bool is_end(const walk *w, sl_point p) {
     for (size_t i = 0; i < w->depth; i++)
-        if (same(p, w->portals[i].left) || same(p, w->portals[i].right)) return true;
+        if (testing_same_point(p, w->portals[i].left) || testing_same_point(p, w->portals[i].right))
+            return true;
     return false;
 }
 
@@ -63,7 +60,7 @@ static int least_side(const walk *w, sl_line line) {
 static void check_witness(const walk *w) {
     const sl_line line = w->solver->witness(w->state);
     const int side = least_side(w, line);
-    if (same(line.a, line.b)) complain(w, "the witness is no line");
+    if (testing_same_point(line.a, line.b)) complain(w, "the witness is no line");
     if (side < 0) complain(w, "the witness passes an end on its wrong side");
     if (side > 0 && w->verdict != SL_STABBED) complain(w, "a strict witness of a grazed sequence");
     if (side == 0 && (!is_end(w, line.a) || !is_end(w, line.b)))

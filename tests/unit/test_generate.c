@@ -311,11 +311,6 @@ static void test_bad_options(void **state) {
     sl_context_destroy(context);
 }
 
-static bool stop(void *user) {
-    (void)user;
-    return true;
-}
-
 /// Without memory, or stopped, nothing is left behind.
 static void test_fails_clean(void **state) {
     (void)state;
@@ -339,7 +334,7 @@ static void test_fails_clean(void **state) {
         }
         sl_context_destroy(context);
 
-        const sl_hooks hooks = {.cancelled = stop};
+        const sl_hooks hooks = {.cancelled = testing_cancelled};
         sl_map map = {0};
         context = sl_context_create(&hooks);
         assert_non_null(context);

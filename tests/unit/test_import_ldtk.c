@@ -191,23 +191,17 @@ static void test_refused(void **state) {
                    "f: it names the file no/such.ldtkl: ");
 }
 
-static void write_file(const char *path, const char *text) {
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
-}
-
 static void test_separate_levels(void **state) {
     (void)state;
     char folder[] = "/tmp/sightline-ldtk-XXXXXX", project[64], level[64];
     assert_non_null(mkdtemp(folder));
     snprintf(project, sizeof project, "%s/p.ldtk", folder);
     snprintf(level, sizeof level, "%s/A.ldtkl", folder);
-    write_file(project, PROJECT(VALUES, "{\"identifier\": \"A\", \"pxHei\": 16, \"pxWid\": 24, "
-                                        "\"layerInstances\": null, "
-                                        "\"externalRelPath\": \"A.ldtkl\"}"));
-    write_file(level, LEVEL("A", "0", "0", GRID("Any", "2,1,3,0,0,2", "")));
+    import_write_file(project,
+                      PROJECT(VALUES, "{\"identifier\": \"A\", \"pxHei\": 16, \"pxWid\": 24, "
+                                      "\"layerInstances\": null, "
+                                      "\"externalRelPath\": \"A.ldtkl\"}"));
+    import_write_file(level, LEVEL("A", "0", "0", GRID("Any", "2,1,3,0,0,2", "")));
     testing_memory memory = {0};
     sl_context *context = testing_context(&memory);
     sl_map map = {0};
@@ -221,7 +215,7 @@ static void test_separate_levels(void **state) {
     assert_ok(context, sl_map_read(context, level, NULL, &map));
     assert_int_equal(map.wall_count, 4);
     sl_map_destroy(context, &map);
-    write_file(level, "{");
+    import_write_file(level, "{");
     assert_int_equal(sl_map_read(context, project, NULL, &map), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "A.ldtkl:1: column "));
     sl_context_destroy(context);

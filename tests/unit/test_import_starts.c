@@ -583,7 +583,17 @@ static void test_states_of_doors(void **state) {
     assert_ldtk(TWO_ROOMS, ENTITY("door", "28,20", "0.5,0.5", EIGHT, FIELD("locked", "true")),
                 shut);
     assert_ldtk(TWO_ROOMS, ENTITY("door", "28,20", "0.5,0.5", EIGHT, FIELD("lockedWith", "\"K\"")),
-                open);
+                shut);
+    assert_ldtk(TWO_ROOMS,
+                ENTITY("door", "28,20", "0.5,0.5", EIGHT, FIELD("lockedWith", "{\"iid\": 3}")),
+                shut);
+    static const char *const no_keys[] = {"null", "\"\"", "[]"};
+    for (size_t i = 0; i < 3; i++) {
+        char entity[512];
+        snprintf(entity, sizeof entity,
+                 ENTITY("door", "28,20", "0.5,0.5", EIGHT, FIELD("lockedWith", "%s")), no_keys[i]);
+        assert_ldtk(TWO_ROOMS, entity, open);
+    }
 }
 
 static void test_doors_of_ldtk(void **state) {
@@ -657,24 +667,17 @@ static void test_doors_of_plans(void **state) {
 
 // --- templates
 
-static void write_file(const char *path, const char *text) {
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
-}
-
 static void test_templates(void **state) {
     (void)state;
     char folder[] = "/tmp/starts-XXXXXX", cwd[4096];
     assert_non_null(getcwd(cwd, sizeof cwd));
     assert_non_null(mkdtemp(folder));
     assert_int_equal(chdir(folder), 0);
-    write_file("door.tx", "<template><object name='gate' width='8' height='8'><properties>"
-                          "<property name='locked' type='bool' value='true'/></properties>"
-                          "</object></template>");
-    write_file("player.tj", "{\"type\": \"template\", \"object\": {\"name\": \"Player\", "
-                            "\"point\": true, \"rotation\": 180}}");
+    import_write_file("door.tx", "<template><object name='gate' width='8' height='8'><properties>"
+                                 "<property name='locked' type='bool' value='true'/></properties>"
+                                 "</object></template>");
+    import_write_file("player.tj", "{\"type\": \"template\", \"object\": {\"name\": \"Player\", "
+                                   "\"point\": true, \"rotation\": 180}}");
     assert_tmx(TWO_ROOMS, OBJECTS("<object template='door.tx' " AT("24", "16") "/>"),
                "door gate 28 16 28 24 shut\n");
     assert_tmx(TWO_ROOMS,
@@ -690,7 +693,7 @@ static void test_templates(void **state) {
     assert_note(sl_map_read_tmx,
                 tmx_of(TWO_ROOMS, OBJECTS("<object template='no.tx' " AT("12", "20") "/>")),
                 &options, "f: its template 'no.tx' cannot be read\n");
-    write_file("bad.tx", "<template>");
+    import_write_file("bad.tx", "<template>");
     const char *text = tmx_of(TWO_ROOMS, OBJECTS("<object template='bad.tx'/>"));
     assert_refused_of(sl_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, "bad.tx:1: XML");
     assert_int_equal(unlink("door.tx") + unlink("player.tj") + unlink("bad.tx"), 0);

@@ -241,7 +241,7 @@ static void test_ellipses(void **state) {
         const sl_import_options options = {.tolerance = i ? 0.001 : 0};
         sl_map map = {0};
         assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
-        assert_in_range(map.wall_count, i ? 60 : 16, 400);
+        assert_true(map.wall_count >= (i ? 60 : 16) && map.wall_count <= 400);
         for (size_t k = 0; k < map.wall_count; k++) {
             const double x = (map.walls[k].a.x - 7) / 4, y = (map.walls[k].a.y - 14) / 2;
             assert_true(x * x + y * y > 1 - 1e-12 && x * x + y * y < 1 + 1e-12);

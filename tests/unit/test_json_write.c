@@ -44,7 +44,11 @@ static void numbers(void **state) {
         written out = {.size = 0};
         sl_json_writer json = {.put = keep, .user = &out};
         sl_json_put_real(&json, value);
-        assert_same(json_real(value), 0, out.text);
+        // Since 2.15 jansson writes as few digits as tell numbers apart.
+        if (JANSSON_VERSION_HEX < 0x020f00) assert_same(json_real(value), 0, out.text);
+        json_t *back = json_loads(out.text, JSON_DECODE_ANY, NULL);
+        assert_true(json_is_real(back) && json_real_value(back) == value);
+        json_decref(back);
         assert_false(json.failed);
     }
     written out = {.size = 0};

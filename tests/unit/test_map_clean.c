@@ -244,10 +244,6 @@ static void test_cases(void **state) {
     sl_context_destroy(context);
 }
 
-static bool same_place(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// A door stays one, in parts; what is left of it is whole again.
 static void test_doors(void **state) {
     (void)state;
@@ -261,11 +257,11 @@ static void test_doors(void **state) {
         const sl_door *door = &map.doors[0];
         const sl_point places[] = {{4, 0}, {2, 2}, {1, 3}, {0, 4}};
         assert_int_equal(door->part_count, 3);
-        assert_true(same_place(door->segment.a, places[0]) &&
-                    same_place(door->segment.b, places[3]));
+        assert_true(testing_same_point(door->segment.a, places[0]) &&
+                    testing_same_point(door->segment.b, places[3]));
         for (int i = 0; i < 3; i++)
-            assert_true(same_place(door->parts[i].a, places[i]) &&
-                        same_place(door->parts[i].b, places[i + 1]));
+            assert_true(testing_same_point(door->parts[i].a, places[i]) &&
+                        testing_same_point(door->parts[i].b, places[i + 1]));
         assert_true(!map.doors[1].parts && !map.doors[1].part_count && !map.doors[1].open);
     }
     // Without what has cut it.
@@ -377,14 +373,9 @@ static void test_many_ranks(void **state) {
     sl_context_destroy(context);
 }
 
-static bool stop(void *user) {
-    (void)user;
-    return true;
-}
-
 static void test_cancelled(void **state) {
     (void)state;
-    const sl_hooks hooks = {.cancelled = stop};
+    const sl_hooks hooks = {.cancelled = testing_cancelled};
     sl_context *context = sl_context_create(&hooks);
     sl_map map = {0};
     add(context, &map, 1, 2, 1, 0, 4);

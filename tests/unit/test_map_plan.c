@@ -25,6 +25,7 @@ static void test_walls(void **state) {
         "sightline 1\nwall 1 2 2 2\nwall 1 1 2 1\nwall 1 1 1 2\nwall 2 1 2 2\n";
     assert_map(context, "###\n#.#\n###\n", square);
     assert_map(context, "###\r\n# #\r\n###", square);
+    assert_map(context, "###\r# #\r###", square);
     assert_map(context, "\xef\xbb\xbf#\n#.\n#\n", square);
     // The last line is empty, and solid as all is beyond the plan.
     assert_map(context, "#.\n\n", square);

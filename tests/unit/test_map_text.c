@@ -61,6 +61,15 @@ static void test_line_ends_and_mark(void **state) {
     assert_int_equal(map.wall_count, 2);
     assert_int_equal(map.walls[1].line, 4);
     sl_map_destroy(context, &map);
+    assert_ok(context, read(context, "# old\rsightline 1\rwall 0 0 1 0\r\rwall 1 0 2 0\r", &map));
+    assert_int_equal(map.wall_count, 2);
+    assert_int_equal(map.walls[1].line, 5);
+    assert_string_equal(map.comments[0].text, "# old");
+    sl_map_destroy(context, &map);
+    // Beside LF it ends no line.
+    assert_ok(context, read(context, "sightline 1\n# a\rwall\nwall 0 0 1 0\n", &map));
+    assert_string_equal(map.comments[0].text, "# a\rwall");
+    sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
 

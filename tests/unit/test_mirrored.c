@@ -108,7 +108,7 @@ static void ask_cells(const trial *t, const sl_view *view, const oracle_mirrored
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
     assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &bare, &search));
     assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, t->depth));
-    sl_eye_search_limit(search, t->map.range);
+    sl_eye_search_set_range(search, t->map.range);
     assert_ok(t->context, exact->mirrored(t->context, search, view, cells, &account));
     assert_int_equal(account.rounded, 0);
     compare_cells(t, view, cells, sight == SL_OPEN ? truth->open : truth->closed, sight,
@@ -301,7 +301,7 @@ static void past_glass(void **state) {
             if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
             compare_outlines(&open, &past.space, &view);
             assert_ok(t.context, sl_eye_search_create(t.context, &past.space, &bare, &search));
-            sl_eye_search_limit(search, t.map.range);
+            sl_eye_search_set_range(search, t.map.range);
             assert_ok(t.context, exact->cull(t.context, search, &view, cells, &account));
             compare_cells(&all, &view, cells, truth.direct_open, SL_OPEN, "past glass");
             sl_eye_search_destroy(t.context, search);
@@ -366,7 +366,7 @@ static oracle_mirrored ask_past(const trial *t, const sl_moving_box *boxes, size
     sl_moving *moving;
     sl_space dark;
     assert_ok(t->context, sl_moving_create(t->context, &t->shut, &bare, &moving));
-    assert_ok(t->context, sl_moving_place(t->context, moving, boxes, count));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, boxes, count));
     assert_ok(t->context, sl_filtered_space_make(t->context, sl_moving_space(moving, NULL),
                                                  &one_way, NULL, &dark));
     oracle_mirrored truth = oracle_mirrored_of(&dark, &t->map, view, t->map.range, t->depth);
@@ -378,7 +378,7 @@ static oracle_mirrored ask_past(const trial *t, const sl_moving_box *boxes, size
 /// Whether a cell within a box is seen by mirror, with nothing of the box in the way.
 static bool is_entered(const trial *t, sl_moving *moving, sl_box box, const sl_view *view) {
     const sl_moving_box glass = {box, false};
-    assert_ok(t->context, sl_moving_place(t->context, moving, &glass, 1));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, &glass, 1));
     const sl_space *boxed = sl_moving_space(moving, NULL);
     oracle_mirrored truth = ask_past(t, &glass, 1, view);
     bool entered = false;
@@ -405,8 +405,8 @@ static void try_boxes(trial *t, sl_sight sight, size_t *seen, size_t *hidden) {
     if (t->effects & SL_EFFECT_ONEWAY)
         assert_ok(t->context, sl_moving_add_glass(t->context, moving));
     assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &t->map, t->depth));
-    sl_moving_limit(moving, t->map.range);
-    assert_ok(t->context, sl_moving_place(t->context, moving, boxes, count));
+    sl_moving_set_range(moving, t->map.range);
+    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, boxes, count));
     const sl_space *boxed = sl_moving_space(moving, NULL);
     oracle_mirrored truth = ask_past(t, boxes, count, &view);
     assert_ok(t->context, sl_moving_look_mirrored(t->context, moving, &view, cells, met, &account));

@@ -355,7 +355,7 @@ static void check_boxes(trial *t, sl_point eye) {
     assert_ok(t->context, sl_moving_create(t->context, &t->space, &bare, &moving));
     assert_ok(t->context, sl_moving_add_glass(t->context, moving));
     assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &map, DEPTH));
-    assert_ok(t->context, sl_moving_place(t->context, moving, t->boxes, BOXES));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, t->boxes, BOXES));
     assert_ok(t->context,
               sl_moving_look_mirrored(t->context, moving, &view, cells, t->seen, &account));
     assert_ok(t->context, sl_moving_outline(t->context, moving, &outline));

@@ -276,7 +276,7 @@ static void try_boxes(trial *t) {
     for (size_t i = 0; i < t->count; i++)
         t->boxes[i] = (sl_moving_box){random_box(t), below(t, 3) > 0};
     if (t->count > 1 && below(t, 4) == 0) t->boxes[1].box = t->boxes[0].box;
-    assert_ok(t->context, sl_moving_place(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
     assert_ok(t->context, sl_space_check(t->context, sl_moving_space(t->moving, NULL)));
     subdivide_anew(t, SIZE_MAX, &t->fresh);
     if (t->fresh.cell_count <= CELLS_MOST)
@@ -353,7 +353,7 @@ static int look(room *r, sl_point eye, const sl_moving_box *boxes, size_t count)
     uint64_t cells[16];
     bool seen[8];
     sl_eye_account account;
-    assert_ok(r->context, sl_moving_place(r->context, r->moving, boxes, count));
+    assert_ok(r->context, sl_moving_set_boxes(r->context, r->moving, boxes, count));
     assert_ok(r->context, sl_space_check(r->context, sl_moving_space(r->moving, NULL)));
     assert_ok(r->context, sl_moving_look(r->context, r->moving, &view, cells, seen, &account));
     int digits = 0;
@@ -472,7 +472,7 @@ static void wrong_boxes(void **state) {
     assert_int_equal(look(&r, (sl_point){5, 5}, &good, 1), 1);
     const uint32_t cells = sl_moving_space(r.moving, NULL)->cell_count;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        assert_int_equal(sl_moving_place(r.context, r.moving, &bad[i], 1), SL_BAD_ARGUMENT);
+        assert_int_equal(sl_moving_set_boxes(r.context, r.moving, &bad[i], 1), SL_BAD_ARGUMENT);
     assert_int_equal(sl_moving_space(r.moving, NULL)->cell_count, cells);
     leave(&r);
 }
@@ -493,7 +493,7 @@ static void no_memory(void **state) {
         memory.calls = 0;
         memory.fail_at = fail;
         status = sl_moving_create(context, &space, &bare, &moving);
-        if (status == SL_OK) status = sl_moving_place(context, moving, boxes, 2);
+        if (status == SL_OK) status = sl_moving_set_boxes(context, moving, boxes, 2);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         memory.fail_at = 0;
         sl_moving_destroy(context, moving);

@@ -155,10 +155,6 @@ static sl_box box_around(sl_point a, sl_point b, double more) {
                     {fmax(a.x, b.x) + more, fmax(a.y, b.y) + more}};
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// A corner within a wall: on a line of a box, and no farther from the wall than a step of doubles;
 /// within a box's side, on it. Where walls are steps of doubles apart they bend each other too.
 static bool is_on_wall(const trial *t, uint32_t wall, sl_point p) {
@@ -199,8 +195,8 @@ static void check_walls(trial *t) {
     assert_non_null(lengths);
     gather_segments(t);
     for (uint32_t i = 0; i < t->space.wall_count; i++)
-        assert_true(same(boxed->walls[i].a, t->space.walls[i].a) &&
-                    same(boxed->walls[i].b, t->space.walls[i].b));
+        assert_true(testing_same_point(boxed->walls[i].a, t->space.walls[i].a) &&
+                    testing_same_point(boxed->walls[i].b, t->space.walls[i].b));
     for (uint32_t i = 0; i < boxed->cell_count; i++) {
         const sl_cell *cell = &boxed->cells[i];
         const sl_point *v = boxed->vertices + cell->first_vertex;
@@ -211,7 +207,8 @@ static void check_walls(trial *t) {
             if (what >= SL_NEIGHBOUR_BORDER) continue;
             const sl_wall *w = &boxed->walls[wall];
             for (int e = 0; e < 2; e++) {
-                if (same(ends[e], w->a) || same(ends[e], w->b)) continue;
+                if (testing_same_point(ends[e], w->a) || testing_same_point(ends[e], w->b))
+                    continue;
                 if (!is_on_wall(t, wall, ends[e])) complain(t, ends[e], ends[e], "off wall", wall);
                 t->bends++;
             }
@@ -339,7 +336,7 @@ static void judge_box(trial *t, const sl_view *view, size_t number, bool said) {
     const bool blocks = t->boxes[number].blocks;
     bool sees[ORACLE_CELLS], expected = false;
     t->boxes[number].blocks = false;
-    assert_ok(t->context, sl_moving_place(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
     const sl_space *boxed = sl_moving_space(t->moving, NULL);
     if (boxed->cell_count <= ORACLE_CELLS) {
         ask_oracle(t, view, sees);
@@ -402,7 +399,7 @@ static void try_eye(trial *t) {
     judge_cells(t, &view, cells);
     for (size_t i = 0; i < t->count; i++)
         if (can_judge(t, i, eye)) judge_box(t, &view, i, seen[i]);
-    assert_ok(t->context, sl_moving_place(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
 }
 
 // --- random maps
@@ -411,7 +408,7 @@ static void try_boxes(trial *t) {
     t->count = 1 + below(t, BOXES);
     for (size_t i = 0; i < t->count; i++)
         t->boxes[i] = (sl_moving_box){random_box(t), below(t, 3) > 0};
-    assert_ok(t->context, sl_moving_place(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
     assert_ok(t->context, sl_space_check(t->context, sl_moving_space(t->moving, NULL)));
     if (t->coarse) return;
     check_walls(t);
@@ -568,7 +565,7 @@ static void crowds(void **state) {
             t.count = 4 * BOXES;
             for (size_t i = 0; i < t.count; i++)
                 t.boxes[i] = (sl_moving_box){random_box(&t), below(&t, 3) > 0};
-            assert_ok(t.context, sl_moving_place(t.context, t.moving, t.boxes, t.count));
+            assert_ok(t.context, sl_moving_set_boxes(t.context, t.moving, t.boxes, t.count));
             assert_ok(t.context, sl_space_check(t.context, sl_moving_space(t.moving, NULL)));
             if (grid < OBLIQUE_SCALES) check_walls(&t);
             placed++;
@@ -669,7 +666,7 @@ static void cells_keep_their_numbers(void **state) {
     const uint32_t *parents;
     const sl_moving_box boxes[] = {{{{1, 2}, {3, 5}}, true}};
     assert_ok(r.context, sl_moving_create(r.context, &r.space, &r.bare, &r.moving));
-    assert_ok(r.context, sl_moving_place(r.context, r.moving, boxes, 1));
+    assert_ok(r.context, sl_moving_set_boxes(r.context, r.moving, boxes, 1));
     const sl_space *boxed = sl_moving_space(r.moving, &parents);
     assert_true(boxed->cell_count > r.space.cell_count);
     for (uint32_t i = 0; i < r.space.cell_count; i++) assert_int_equal(parents[i], i);
@@ -693,7 +690,7 @@ static void no_memory(void **state) {
         memory.calls = 0;
         memory.fail_at = fail;
         status = sl_moving_create(r.context, &r.space, &r.bare, &moving);
-        if (status == SL_OK) status = sl_moving_place(r.context, moving, boxes, 2);
+        if (status == SL_OK) status = sl_moving_set_boxes(r.context, moving, boxes, 2);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         memory.fail_at = 0;
         sl_moving_destroy(r.context, moving);

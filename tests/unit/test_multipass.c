@@ -170,7 +170,7 @@ static void oblique_spaces_are_seen_as_by_the_sweep(void **state) {
     sl_context_destroy(context);
 }
 
-/// Walls at random angles, cut by the BSP.
+/// Walls at random angles, cut by a mesh.
 static void oblique_maps_are_seen_as_by_the_sweep(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);

@@ -37,9 +37,7 @@ static baked_file written_anew(sl_context *context, const baked_file *old) {
 }
 
 static uint32_t version_of(const baked_file *f) {
-    sli_slv_header header;
-    memcpy(&header, f->bytes, sizeof header);
-    return header.version;
+    return slv_header(f->bytes).version;
 }
 
 /// Whether a point is in a cell or on its border, by the library's predicate.

@@ -324,9 +324,9 @@ static sl_status ask(sl_context *context, one_failure *on) {
     if (status == SL_OK) status = sl_query_set_range(context, query, 15);
     if (status == SL_OK) status = ask_view(context, on, query);
     if (status == SL_OK)
-        status = sl_query_cell_sees(context, query, 0, on->baked.space.cell_count - 1, &sees);
+        status = sl_query_can_see(context, query, 0, on->baked.space.cell_count - 1, &sees);
     if (status == SL_OK)
-        status = sl_query_can_see(context, query, (sl_point){1, 1}, (sl_point){5, 7}, &point);
+        status = sl_query_sees(context, query, (sl_point){1, 1}, (sl_point){5, 7}, &point);
     one_failure_ends(on);
     one_failure_mix(on, (bool[]){sees, point}, 2);
     sl_query_destroy(context, query);
@@ -369,6 +369,7 @@ SEE(sweep)
 SEE(dfs)
 SEE(prune)
 SEE(multipass)
+SEE(flood)
 SEE(sampling)
 
 #define EXPORT(name)                                                                               \
@@ -381,13 +382,13 @@ EXPORT(csv)
 EXPORT(c)
 
 static const one_failure_row rows[] = {
-    ROW(copy),           ROW(clean),        ROW(mend),       ROW(add),
-    ROW(settle_ground),  ROW(find_faults),  ROW(subdivide),  ROW(subdivide_mesh),
-    ROW(see_sweep),      ROW(see_dfs),      ROW(see_prune),  ROW(see_multipass),
-    ROW(see_sampling),   ROW(see_in_parts), ROW(bake),       ROW(shut),
-    ROW(write_baked),    ROW(read_baked),   ROW(write_text), ROW(export_json),
-    ROW(export_geojson), ROW(export_csv),   ROW(export_c),   ROW(ask),
-    ROW(boxes_stay),
+    ROW(copy),          ROW(clean),          ROW(mend),         ROW(add),
+    ROW(settle_ground), ROW(find_faults),    ROW(subdivide),    ROW(subdivide_mesh),
+    ROW(see_sweep),     ROW(see_dfs),        ROW(see_prune),    ROW(see_multipass),
+    ROW(see_flood),     ROW(see_sampling),   ROW(see_in_parts), ROW(bake),
+    ROW(shut),          ROW(write_baked),    ROW(read_baked),   ROW(write_text),
+    ROW(export_json),   ROW(export_geojson), ROW(export_csv),   ROW(export_c),
+    ROW(ask),           ROW(boxes_stay),
 };
 
 static void test_axial(void **state) {

@@ -129,16 +129,16 @@ static sl_status walk(sl_context *context, one_failure *on) {
 }
 
 static sl_status see_from_regions(sl_context *context, one_failure *on) {
-    sl_regions_options kinds = sl_regions_options_default();
+    sl_from_region_scene_options kinds = sl_from_region_scene_options_default();
     kinds.grid = 3;
     sl_from_region_options options = sl_from_region_options_default();
     options.stab = sl_funnel();
     options.points = options.pixels = 8;
     options.threads = 1;
-    sl_regions *scene = NULL;
+    sl_from_region_scene *scene = NULL;
     size_t count;
     const sl_from_region_method *methods = sl_from_region_methods(&count);
-    sl_status status = sl_regions_create(context, &on->read, &kinds, &scene);
+    sl_status status = sl_from_region_scene_create(context, &on->read, &kinds, &scene);
     for (size_t i = 0; i < count && status == SL_OK; i++) {
         sl_from_region_result made = {0};
         status = methods[i].see(context, scene, &options, &made);
@@ -148,7 +148,7 @@ static sl_status see_from_regions(sl_context *context, one_failure *on) {
         sl_from_region_result_destroy(context, &made);
     }
     one_failure_ends(on);
-    sl_regions_destroy(context, scene);
+    sl_from_region_scene_destroy(context, scene);
     return status;
 }
 
@@ -205,8 +205,8 @@ static sl_status divide_view(sl_context *context, one_failure *on) {
     for (size_t i = 0; i < count && status == SL_OK; i++) {
         views v = {0};
         status = make_views(context, on, &methods[i], &v);
-        sl_view_shapes_free(context, &v.shapes);
-        sl_view_borders_free(context, v.borders);
+        sl_view_shapes_destroy(context, &v.shapes);
+        sl_free(context, v.borders);
         sl_view_hierarchy_destroy(context, &v.merged);
         sl_view_sets_destroy(context, &v.sets);
         sl_view_tree_destroy(context, &v.tree);

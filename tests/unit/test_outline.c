@@ -8,15 +8,12 @@
 
 #include <math.h>
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static bool is_wall_end_or_bounds_corner(const sl_space *space, sl_point p) {
     const sl_box *b = &space->bounds;
     if ((p.x == b->min.x || p.x == b->max.x) && (p.y == b->min.y || p.y == b->max.y)) return true;
     for (uint32_t i = 0; i < space->wall_count; i++)
-        if (same(space->walls[i].a, p) || same(space->walls[i].b, p)) return true;
+        if (testing_same_point(space->walls[i].a, p) || testing_same_point(space->walls[i].b, p))
+            return true;
     return false;
 }
 
@@ -29,7 +26,7 @@ static double check_room(const sl_outline *o, uint32_t room, uint64_t seed) {
         const sl_point a = s->start, b = next->start, c = o->sides[next->next].start;
         if (s->next != (i + 1 < o->first[room + 1] ? i + 1 : o->first[room]))
             fail_msg("seed %llu: side %u is not followed by the next", (unsigned long long)seed, i);
-        if (same(a, b) || sli_orient(a, b, c) < 0)
+        if (testing_same_point(a, b) || sli_orient(a, b, c) < 0)
             fail_msg("seed %llu: room %u is not convex", (unsigned long long)seed, room);
         if (!is_wall_end_or_bounds_corner(o->space, a))
             fail_msg("seed %llu: a corner of room %u at %g %g is no wall's end",
@@ -37,7 +34,8 @@ static double check_room(const sl_outline *o, uint32_t room, uint64_t seed) {
         if (sl_side_is_portal(s)) {
             const sl_side *other = &o->sides[s->neighbour];
             assert_int_equal(other->neighbour, i);
-            assert_true(same(other->start, b) && same(o->sides[other->next].start, a));
+            assert_true(testing_same_point(other->start, b) &&
+                        testing_same_point(o->sides[other->next].start, a));
         }
         twice += (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
     }

@@ -622,11 +622,11 @@ static sl_status see_effects(sl_context *context, const place *p, const sl_plan 
 
 static void lack_of_memory_for_effects_leaves_nothing(void **state) {
     (void)state;
-    const char *const all[] = {"sweep", "prune", "flood", "sampling"};
-    for (size_t m = 0; m < sizeof all / sizeof *all; m++) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (const sl_see_method *method = methods; method < methods + count; method++) {
         testing_memory memory = {0};
         sl_context *context = testing_context(&memory);
-        const sl_see_method *method = testing_method(all[m]);
         sl_random random = {3};
         place p = {0};
         random_effects_map(context, &random, 15, 1, &p.map);

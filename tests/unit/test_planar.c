@@ -57,10 +57,6 @@ static double tolerance_of(const bundle *b) {
 
 // --- the same for all orders
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// Whether the chain of a segment is that of another graph, turned round or not.
 static bool same_chain(const sli_planar *a, size_t i, const sli_planar *b, size_t k,
                        bool reversed) {
@@ -70,7 +66,7 @@ static bool same_chain(const sli_planar *a, size_t i, const sli_planar *b, size_
         const sl_segment s = sli_planar_at(a, a->links[a->first[i] + n]);
         const sli_planar_link link = b->links[b->first[k] + (reversed ? count - 1 - n : n)];
         const sl_segment t = sli_planar_at(b, link ^ reversed);
-        if (!same(s.a, t.a) || !same(s.b, t.b)) return false;
+        if (!testing_same_point(s.a, t.a) || !testing_same_point(s.b, t.b)) return false;
     }
     return true;
 }

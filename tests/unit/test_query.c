@@ -61,8 +61,8 @@ static void compare(sl_context *context, sl_query *query, sl_query *plain, sl_po
     for (int i = 0; i < 400; i++) {
         const sl_point point = random_point(&random);
         bool seen, wanted;
-        assert_ok(context, sl_query_can_see(context, query, eye, point, &seen));
-        assert_ok(context, sl_query_can_see(context, plain, eye, point, &wanted));
+        assert_ok(context, sl_query_sees(context, query, eye, point, &seen));
+        assert_ok(context, sl_query_sees(context, plain, eye, point, &wanted));
         assert_int_equal(seen, wanted);
         seen_count += seen;
         // On a border between cells, the cell beside it may be the one that is seen.
@@ -127,12 +127,12 @@ static void a_file_answers_as_memory_does(void **state) {
     bool sees;
     const uint32_t from = sl_query_locate(opened, (sl_point){5, 5});
     const uint32_t to = sl_query_locate(opened, (sl_point){15, 4});
-    assert_ok(context, sl_query_cell_sees(context, opened, from, to, &sees));
+    assert_ok(context, sl_query_can_see(context, opened, from, to, &sees));
     assert_true(sees);
     sl_query_set_doors(context, opened, false);
-    assert_ok(context, sl_query_cell_sees(context, opened, from, to, &sees));
+    assert_ok(context, sl_query_can_see(context, opened, from, to, &sees));
     assert_false(sees);
-    assert_int_equal(sl_query_cell_sees(context, opened, from, 4000, &sees), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_query_can_see(context, opened, from, 4000, &sees), SL_BAD_ARGUMENT);
     sl_query_destroy(context, opened);
     sl_query_destroy(context, query);
     assert_int_equal(sl_query_open(context, "no such file.slv", &opened), SL_BAD_ARGUMENT);
@@ -296,8 +296,7 @@ static void ask_from(sl_context *context, sl_query *query, sl_point eye, bool se
     assert_true((region.count > 0) == sees);
     assert_ok(context, sl_query_mirrored_region(context, query, &view, &mirrored));
     assert_true((mirrored.direct.count > 0) == sees);
-    assert_ok(context,
-              sl_query_can_see(context, query, eye, (sl_point){eye.x + 0.25, eye.y}, &out));
+    assert_ok(context, sl_query_sees(context, query, eye, (sl_point){eye.x + 0.25, eye.y}, &out));
     assert_true(out == sees);
     const sl_moving_box near = {{{eye.x + 0.125, eye.y}, {eye.x + 0.25, eye.y + 0.125}}, false};
     assert_ok(context, sl_query_set_boxes(context, query, &near, 1));
@@ -324,7 +323,7 @@ static void an_eye_in_rock_sees_nothing(void **state) {
         ask_from(context, query, (sl_point){5, 12}, true);
         const uint32_t rock = sl_query_locate(query, (sl_point){12, 12});
         assert_true(baked.space.cells[rock].solid);
-        assert_ok(context, sl_query_cell_sees(context, query, rock, rock, &out));
+        assert_ok(context, sl_query_can_see(context, query, rock, rock, &out));
         assert_false(out);
         sl_query_destroy(context, query);
         sl_baked_destroy(context, &baked);

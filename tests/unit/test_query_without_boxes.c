@@ -25,10 +25,10 @@ static void boxes_are_refused_and_all_else_is_answered(void **state) {
 
     bool sees, seen = false;
     const sl_view view = sl_query_view(query, (sl_point){1, 9}, 0, 360);
-    assert_ok(context, sl_query_can_see(context, query, view.eye, (sl_point){9, 9}, &sees));
+    assert_ok(context, sl_query_sees(context, query, view.eye, (sl_point){9, 9}, &sees));
     assert_true(sees);
     assert_ok(context, sl_query_set_door(context, query, "gate", false));
-    assert_ok(context, sl_query_can_see(context, query, view.eye, (sl_point){9, 9}, &sees));
+    assert_ok(context, sl_query_sees(context, query, view.eye, (sl_point){9, 9}, &sees));
     assert_false(sees);
     assert_ok(context, sl_query_boxes_seen(context, query, &view, &seen, NULL));
     assert_false(seen);

@@ -392,7 +392,8 @@ static void cells_not_looked_from_have_no_row(void **state) {
     const char *text = "sightline 1\nwalls 0 0 4 0 4 2 2 2 2 4 0 4 0 0\n";
     assert_ok(context, sl_map_read_text(context, "inside", text, strlen(text), &f.baked.map));
     baked_file_make(context, &f, true);
-    assert_in_range(f.baked.space.inside_count, 1, f.runtime.cell_count - 1);
+    assert_true(f.baked.space.inside_count >= 1 &&
+                f.baked.space.inside_count < f.runtime.cell_count);
     for (uint32_t i = 0; i < f.runtime.cell_count; i++)
         assert_int_equal(sl_runtime_has_row(&f.runtime, i), sl_runtime_is_inside(&f.runtime, i));
     rows_are_the_same(&f);

@@ -235,7 +235,7 @@ static void start(trial *t) {
                 sizeof t->scratch / sizeof *t->scratch);
 }
 
-static void stop(trial *t) {
+static void finish(trial *t) {
     sl_query_destroy(t->context, t->query);
     sl_query_destroy(t->context, t->plain);
     baked_file_destroy(t->context, &t->file);
@@ -281,7 +281,7 @@ static void as_the_query_says(void **state) {
             assert_ok(t.context, sl_query_set_door(t.context, t.plain, name, !t.shut[k]));
         }
         ask_all(&t, true);
-        stop(&t);
+        finish(&t);
     }
     print_counts(&t);
     sl_context_destroy(t.context);
@@ -297,7 +297,7 @@ static void in_turned_maps(void **state) {
         t.file = baked_file_turned(t.context, names[i % 4], 11 * (double)(i / 4), 100);
         start(&t);
         ask_all(&t, false);
-        stop(&t);
+        finish(&t);
     }
     print_counts(&t);
     sl_context_destroy(t.context);

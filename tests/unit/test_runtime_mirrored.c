@@ -249,7 +249,7 @@ static void damaged_rows_are_refused(void **state) {
         sli_slv_section doors = {0};
         begin(&t, seed);
         const char *entry = slv_entry(t.file.bytes, "MDOB");
-        if (entry) memcpy(&doors, entry, sizeof doors);
+        if (entry) doors = slv_section(entry);
         if (doors.count > 3) break;
         end(&t);
     }

@@ -105,7 +105,7 @@ static void see(const trial *t, const sl_view *view, double range, uint64_t *see
     size_t methods;
     const sl_eye_method *exact = sl_eye_methods(&methods) + methods - 1;
     assert_ok(t->context, sl_eye_search_create(t->context, &t->walled, &bare, &search));
-    sl_eye_search_limit(search, range);
+    sl_eye_search_set_range(search, range);
     assert_ok(t->context, exact->cull(t->context, search, view, seen, &account));
     sl_eye_search_destroy(t->context, search);
 }

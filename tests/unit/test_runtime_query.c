@@ -68,34 +68,16 @@ static void compare(trial *t, const sl_view *view) {
                      view->full ? "" : " with a cone", i, t->said[i] ? "added" : "missed");
 }
 
-/// A point in a direction with a straight or diagonal border, exact to subtract again; the eye
-/// itself where there is none.
-static sl_point border(sl_random *random, sl_point eye, double reach) {
-    const double step = ldexp(1, ilogb(reach) - 4);
-    const sl_point by = {step * ((double)sl_random_below(random, 5) - 2),
-                         step * ((double)sl_random_below(random, 5) - 2)};
-    const sl_point at = {eye.x + by.x, eye.y + by.y};
-    const bool exact = at.x - eye.x == by.x && at.y - eye.y == by.y && at.x - by.x == eye.x &&
-                       at.y - by.y == eye.y;
-    return exact ? at : eye;
-}
-
-static bool same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static void look_from(trial *t, sl_point eye) {
     const sl_box *b = &t->f->baked.space.bounds;
     const double reach = fmin(b->max.x - b->min.x, b->max.y - b->min.y);
     sl_view view = sl_view_all_round(eye);
     if (sl_query_locate(t->query, eye) == SL_NO_CELL || reach < 1e-100) return;
     compare(t, &view);
-    view = (sl_view){eye, false, border(&t->random, eye, reach), border(&t->random, eye, reach)};
-    if (!same_point(view.left, eye) && !same_point(view.right, eye)) compare(t, &view);
-}
-
-static sl_point between(sl_point a, sl_point b, double part) {
-    return (sl_point){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+    view = (sl_view){eye, false, runtime_border(&t->random, eye, reach),
+                     runtime_border(&t->random, eye, reach)};
+    if (!testing_same_point(view.left, eye) && !testing_same_point(view.right, eye))
+        compare(t, &view);
 }
 
 static sl_point point_within(sl_random *random, const sl_box *b) {
@@ -128,7 +110,7 @@ static sl_point special_point(trial *t) {
     case 1:
         if (s->seam_count) {
             const sl_segment at = s->seams[sl_random_below(&t->random, s->seam_count)].at;
-            return between(at.a, at.b, part);
+            return runtime_between(at.a, at.b, part);
         }
         return (sl_point){v.x, w.y};
     case 2:
@@ -136,7 +118,7 @@ static sl_point special_point(trial *t) {
     default:
         if (!s->portal_count) return v;
         const sl_portal *p = &s->portals[sl_random_below(&t->random, s->portal_count)];
-        return between(p->left, p->right, part);
+        return runtime_between(p->left, p->right, part);
     }
 }
 
@@ -195,7 +177,7 @@ static void seen_from_is_the_union(trial *t, sl_point eye) {
     free(bits);
 }
 
-static size_t asked, seen_points[2], walks[2];
+static size_t asked, seen_points[2], walks[2], steps[2];
 
 /// A point on special places or near the eye, where the range decides.
 static sl_point other_point(trial *t, sl_point eye) {
@@ -212,7 +194,7 @@ static bool reaches(trial *t, sl_point p, sl_point q) {
     const sl_space *s = &t->f->baked.space;
     const size_t words = sl_eye_words(s);
     const double limit = t->f->runtime.range;
-    const sl_view view = {p, same_point(p, q), q, q};
+    const sl_view view = {p, testing_same_point(p, q), q, q};
     uint64_t *at = calloc(words, sizeof *at), found = 0;
     assert_non_null(at);
     assert_ok(t->context, sl_query_look(t->context, t->query, &view, NULL, t->seen, NULL));
@@ -220,6 +202,40 @@ static bool reaches(trial *t, sl_point p, sl_point q) {
     for (size_t i = 0; i < words; i++) found |= at[i] & t->seen[i];
     free(at);
     return found && (limit == 0 || sli_distance_compare(p, q, limit) <= 0);
+}
+
+static bool is_within(double a, double b, double c, double d) {
+    return fmax(a, b) >= fmin(c, d) && fmax(c, d) >= fmin(a, b);
+}
+
+static bool touches(sl_point p, sl_point q, sl_point a, sl_point b) {
+    return is_within(p.x, q.x, a.x, b.x) && is_within(p.y, q.y, a.y, b.y) &&
+           sl_orient(p, q, a) * sl_orient(p, q, b) <= 0 &&
+           sl_orient(a, b, p) * sl_orient(a, b, q) <= 0;
+}
+
+/// A step against all walls, glass and shut doors.
+static bool may_walk(const trial *t, sl_point p, sl_point q) {
+    const sl_space *s = &t->f->baked.space;
+    const uint32_t from = sl_space_locate(s, p), to = sl_space_locate(s, q);
+    if (from == SL_NO_CELL || to == SL_NO_CELL || s->cells[from].solid) return false;
+    for (uint32_t i = 0; i < s->wall_count; i++)
+        if (touches(p, q, s->walls[i].a, s->walls[i].b)) return false;
+    for (uint32_t i = 0; i < s->seam_count; i++) {
+        const sl_seam *seam = &s->seams[i];
+        const bool stops =
+            seam->kind == SL_SEAM_ONEWAY || (seam->kind == SL_SEAM_DOOR && t->shut[seam->number]);
+        if (stops && touches(p, q, seam->at.a, seam->at.b)) return false;
+    }
+    return true;
+}
+
+static void compare_steps(const trial *t, sl_point p, sl_point q) {
+    const bool walk = sl_runtime_can_walk(&t->f->runtime, p.x, p.y, q.x, q.y, t->shut);
+    if (walk != may_walk(t, p, q))
+        fail_msg("%s: (%.17g, %.17g) to (%.17g, %.17g) is %s", t->f->name, p.x, p.y, q.x, q.y,
+                 walk ? "no way" : "a way");
+    steps[walk]++;
 }
 
 /// Two points against the library: sight, and steps by open sight, which touches nothing.
@@ -231,13 +247,13 @@ static void compare_points(trial *t, sl_point p, sl_point q) {
     if (reaches(t, p, q) != sees)
         fail_msg("%s: (%.17g, %.17g) to (%.17g, %.17g) is %s", t->f->name, p.x, p.y, q.x, q.y,
                  sees ? "added" : "missed");
-    assert_ok(t->context, sl_query_can_see(t->context, t->query, p, q, &may));
+    assert_ok(t->context, sl_query_sees(t->context, t->query, p, q, &may));
     assert_true(may || !sees); // a line that touches may go on by the left and the right there
     seen_points[sees]++;
     const bool walk = sl_runtime_can_walk(r, p.x, p.y, q.x, q.y, t->shut);
     assert_int_equal(sl_runtime_can_walk(r, q.x, q.y, p.x, p.y, t->shut), walk);
     *sight = SL_OPEN;
-    assert_ok(t->context, sl_query_can_see(t->context, t->query, p, q, &is_free));
+    assert_ok(t->context, sl_query_sees(t->context, t->query, p, q, &is_free));
     *sight = SL_CLOSED;
     if (r->range > 0) return; // of sight, not of steps
     // Glass is a wall to who walks.
@@ -257,7 +273,14 @@ static void looks_are_the_same(const baked_file *f) {
             if (i % 10 == 0)
                 seen_from_is_the_union(&t, point_within(&t.random, &f->baked.space.bounds));
             const sl_point eye = special_point(&t);
-            for (int k = 0; k < 3; k++) compare_points(&t, eye, other_point(&t, eye));
+            for (int k = 0; k < 3; k++) {
+                const sl_point other = other_point(&t, eye);
+                compare_points(&t, eye, other);
+                compare_steps(&t, eye, other);
+                compare_steps(&t, eye, runtime_between(eye, other, 0.125)); // few cells
+                compare_steps(&t, runtime_between(eye, other, 0.5),
+                              runtime_between(eye, other, 0.25));
+            }
             look_from(&t,
                       i % 4 ? special_point(&t) : point_within(&t.random, &f->baked.space.bounds));
         }
@@ -275,6 +298,7 @@ static void on_every_map(void **state) {
     assert_true(asked > 1000);
     assert_true(seen_points[0] > 1000 && seen_points[1] > 1000);
     assert_true(walks[0] > 1000 && walks[1] > 1000);
+    assert_true(steps[0] > 1000 && steps[1] > 1000);
 }
 
 static void on_turned_maps(void **state) {

@@ -135,12 +135,9 @@ static void axial_seams(void **state) {
     }
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static bool same_ends(sl_point a, sl_point b, sl_point p, sl_point q) {
-    return (same(a, p) && same(b, q)) || (same(a, q) && same(b, p));
+    return (testing_same_point(a, p) && testing_same_point(b, q)) ||
+           (testing_same_point(a, q) && testing_same_point(b, p));
 }
 
 /// Each part of a seam is one portal, or one wall, or on the border.
@@ -153,7 +150,7 @@ static void check_parts(const sl_space *space) {
             if (space->seam_portals[k].seam != i) continue;
             const sl_portal *p = &space->portals[space->seam_portals[k].portal];
             assert_true(same_ends(at.a, at.b, p->left, p->right));
-            assert_int_equal(space->seam_portals[k].forward, same(p->left, at.a));
+            assert_int_equal(space->seam_portals[k].forward, testing_same_point(p->left, at.a));
             portals++;
         }
         for (uint32_t k = 0; k < space->wall_count; k++)

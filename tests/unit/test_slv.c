@@ -67,9 +67,9 @@ static void check_lies(sl_context *context, const sl_baked *baked, const lie *li
 
 static void a_lie_under_a_seal_is_refused(void **state) {
     (void)state;
-    const double nan = NAN, far = 1e200;
-    const uint64_t pairs = 2;
-    const uint32_t one = 1, most = UINT32_MAX;
+    const double nan = slv_f64(NAN), far = slv_f64(1e200);
+    const uint64_t pairs = 0;
+    const uint32_t one = slv_u32(1), most = UINT32_MAX;
     const char escape[16] = "d\033[2Js", hidden[16] = "glpk\0hidden";
     const lie lies[] = {
         {"INFO", offsetof(sli_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
@@ -113,13 +113,13 @@ static uint32_t lonely_bucket(const sl_space *s) {
 
 static void a_lie_about_the_grid_is_refused(void **state) {
     (void)state;
-    const uint32_t none = 0, one = 1, most = UINT32_MAX;
+    const uint32_t none = 0, one = slv_u32(1), most = UINT32_MAX;
     sl_context *context = testing_context(NULL);
     sl_baked baked;
     bake(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n", &baked);
     const sl_cell_grid *g = &baked.space.grid;
     const uint32_t lonely = lonely_bucket(&baked.space), at = g->first[lonely];
-    const uint32_t other = g->cells[at] ? 0 : 1;
+    const uint32_t other = slv_u32(g->cells[at] ? 0 : 1);
     const lie lies[] = {
         {"INFO", INFO_FIELD(grid_columns), &none, "GRIO and GRIC make no grid"},
         {"INFO", INFO_FIELD(grid_rows), &most, "GRIO and GRIC make no grid"},
@@ -263,7 +263,7 @@ static void a_shard_is_no_baked_file(void **state) {
 
 static void a_lie_about_what_is_done_is_refused(void **state) {
     (void)state;
-    const uint32_t two = 2, most = UINT32_MAX;
+    const uint32_t two = slv_u32(2), most = UINT32_MAX;
     const lie lies[] = {
         {"PART", offsetof(sli_slv_part, shard), 4, &two, "PART makes no sense"},
         {"PART", offsetof(sli_slv_part, inside_only), 4, &two, "PART makes no sense"},

@@ -145,12 +145,13 @@ static void threads_make_no_difference(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    const char *names[] = {"sweep", "prune", "multipass", "flood", "sampling"};
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
     map_files_cut(context, OFFICE, &map, &space);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        sl_visibility one = see(context, &space, names[i], SL_CLOSED, 1, false);
+    for (size_t m = 0; m < count; m++) {
+        sl_visibility one = see(context, &space, methods[m].name, SL_CLOSED, 1, false);
         for (unsigned threads = 2; threads <= 7; threads += 5) {
-            sl_visibility many = see(context, &space, names[i], SL_CLOSED, threads, false);
+            sl_visibility many = see(context, &space, methods[m].name, SL_CLOSED, threads, false);
             assert_true(testing_same_rows(&one.pvs, &many.pvs));
             assert_int_equal(one.account.pairs, many.account.pairs);
             assert_int_equal(one.account.pieces, many.account.pieces);
@@ -197,14 +198,9 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
     sl_context_destroy(context);
 }
 
-static bool stop(void *user) {
-    (void)user;
-    return true;
-}
-
 static void what_cannot_be_done_is_refused(void **state) {
     (void)state;
-    const sl_hooks hooks = {.cancelled = stop};
+    const sl_hooks hooks = {.cancelled = testing_cancelled};
     sl_context *context = testing_context(NULL), *stopped = sl_context_create(&hooks);
     assert_non_null(stopped);
     sl_map map = {0};
@@ -267,9 +263,10 @@ static void cells_alone_see_themselves(void **state) {
     sl_space space;
     testing_space(context, "walls 0 0 4 0 4 4 0 4 0 0\nwall 2 0 2 4\n", &map, &space);
     assert_int_equal(space.portal_count, 0);
-    const char *names[] = {"sweep", "prune", "multipass", "flood", "sampling"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        sl_visibility seen = see(context, &space, names[i], SL_CLOSED, 2, false);
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t m = 0; m < count; m++) {
+        sl_visibility seen = see(context, &space, methods[m].name, SL_CLOSED, 2, false);
         assert_int_equal(seen.account.pairs, space.cell_count);
         sl_visibility_destroy(context, &seen);
     }

@@ -77,8 +77,8 @@ static void check(sl_context *context, const sl_view_tree *tree, const uint32_t 
             assert_int_equal(covers(&shapes, k, p), leaf < tree->cell_count && groups[leaf] == k);
     }
     *holes += shapes.polygons[shapes.shapes[count]] - shapes.shapes[count];
-    sl_view_shapes_free(context, &shapes);
-    sl_view_shapes_free(context, &shapes); // twice does no harm
+    sl_view_shapes_destroy(context, &shapes);
+    sl_view_shapes_destroy(context, &shapes); // twice does no harm
     free(areas);
 }
 
@@ -137,7 +137,7 @@ static void no_memory_is_told(void **state) {
         status = sl_view_shapes(context, &tree, groups, 1, &shapes);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         assert_true(status == SL_OK ? fail > 5 : !shapes.points);
-        sl_view_shapes_free(context, &shapes);
+        sl_view_shapes_destroy(context, &shapes);
         assert_int_equal(memory.live, before);
     }
     memory.fail_at = 0;

@@ -63,6 +63,9 @@ def check_misfit_is_found(viewer, folder):
                  f"a text without room: status {done.returncode}, {done.stderr}")
 
 
+# Steps of the grid from one end of the wall to the other.
+GRID_STEPS = 10
+
 # What a pointer does, and what keys do in its place: both must end in the same plan.
 HANDS = {
     "eye": ("office.map", "", "click 300 300\n",
@@ -70,7 +73,7 @@ HANDS = {
     "why": ("office.map", "eye 53 20 160 360\n", "right 300 300\n",
             "move 300 300\nkey Tab\nkey Shift+Return\nkey Escape\n"),
     "wall": ("office.map", "key F3\n", "drag 200 100 200 300\n",
-             "move 200 100\nkey Tab\nkey Space\n" + "key Down\n" * 20 +
+             "move 200 100\nkey Tab\nkey Space\n" + "key Down\n" * GRID_STEPS +
              "key Space\nkey Escape\n"),
     "layer": ("office.map", "", "key V\n", "key ?\ntype none\nkey Ctrl+A\ntype visible set\nkey Tab\nkey Tab\n"
                                             "key Return\n"),
@@ -100,14 +103,22 @@ def check_panels(viewer, folder):
              "scrolled": "size 1000 400\nmove 900 300\nwheel -4\n",
              "up": "wheel 9\nsize 1000 700\nmove 5 600\n",
              "soon": "move 30 15\nwait 10\n", "later": "wait 40\n", "gone": "move 5 600\nwait 2\n",
-             "focus": "key Tab\nkey Tab\n", "unfocused": "key Escape\nmove 5 600\n"}
+             "focus": "key Tab\nkey Tab\n", "unfocused": "key Escape\nmove 5 600\n",
+             "panned": "key Shift+Right\n", "panned back": "key Shift+Left\nwait 20\n",
+             "at the border": "move 650 300\nkey Tab\nkey Right\nkey Right\nkey Escape\nmove 5 600\n",
+             "fitted": "key F\nwait 20\n", "presented": "key F12\n", "left": "key Escape\n",
+             "help": "size 1000 400\nkey ?\n", "next page": "key PageDown\n", "page before": "key PageUp\n"}
     for name, step in steps.items():
         script += f"{step}screenshot {name}.png\n"
     viewer.script(folder, "office.map", script)
     for one, other, alike in [("begin", "wide", False), ("begin", "back", True),
                               ("begin", "up", True), ("soon", "later", False),
                               ("begin", "gone", True), ("begin", "focus", False),
-                              ("begin", "unfocused", True)]:
+                              ("begin", "unfocused", True), ("begin", "panned", False),
+                              ("begin", "panned back", True), ("begin", "at the border", False),
+                              ("begin", "fitted", True), ("begin", "presented", False),
+                              ("begin", "left", True),
+                              ("help", "next page", False), ("help", "page before", True)]:
         share = viewer.difference(folder / f"{one}.png", folder / f"{other}.png")
         viewer.check((share < 0.001) == alike, f"panels: {one} and {other} differ by {share:.2%}")
 

@@ -2,6 +2,7 @@
 // culling of a fresh bake of the map as it is then. Jobs end when they are told to.
 #include "viewer_app.h"
 
+#include "edit.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
 
@@ -253,6 +254,77 @@ static void test_door(void **state) {
     }
 }
 
+static double length_of(sl_point a, sl_point b) {
+    return hypot(b.x - a.x, b.y - a.y);
+}
+
+/// A door that is drawn along a wall cuts it: what is left of the wall ends at the door.
+static void test_new_door(void **state) {
+    (void)state;
+    static const char *const names[] = {MAPS "/flat.map", MAPS "/oblique/chapel.map"};
+    for (int i = 0; i < 4; i++) {
+        app_state *app = viewer_start(i % 2);
+        open_map(app, names[i / 2]);
+        viewer_press(app, "X");
+        const sl_map *map = &app->document.map;
+        const size_t walls = map->wall_count, doors = map->door_count;
+        sl_wall wall = map->walls[0];
+        for (size_t k = 0; k < walls; k++)
+            if (length_of(map->walls[k].a, map->walls[k].b) > length_of(wall.a, wall.b))
+                wall = map->walls[k];
+        const sl_point from = middle(wall.a, wall.b);
+        const sl_point low = on_page(app, from), high = on_page(app, wall.b);
+        assert_true(drag(app, from, 0.5 * (high.x - low.x) + 2, 0.5 * (high.y - low.y) - 2, true));
+        assert_int_equal(map->door_count, doors + 1);
+        const sl_segment door = map->doors[doors].segment;
+        assert_int_equal(map->wall_count, walls + 1);
+        const sl_wall *parts = &map->walls[walls - 1];
+        assert_string_equal(map->doors[doors].name, "door1");
+        assert_true(length_of(door.a, door.b) > 0.1 * length_of(wall.a, wall.b));
+        assert_memory_equal(&parts[0].a, &wall.a, sizeof wall.a);
+        assert_memory_equal(&parts[0].b, &door.a, sizeof door.a);
+        assert_memory_equal(&parts[1].a, &door.b, sizeof door.b);
+        assert_memory_equal(&parts[1].b, &wall.b, sizeof wall.b);
+        assert_true(wall.a.x != wall.b.x || (door.a.x == wall.a.x && door.b.x == wall.a.x));
+        assert_true(wall.a.y != wall.b.y || (door.a.y == wall.a.y && door.b.y == wall.a.y));
+        viewer_press(app, "Ctrl+Z");
+        wait_for_all(app);
+        assert_int_equal(app->document.map.door_count, doors);
+        assert_int_equal(app->document.map.wall_count, walls);
+        assert_fresh(app, true);
+        viewer_end(app);
+    }
+}
+
+/// Elsewhere a new door lies on the grid. A click chooses it, and it can be deleted.
+static void test_door_in_the_open(void **state) {
+    (void)state;
+    app_state *app = viewer_start(true);
+    open_map(app, MAPS "/flat.map");
+    viewer_press(app, "X");
+    const sl_map *map = &app->document.map;
+    const size_t walls = map->wall_count, doors = map->door_count;
+    sl_point free_place = {0, 0};
+    for (uint32_t cell = 0; cell < app->document.baked->space.cell_count; cell++) {
+        const sl_cell *c = &app->document.baked->space.cells[cell];
+        const sl_point *p = app->document.baked->space.vertices + c->first_vertex;
+        if (c->inside && app->document.areas[cell] > 5) free_place = middle(p[0], p[2]);
+    }
+    assert_true(drag(app, free_place, 30, 0, true) > 0);
+    assert_int_equal(map->door_count, doors + 1);
+    assert_int_equal(map->wall_count, walls);
+    const sl_segment door = map->doors[doors].segment;
+    assert_true(edit_snap(app, door.a).x == door.a.x && edit_snap(app, door.b).y == door.b.y);
+    drag(app, middle(door.a, door.b), 0, 0, true);
+    viewer_press(app, "Delete");
+    app_settle(app);
+    assert_int_equal(map->door_count, doors);
+    viewer_press(app, "X");
+    assert_true(drag(app, free_place, 30, 0, true) > 0);
+    assert_int_equal(map->wall_count, walls + 1);
+    viewer_end(app);
+}
+
 /// Esc, or Ctrl+Z, while the button is down takes all of it back.
 static void test_taken_back(void **state) {
     (void)state;
@@ -494,6 +566,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_maps),       cmocka_unit_test(test_turned),
         cmocka_unit_test(test_corner),     cmocka_unit_test(test_door),
+        cmocka_unit_test(test_new_door),   cmocka_unit_test(test_door_in_the_open),
         cmocka_unit_test(test_taken_back), cmocka_unit_test(test_new_wall),
         cmocka_unit_test(test_mended),     cmocka_unit_test(test_exported),
         cmocka_unit_test(test_stopped),    cmocka_unit_test(test_closed),

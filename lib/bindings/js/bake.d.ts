@@ -32,8 +32,8 @@ export interface BakeOptions {
   method?: 'sweep' | 'dfs' | 'prune' | 'multipass' | 'sampling' | 'flood' | (string & {})
   subdivide?: 'kd' | 'mesh' | 'given'
   sight?: 'closed' | 'open'
-  /** 'inside': look from inside cells only. */
-  boundary?: 'all' | 'inside'
+  /** Look from inside cells only. */
+  insideOnly?: boolean
   stabTrees?: boolean
   check?: boolean
   weld?: number

@@ -16,18 +16,17 @@ export { SightlineError, mapText }
 /** A loaded module. All calls are synchronous; scenes stay until they are closed. */
 export class Core extends Module {
   #configure(options = {}) {
-    const known = ['method', 'subdivide', 'sight', 'boundary', 'stabTrees', 'check', 'weld', 'mirrorDepth',
+    const known = ['method', 'subdivide', 'sight', 'insideOnly', 'stabTrees', 'check', 'weld', 'mirrorDepth',
       'doorLimit', 'samples', 'seed', 'name', 'progress', 'timeLimit', 'version', 'misses', 'tests',
-      'gap', 'thin', 'direction', 'fieldOfView', 'range', 'tolerance', 'format']
+      'gap', 'thin', 'heading', 'fov', 'range', 'tolerance', 'format']
     for (const name of Object.keys(options))
       if (!known.includes(name)) throw new SightlineError(`there is no option '${name}'`)
-    const { method = '', subdivide = '', sight = 'closed', boundary = 'all', stabTrees = false,
+    const { method = '', subdivide = '', sight = 'closed', insideOnly = false, stabTrees = false,
       check = false, weld = -1, mirrorDepth = -1, doorLimit = -1, samples = -1, seed = -1 } = options
     if (!['closed', 'open'].includes(sight)) throw new SightlineError("sight: 'closed' or 'open' is needed")
-    if (!['all', 'inside'].includes(boundary)) throw new SightlineError("boundary: 'all' or 'inside' is needed")
     if (mirrorDepth > 16) throw new SightlineError('mirrorDepth: 0 to 16 is needed')
     this.withBytes([method, subdivide], (a, b) =>
-      this.ask((core) => core.options(a, b, +(sight === 'open'), +(boundary === 'inside'), +stabTrees,
+      this.ask((core) => core.options(a, b, +(sight === 'open'), +insideOnly, +stabTrees,
         +check, weld, mirrorDepth, doorLimit, samples, seed)))
   }
 

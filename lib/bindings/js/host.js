@@ -90,19 +90,18 @@ export function optionsOf(options, ...known) {
 }
 
 /**
- * A view as heading and width in degrees; all round without a direction.
+ * A view as heading and width in degrees; all round without a heading.
  *
- * @param {{direction?: number, fieldOfView?: number, range?: number} | null} [options]
+ * @param {{heading?: number, fov?: number, range?: number} | null} [options]
  */
 export function viewOf(options) {
-  const { direction, range, ...rest } = options ?? {}
-  const fieldOfView = rest.fieldOfView ?? (direction === undefined ? 360 : 90)
-  if (direction === undefined && fieldOfView < 360)
-    throw new SightlineError('fieldOfView: a direction is needed, too')
-  checkNumber('direction', direction ?? 0)
+  const { heading, range, fov = heading === undefined ? 360 : 90 } = options ?? {}
+  if (heading === undefined && fov < 360)
+    throw new SightlineError('fov: a heading is needed, too')
+  checkNumber('heading', heading ?? 0)
   checkNumber('range', range ?? 0, 0)
-  checkNumber('fieldOfView', fieldOfView, 0)
-  return { direction: direction ?? 0, fieldOfView, range }
+  checkNumber('fov', fov, 0)
+  return { heading: heading ?? 0, fov, range }
 }
 
 export function checkNumber(name, value, least = -Infinity) {

@@ -260,7 +260,7 @@ export class Scene {
     const view = viewOf(options)
     this.#core.withBytes([method], (name) =>
       this.#ask((core, at) =>
-        core.scene_look(at, x, y, view.direction, view.fieldOfView, view.range ?? -1, name, +mirrored)))
+        core.scene_look(at, x, y, view.heading, view.fov, view.range ?? -1, name, +mirrored)))
     return this.#cells()
   }
 
@@ -286,7 +286,7 @@ export class Scene {
   visiblePolygon(x, y, options = {}) {
     const { tolerance, ...rest } = options
     const view = viewOf(rest)
-    this.#ask((core, at) => core.scene_region(at, x, y, view.direction, view.fieldOfView,
+    this.#ask((core, at) => core.scene_region(at, x, y, view.heading, view.fov,
       view.range ?? -1, this.#tolerance(options)))
     const [, , , , count, points] = this.#given(6)
     return this.#floats(points, 2 * count).slice()
@@ -295,7 +295,7 @@ export class Scene {
   /** The visible region with what each edge lies on, and all measures (Benedikt 1979; depthmapX). */
   isovist(x, y, options = {}) {
     const view = viewOf(options)
-    this.#ask((core, at) => core.scene_region(at, x, y, view.direction, view.fieldOfView,
+    this.#ask((core, at) => core.scene_region(at, x, y, view.heading, view.fov,
       view.range ?? -1, this.#tolerance(options)))
     const region = this.#region([...this.#given(6)])
     this.#core.core.scene_measures(this.#place)
@@ -307,7 +307,7 @@ export class Scene {
   /** What is seen by mirror: a part for each piece of a mirror, with its points where they seem to be. */
   mirroredParts(x, y, { depth = 1, ...options } = {}) {
     const view = viewOf(options)
-    this.#ask((core, at) => core.scene_mirrored_region(at, x, y, view.direction, view.fieldOfView,
+    this.#ask((core, at) => core.scene_mirrored_region(at, x, y, view.heading, view.fov,
       view.range ?? -1, depth))
     const count = this.#given(1)[0]
     return Array.from({ length: count }, (_, i) => {

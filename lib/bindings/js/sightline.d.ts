@@ -56,11 +56,17 @@ export interface Cell {
 
 export interface View {
   /** Without it the view is all round. */
-  direction?: number
-  /** 90 by default. It needs a direction, unless it is 360. */
-  fieldOfView?: number
+  heading?: number
+  /** 90 by default. It needs a heading, unless it is 360. */
+  fov?: number
   /** The map's own by default; 0 likewise. */
   range?: number
+}
+
+/** An eye and its view in one. A heading may also be given as the vector `dx`, `dy`. */
+export interface Eye extends Point, View {
+  dx?: number
+  dy?: number
 }
 
 export interface Mirrors {
@@ -110,8 +116,11 @@ export class Level {
    */
   look(x: number, y: number, view: View & { mirrors: true }): Uint32Array & { direct: number }
   look(x: number, y: number, view?: View & Mirrors): Uint32Array
+  look(eye: Eye & { mirrors: true }): Uint32Array & { direct: number }
+  look(eye: Eye & Mirrors): Uint32Array
   /** x, y, x, y ... counter-clockwise about the eye. It ends at mirrors. */
   visiblePolygon(x: number, y: number, view?: View): Float64Array
+  visiblePolygon(eye: Eye): Float64Array
   /** The cells seen from anywhere in a cell. */
   row(cell: number, options?: Mirrors): Uint32Array
   /** The cells seen from anywhere in some cells. */

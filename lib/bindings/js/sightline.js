@@ -19,6 +19,14 @@ function pointOf(call, point) {
   throw new SightlineError(`${call}: points { x, y } or [x, y] are needed`)
 }
 
+/** An eye's x, y and view. One object may hold all; there `dx` and `dy` may stand for the heading. */
+function eyeOf(x, y, options) {
+  if (typeof x !== 'object' || !x) return [x, y, options]
+  const { x: left, y: up, dx, dy, ...view } = x
+  if (dx !== undefined || dy !== undefined) view.heading ??= (Math.atan2(dy, dx) * 180) / Math.PI
+  return [left, up, view]
+}
+
 export class Level {
   #core
   #memory
@@ -253,7 +261,8 @@ export class Level {
 
   /**
    * Whether one may walk straight from one point to another: no point of the way, ends included, is
-   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map.
+   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. Who is put
+   * exactly on a wall cannot leave it.
    *
    * @param {{x: number, y: number} | [number, number]} from
    * @param {{x: number, y: number} | [number, number]} to
@@ -277,7 +286,7 @@ export class Level {
   }
 
   /** Puts the view into memory, as an sl_runtime_view. */
-  #setView(x, y, { direction: heading, fieldOfView }) {
+  #setView(x, y, { heading, fov }) {
     checkNumber('x', x)
     checkNumber('y', y)
     const { buffer } = this.#memory
@@ -288,26 +297,27 @@ export class Level {
     const view = this.#view
     view[0] = x
     view[1] = y
-    this.#allRound[0] = fieldOfView >= 360 ? 1 : 0
-    if (fieldOfView >= 360) return
-    view.set(direction(heading - fieldOfView / 2), 3)
-    view.set(direction(heading + fieldOfView / 2), 5)
+    this.#allRound[0] = fov >= 360 ? 1 : 0
+    if (fov >= 360) return
+    view.set(direction(heading - fov / 2), 3)
+    view.set(direction(heading + fov / 2), 5)
   }
 
   /**
-   * The cells that an eye sees: its own first. `direction` and `fieldOfView` are in degrees.
+   * The cells that an eye sees: its own first. `heading` and `fov` are in degrees.
    * `mirrors`: after the `direct` cells that it sees directly, those that are seen by mirror alone.
    * No cell is missed there, but some may be added.
    *
-   * @param {number} x
-   * @param {number} y
-   * @param {{direction?: number, fieldOfView?: number, range?: number, mirrors?: boolean}} [options]
+   * @param {number | object} x or one object with all: { x, y, dx, dy, fov, range, mirrors }
+   * @param {number} [y]
+   * @param {{heading?: number, fov?: number, range?: number, mirrors?: boolean}} [options]
    */
   look(x, y, options) {
     const core = this.#open
-    const view = viewOf(optionsOf(options, 'direction', 'fieldOfView', 'range', 'mirrors'))
-    this.#setView(x, y, view)
-    if (options?.mirrors) {
+    const [left, up, given] = eyeOf(x, y, options)
+    const view = viewOf(optionsOf(given, 'heading', 'fov', 'range', 'mirrors'))
+    this.#setView(left, up, view)
+    if (given?.mirrors) {
       const count = core.look_mirrored(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0
       const [direct] = this.#ask(() => {}).integers
       return Object.assign(this.#listed(count), { direct })
@@ -318,14 +328,15 @@ export class Level {
   /**
    * The polygon that an eye sees: x, y, x, y ... counter-clockwise.
    *
-   * @param {number} x
-   * @param {number} y
-   * @param {{direction?: number, fieldOfView?: number, range?: number}} [options]
+   * @param {number | object} x as for look()
+   * @param {number} [y]
+   * @param {{heading?: number, fov?: number, range?: number}} [options]
    */
   visiblePolygon(x, y, options) {
     const core = this.#open
-    const view = viewOf(optionsOf(options, 'direction', 'fieldOfView', 'range'))
-    this.#setView(x, y, view)
+    const [left, up, given] = eyeOf(x, y, options)
+    const view = viewOf(optionsOf(given, 'heading', 'fov', 'range'))
+    this.#setView(left, up, view)
     for (;;) {
       const count =
         core.polygon(this.#shut, view.range ?? 0, this.#scratch, this.#points, this.#room) >>> 0

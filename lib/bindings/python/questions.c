@@ -186,7 +186,7 @@ static sl_status ask_point(sl_context *context, const asking *a, sl_query *query
                            size_t i) {
     bool sees;
     (void)scratch;
-    SL_TRY(sl_query_can_see(context, query, point_at(a->eyes, i), point_at(a->points, i), &sees));
+    SL_TRY(sl_query_sees(context, query, point_at(a->eyes, i), point_at(a->points, i), &sees));
     a->bytes[i] = sees;
     return SL_OK;
 }
@@ -212,8 +212,8 @@ int slp_level_cell_sees(slp_level *level, const int64_t *from, const int64_t *to
             return sl_fail(context, SL_BAD_ARGUMENT, "there is no cell %lld; cells are 0 to %lld",
                            (long long)(from[i] < 0 || from[i] >= cells ? from[i] : to[i]),
                            (long long)cells - 1);
-        SL_TRY(sl_query_cell_sees(context, level->queries.items[0], (uint32_t)from[i],
-                                  (uint32_t)to[i], &seen));
+        SL_TRY(sl_query_can_see(context, level->queries.items[0], (uint32_t)from[i],
+                                (uint32_t)to[i], &seen));
         sees[i] = seen;
     }
     return SL_OK;

@@ -169,10 +169,6 @@ SL_API void sl_draw_cell_set(cairo_t *cairo, const sl_space *space, const sl_fra
 SL_API void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame,
                          uint32_t cell, sl_colour colour, double opacity, double width);
 
-/// Draws a polygon in one colour.
-SL_API void sl_draw_region(cairo_t *cairo, const sl_frame *frame, const sl_region *region,
-                           sl_colour colour);
-
 /// Draws a polygon by its depth: blue where it is seen directly, else in the colour of what is seen
 /// by mirror, the paler the more mirrors.
 SL_API void sl_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,

@@ -82,7 +82,7 @@ typedef struct sl_filtered_space {
     const sl_point *eye;
 } sl_filtered_space;
 
-/// A copy of a space for a filtered space. It is as sl_space_check wants it where the passage is
+/// A copy of a space for a filtered space. It is as sl_space_check wants it where sight is
 /// not one-way: then all methods work on it. With one-way directed portals missing, only those that
 /// go through directed portals do, one way: "dfs", and eye-to-cell, directly and by mirror; with
 /// `dark_walls` also regions and single lines of sight. Portals that are walls have no

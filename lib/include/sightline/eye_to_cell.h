@@ -67,7 +67,7 @@ SL_API sl_status sl_eye_search_add_mirrors(sl_context *context, sl_eye_search *s
 /// along the sightline with its reflections. It is compared exactly: a place at just that distance
 /// is seen with closed sight, and not with open sight. Rounded images count from where they are.
 /// The other methods know no range.
-SL_API void sl_eye_search_limit(sl_eye_search *search, double range);
+SL_API void sl_eye_search_set_range(sl_eye_search *search, double range);
 
 /// The number of words in a set of the space's cells.
 SL_API size_t sl_eye_words(const sl_space *space);

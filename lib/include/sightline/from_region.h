@@ -28,45 +28,46 @@ typedef enum sl_object_kind {
     SL_OBJECTS_CELLS,
 } sl_object_kind;
 
-/// Start from sl_regions_options_default().
-typedef struct sl_regions_options {
+/// Start from sl_from_region_scene_options_default().
+typedef struct sl_from_region_scene_options {
     sl_view_cell_kind view_cells;
     uint32_t grid; ///< n of a grid, 1 to SL_VIEW_GRID_MOST
     sl_object_kind objects;
     uint32_t groups; ///< about so many, at least 1
     bool cut_cycles; ///< cut view cells that depend on each other in a cycle, along the kd-tree;
                      ///< else they are refused
-} sl_regions_options;
+} sl_from_region_scene_options;
 
 /// The finest grid of view cells.
 #define SL_VIEW_GRID_MOST 256
 
 /// The usual options: 8 x 8 squares as view cells, about 1800 groups of walls as objects.
-SL_API sl_regions_options sl_regions_options_default(void);
+SL_API sl_from_region_scene_options sl_from_region_scene_options_default(void);
 
 /// View cells and objects of a map, ready for the methods. It is only read by them.
-typedef struct sl_regions sl_regions;
+typedef struct sl_from_region_scene sl_from_region_scene;
 
 /// Subdivides the map by a kd-tree, also along the borders of view cells, and keeps what is inside.
 /// Walls must be axial and clean. SL_BAD_INPUT where they are not, where the map has none of the
 /// boxes that are asked for, and where view cells depend on each other in a cycle in some quadrant
 /// of directions: the message names the cycle.
-SL_API sl_status sl_regions_create(sl_context *context, const sl_map *map,
-                                   const sl_regions_options *options, sl_regions **out);
+SL_API sl_status sl_from_region_scene_create(sl_context *context, const sl_map *map,
+                                             const sl_from_region_scene_options *options,
+                                             sl_from_region_scene **out);
 /// Frees a scene; NULL is fine.
-SL_API void sl_regions_destroy(sl_context *context, sl_regions *scene);
+SL_API void sl_from_region_scene_destroy(sl_context *context, sl_from_region_scene *scene);
 
 /// How much there is in a scene.
-typedef struct sl_regions_counts {
+typedef struct sl_from_region_counts {
     uint32_t view_cells, objects;
     uint32_t leaves; ///< of the kd-tree, inside
     uint32_t faces;  ///< open pieces of view cells' borders, each with the side it leads out of
     uint32_t boundary_faces; ///< faces with no view cell behind them
     uint32_t dependents; ///< the most view cells that depend on one in a quadrant: the paper's K
-} sl_regions_counts;
+} sl_from_region_counts;
 
 /// Counts what is in a scene.
-SL_API sl_regions_counts sl_regions_count(const sl_regions *scene);
+SL_API sl_from_region_counts sl_from_region_scene_count(const sl_from_region_scene *scene);
 
 /// The solvers that decide what is seen through a face.
 typedef struct sl_from_region_solver {
@@ -118,7 +119,7 @@ SL_API uint64_t sl_from_region_pairs(const sl_from_region_result *result);
 /// refine set. So with one solver they find the same.
 typedef struct sl_from_region_method {
     const char *name, *what;
-    sl_status (*see)(sl_context *context, const sl_regions *scene,
+    sl_status (*see)(sl_context *context, const sl_from_region_scene *scene,
                      const sl_from_region_options *options, sl_from_region_result *out);
 } sl_from_region_method;
 

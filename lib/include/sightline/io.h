@@ -157,8 +157,7 @@ SL_API sl_status sl_map_list_wad(sl_context *context, const char *name, const ch
 // --- Numbers read back to the same doubles, y too: each writer finds a place where turning y
 // --- rounds nothing. Notes say what another program may do to the file; sl_map_write() notes what
 // --- the format has no place for. SL_NO_MEMORY, SL_CANCELLED; SL_UNSUPPORTED for a name with
-// U+FFFE or
-// --- U+FFFF in the formats of XML.
+// --- U+FFFE or U+FFFF in the formats of XML.
 
 /// Writes a DXF drawing of release 12. Layers named "sightline-..." say what is what.
 SL_API sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream);

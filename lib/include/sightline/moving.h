@@ -34,11 +34,11 @@ SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 /// Where a side of a box crosses an oblique wall, the wall is bent to the nearest representable
 /// point on that side; all else is exact. In a space of axial walls no coordinate is computed.
 /// (Borders between cells are bent in the same way; that neither hides nor shows anything.)
-SL_API sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
-                                 size_t count);
+SL_API sl_status sl_moving_set_boxes(sl_context *context, sl_moving *moving,
+                                     const sl_moving_box *boxes, size_t count);
 
-/// Sets how far is seen, as sl_eye_search_limit does, until it is set again.
-SL_API void sl_moving_limit(sl_moving *moving, double range);
+/// Sets how far is seen, as sl_eye_search_set_range does, until it is set again.
+SL_API void sl_moving_set_range(sl_moving *moving, double range);
 
 /// Makes queries use mirrors, as sl_eye_search_add_mirrors does. The map must outlive it.
 SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,

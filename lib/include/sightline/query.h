@@ -51,9 +51,9 @@ SL_API sl_status sl_query_set_door(sl_context *context, sl_query *query, const c
 SL_API void sl_query_set_doors(sl_context *context, sl_query *query, bool open);
 
 /// Boxes that block sight or are to be seen themselves (sightline/moving.h), in place of those
-/// before. They are copied. The next question fails as sl_moving_place does. If some box blocks, it
-/// cuts the cells at the sides of all boxes, and copies the rest of the space. SL_UNSUPPORTED in a
-/// build without boxes (SIGHTLINE_BOXES).
+/// before. They are copied. The next question fails as sl_moving_set_boxes does. If some box
+/// blocks, it cuts the cells at the sides of all boxes, and copies the rest of the space.
+/// SL_UNSUPPORTED in a build without boxes (SIGHTLINE_BOXES).
 SL_API sl_status sl_query_set_boxes(sl_context *context, sl_query *query,
                                     const sl_moving_box *boxes, size_t count);
 
@@ -72,13 +72,13 @@ SL_API uint32_t sl_query_locate(const sl_query *query, sl_point point);
 
 /// Whether some point of cell `from` sees some point of cell `to` directly, with the doors as they
 /// are: the visible sets' answer.
-SL_API sl_status sl_query_cell_sees(sl_context *context, sl_query *query, uint32_t from,
-                                    uint32_t to, bool *out);
+SL_API sl_status sl_query_can_see(sl_context *context, sl_query *query, uint32_t from, uint32_t to,
+                                  bool *out);
 
 /// Whether an eye sees a point directly, past boxes and within range, as sl_sees says with the
 /// sight of the bake.
-SL_API sl_status sl_query_can_see(sl_context *context, sl_query *query, sl_point eye,
-                                  sl_point point, bool *out);
+SL_API sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
+                               bool *out);
 
 /// A view from an eye: heading in degrees counter-clockwise from +x, width in degrees. A width of
 /// 360 is all round.

@@ -285,19 +285,17 @@ SL_API sl_status sl_view_cut(sl_context *context, const sl_view_hierarchy *hiera
                              uint32_t cells, uint32_t *view_cells, uint32_t *numbers);
 
 /// The pieces of boundary between different view cells, and between view cells and empty space. The
-/// caller frees the array with sl_view_borders_free.
+/// caller frees the array with sl_free (sightline/support.h).
 SL_API sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree,
                                  const uint32_t *view_cells, sl_segment **borders, size_t *count);
-/// Frees what sl_view_borders gave; NULL is fine.
-SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 
 /// The shapes of the view cells of a cut, `count` of them: what their elementary cells cover, as
 /// polygons with holes. Points are corners of the tree. Polygons of one shape meet in single points
-/// at most. Free it with sl_view_shapes_free.
+/// at most. Free it with sl_view_shapes_destroy.
 SL_API sl_status sl_view_shapes(sl_context *context, const sl_view_tree *tree,
                                 const uint32_t *view_cells, uint32_t count, sl_shapes *out);
 /// Frees what sl_view_shapes gave and zeroes it.
-SL_API void sl_view_shapes_free(sl_context *context, sl_shapes *shapes);
+SL_API void sl_view_shapes_destroy(sl_context *context, sl_shapes *shapes);
 
 // --- exact sets, for use
 

@@ -27,9 +27,8 @@ int main(void) {
     if (status == SL_OK) status = sl_bake(context, &map, NULL, &baked, NULL);
     if (status == SL_OK) status = sl_query_create(context, &baked, &query);
     sl_point eye = {5, 5};
-    if (status == SL_OK)
-        status = sl_query_can_see(context, query, eye, (sl_point){15, 5}, &through);
-    if (status == SL_OK) status = sl_query_can_see(context, query, eye, (sl_point){11, 9}, &behind);
+    if (status == SL_OK) status = sl_query_sees(context, query, eye, (sl_point){15, 5}, &through);
+    if (status == SL_OK) status = sl_query_sees(context, query, eye, (sl_point){11, 9}, &behind);
     printf("%s: %u cells, %u portals, %s\n", sl_status_name(status), baked.space.cell_count,
            baked.space.portal_count, sl_context_message(context));
     sl_query_destroy(context, query);

@@ -8,7 +8,7 @@ from conan.tools.files import copy
 
 class Sightline(ConanFile):
     name = "sightline"
-    version = "0.1.0"
+    version = "1.0.0"
     license = "MIT"
     description = "2D cell-and-portal visibility toolkit: the core library and the header for games"
     settings = "os", "compiler", "build_type", "arch"
@@ -25,7 +25,7 @@ class Sightline(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
-        for part in ("IO", "GLPK", "DRAW", "TOOLS", "VIEWER", "TESTS"):
+        for part in ("IO", "STUDY", "GLPK", "DRAW", "TOOLS", "VIEWER", "PYTHON", "TESTS"):
             toolchain.variables[f"SIGHTLINE_{part}"] = False
         toolchain.generate()
 
@@ -36,6 +36,7 @@ class Sightline(ConanFile):
 
     def package(self):
         CMake(self).install()
+        copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
 
     def package_info(self):
         self.cpp_info.libs = ["sightline"]

@@ -6,7 +6,7 @@ class Sightline < Formula
 
   depends_on "cmake" => :build
   depends_on "ninja" => :build
-  depends_on "pkg-config" => :build
+  depends_on "pkgconf" => :build
   depends_on "cairo"
   depends_on "glpk"
   depends_on "jansson"
@@ -16,13 +16,13 @@ class Sightline < Formula
   depends_on "pango"
   depends_on "sdl2"
   depends_on "zstd"
+  uses_from_macos "zlib"
 
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DBUILD_SHARED_LIBS=ON",
            "-DSIGHTLINE_TESTS=OFF", *std_cmake_args
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
-    pkgshare.install "maps"
   end
 
   test do

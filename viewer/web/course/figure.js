@@ -50,6 +50,9 @@ export function table(head, rows) {
 /** How near a pointer must be to a handle to take it, in pixels. */
 const NEAR = 28;
 
+/** In lecture mode lines and letters of pictures are up to so many times as large, where a picture keeps this width for them. */
+const [LARGER, LEAST_WIDTH] = [2, 360];
+
 let count = 0;
 
 export class Figure {
@@ -59,6 +62,7 @@ export class Figure {
         this.lab = lab;
         this.camera = new Camera();
         this.active = 0;
+        this.zoom = 1;
         this.inputs = {};
         this.state = firstState(spec);
         this.build(host);
@@ -120,7 +124,7 @@ export class Figure {
     listen() {
         const at = (event) => {
             const box = this.canvas.getBoundingClientRect();
-            return [event.clientX - box.left, event.clientY - box.top];
+            return [(event.clientX - box.left) / this.zoom, (event.clientY - box.top) / this.zoom];
         };
         this.canvas.addEventListener('pointerdown', (event) => {
             if (this.spec.press) this.press(at(event));
@@ -186,9 +190,10 @@ export class Figure {
     resize() {
         const width = this.canvas.clientWidth, height = this.canvas.clientHeight, ratio = window.devicePixelRatio || 1;
         if (!width || !height) return;
+        this.zoom = document.body.classList.contains('lecture') ? Math.min(LARGER, Math.max(1, width / LEAST_WIDTH)) : 1;
         this.canvas.width = Math.round(width * ratio);
         this.canvas.height = Math.round(height * ratio);
-        this.camera.resize(width, height);
+        this.camera.resize(width / this.zoom, height / this.zoom);
         this.fit();
         this.draw();
     }
@@ -210,7 +215,7 @@ export class Figure {
     }
 
     draw() {
-        const surface = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1, { tones } = this;
+        const surface = this.canvas.getContext('2d'), ratio = (window.devicePixelRatio || 1) * this.zoom, { tones } = this;
         surface.setTransform(ratio, 0, 0, ratio, 0, 0);
         drawFigure(surface, this.camera, tones, this.spec, this.state, this.active);
     }

@@ -96,7 +96,7 @@ export const pictures = {
         const open = edges.flatMap((edge, i) => (edge === 'occluding' ? [[points[2 * i], points[2 * i + 1], points[(2 * i + 2) % n], points[(2 * i + 3) % n]]] : []));
         stroke(p, open, 'glass', 3, [6, 4]);
     }],
-    cone: ['An eye that looks to the right sees the part of the area within its cone.', flat.box, (p) => drawLook(p, [2, 6.5], { direction: 0, fieldOfView: 60 })],
+    cone: ['An eye that looks to the right sees the part of the area within its cone.', flat.box, (p) => drawLook(p, [2, 6.5], { heading: 0, fov: 60 })],
     range: ['The area ends in an arc around the eye.', flat.box, (p) => drawLook(p, [8, 6.5], { range: 5 })],
 
     cell: ['A plan cut into cells; one of them is marked.', flat.box, (p) => drawMap(p, 'flat', { space: p.lab.scene(flat.text), from: 3, show: { portals: false } })],

@@ -27,7 +27,7 @@ const eye = {
         { name: 'field', label: 'field of view', kind: 'range', value: 360, min: 30, max: 360, step: 30 },
     ],
     update(state, lab) {
-        const options = state.field < 360 ? { direction: 0, fieldOfView: state.field } : {};
+        const options = state.field < 360 ? { heading: 0, fov: state.field } : {};
         state.isovist = look(lab, flat.text, state.eye, options);
         state.share = state.isovist ? state.isovist.area / floorArea(lab.scene(flat.text)) : 0;
     },

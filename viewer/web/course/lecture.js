@@ -22,6 +22,8 @@ export function lectureMode(main) {
         show(0);
     });
     begin.id = 'lecture';
+    /** The picture of the slide for a screen of another size. */
+    const fit = () => (slides[at].figure ?? slides[at].querySelector('figure')?.figure)?.resize();
     main.querySelector('h1').after(begin);
     main.append(bar);
 
@@ -34,6 +36,7 @@ export function lectureMode(main) {
         let heading = slides[at].previousElementSibling;
         while (heading && heading.tagName !== 'H2') heading = heading.previousElementSibling;
         heading?.classList.add('on');
+        fit();
         where.textContent = `${at + 1} of ${slides.length}`;
         window.scrollTo(0, 0);
     }
@@ -41,7 +44,8 @@ export function lectureMode(main) {
         if (document.fullscreenElement) document.exitFullscreen();
         document.body.classList.remove('lecture');
         bar.hidden = true;
-        slides[at]?.scrollIntoView();
+        fit();
+        slides[at].scrollIntoView();
         at = -1;
         begin.focus({ preventScroll: true });
     }

@@ -21,7 +21,7 @@ const coneLines = ([x, y], direction, field) => (field >= 360 ? [] : [-field / 2
     return [x, y, x + 40 * Math.cos(angle), y + 40 * Math.sin(angle)];
 }));
 
-const viewOf = (direction, field) => (field < 360 ? { direction, fieldOfView: field } : {});
+const viewOf = (heading, fov) => (fov < 360 ? { heading, fov } : {});
 
 const cull = {
     title: 'Five methods.',
@@ -129,7 +129,7 @@ function sharesOf(scene, [x0, y0, x1, y1]) {
         const eye = [x0 + (((i % EYES) + 0.43) / EYES) * (x1 - x0), y0 + ((Math.floor(i / EYES) + 0.57) / EYES) * (y1 - y0)];
         if (cellAt(scene, eye) < 0) continue;
         eyes++;
-        [{}, { direction: 75 * i, fieldOfView: 60 }].forEach((view, k) => {
+        [{}, { heading: 75 * i, fov: 60 }].forEach((view, k) => {
             methods.forEach(([method], m) => (sums[m][k] += areaOf(scene.look(...eye, { method, ...view }))));
             const p = pairsOf(scene.visiblePolygon(...eye, view));
             sums[5][k] += p.reduce((sum, q, j) => sum + cross(q, p[(j + 1) % p.length]) / 2, 0);
@@ -190,7 +190,7 @@ export const exercises = {
     away: {
         kind: 'number',
         question: 'Three rooms lie in a row, and their doors line up. An eye in the middle of the first room looks away from the door, with 60°. How many of the three cells does the disjoint cell method keep?',
-        right: (lab) => lab.scene(threeRooms.text).look(2, 2, { method: 'disjoint_cell', direction: 180, fieldOfView: 60 }).length,
+        right: (lab) => lab.scene(threeRooms.text).look(2, 2, { method: 'disjoint_cell', heading: 180, fov: 60 }).length,
         why: 'Its own cell meets the cone, and the others lie behind the eye. All later methods keep this one cell as well.',
         low: 'The eye stands in a cell, and that cell meets the cone.',
         high: 'Draw the cone. Only cells that meet it are kept, and two rooms lie behind the eye.',

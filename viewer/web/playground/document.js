@@ -14,8 +14,13 @@ export class MapDocument extends EventTarget {
         super();
         /** @type {Item[]} */
         this.items = [];
+        /** Where the map comes from: a name for messages, its place in the list of maps, its items as they were read. */
+        this.origin = { name: 'the map from before', file: '', items: this.items };
+        /** Steps: {items, origin}. */
         this.past = [];
         this.future = [];
+        /** The items before the last step. */
+        this.before = this.items;
         this.step = null;
         this.selected = -1;
         this.revision = 0;
@@ -33,18 +38,25 @@ export class MapDocument extends EventTarget {
      * @param {Item[]} items @param {Object | null} step any value that stands for the step
      */
     change(items, step = null) {
-        if (!step || step !== this.step) {
-            this.past.push(this.items);
-            this.future = [];
-            this.forget();
-        }
+        if (!step || step !== this.step) this.keep();
         this.step = step;
         this.replace(items);
     }
 
-    forget() {
+    /** Takes another map. The first one is no step to undo. @param {Item[]} items */
+    load(items, name, file = '') {
+        if (this.canUndo || this.items.length) this.keep();
+        this.step = null;
+        this.origin = { name, file, items };
+        this.replace(items);
+    }
+
+    keep() {
+        this.past.push({ items: this.items, origin: this.origin });
+        this.future = [];
+        this.before = this.items;
         let kept = 0, from = this.past.length;
-        while (from > 0 && (kept += this.past[from - 1].length + 1) < KEPT_ENTRIES) from--;
+        while (from > 0 && (kept += this.past[from - 1].items.length + 1) < KEPT_ENTRIES) from--;
         this.past.splice(0, Math.min(from, this.past.length - 1));
     }
 
@@ -63,10 +75,13 @@ export class MapDocument extends EventTarget {
     }
     move(from, to) {
         if (!from.length) return;
-        to.push(this.items);
+        to.push({ items: this.items, origin: this.origin });
         this.step = null;
         this.selected = -1;
-        this.replace(from.pop());
+        this.before = this.items;
+        const { items, origin } = from.pop();
+        this.origin = origin;
+        this.replace(items);
     }
 
     /** @param {number} index -1 for none */

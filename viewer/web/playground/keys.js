@@ -24,6 +24,7 @@ export class Keys {
 
     anywhere(event) {
         const key = event.key.toLowerCase();
+        if (key === '?' && !event.target.matches('select, input:not([type=checkbox], [type=radio])')) return this.app.act('help');
         if (!(event.ctrlKey || event.metaKey) || /^(input|textarea|select)$/i.test(event.target.type ?? '')) return;
         const what = key === 'z' ? (event.shiftKey ? 'redo' : 'undo') : { y: 'redo', s: 'saveMap', o: 'open' }[key];
         if (!what) return;

@@ -13,6 +13,7 @@ import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
 import { Sight } from './sight.js';
+import { tellChange, tellItem } from './told.js';
 import { makeTools } from './tools.js';
 import { View } from './view.js';
 
@@ -71,7 +72,10 @@ class Playground extends Sight {
     // --- the map
 
     changed() {
-        get('range').value = this.doc.items.find((item) => item.kind === 'range')?.value ?? '';
+        const { items, before } = this.doc;
+        get('range').value = items.find((item) => item.kind === 'range')?.value ?? '';
+        get('done').textContent = tellChange(before, items);
+        this.showOrigin();
         this.bake();
         this.heat.drop();
         clearTimeout(this.keeping);
@@ -98,24 +102,45 @@ class Playground extends Sight {
         this.saidUnkept = true;
     }
 
-    /** @param {import('../formats/map-text.js').Item[]} items */
-    load(items, message) {
+    /** Another map comes, by what `change` does: it is shown whole, and nothing is left of the one before. */
+    arrive(change, message) {
         this.eye = this.places = this.pair = this.why = this.seen = null;
         this.doors = {};
         panel.showWhy('');
         this.tools.look.pinned = false;
         this.doc.select(-1);
-        if (this.doc.canUndo || this.doc.items.length) this.doc.change(items);
-        else this.doc.replace(items); // the first map is no step to undo
+        change();
+        get('done').textContent = '';
         this.act('fit');
         if (message) panel.showMessage(message);
     }
 
-    async openFile(file, quiet = false) {
+    /** @param {import('../formats/map-text.js').Item[]} items @param {string} name @param {string} [file] in the list of maps */
+    load(items, name, message = '', file = '') {
+        this.arrive(() => this.doc.load(items, name, file), message);
+    }
+
+    /** A step back, or forth again. @param {'undo' | 'redo'} way */
+    travel(way) {
+        const { doc } = this, said = way === 'undo' ? 'Undone' : 'Redone', next = doc[way === 'undo' ? 'past' : 'future'].at(-1);
+        if (!next) return;
+        if (next.origin !== doc.origin) return this.arrive(() => doc[way](), `${said}: ${next.origin.name} is back.`);
+        doc[way]();
+        get('done').textContent = `${said}. ${tellChange(doc.before, doc.items)}`;
+    }
+
+    /** The list of maps names the map, as long as nothing was changed in it. */
+    showOrigin() {
+        const { origin, items } = this.doc, list = get('gallery');
+        list.value = origin.items === items ? origin.file : '';
+        if (list.selectedIndex < 0) list.value = '';
+    }
+
+    async openFile(file, quiet = false, listed = '') {
         try {
             const { items, notes, format } = await readFile(file, (slv) => this.client.call('describe', { slv }));
             const left = notes.length ? ` Left out or guessed: ${notes.join('; ')}.` : '';
-            this.load(items, quiet ? '' : `${file.name} was read as ${format}.${left}`);
+            this.load(items, file.name, quiet ? '' : `${file.name} was read as ${format}.${left}`, listed);
         } catch (error) {
             panel.showMessage(error.message, true);
         }
@@ -123,11 +148,11 @@ class Playground extends Sight {
 
     async openGallery(name, quiet = false) {
         if (!name) return;
-        if (name === 'own') return this.openFile(new File([loadWork('own')], 'your map'));
+        if (name === 'own') return this.openFile(new File([loadWork('own')], 'your map'), quiet, name);
         try {
             const answer = await fetch(`maps/${name}`);
             if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
-            await this.openFile(new File([await answer.blob()], name), quiet);
+            await this.openFile(new File([await answer.blob()], name), quiet, name);
         } catch (error) {
             panel.showMessage(`${name} was not loaded: ${error.message}`, true);
         }
@@ -139,7 +164,7 @@ class Playground extends Sight {
             if (text === null || text === this.doc.text()) return false;
             const items = parseMap(text), own = this.doc.items.length > 0;
             if (own) keepWork(this.doc.text(), 'own');
-            this.load(items, own ? 'This is a shared map. Undo brings back your own; it is in the list of maps too.' : '');
+            this.load(items, 'the shared map', own ? 'This is a shared map. Undo brings back your own; it is in the list of maps too.' : '');
             this.offerOwn();
             return true;
         } catch (error) {
@@ -260,7 +285,7 @@ class Playground extends Sight {
         do i = (i + way + count) % count; while (!able(i));
         this.doc.select(i);
         const item = this.doc.items[i];
-        get('where').textContent = `${item.kind} ${item.name ?? ''} ${item.points.join(' ')}`;
+        get('done').textContent = `Chosen: ${tellItem(item)}`;
     }
     freeName(stem) {
         const used = new Set(this.doc.items.map((item) => item.name));
@@ -270,14 +295,15 @@ class Playground extends Sight {
     act(what) {
         const picture = () => [this.scene(), this.doc.bounds(), this.view.tones, (s, c) => this.overPicture(s, c, this.view.tones)];
         const acts = {
-            undo: () => this.doc.undo(),
-            redo: () => this.doc.redo(),
+            undo: () => this.travel('undo'),
+            redo: () => this.travel('redo'),
             remove: () => this.doc.selected >= 0 && this.doc.remove(this.doc.selected),
             turn: () => this.changeChosen((item) => ({ ...item, points: [...item.points.slice(2), ...item.points.slice(0, 2)] })),
             zoomIn: () => this.view.zoom(1.4),
             zoomOut: () => this.view.zoom(1 / 1.4),
             fit: () => (this.view.fitTo(), this.redraw()),
-            clear: () => this.load([]),
+            clear: () => this.load([], 'the empty map'),
+            help: () => get('help').showModal(),
             open: () => get('file').click(),
             share: () => this.share(),
             saveMap: () => save(new Blob([this.doc.text()], { type: 'text/plain' }), 'plan.map'),
@@ -315,7 +341,7 @@ class Playground extends Sight {
         const kept = loadWork();
         if (kept) {
             try {
-                this.doc.replace(parseMap(kept));
+                this.load(parseMap(kept), 'the map from before');
             } catch {
                 panel.showMessage('The kept map could not be read.', true);
             }
@@ -336,6 +362,7 @@ class Playground extends Sight {
         try {
             for (const { file, title } of await (await fetch('maps/index.json')).json())
                 get('gallery').append(new Option(title, file));
+            this.showOrigin();
         } catch {
             get('gallery').disabled = true;
         }

@@ -152,7 +152,7 @@ export class Sight {
     showFacts() {
         const plan = this.plan, seen = this.seen;
         panel.showFacts([
-            ['Walls', countWalls(this.doc.items)],
+            ['Wall segments', countWalls(this.doc.items)],
             ['Cells', plan?.cellCount],
             ['Portals', plan?.portalCount],
             ['Pairs that see each other', plan?.pairs],

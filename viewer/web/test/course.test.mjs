@@ -37,8 +37,8 @@ async function place(page, figure, places) {
     for (const [i, [x, y]] of places.entries()) {
         await figure.locator('canvas').scrollIntoViewIfNeeded();
         const [from, to] = await figure.evaluate((host, [index, at]) => {
-            const { camera, spec, state, canvas } = host.figure, box = canvas.getBoundingClientRect();
-            const screen = (p) => camera.toScreen(...p).map((v, k) => v + (k ? box.top : box.left));
+            const { camera, spec, state, canvas, zoom } = host.figure, box = canvas.getBoundingClientRect();
+            const screen = (p) => camera.toScreen(...p).map((v, k) => zoom * v + (k ? box.top : box.left));
             return [screen(state[spec.handles[index].name]), screen(at)];
         }, [i, [x, y]]);
         await page.mouse.move(...from);
@@ -154,17 +154,26 @@ for (const name of wanted)
                 await close();
             });
 
-            test(`${chapter}: lecture mode shows one thing at a time, by keys`, async () => {
-                const { page, close } = await open(chapter);
+            test(`${chapter}: lecture mode shows one thing at a time, by keys, on a projector`, async () => {
+                const { page, close } = await open(chapter, { viewport: { width: 1024, height: 768 } });
                 await page.click('#lecture');
                 const shown = () => page.locator('main > figure:visible, main > form:visible').count();
                 const where = page.locator('.lecture-bar [role=status]');
                 const slides = Number((await where.textContent()).split(' of ')[1]);
-                assert.equal(await shown(), 1);
-                for (let i = 2; i <= slides; i++) {
-                    await page.keyboard.press('PageDown');
+                for (let i = 1; i <= slides; i++) {
+                    if (i > 1) await page.keyboard.press('PageDown');
                     assert.equal(await where.textContent(), `${i} of ${slides}`);
                     assert.equal(await shown(), 1);
+                    const form = page.locator('main > form.on');
+                    if (await form.count()) await answer(page, form, exercises[i - 1 - (slides - exercises.length)][1]);
+                    const { bar, lowest, zoom } = await page.evaluate(() => {
+                        const bottom = (node) => node.getBoundingClientRect().bottom;
+                        return { bar: document.querySelector('.lecture-bar').getBoundingClientRect().top,
+                            lowest: Math.max(...[...document.querySelectorAll('main > .on, main > .on *:not(.beside *)')].map(bottom)),
+                            zoom: document.querySelector('main > figure.on')?.figure.zoom ?? 2 };
+                    });
+                    assert.ok(lowest <= bar && bar < 768, `slide ${i} ends at ${lowest}, the bar begins at ${bar}`);
+                    assert.ok(zoom > 1.2, `slide ${i}: lines are drawn for a desk`);
                 }
                 await page.keyboard.press('PageUp');
                 assert.equal(await where.textContent(), `${slides - 1} of ${slides}`);

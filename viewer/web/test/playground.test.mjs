@@ -31,6 +31,7 @@ const drop = (page, name, content) => page.evaluate(([fileName, text]) => {
 
 const fact = (page, name) => page.locator(`dt:text-is("${name}") + dd`).textContent();
 const message = (page) => page.locator('#message').textContent();
+const done = (page) => page.locator('#done').textContent();
 
 /** Waits until the last change is baked. */
 const settled = (page) => page.waitForFunction(() => {
@@ -90,7 +91,7 @@ for (const name of wanted)
 
         test('begins with a map, and shows what is seen', async () => {
             const page = await open({}, '', null);
-            assert.equal(await fact(page, 'Walls'), '139');
+            assert.equal(await fact(page, 'Wall segments'), '139');
             assert.ok(parseInt(await fact(page, 'The eye sees'), 10) > 5);
             await page.mouse.move(...(await screen(page, 5, 5)));
             await page.waitForFunction(() => /Eye at 5/.test(document.getElementById('where').textContent));
@@ -109,6 +110,7 @@ for (const name of wanted)
             await page.mouse.up();
             await settled(page);
             assert.match(await page.evaluate(() => window.playground.doc.text()), /\nwall 14 0 14 7\n$/);
+            assert.equal(await done(page), 'Added: wall from 14, 0 to 14, 7, length 7');
             assert.notEqual(await fact(page, 'Cells'), cells);
             await page.check('input[value=move]');
             await page.mouse.move(...(await screen(page, 14, 7)));
@@ -117,13 +119,17 @@ for (const name of wanted)
             await page.mouse.up();
             await settled(page);
             assert.match(await page.evaluate(() => window.playground.doc.text()), /\nwall 14 0 16 8\n$/);
+            assert.equal(await done(page), 'Changed: wall from 14, 0 to 16, 8, length 8.246');
             await page.click('[data-do=undo]');
             assert.match(await page.evaluate(() => window.playground.doc.text()), /\nwall 14 0 14 7\n$/);
+            assert.equal(await done(page), 'Undone. Changed: wall from 14, 0 to 14, 7, length 7');
             await page.mouse.click(...(await screen(page, 14, 3)));
             await page.click('[data-do=remove]');
             assert.equal(await count(), 4);
+            assert.equal(await done(page), 'Deleted: wall from 14, 0 to 14, 7, length 7');
             await page.click('[data-do=undo]');
             assert.equal(await count(), 5);
+            assert.equal(await done(page), 'Undone. Added: wall from 14, 0 to 14, 7, length 7');
             await context.close();
         });
 
@@ -228,10 +234,48 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('undoes a map of the list: the message, the list and the view are those of the map before', async () => {
+            const page = await open(), list = page.locator('#gallery');
+            await page.waitForFunction(() => document.querySelectorAll('#gallery option').length > 3);
+            const camera = () => page.evaluate(() => {
+                const { x, y, scale } = window.playground.view.camera;
+                return [x, y, scale];
+            });
+            const before = await camera();
+            await list.selectOption('spiral.map');
+            await page.waitForFunction(() => /^spiral.map was read/.test(document.getElementById('message').textContent));
+            assert.equal(await list.inputValue(), 'spiral.map');
+            const sample = await camera();
+            assert.notDeepEqual(sample, before);
+            await page.click('[data-do=undo]');
+            assert.equal(await message(page), 'Undone: room.map is back.');
+            assert.deepEqual([await list.inputValue(), await camera()], ['', before]);
+            await page.click('[data-do=redo]');
+            assert.equal(await message(page), 'Redone: spiral.map is back.');
+            assert.deepEqual([await list.inputValue(), await camera()], ['spiral.map', sample]);
+            await page.evaluate(() => window.playground.doc.remove(0));
+            assert.equal(await list.inputValue(), '', 'a map that was changed is none of the list');
+            await context.close();
+        });
+
+        test('opens its help by a key', async () => {
+            const page = await open(), help = page.locator('#help');
+            await page.focus('#range');
+            await page.keyboard.press('?');
+            assert.equal(await help.isVisible(), false);
+            await page.focus('#plan');
+            await page.keyboard.press('?');
+            assert.equal(await help.isVisible(), true);
+            await page.keyboard.press('Escape');
+            assert.equal(await help.isVisible(), false);
+            await context.close();
+        });
+
         test('keeps no step to undo before the first map', async () => {
             const page = await open({}, '', null);
             await page.waitForFunction(() => window.playground?.doc.items.length > 0);
             assert.equal(await page.evaluate(() => window.playground.doc.canUndo), false);
+            assert.equal(await page.inputValue('#gallery'), 'office.map');
             await context.close();
         });
 

@@ -9,7 +9,6 @@
 #include "sightline/json_write.h"
 #include "sightline/sightline.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -415,7 +414,7 @@ SLI_EXPORT(int, scene_cell_sees, scene *s, uint32_t from, uint32_t to) {
     bool sees = false;
     if (!sli_done(check_cell(s, from)) || !sli_done(check_cell(s, to)))
         return (int)sli_module.status;
-    sli_done(sl_query_cell_sees(sli_module.context, s->query, from, to, &sees));
+    sli_done(sl_query_can_see(sli_module.context, s->query, from, to, &sees));
     sli_module.integers[0] = sees;
     return (int)sli_module.status;
 }
@@ -433,8 +432,8 @@ SLI_EXPORT(int, scene_can_see, scene *s, double x, double y, double to_x, double
            double range) {
     bool sees = false;
     if (sli_done(set_range(s, range)))
-        sli_done(sl_query_can_see(sli_module.context, s->query, (sl_point){x, y},
-                                  (sl_point){to_x, to_y}, &sees));
+        sli_done(sl_query_sees(sli_module.context, s->query, (sl_point){x, y},
+                               (sl_point){to_x, to_y}, &sees));
     sli_module.integers[0] = sees;
     return (int)sli_module.status;
 }

@@ -25,7 +25,7 @@ test('200 generated maps have the native bytes', () => {
     const turned = i % 7 === 3 ? ['--turned', String(i)] : []
     command('generate', kind, ...small, '--seed', String(i), '-o', path, ...turned)
     const options = [[], ['--inside'], ['--method', 'dfs'], ['--sight', 'open']][i % 4]
-    const own = [{}, { boundary: 'inside' }, { method: 'dfs' }, { sight: 'open' }][i % 4]
+    const own = [{}, { insideOnly: true }, { method: 'dfs' }, { sight: 'open' }][i % 4]
     const got = core.bake(readFileSync(path), own)
     assert.ok(nativeBake(path, ...options).bytes.equals(got), `${kind} ${i}`)
   }

@@ -54,7 +54,7 @@ test('calls stop by progress and by a time limit', () => {
 
 test('scenes that are closed say so, and views are checked', () => {
   const scene = core.open(room)
-  thrown(() => scene.look(1, 1, { direction: NaN }))
+  thrown(() => scene.look(1, 1, { heading: NaN }))
   thrown(() => scene.look(1, 1, { range: -1 }))
   thrown(() => scene.look(1, 1, { method: 'magic' }))
   thrown(() => scene.row(99))

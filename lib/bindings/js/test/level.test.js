@@ -56,7 +56,7 @@ test('answers are the native ones', async () => {
         ask(`S ${from} ${to}`, text(level.seenFrom([from, to], { mirrors: true })))
         const angle = Math.floor(next() * 360), width = [360, 45, 90, 270][Math.floor(next() * 4)]
         const range = level.range || next() < 0.5 ? 0 : 7
-        const options = { direction: angle, fieldOfView: width, range }
+        const options = { heading: angle, fov: width, range }
         const view = [x, y, +(width >= 360), ...direction(angle - width / 2), ...direction(angle + width / 2), range].join(' ')
         ask(`k ${view}`, text(level.look(x, y, options)))
         const both = level.look(x, y, { ...options, mirrors: true })
@@ -145,11 +145,17 @@ test('arguments that are wrong say so', async () => {
     [() => level.canSee([1], [2, 2]), /canSee: points/], [() => level.canSee(cell, [2, 2]), /two cells or two points/],
     [() => level.canSee(null, null), /canSee: points/], [() => level.canSee(0.5, 1), /two cells/],
     [() => level.canSee(cell, cell, { mirror: true }), /no option 'mirror'/],
-    [() => level.look(1, 1, { heading: 90 }), /no option 'heading'/], [() => level.visiblePolygon(1, 1, { fov: 60 }), /no option 'fov'/],
+    [() => level.look(1, 1, { direction: 90 }), /no option 'direction'/], [() => level.visiblePolygon(1, 1, { angle: 60 }), /no option 'angle'/],
     [() => level.look(undefined, 3), /x: a number/], [() => level.visiblePolygon(3, NaN), /y: a number/],
-    [() => level.look(1, 1, { fieldOfView: 60 }), /a direction is needed/], [() => level.row(cell, { mirros: 1 }), /no option/],
+    [() => level.look(1, 1, { fov: 60 }), /a heading is needed/], [() => level.row(cell, { mirros: 1 }), /no option/],
   ]) assert.throws(call, (error) => error instanceof SightlineError && message.test(error.message), String(call))
-  assert.ok(level.visiblePolygon(1, 1, null).length && level.look(1, 1, { fieldOfView: 360 }).length)
+  for (const call of ['look', 'visiblePolygon']) {
+    const view = { fov: 60, range: 3 }
+    assert.deepEqual(level[call]({ x: 1, y: 1, dx: 0, dy: 2, ...view }), level[call](1, 1, { heading: 90, ...view }))
+    assert.deepEqual(level[call]({ x: 1, y: 1 }), level[call](1, 1))
+    assert.throws(() => level[call]({ x: 1, y: 1, dx: 1 }), /heading: a number/)
+  }
+  assert.ok(level.visiblePolygon(1, 1, null).length && level.look(1, 1, { fov: 360 }).length)
   assert.throws(() => { level.doors[0].open = true }, TypeError)
   assert.throws(() => { level.doors[0].segments[0][0] = 1 }, TypeError)
 })

@@ -300,7 +300,7 @@ class Plan(drawing.InNotebooks, Handle):
         self._ask(call.plan_write, path_text(path), text(format, "format"))
 
     def bake(self, *, method: Optional[str] = None, sight: str = "closed",
-             subdivision: Optional[str] = None, start: Optional[ArrayLike] = None,
+             subdivide: Optional[str] = None, start: Optional[ArrayLike] = None,
              weld: Optional[float] = None, without: Sequence[str] = (), inside_only: bool = False,
              mirror_depth: int = 1, door_limit: int = 16, threads: int = 0) -> Level:
         """Cut the plan into cells, and find which cells see each other.
@@ -311,7 +311,7 @@ class Plan(drawing.InNotebooks, Handle):
             How (`sightline.methods()`); by default the fastest exact one.
         sight
             "closed": lines that only touch walls count; "open": they do not.
-        subdivision
+        subdivide
             "kd", "mesh" or "given"; by default what the walls call for.
         start
             A point to add as a start: inside is what starts reach.
@@ -333,18 +333,18 @@ class Plan(drawing.InNotebooks, Handle):
         SightlineWarning
             It is doubtful what is inside.
         """
-        return self._bake(method, sight, subdivision, start, weld, without, inside_only,
+        return self._bake(method, sight, subdivide, start, weld, without, inside_only,
                           mirror_depth, door_limit, threads, True)
 
-    def space(self, *, subdivision: Optional[str] = None, start: Optional[ArrayLike] = None,
+    def space(self, *, subdivide: Optional[str] = None, start: Optional[ArrayLike] = None,
               weld: Optional[float] = None, without: Sequence[str] = ()) -> Level:
         """The cells and portals alone, without visible sets: faster, and enough for regions.
 
         The parameters are those of `bake`.
         """
-        return self._bake(None, "closed", subdivision, start, weld, without, False, 1, 16, 0, False)
+        return self._bake(None, "closed", subdivide, start, weld, without, False, 1, 16, 0, False)
 
-    def _bake(self, method: Optional[str], sight: str, subdivision: Optional[str],
+    def _bake(self, method: Optional[str], sight: str, subdivide: Optional[str],
               start: Optional[ArrayLike], weld: Optional[float], without: Sequence[str],
               inside_only: bool, mirror_depth: int, door_limit: int, threads: int,
               sets: bool) -> Level:
@@ -360,7 +360,7 @@ class Plan(drawing.InNotebooks, Handle):
             x, y = as_points(start, "start").reshape(2).tolist()
         if weld is not None and not math.isfinite(weld):
             raise ValueError("weld must be finite")
-        options = Bake(text(method, "method"), text(subdivision, "subdivision"),
+        options = Bake(text(method, "method"), text(subdivide, "subdivide"),
                        math.nan if weld is None else weld, x, y, sight == "open", inside_only, sets,
                        as_count(threads, "threads", 1024), as_count(mirror_depth, "mirror_depth", 16),
                        as_count(door_limit, "door_limit", 2**32 - 1), bits)

@@ -86,7 +86,7 @@ class Arguments(unittest.TestCase):
             at.doors["x"] = True
         with self.assertRaises(KeyError):
             at.doors["x"]
-        for call in (lambda: plan.bake(method="x"), lambda: plan.bake(subdivision="x"),
+        for call in (lambda: plan.bake(method="x"), lambda: plan.bake(subdivide="x"),
                      lambda: plan.bake(sight="x"), lambda: plan.bake(without=("x",)),
                      lambda: at.look((1, 1), method="x"), lambda: at.export("a", "x"),
                      lambda: at.vga(1, measures="x"), lambda: plan.save("plan.xyz")):

@@ -1,5 +1,7 @@
 """The package as pip builds it, from a copy of its sources and without a network."""
+import importlib.metadata
 import importlib.util
+import json
 import os
 import pathlib
 import shutil
@@ -42,6 +44,16 @@ class Wheel(unittest.TestCase):
             ours = (place / "sightline/level.py").read_bytes()
             self.assertEqual(ours, (support.ROOT / "lib/bindings/python/sightline/level.py")
                              .read_bytes())
+
+
+class Metadata(unittest.TestCase):
+    def test_a_build_by_cmake_says_what_it_is(self):
+        said = importlib.metadata.metadata("sightline")
+        project = (support.ROOT / "lib/bindings/python/pyproject.toml").read_text(encoding="utf-8")
+        self.assertEqual(said["Version"], sightline.__version__)
+        self.assertIn(f'description = "{said["Summary"]}"', project)
+        self.assertIn(f'requires-python = "{said["Requires-Python"]}"', project)
+        self.assertIn(f"\ndependencies = {json.dumps(said.get_all('Requires-Dist'))}\n", project)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
-/// A space for measurements: from a map file, cut as the map calls for.
-#ifndef SL_BENCH_READ_SPACE_H
-#define SL_BENCH_READ_SPACE_H
+/// What the programs that measure share: the processor's time, giving up, and a space from a map
+/// file, cut as the map calls for.
+#ifndef SL_BENCH_H
+#define SL_BENCH_H
 
 #include "sightline/io.h"
 #include "sightline/space.h"
@@ -8,6 +9,23 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+
+/// Of the processor.
+static inline double bench_seconds(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static inline void bench_fail(const char *what) {
+    fprintf(stderr, "%s\n", what);
+    exit(1);
+}
+
+static inline void bench_must(sl_context *context, sl_status status) {
+    if (status != SL_OK) bench_fail(context ? sl_context_message(context) : "failed");
+}
 
 /// `which`: the height of a model's slice, a WAD's level, or NULL. A level with ":given" behind its
 /// name keeps the cells of its node builder.

@@ -1,6 +1,6 @@
 /// The scene of the from-region methods: view cells, faces, objects and passes; and the solvers.
-#ifndef SL_REGIONS_H
-#define SL_REGIONS_H
+#ifndef SL_FROM_REGION_SCENE_H
+#define SL_FROM_REGION_SCENE_H
 
 #include "cell_to_cell/sectors.h"
 #include "sightline/from_region.h"
@@ -43,16 +43,16 @@ static inline sl_portal_ends sli_item_ends(const sli_item *item, int quadrant) {
 }
 
 /// A quadrant's pass: orders in which those behind come first.
-typedef struct sli_regions_pass {
+typedef struct sli_from_region_pass {
     sli_pass leaves;
     uint32_t *place; ///< by leaf: its place in an order of all leaves, whatever walls are between
     sli_order view_cells;
-} sli_regions_pass;
+} sli_from_region_pass;
 
-struct sl_regions {
+struct sl_from_region_scene {
     sl_map map; ///< with seams along view cells' borders
     sl_space space;
-    sl_regions_counts counts;
+    sl_from_region_counts counts;
     uint32_t *view_cell; ///< by leaf
     char **names;        ///< of view cells that have one; NULL for none
     SL_ARRAY(sli_face) faces;
@@ -63,7 +63,7 @@ struct sl_regions {
     uint32_t *leaf_items, *first_leaf_item; ///< by leaf, and one more: items of the leaf
     uint32_t occluders; ///< extra objects past the last, for walls that are no objects
     sl_box *boxes;      ///< by object: around its items
-    sli_regions_pass passes[SLI_QUADRANTS];
+    sli_from_region_pass passes[SLI_QUADRANTS];
     sl_bits *inside; ///< by view cell: objects that lie in it
     size_t words;    ///< of a row of objects, occluders included
 };
@@ -74,26 +74,30 @@ sl_box sli_leaf_box(const sl_space *space, uint32_t leaf);
 double sli_grid_line(const sl_box *bounds, int axis, uint32_t line, uint32_t grid);
 
 /// Finds the faces between view cells.
-sl_status sli_regions_find_faces(sl_context *context, sl_regions *scene);
+sl_status sli_from_region_find_faces(sl_context *context, sl_from_region_scene *scene);
 
 /// Assigns leaves to view cells; finds the objects.
-sl_status sli_regions_find_view_cells(sl_context *context, const sl_regions_options *options,
-                                      sl_regions *scene);
-sl_status sli_regions_find_objects(sl_context *context, const sl_regions_options *options,
-                                   sl_regions *scene);
+sl_status sli_from_region_find_view_cells(sl_context *context,
+                                          const sl_from_region_scene_options *options,
+                                          sl_from_region_scene *scene);
+sl_status sli_from_region_find_objects(sl_context *context,
+                                       const sl_from_region_scene_options *options,
+                                       sl_from_region_scene *scene);
 
 /// SL_BAD_INPUT, with the cycle named, where view cells depend on each other in a cycle in some
 /// quadrant. Where the options say so it cuts one of them in two instead and sets *cut: the caller
 /// then finds faces and orders anew.
-sl_status sli_regions_check_cycles(sl_context *context, const sl_regions_options *options,
-                                   sl_regions *scene, bool *cut);
+sl_status sli_from_region_check_cycles(sl_context *context,
+                                       const sl_from_region_scene_options *options,
+                                       sl_from_region_scene *scene, bool *cut);
 
 /// Objects, occluders included.
-static inline uint32_t sli_regions_objects(const sl_regions *scene) {
+static inline uint32_t sli_from_region_objects(const sl_from_region_scene *scene) {
     return scene->counts.objects + scene->occluders;
 }
 
-static inline sl_bits *sli_regions_inside(const sl_regions *scene, uint32_t view_cell) {
+static inline sl_bits *sli_from_region_inside(const sl_from_region_scene *scene,
+                                              uint32_t view_cell) {
     return scene->inside + view_cell * scene->words;
 }
 
@@ -124,7 +128,7 @@ typedef struct sli_from_region_account {
 } sli_from_region_account;
 
 typedef struct sli_from_region_solver_calls {
-    sl_status (*create)(sl_context *context, const sl_regions *scene,
+    sl_status (*create)(sl_context *context, const sl_from_region_scene *scene,
                         const sl_from_region_options *options, void **state);
     void (*destroy)(sl_context *context, void *state);
     /// Adds what is seen to `seen`.

@@ -5,14 +5,14 @@
 /// cell. A pass has two orders in which those behind come first: of view cells, by the dependence
 /// graph of their faces; and of all leaves, by taking the farther side of each split first. Cost:
 /// O(leaves) a quadrant, besides the kd-tree.
-#include "from_region/regions.h"
+#include "from_region/scene.h"
 
 #include "space/kd_tree.h"
 
 #include <string.h>
 
-sl_regions_options sl_regions_options_default(void) {
-    return (sl_regions_options){
+sl_from_region_scene_options sl_from_region_scene_options_default(void) {
+    return (sl_from_region_scene_options){
         .view_cells = SL_VIEW_CELLS_GRID, .grid = 8, .objects = SL_OBJECTS_GROUPS, .groups = 1800};
 }
 
@@ -47,7 +47,8 @@ static sl_status add_borders_of_boxes(sl_context *context, sl_map *map) {
 }
 
 static sl_status subdivide(sl_context *context, const sl_map *map,
-                           const sl_regions_options *options, sl_regions *scene) {
+                           const sl_from_region_scene_options *options,
+                           sl_from_region_scene *scene) {
     SL_TRY(copy_map(context, map, &scene->map));
     if (options->view_cells == SL_VIEW_CELLS_GRID)
         SL_TRY(add_grid(context, &scene->map, options->grid));
@@ -67,8 +68,8 @@ static sli_direction_sector quadrant_cone(int quadrant) {
 }
 
 /// Lists, for each view cell, those behind its faces. There is room for all faces.
-static void link_view_cells(const sl_regions *scene, const sli_pass *pass, uint32_t *first,
-                            uint32_t *to) {
+static void link_view_cells(const sl_from_region_scene *scene, const sli_pass *pass,
+                            uint32_t *first, uint32_t *to) {
     uint32_t count = 0;
     for (uint32_t cell = 0; cell < scene->counts.view_cells; cell++) {
         first[cell] = count;
@@ -98,14 +99,14 @@ static uint32_t most_dependents(const sli_dependence *graph, uint32_t *last, uin
     return most;
 }
 
-static sl_status find_orders(sl_context *context, sl_regions *scene) {
+static sl_status find_orders(sl_context *context, sl_from_region_scene *scene) {
     const size_t count = scene->counts.view_cells;
     uint32_t *first = sl_alloc_array(context, count + 1, 3 * sizeof *first);
     uint32_t *to = sl_alloc_array(context, scene->faces.count, sizeof *to);
     sl_status status = first && to ? SL_OK : SL_NO_MEMORY;
     scene->counts.dependents = 0;
     for (int q = 0; q < SLI_QUADRANTS && status == SL_OK; q++) {
-        sli_regions_pass *pass = &scene->passes[q];
+        sli_from_region_pass *pass = &scene->passes[q];
         link_view_cells(scene, &pass->leaves, first, to);
         const sli_dependence graph = {scene->counts.view_cells, first, to};
         const uint32_t most = most_dependents(&graph, first + count + 1, first + 2 * (count + 1));
@@ -143,7 +144,7 @@ static sl_status place_leaves(sl_context *context, const sl_space *space, int qu
     return placed ? SL_OK : SL_NO_MEMORY;
 }
 
-static sl_status make_passes(sl_context *context, sl_regions *scene) {
+static sl_status make_passes(sl_context *context, sl_from_region_scene *scene) {
     for (int q = 0; q < SLI_QUADRANTS; q++) {
         SL_TRY(sli_pass_create(context, &scene->space, true, quadrant_cone(q),
                                &scene->passes[q].leaves));
@@ -154,20 +155,20 @@ static sl_status make_passes(sl_context *context, sl_regions *scene) {
 
 // --- the whole
 
-static sl_status mark_inside(sl_context *context, sl_regions *scene) {
+static sl_status mark_inside(sl_context *context, sl_from_region_scene *scene) {
     scene->inside =
         sl_alloc_array(context, scene->counts.view_cells, scene->words * sizeof *scene->inside);
     if (!scene->inside) return SL_NO_MEMORY;
     for (size_t i = 0; i < scene->items.count; i++) {
         const uint32_t cell = scene->view_cell[scene->items.items[i].leaf];
         if (cell != SL_NO_VIEW_CELL)
-            sl_bits_add(sli_regions_inside(scene, cell), scene->items.items[i].object);
+            sl_bits_add(sli_from_region_inside(scene, cell), scene->items.items[i].object);
     }
     return SL_OK;
 }
 
 static sl_status check_options(sl_context *context, const sl_map *map,
-                               const sl_regions_options *options) {
+                               const sl_from_region_scene_options *options) {
     const bool boxes =
         options->view_cells == SL_VIEW_CELLS_BOXES || options->objects == SL_OBJECTS_BOXES;
     if (options->grid < 1 || options->grid > SL_VIEW_GRID_MOST)
@@ -181,37 +182,38 @@ static sl_status check_options(sl_context *context, const sl_map *map,
     return SL_OK;
 }
 
-static sl_status make(sl_context *context, const sl_map *map, const sl_regions_options *options,
-                      sl_regions *scene) {
+static sl_status make(sl_context *context, const sl_map *map,
+                      const sl_from_region_scene_options *options, sl_from_region_scene *scene) {
     SL_TRY(check_options(context, map, options));
     SL_TRY(sli_check_has_walls(context, map));
     SL_TRY(subdivide(context, map, options, scene));
-    SL_TRY(sli_regions_find_view_cells(context, options, scene));
+    SL_TRY(sli_from_region_find_view_cells(context, options, scene));
     SL_TRY(make_passes(context, scene));
     for (bool cut = true; cut;) {
         SL_TRY(sl_check_cancelled(context));
-        SL_TRY(sli_regions_check_cycles(context, options, scene, &cut));
+        SL_TRY(sli_from_region_check_cycles(context, options, scene, &cut));
         if (!cut) break;
-        SL_TRY(sli_regions_find_faces(context, scene));
+        SL_TRY(sli_from_region_find_faces(context, scene));
         SL_TRY(find_orders(context, scene));
     }
-    SL_TRY(sli_regions_find_objects(context, options, scene));
+    SL_TRY(sli_from_region_find_objects(context, options, scene));
     return mark_inside(context, scene);
 }
 
-sl_status sl_regions_create(sl_context *context, const sl_map *map,
-                            const sl_regions_options *options, sl_regions **out) {
-    sl_regions *scene = sl_alloc_array(context, 1, sizeof *scene);
+sl_status sl_from_region_scene_create(sl_context *context, const sl_map *map,
+                                      const sl_from_region_scene_options *options,
+                                      sl_from_region_scene **out) {
+    sl_from_region_scene *scene = sl_alloc_array(context, 1, sizeof *scene);
     if (!scene) return SL_NO_MEMORY;
     const sl_status status = make(context, map, options, scene);
     if (status == SL_OK)
         *out = scene;
     else
-        sl_regions_destroy(context, scene);
+        sl_from_region_scene_destroy(context, scene);
     return status;
 }
 
-void sl_regions_destroy(sl_context *context, sl_regions *scene) {
+void sl_from_region_scene_destroy(sl_context *context, sl_from_region_scene *scene) {
     if (!scene) return;
     for (uint32_t i = 0; scene->names && i < scene->counts.view_cells; i++)
         sl_free(context, scene->names[i]);
@@ -236,6 +238,6 @@ void sl_regions_destroy(sl_context *context, sl_regions *scene) {
     sl_free(context, scene);
 }
 
-sl_regions_counts sl_regions_count(const sl_regions *scene) {
+sl_from_region_counts sl_from_region_scene_count(const sl_from_region_scene *scene) {
     return scene->counts;
 }

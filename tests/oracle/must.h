@@ -1,0 +1,13 @@
+/// Memory of the oracles.
+#ifndef SL_TESTS_ORACLE_MUST_H
+#define SL_TESTS_ORACLE_MUST_H
+
+#include <stdlib.h>
+
+/// The block, if there is one: without memory an oracle says nothing.
+static inline void *must(void *block) {
+    if (!block) abort();
+    return block;
+}
+
+#endif

@@ -1,0 +1,44 @@
+/// What `sightline check` says of a map: its faults as text or JSON, and the next command to run.
+#ifndef FAULTS_REPORT_H
+#define FAULTS_REPORT_H
+
+#include "json_print.h"
+#include "pipeline.h"
+#include "sightline/faults.h"
+
+/// A map with its space and its faults.
+typedef struct checked {
+    sl_map map;     ///< as read: walls with their lines
+    sl_baked baked; ///< its space, and the rest of the map for the picture
+    sl_faults faults;
+    sl_inside inside;
+    double gap;  ///< up to which gaps were looked for
+    bool mended; ///< snapped: the map's own cells are gone
+} checked;
+
+typedef struct faults_report {
+    const char *input;
+    const checked *found;
+    double gap, thin;
+    const char *mended; ///< the file written; NULL for none
+    sl_snap_account snap;
+    const checked *left; ///< the mended map
+    double helps;        ///< a larger gap that closes a leak; 0 for none
+    double weld;         ///< a tolerance that closes gaps of rounding; 0 for none
+    uint64_t most;       ///< of a kind, in the text
+    const char *picture; ///< NULL for none
+    const options_given *given;
+} faults_report;
+
+/// Whether --strict fails.
+bool checked_has_fault(const checked *c);
+
+void faults_print(const faults_report *report);
+sl_status faults_print_json(sl_context *context, const faults_report *report);
+
+/// One line: "E1M1: 475 walls, 250 cells; 2 leaks, 1 gap".
+void faults_print_line(const char *name, const checked *c);
+/// The same as the fields of an object.
+json_fields faults_line_fields(const char *name, const checked *c);
+
+#endif
