@@ -73,20 +73,11 @@ static void put_place(sl_geojson_writer *out, sl_point p) {
 static void put_ring(sl_geojson_writer *out, const sl_point *points, size_t count) {
     sl_json_put_list(&out->json);
     for (size_t i = 0; i < count; i++)
-        if (!sli_same_point(points[i], points[i ? i - 1 : count - 1])) put_place(out, points[i]);
+        if (!sli_corner_repeats(points, count, i)) put_place(out, points[i]);
     size_t first = 0;
-    while (first + 1 < count &&
-           sli_same_point(points[first], points[first ? first - 1 : count - 1]))
-        first++;
+    while (first + 1 < count && sli_corner_repeats(points, count, first)) first++;
     put_place(out, points[first]);
     sl_json_put_end(&out->json, ']');
-}
-
-static size_t count_different(const sl_point *points, size_t count) {
-    size_t different = 0;
-    for (size_t i = 0; i < count; i++)
-        different += !sli_same_point(points[i], points[i ? i - 1 : count - 1]);
-    return different;
 }
 
 void sl_geojson_put_point(sl_geojson_writer *out, const char *kind, sl_point at) {
@@ -106,7 +97,7 @@ void sl_geojson_put_line(sl_geojson_writer *out, const char *kind, sl_point a, s
 
 void sl_geojson_put_polygon(sl_geojson_writer *out, const char *kind, const sl_point *points,
                             size_t count) {
-    if (count_different(points, count) < 3) {
+    if (sli_distinct_corners(points, count) < 3) {
         put_nothing(out, kind);
         return;
     }

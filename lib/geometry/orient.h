@@ -19,6 +19,18 @@ static inline bool sli_same_point(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
+/// Whether corner i of a polygon is where the corner before it is.
+static inline bool sli_corner_repeats(const sl_point *corners, size_t count, size_t i) {
+    return sli_same_point(corners[i], corners[i ? i - 1 : count - 1]);
+}
+
+/// How many corners a polygon has where repeated ones count once.
+static inline size_t sli_distinct_corners(const sl_point *corners, size_t count) {
+    size_t distinct = 0;
+    for (size_t i = 0; i < count; i++) distinct += !sli_corner_repeats(corners, count, i);
+    return distinct;
+}
+
 /// The order of points: by x, then by y. The sign of a - b.
 static inline int sli_compare_points(sl_point a, sl_point b) {
     if (a.x != b.x) return a.x < b.x ? -1 : 1;

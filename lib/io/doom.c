@@ -5,6 +5,7 @@
 /// convex subsectors that a node builder cut the map into (glBSP's GL nodes, versions 1, 2, 3 and
 /// 5, as its document "Specification for GL Nodes" has them: GL_VERT, GL_SEGS and GL_SSECT; the
 /// tree of GL_NODES is not needed).
+#include "geometry/orient.h"
 #include "io/wad.h"
 #include "sightline/io.h"
 
@@ -159,10 +160,10 @@ static sl_status add_subsector(gl_nodes *gl, size_t index, sl_map *out) {
             "map %s, lump GL_SSECT, subsector %zu: segs %lu to %lu, but there are %zu",
             gl->map->name, index, (unsigned long)first, (unsigned long)first + count,
             gl->segs.count);
-    // Rounding to whole numbers, as version 1 does, leaves some no area.
-    if (count < 3) return SL_OK;
     gl->corners.count = 0;
     for (uint32_t i = 0; i < count; i++) SL_TRY(add_corner(gl, first + i));
+    // Rounding to whole numbers, as version 1 does, leaves some no area.
+    if (sli_distinct_corners(gl->corners.items, count) < 3) return SL_OK;
     return sl_map_add_cell(gl->context, out, gl->corners.items, count, 0);
 }
 

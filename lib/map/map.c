@@ -1,6 +1,7 @@
 /// The map: adding, copying, bounds.
 #include "sightline/map.h"
 
+#include "geometry/orient.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 
@@ -196,16 +197,17 @@ sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, 
 
 sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
                           uint32_t line) {
-    if (count < 3 || count > UINT32_MAX)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell: expected at least three corners");
     for (size_t i = 0; i < count; i++) SL_TRY(check_point(context, "cell", corners[i]));
-    const size_t total = map->corner_count + count;
+    const size_t distinct = sli_distinct_corners(corners, count);
+    if (distinct < 3 || distinct > UINT32_MAX)
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell: expected at least three different corners");
+    const size_t total = map->corner_count + distinct;
     SL_TRY(MAP_ROOM(context, map, cells, cell));
     SL_TRY(sl_reserve(context, &map->corners, &map->corner_room, total, sizeof *map->corners));
-    memcpy(map->corners + map->corner_count, corners, count * sizeof *corners);
     map->cells[map->cell_count++] =
-        (sl_map_cell){.first = map->corner_count, .count = (uint32_t)count, .line = line};
-    map->corner_count = total;
+        (sl_map_cell){.first = map->corner_count, .count = (uint32_t)distinct, .line = line};
+    for (size_t i = 0; i < count; i++)
+        if (!sli_corner_repeats(corners, count, i)) map->corners[map->corner_count++] = corners[i];
     return SL_OK;
 }
 

@@ -5,6 +5,7 @@
 /// behind a statement to that one. The writer prints them with the first thing that has this line;
 /// walls, doors and cells go by kinds, so comments move along with theirs. What is left (the
 /// statement is gone, as a wall that cleaning joined with another) stands at the end.
+#include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/support.h"
@@ -167,7 +168,10 @@ static sl_status read_cell(text_reader *reader) {
     sl_point *points = copy_points(reader, &count);
     if (!points) return SL_NO_MEMORY;
     const sl_status status =
-        sl_map_add_cell(reader->context, reader->map, points, count, reader->line);
+        sli_distinct_corners(points, count) < 3
+            ? sl_fail_at(reader->context, reader->name, reader->line,
+                         "cell: expected at least three different corners")
+            : sl_map_add_cell(reader->context, reader->map, points, count, reader->line);
     sl_free(reader->context, points);
     return status;
 }

@@ -342,7 +342,7 @@ static const char *const own_maps[] = {
     "mirror 0 0 1 0 one\nmirror 0 2 1 2.3\noneway 2 0 3 0.1\nseam 4 0 5 0.7\n"
     "start 1 2 -90\nstart 0.3 0.1 17.3\nstart 18 -3 450\n"
     "path tour&<\"> 1 1 2 2 3 1\npath line 1 1 2 1\nobject box-1 1 1 2 2.5\n"
-    "snap 0.25\ncell 0 0 1 0 1 1\ncell 1 0 2 0 2 1 1 1\n",
+    "snap 0.25\ncell 0 0 1 0 1 1\ncell 1 0 2 0 2 1 1 1\ncell 3 0 3 0 4 0 4 1 4 1 3 1 3 0\n",
     "wall -1000000000000000 3 1000000000000000 3\nwall 0 -1e-7 1e-9 0.1\nstart 0 1 0\n",
     "walls 0 -100 50 -100 50 -60 0 -60 0 -100\nstart 1 -70.123456789012345 1e-5\n",
     "wall 0.1 0.2 0.3 0.7\nwall 1e20 1e20 2e20 3e20\nmirror 0.1 0.7 0.3 0.9\n",

@@ -191,7 +191,8 @@ SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *n
 /// Adds an object. As sl_map_add_wall.
 SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                                    uint32_t line);
-/// Adds a cell of `count` corners, at least 3, either way round. As sl_map_add_wall.
+/// Adds a cell of `count` corners, either way round. A corner where the one before it is, is left
+/// out; at least 3 must remain. As sl_map_add_wall.
 SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
 /// Drops the map's own cells.
