@@ -203,15 +203,13 @@ export class Figure {
         this.camera.fit(this.shown, 16);
     }
 
-    /** Computes, says and draws. `frame` is the time that it took, in milliseconds. */
+    /** Computes, says and draws. */
     change() {
-        const begin = performance.now();
         this.spec.update(this.state, this.lab);
         if (this.box !== this.shown) this.fit();
         this.says.textContent = this.spec.tell(this.state);
         if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));
         this.draw();
-        this.frame = performance.now() - begin;
     }
 
     draw() {

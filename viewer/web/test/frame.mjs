@@ -1,5 +1,6 @@
 /**
- * How long a step of a drag takes: native code, Node and Chromium in one run, as a table. It is no test.
+ * How long a step of a drag takes in the playground (native code, Node and Chromium in one run) and in each figure of
+ * the course, as two tables. It is no test.
  * SITE names the built site, TOOLS a folder with playwright-core, SIGHTLINE the native program.
  *
  *     sh viewer/web/test/run.sh frame FOLDER PROGRAM
@@ -7,7 +8,7 @@
  * A wall of the map is moved a little, again and again. Native: the least of the stages of a bake. Node: the
  * least processor time of a bake and of a look from the eye. Chromium: the processor time of a step, on average over
  * the steps of a round, of the page alone (it draws) and of its whole process, with the worker; and the median time from
- * the move to the picture. Of rounds the least counts.
+ * the move to the picture. Of rounds the least counts. A figure: the least time from a move to the last line drawn.
  */
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -93,6 +94,27 @@ async function inPage(page, session, text) {
         cells: await page.evaluate(() => window.playground.plan.cellCount), walls: await page.evaluate(() => window.playground.doc.items.filter((item) => item.kind === 'wall').length) };
 }
 
+/** By chapter, the milliseconds of each of its figures. */
+async function figuresOf(page) {
+    await page.goto(`${site.address}/course/index.html`);
+    const chapters = await page.locator('main td a').evaluateAll((links) => links.map((a) => a.getAttribute('href')));
+    const rows = [];
+    for (const chapter of chapters) {
+        await page.goto(`${site.address}/course/${chapter}`);
+        await page.waitForSelector('main[data-ready]');
+        rows.push([chapter.replace('.html', ''), await page.locator('main > figure').evaluateAll((hosts, rounds) => hosts.map((host) => {
+            let least = Infinity;
+            for (let k = 0; k < rounds; k++) {
+                const from = performance.now();
+                host.figure.change();
+                least = Math.min(least, performance.now() - from);
+            }
+            return least;
+        }), STEPS)]);
+    }
+    return rows;
+}
+
 const site = await serve(SITE), browser = await launch('chromium');
 try {
     const page = await (await browser.newContext({ viewport: { width: 1280, height: 800 } })).newPage();
@@ -108,6 +130,8 @@ try {
         const times = [nativeBake(path('x.map')), node.bake, node.look, shown.page, shown.all, shown.median].map((time) => time.toPrecision(3));
         console.log(`| ${kind}${turn.length ? ', turned' : ''} | ${shown.walls} | ${shown.cells} | ${times.join(' | ')} |`);
     }
+    console.log('\n| chapter | its figures |\n| --- | --- |');
+    for (const [chapter, times] of await figuresOf(page)) console.log(`| ${chapter} | ${times.map((time) => time.toPrecision(2)).join(', ')} |`);
 } finally {
     await browser.close();
     site.close();
