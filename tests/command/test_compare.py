@@ -205,7 +205,7 @@ class Compare(sandbox.ProgramTest):
     def test_progress_names_the_run(self):
         self.box.path("hall.map").write_text(pillars(24))
         master, slave = os.openpty()
-        process = self.box.start(["compare", "hall.map", "--time-limit", "1", "--methods", "dfs",
+        process = self.box.start(["compare", "hall.map", "--time-limit", "2", "--methods", "dfs",
                                   "--solvers", "funnel,glpk"], stderr=slave)
         os.close(slave)
         text = sandbox.read_terminal(master).decode()

@@ -53,7 +53,7 @@ async function saved(page, button) {
         window.lastSaved = null;
         URL.createObjectURL = (blob) => make.call(URL, (window.lastSaved = blob));
     });
-    const comes = page.waitForEvent('download', { timeout: 5000 }).catch(() => null);
+    const comes = page.waitForEvent('download').catch(() => null);
     await page.click(`[data-do=${button}]`);
     await page.waitForFunction(() => window.lastSaved);
     const copy = await page.evaluate(async () => [...new Uint8Array(await window.lastSaved.arrayBuffer())]);
