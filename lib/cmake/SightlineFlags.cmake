@@ -17,6 +17,8 @@ target_compile_definitions(sightline_flags INTERFACE _XOPEN_SOURCE=700
 if(MINGW) # its printf as C has it, and nothing to install beside a program
   target_compile_definitions(sightline_flags INTERFACE __USE_MINGW_ANSI_STDIO=1)
   target_link_options(sightline_flags INTERFACE -static)
+else() # files of any size and number where sizes have 32 bits
+  target_compile_definitions(sightline_flags INTERFACE _FILE_OFFSET_BITS=64)
 endif()
 target_compile_options(sightline_flags INTERFACE
   # Contracting a multiply and an add changes the signs that exact predicates compute.

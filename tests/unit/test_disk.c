@@ -66,10 +66,16 @@ int __wrap_fclose(FILE *stream) {
     return refused ? EOF : closed;
 }
 
-int __real_mkstemp(char *path);
+/// The name of mkstemp for files of any size: on machines of 32 bits it is another function.
+int __real_mkstemp64(char *path);
+int __wrap_mkstemp64(char *path);
+int __wrap_mkstemp64(char *path) {
+    return is_refused(MKSTEMP) ? -1 : __real_mkstemp64(path);
+}
+
 int __wrap_mkstemp(char *path);
 int __wrap_mkstemp(char *path) {
-    return is_refused(MKSTEMP) ? -1 : __real_mkstemp(path);
+    return __wrap_mkstemp64(path);
 }
 
 // --- a folder with an older file
