@@ -384,9 +384,8 @@ void range_set(app_state *app, double range) {
 }
 
 void range_settle(app_state *app) {
-    const edit_history *history = &app->document.history;
-    const size_t kept = history->done_count;
-    if (kept && history->done[kept - 1].range == app->document.map.range)
+    const kept_maps *done = &app->document.history.done;
+    if (done->count && done->items[done->count - 1].map.range == app->document.map.range)
         history_forget_last(app->context, &app->document.history);
     if (app->document.baked->map.range != app->document.map.range) app_after_edit(app);
 }

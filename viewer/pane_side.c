@@ -345,8 +345,8 @@ void pane_draw(app_state *app, sl_box box) {
                                : "Drag a wall, a corner or a door: moves it. Esc takes that back.");
     rule(&app->ui, &c, "Click a wall or a door: chooses it. Delete: deletes it.");
     snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
-             app->document.map.wall_count, app->document.history.done_count,
-             app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
+             app->document.map.wall_count, app->document.history.done.count,
+             app->document.history.done.count == 1 ? "" : "s", app->document.history.undone.count);
     rule(&app->ui, &c, text);
     column_layers(app, &c);
     column_legend(app, &c);

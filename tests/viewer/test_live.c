@@ -347,7 +347,7 @@ static void test_taken_back(void **state) {
         wait_for_all(app);
         assert_int_equal(app->document.map.wall_count, count);
         assert_memory_equal(app->document.map.walls, before, count * sizeof *before);
-        assert_int_equal(app->document.history.done_count, 0);
+        assert_int_equal(app->document.history.done.count, 0);
         assert_fresh(app, true);
         free(before);
         viewer_end(app);
