@@ -225,7 +225,7 @@ void mirror_drop(app_state *app, const drag_state *drag) {
     const sl_map *map = &app->document.map;
     if (!drag->changed || drag->index >= map->mirror_count) return;
     const sl_segment s = map->mirrors[drag->index].segment;
-    ui_say(&app->ui, false, "mirror from %g,%g to %g,%g", s.a.x, s.a.y, s.b.x, s.b.y);
+    ui_say(&app->ui, false, "mirror from %.10g,%.10g to %.10g,%.10g", s.a.x, s.a.y, s.b.x, s.b.y);
     app_after_edit(app);
 }
 
@@ -311,7 +311,8 @@ void object_move(app_state *app, drag_state *drag, sl_point now) {
     if (!drag->changed) app_keep(app);
     drag->changed = true;
     *box = to;
-    ui_say(&app->ui, false, "%s at %g,%g", map->objects[drag->index].name, to.min.x, to.min.y);
+    ui_say(&app->ui, false, "%s at %.10g,%.10g", map->objects[drag->index].name, to.min.x,
+           to.min.y);
     app_after_touch(app);
 }
 
