@@ -159,9 +159,7 @@ DO(heat_finer, heat_step_by(app, 1))
 /// Shows what lies beside the part of the map that is shown, an eighth of the plan further.
 static void pan(app_state *app, int x, int y) {
     const sl_box plan = app_layout(app).plan[0];
-    app->view.fitted = false;
-    app->view.motion = 0.2;
-    camera_pan(&app->view.camera, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
+    view_pan(app, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
 }
 
 DO(pan_left, pan(app, -1, 0))
@@ -170,15 +168,8 @@ DO(pan_up, pan(app, 0, -1))
 DO(pan_down, pan(app, 0, 1))
 
 DO(fit, app->view.fitted = true)
-
-static void zoom(app_state *app, double factor) {
-    app->view.fitted = false;
-    app->view.motion = 0.2;
-    if (app->view.camera.scale > 0) camera_zoom(&app->view.camera, factor, (sl_point){0, 0});
-}
-
-DO(zoom_in, zoom(app, 1.25))
-DO(zoom_out, zoom(app, 1 / 1.25))
+DO(zoom_in, view_zoom(app, 1.25, (sl_point){0, 0}))
+DO(zoom_out, view_zoom(app, 1 / 1.25, (sl_point){0, 0}))
 
 /// Goes to the next size of text, or back.
 static void text_step(app_state *app, bool larger) {
@@ -338,7 +329,7 @@ static void undo(app_state *app) {
 }
 
 DO(redo, travel(app, true))
-DO(delete_wall, edit_delete(app))
+DO(delete_chosen, edit_delete(app))
 
 static void draw_doors(app_state *app) {
     app->tool.draws_doors = !app->tool.draws_doors;
@@ -553,7 +544,7 @@ static const action_row actions[] = {
 
     {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
-    {"delete", "Delete", "Delete", "draw: delete the chosen wall or door", DRAW, 0, delete_wall,
+    {"delete", "Delete", "Delete", "draw: delete the chosen wall or door", DRAW, 0, delete_chosen,
      NULL},
     {"draw_doors", "X", "New doors, no walls", "draw: new doors, or new walls", DRAW, 0, draw_doors,
      is_draw_doors},

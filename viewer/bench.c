@@ -112,10 +112,8 @@ static void move(app_state *app, int part, unsigned frame) {
     } else if (part == 1) { // looks round
         app->view.eye.heading = fmod(app->view.eye.heading + 2, 360);
     } else { // pans and zooms
-        app->view.fitted = false;
-        app->view.motion = 0.2;
-        camera_pan(&app->view.camera, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
-        camera_zoom(&app->view.camera, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
+        view_pan(app, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
+        view_zoom(app, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
     }
 }
 

@@ -206,12 +206,11 @@ static sl_point place_at(const app_state *app, sl_point at) {
     return find_corner(app, at, &corner) ? corner : edit_snap(app, at);
 }
 
-/// Along a wall a door lies in that wall, which is the drag's index.
-static sl_segment door_between(const app_state *app, drag_state *drag, sl_point now) {
-    drag->index = pick_along(app, drag->at, now);
-    if (drag->index == UINT32_MAX) return (sl_segment){place_at(app, drag->at), place_at(app, now)};
-    const sl_wall *wall = &app->document.map.walls[drag->index];
-    return (sl_segment){place_on(app, wall, drag->at), place_on(app, wall, now)};
+/// Along a wall a door lies in that wall; UINT32_MAX: along none.
+static sl_segment door_between(const app_state *app, uint32_t along, sl_point from, sl_point to) {
+    if (along == UINT32_MAX) return (sl_segment){place_at(app, from), place_at(app, to)};
+    const sl_wall *wall = &app->document.map.walls[along];
+    return (sl_segment){place_on(app, wall, from), place_on(app, wall, to)};
 }
 
 /// A name that no door has: "door1".
@@ -236,22 +235,30 @@ static bool begin_door(app_state *app, drag_state *drag, sl_segment at) {
            hold(app, DOORS, map->door_count - 1, true);
 }
 
+/// The drag's index is the wall that the door lies in.
 static void drag_door(app_state *app, drag_state *drag, sl_point now) {
-    sl_map *map = &app->document.map;
-    const uint32_t before = drag->index;
-    const sl_segment at = door_between(app, drag, now);
-    if (is_same(at.a, at.b) || !is_usable(at.a) || !is_usable(at.b)) {
-        drag->index = before;
+    const uint32_t along = pick_along(app, drag->at, now);
+    const sl_segment at = door_between(app, along, drag->at, now);
+    if (is_same(at.a, at.b) || !is_usable(at.a) || !is_usable(at.b)) return;
+    drag->index = along;
+    if (!drag->changed) {
+        if (begin_door(app, drag, at)) app_after_step(app);
         return;
     }
-    if (!drag->changed && !begin_door(app, drag, at)) return;
-    if (!app->tool.ends.count || !map->door_count) return;
-    map->doors[map->door_count - 1].segment = at;
+    sl_map *map = &app->document.map;
+    if (!app->tool.ends.count || app->tool.ends.items[0].index >= map->door_count) return;
+    sl_segment *door = &map->doors[app->tool.ends.items[0].index].segment;
+    if (is_same(door->a, at.a) && is_same(door->b, at.b)) return;
+    *door = at;
     app_after_step(app);
 }
 
-/// What a door leaves of the wall that it lies in.
-static void cut_wall(app_state *app, uint32_t wall, sl_segment door) {
+static void say_last_wall(app_state *app) {
+    ui_say(&app->ui, true, "the last wall stays: a map without walls has no cells");
+}
+
+/// Leaves of a wall what is beside the door in it; false if that is the last wall and nothing is.
+static bool cut_wall(app_state *app, uint32_t wall, sl_segment door) {
     sl_map *map = &app->document.map;
     sl_wall parts[2] = {map->walls[wall], map->walls[wall]};
     const sl_point a = parts[0].a;
@@ -259,10 +266,13 @@ static void cut_wall(app_state *app, uint32_t wall, sl_segment door) {
         hypot(door.b.x - a.x, door.b.y - a.y) < hypot(door.a.x - a.x, door.a.y - a.y);
     parts[0].b = turned ? door.b : door.a;
     parts[1].a = turned ? door.a : door.b;
+    if (map->wall_count == 1 && is_same(parts[0].a, parts[0].b) && is_same(parts[1].a, parts[1].b))
+        return false;
     map->walls[wall] = map->walls[--map->wall_count];
     for (int i = 0; i < 2; i++)
         if (!is_same(parts[i].a, parts[i].b))
             app_check(app, sl_map_add_walls(app->context, map, &parts[i], 1));
+    return true;
 }
 
 // --- drags
@@ -291,14 +301,15 @@ static void say_moved(app_state *app, const drag_state *drag) {
     const sl_point at = *end_of(&app->document.map, e->kind, e->index, e->second);
     if (drag->kind == DRAG_NEW_WALL) {
         const sl_point from = *end_of(&app->document.map, WALLS, e->index, false);
-        ui_say(&app->ui, false, "wall from %g,%g to %g,%g", from.x, from.y, at.x, at.y);
+        ui_say(&app->ui, false, "wall from %.10g,%.10g to %.10g,%.10g", from.x, from.y, at.x, at.y);
     } else if (drag->kind == DRAG_NEW_DOOR) {
         const sl_door *door = &app->document.map.doors[e->index];
         const sl_segment s = door->segment;
-        ui_say(&app->ui, false, "%s from %g,%g to %g,%g, open; in Explore a click shuts it",
-               door->name, s.a.x, s.a.y, s.b.x, s.b.y);
+        ui_say(&app->ui, false,
+               "%s from %.10g,%.10g to %.10g,%.10g, open; in Explore a click shuts it", door->name,
+               s.a.x, s.a.y, s.b.x, s.b.y);
     } else if (drag->kind == DRAG_CORNER) {
-        ui_say(&app->ui, false, "corner at %g,%g, %zu end%s moved", at.x, at.y,
+        ui_say(&app->ui, false, "corner at %.10g,%.10g, %zu end%s moved", at.x, at.y,
                app->tool.ends.count, app->tool.ends.count == 1 ? "" : "s");
     } else {
         ui_say(&app->ui, false, "%s moved by %g,%g", drag->kind == DRAG_DOOR ? "door" : "wall",
@@ -307,18 +318,21 @@ static void say_moved(app_state *app, const drag_state *drag) {
 }
 
 void edit_drop(app_state *app, const drag_state *drag) {
+    sl_map *map = &app->document.map;
     bool moved = drag->kind == DRAG_NEW_WALL || drag->kind == DRAG_NEW_DOOR;
     for (size_t i = 0; i < app->tool.ends.count && drag->changed; i++) {
         const held_end *e = &app->tool.ends.items[i];
-        if (e->index >= count_of(&app->document.map, e->kind)) return;
-        moved |= !is_same(e->was, *end_of(&app->document.map, e->kind, e->index, e->second));
+        if (e->index >= count_of(map, e->kind)) return;
+        moved |= !is_same(e->was, *end_of(map, e->kind, e->index, e->second));
     }
     if (drag->changed && app->tool.ends.count) {
-        if (!moved) history_take_back(app->context, &app->document.history, &app->document.map);
         if (moved) say_moved(app, drag);
-        if (drag->kind == DRAG_NEW_DOOR && drag->index < app->document.map.wall_count)
-            cut_wall(app, drag->index,
-                     app->document.map.doors[app->tool.ends.items[0].index].segment);
+        if (drag->kind == DRAG_NEW_DOOR && drag->index < map->wall_count &&
+            !cut_wall(app, drag->index, map->doors[app->tool.ends.items[0].index].segment)) {
+            say_last_wall(app);
+            moved = false;
+        }
+        if (!moved) history_take_back(app->context, &app->document.history, map);
         app->tool.chosen = UINT32_MAX;
         app_after_edit(app);
     }
@@ -356,7 +370,7 @@ void edit_delete(app_state *app) {
         return;
     }
     if (!door && map->wall_count == 1) {
-        ui_say(&app->ui, true, "the last wall stays: a map without walls has no cells");
+        say_last_wall(app);
         return;
     }
     app_before_edit(app);

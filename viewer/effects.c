@@ -225,7 +225,7 @@ void mirror_drop(app_state *app, const drag_state *drag) {
     const sl_map *map = &app->document.map;
     if (!drag->changed || drag->index >= map->mirror_count) return;
     const sl_segment s = map->mirrors[drag->index].segment;
-    ui_say(&app->ui, false, "mirror from %g,%g to %g,%g", s.a.x, s.a.y, s.b.x, s.b.y);
+    ui_say(&app->ui, false, "mirror from %.10g,%.10g to %.10g,%.10g", s.a.x, s.a.y, s.b.x, s.b.y);
     app_after_edit(app);
 }
 
@@ -311,7 +311,8 @@ void object_move(app_state *app, drag_state *drag, sl_point now) {
     if (!drag->changed) app_keep(app);
     drag->changed = true;
     *box = to;
-    ui_say(&app->ui, false, "%s at %g,%g", map->objects[drag->index].name, to.min.x, to.min.y);
+    ui_say(&app->ui, false, "%s at %.10g,%.10g", map->objects[drag->index].name, to.min.x,
+           to.min.y);
     app_after_touch(app);
 }
 
@@ -384,9 +385,8 @@ void range_set(app_state *app, double range) {
 }
 
 void range_settle(app_state *app) {
-    const edit_history *history = &app->document.history;
-    const size_t kept = history->done_count;
-    if (kept && history->done[kept - 1].range == app->document.map.range)
+    const kept_maps *done = &app->document.history.done;
+    if (done->count && done->items[done->count - 1].map.range == app->document.map.range)
         history_forget_last(app->context, &app->document.history);
     if (app->document.baked->map.range != app->document.map.range) app_after_edit(app);
 }

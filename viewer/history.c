@@ -4,49 +4,47 @@
 
 #include <string.h>
 
-static void clear(sl_context *context, sl_map *list, size_t *count) {
-    while (*count) sl_map_destroy(context, &list[--*count]);
-}
-
-/// Adds the number of a state as push adds its map: `count` is that after push.
-static void push_state(uint64_t *states, size_t count, uint64_t state, bool dropped) {
-    if (dropped) memmove(states, states + 1, (count - 1) * sizeof *states);
-    states[count - 1] = state;
+static void clear(sl_context *context, kept_maps *list) {
+    while (list->count) sl_map_destroy(context, &list->items[--list->count].map);
 }
 
 /// The oldest change is dropped for a new one.
-static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl_map *map) {
+static sl_status push(sl_context *context, kept_maps *list, const sl_map *map, uint64_t state) {
     sl_map copy = {0};
-    const sl_status status = sl_map_copy(context, map, &copy);
-    if (status != SL_OK) return status;
-    if (*count == HISTORY_MOST) {
-        sl_map_destroy(context, &list[0]);
-        memmove(list, list + 1, --*count * sizeof *list);
+    SL_TRY(sl_map_copy(context, map, &copy));
+    if (list->count == HISTORY_MOST) {
+        sl_map_destroy(context, &list->items[0].map);
+        memmove(list->items, list->items + 1, --list->count * sizeof *list->items);
     }
-    list[(*count)++] = copy;
+    list->items[list->count++] = (kept_map){copy, state};
     return SL_OK;
 }
 
+/// The last one of a list takes the map's place.
+static void pop(sl_context *context, edit_history *history, kept_maps *list, sl_map *map) {
+    const kept_map last = list->items[--list->count];
+    sl_map_destroy(context, map);
+    *map = last.map;
+    history->state = last.state;
+}
+
 sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map) {
-    const bool full = history->done_count == HISTORY_MOST;
-    clear(context, history->undone, &history->undone_count);
-    SL_TRY(push(context, history->done, &history->done_count, map));
-    push_state(history->done_state, history->done_count, history->state, full);
+    clear(context, &history->undone);
+    SL_TRY(push(context, &history->done, map, history->state));
     history->state = ++history->last_state;
     return SL_OK;
 }
 
 void history_forget_last(sl_context *context, edit_history *history) {
-    if (!history->done_count) return;
-    sl_map_destroy(context, &history->done[--history->done_count]);
-    history->state = history->done_state[history->done_count];
+    sl_map unused = {0};
+    if (!history->done.count) return;
+    pop(context, history, &history->done, &unused);
+    sl_map_destroy(context, &unused);
 }
 
 bool history_take_back(sl_context *context, edit_history *history, sl_map *map) {
-    if (!history->done_count) return false;
-    sl_map_destroy(context, map);
-    *map = history->done[--history->done_count];
-    history->state = history->done_state[history->done_count];
+    if (!history->done.count) return false;
+    pop(context, history, &history->done, map);
     return true;
 }
 
@@ -77,25 +75,18 @@ static bool same_bake(const sl_map *a, const sl_map *b) {
 
 bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
                   sl_status *status) {
-    sl_map *from = redo ? history->undone : history->done;
-    sl_map *to = redo ? history->done : history->undone;
-    size_t *from_count = redo ? &history->undone_count : &history->done_count;
-    size_t *to_count = redo ? &history->done_count : &history->undone_count;
-    const bool full = *to_count == HISTORY_MOST;
-    if (!*from_count) return false;
-    *status = push(context, to, to_count, map);
+    kept_maps *from = redo ? &history->undone : &history->done;
+    kept_maps *to = redo ? &history->done : &history->undone;
+    if (!from->count) return false;
+    *status = push(context, to, map, history->state);
     if (*status != SL_OK) return true;
-    push_state(redo ? history->done_state : history->undone_state, *to_count, history->state, full);
-    const sl_map last = from[--*from_count];
-    history->state = (redo ? history->undone_state : history->done_state)[*from_count];
-    *bake = !same_bake(map, &last);
-    sl_map_destroy(context, map);
-    *map = last;
+    *bake = !same_bake(map, &from->items[from->count - 1].map);
+    pop(context, history, from, map);
     return true;
 }
 
 void history_clear(sl_context *context, edit_history *history) {
-    clear(context, history->done, &history->done_count);
-    clear(context, history->undone, &history->undone_count);
+    clear(context, &history->done);
+    clear(context, &history->undone);
     history->state = ++history->last_state;
 }

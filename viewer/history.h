@@ -6,12 +6,21 @@
 
 enum { HISTORY_MOST = 100 };
 
+/// A map as it was, with the number of that state.
+typedef struct kept_map {
+    sl_map map;
+    uint64_t state;
+} kept_map;
+
+typedef struct kept_maps {
+    kept_map items[HISTORY_MOST];
+    size_t count;
+} kept_maps;
+
 /// Zeroed to start. Each state of the map has a number of its own, so that it is known again.
 typedef struct edit_history {
-    sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
-    uint64_t done_state[HISTORY_MOST], undone_state[HISTORY_MOST];
+    kept_maps done, undone;     ///< the last one is the nearest
     uint64_t state, last_state; ///< that of the map now, and the largest one given
-    size_t done_count, undone_count;
 } edit_history;
 
 /// Keeps the map as it is, before a change.

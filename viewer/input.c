@@ -29,18 +29,11 @@ static void cursor_begin(app_state *app, sl_box plan) {
     input_point(app, box_has(plan, eye) ? eye : middle_of(plan));
 }
 
-/// Moves the plan under the pointer, by pixels.
-static void pan(app_state *app, double dx, double dy) {
-    app->view.fitted = false;
-    app->view.motion = 0.2;
-    camera_pan(&app->view.camera, dx, dy);
-}
-
 /// At the border of the plan the plan moves instead.
 static void cursor_move(app_state *app, sl_box plan, sl_point to) {
     const sl_point at = {fmin(fmax(to.x, plan.min.x), plan.max.x - 1),
                          fmin(fmax(to.y, plan.min.y), plan.max.y - 1)};
-    if (at.x != to.x || at.y != to.y) pan(app, at.x - to.x, at.y - to.y);
+    if (at.x != to.x || at.y != to.y) view_pan(app, at.x - to.x, at.y - to.y);
     input_point(app, at);
 }
 
@@ -404,7 +397,7 @@ static void input_point(app_state *app, sl_point to) {
     switch (drag->kind) {
     case DRAG_PAN:
         if (!drag->moved) return;
-        pan(app, dx, dy);
+        view_pan(app, dx, dy);
         break;
     case DRAG_LOOK:
         app->view.eye.heading = fmod(app->view.eye.heading - 0.4 * dx + 720, 360);
@@ -483,12 +476,10 @@ void input_wheel(app_state *app, double steps) {
     if (area >= 0 || app->ui.help) return;
     const window_layout l = app_layout(app);
     for (int i = 0; i < l.plan_count; i++) {
-        if (!box_has(l.plan[i], app->tool.pointer) || !(app->view.camera.scale > 0)) continue;
+        if (!box_has(l.plan[i], app->tool.pointer)) continue;
         const sl_point middle = {(l.plan[i].min.x + l.plan[i].max.x) / 2,
                                  (l.plan[i].min.y + l.plan[i].max.y) / 2};
-        app->view.fitted = false;
-        app->view.motion = 0.2;
-        camera_zoom(&app->view.camera, pow(1.2, steps),
-                    (sl_point){app->tool.pointer.x - middle.x, app->tool.pointer.y - middle.y});
+        view_zoom(app, pow(1.2, steps),
+                  (sl_point){app->tool.pointer.x - middle.x, app->tool.pointer.y - middle.y});
     }
 }

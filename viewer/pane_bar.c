@@ -111,7 +111,7 @@ static void write_place(const app_state *app, char text[64]) {
     if (app->tool.mode != MODE_DRAW || !app->document.baked || !box_has(plan, app->tool.pointer))
         return;
     const sl_point at = edit_snap(app, camera_point(&app->view.camera, plan, app->tool.pointer));
-    snprintf(text, 64, "at %g, %g   ", at.x, at.y);
+    snprintf(text, 64, "at %.10g, %.10g   ", at.x, at.y);
 }
 
 /// What the viewer does, at the right end of the line. Returns its left end.

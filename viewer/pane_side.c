@@ -332,21 +332,24 @@ static void rule(ui_state *ui, column *c, const char *text) {
 
 void pane_draw(app_state *app, sl_box box) {
     column c = column_begin(&app->ui, box);
-    char text[160];
+    const bool doors = app->tool.draws_doors;
+    char walls[SL_COUNT_TEXT], steps[SL_COUNT_TEXT], text[160];
     column_heading(&app->ui, &c, "Walls and doors", "key");
     column_check(app, &c, "draw_doors");
     c.y += 0.8 * app->ui.text;
     rule(&app->ui, &c,
-         app->tool.draws_doors
-             ? "Drag along a wall, or across a gap: a new door. It cuts the wall."
-             : "Drag on free ground: a new wall, in any direction, its ends on the grid.");
+         doors ? "Drag along a wall, or across a gap: a new door. It cuts the wall."
+               : "Drag on free ground: a new wall, in any direction, its ends on the grid.");
     rule(&app->ui, &c,
-         app->tool.draws_doors ? "Drag a door: moves it. Esc takes that back."
-                               : "Drag a wall, a corner or a door: moves it. Esc takes that back.");
-    rule(&app->ui, &c, "Click a wall or a door: chooses it. Delete: deletes it.");
-    snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
-             app->document.map.wall_count, app->document.history.done_count,
-             app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
+         doors ? "Drag a door: moves it. Esc takes that back."
+               : "Drag a wall, a corner or a door: moves it. Esc takes that back.");
+    rule(&app->ui, &c,
+         doors ? "Click a door: chooses it. Delete: deletes it."
+               : "Click a wall or a door: chooses it. Delete: deletes it.");
+    sl_text_count(app->document.map.wall_count, "wall", walls);
+    sl_text_count(app->document.history.done.count, "step", steps);
+    snprintf(text, sizeof text, "%s; %s to undo, %zu to redo.", walls, steps,
+             app->document.history.undone.count);
     rule(&app->ui, &c, text);
     column_layers(app, &c);
     column_legend(app, &c);

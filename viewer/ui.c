@@ -232,23 +232,6 @@ void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int numb
     ui_hit_focus(ui, kind, number, box);
 }
 
-double ui_row(ui_state *ui, double left, double right, double y, const char *text,
-              const char *beside, bool chosen, hit_kind kind, int number) {
-    const double t = ui->text, gap = 0.6 * t;
-    const double more = beside ? ui_text_width(ui, 0.9, false, beside) + gap : 0;
-    const double room = right - left - 2 * gap - more;
-    const sl_box row = {{left, y},
-                        {right, y + 0.5 * t + fmax(ui_lines_height(ui, room, 1, false, text), t)}};
-    const bool over = box_has(row, ui->pointer);
-    if (over || chosen)
-        ui_fill_round(ui, row, 0.3 * t,
-                      sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
-    ui_lines(ui, left + gap, y + 1.3 * t, room, 1, false, ui->palette.ink, text);
-    if (beside) ui_text_right(ui, right - gap, y + 1.3 * t, 0.9, ui->palette.faint, beside);
-    ui_hit_focus(ui, kind, number, row);
-    return row.max.y;
-}
-
 void ui_edge(ui_state *ui, int number, sl_box box) {
     if (box_has(box, ui->pointer)) ui_fill(ui, box, ui->palette.faint);
     ui_hit_focus(ui, HIT_EDGE, number, box);

@@ -226,9 +226,6 @@ double ui_button_width(ui_state *ui, const char *label);
 double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action);
 /// A slider with its value from 0 to 1.
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number);
-/// A row of a list: a text, and another at the right (NULL: none). Returns the lower edge.
-double ui_row(ui_state *ui, double left, double right, double y, const char *text,
-              const char *beside, bool chosen, hit_kind kind, int number);
 /// A text field with its cursor, where typing goes to it; `empty` stands there before (NULL:
 /// nothing). A click places the cursor. The caller finds the clicks.
 void ui_text_field(ui_state *ui, sl_box box, text_field *field, const char *empty, bool typed);
@@ -242,7 +239,6 @@ void ui_edge(ui_state *ui, int number, sl_box box);
 void ui_focus_move(ui_state *ui, bool back);
 /// The focused widget of the last frame; kind HIT_NONE: none.
 hit_area ui_focused(const ui_state *ui);
-void ui_focus_on(ui_state *ui, hit_kind kind, int value);
 
 /// Lets time pass for the tooltip.
 void ui_tick(ui_state *ui, double seconds);

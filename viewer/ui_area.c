@@ -197,11 +197,6 @@ void ui_focus_move(ui_state *ui, bool back) {
     }
 }
 
-void ui_focus_on(ui_state *ui, hit_kind kind, int value) {
-    ui->focus = (ui_focus){kind, value, 0};
-    ui->reveal = true;
-}
-
 // --- tooltips
 
 static bool is_same(const hit_area *a, const hit_area *b) {

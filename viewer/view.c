@@ -17,12 +17,24 @@ plan_camera camera_fit(sl_box bounds, double width, double height) {
                          .most = scale * 4096};
 }
 
-void camera_pan(plan_camera *camera, double dx, double dy) {
+/// The camera from now on; NULL: no map was shown yet.
+static plan_camera *take_camera(app_state *app) {
+    if (!(app->view.camera.scale > 0)) return NULL;
+    app->view.fitted = false;
+    app->view.motion = 0.2;
+    return &app->view.camera;
+}
+
+void view_pan(app_state *app, double dx, double dy) {
+    plan_camera *camera = take_camera(app);
+    if (!camera) return;
     camera->middle.x -= dx / camera->scale;
     camera->middle.y += dy / camera->scale;
 }
 
-void camera_zoom(plan_camera *camera, double factor, sl_point offset) {
+void view_zoom(app_state *app, double factor, sl_point offset) {
+    plan_camera *camera = take_camera(app);
+    if (!camera) return;
     const double scale = fmin(fmax(camera->scale * factor, camera->least), camera->most);
     camera->middle.x += offset.x / camera->scale - offset.x / scale;
     camera->middle.y -= offset.y / camera->scale - offset.y / scale;

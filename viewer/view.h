@@ -18,16 +18,19 @@ typedef struct plan_camera {
 /// All of `bounds` in a pane of that size, with a margin.
 plan_camera camera_fit(sl_box bounds, double width, double height);
 
-void camera_pan(plan_camera *camera, double dx, double dy); ///< pixels, right and down
-
-/// Zooms; the place at `offset` (pixels from the middle of the pane, right and down) stays.
-void camera_zoom(plan_camera *camera, double factor, sl_point offset);
-
 /// The frame that draws the whole plane through a pane.
 sl_frame camera_frame(const plan_camera *camera, sl_box pane, double unit);
 
 /// The map's point at a place on the page.
 sl_point camera_point(const plan_camera *camera, sl_box pane, sl_point page);
+
+// --- the camera, moved by hand: the plan no longer fits the pane by itself
+
+/// Moves the plan by pixels, right and down.
+void view_pan(app_state *app, double dx, double dy);
+
+/// Zooms; the place at `offset` (pixels from the middle of the pane, right and down) stays.
+void view_zoom(app_state *app, double factor, sl_point offset);
 
 // --- the eye
 

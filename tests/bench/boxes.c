@@ -7,20 +7,13 @@
 #include "bench.h"
 
 #include "bake/slv.h"
-#include "sightline/generate.h"
-#include "sightline/io.h"
 #include "sightline/query.h"
-#include "sightline/solvers.h"
 #include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
 enum { BOXES = 1000, EYES = 100, FRAMES = 5 };
 
@@ -28,48 +21,6 @@ static void *room(size_t count, size_t size) {
     void *block = calloc(count ? count : 1, size);
     if (!block) bench_fail("out of memory");
     return block;
-}
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
-}
-
-// --- the map
-
-static sl_status generate(sl_context *context, const char *name, const char *colon, sl_map *map) {
-    size_t count;
-    const sl_map_kind *kinds = sl_map_kinds(&count);
-    sl_generate_options options = sl_generate_options_default();
-    char *turned;
-    options.size = strtoull(colon + 1, &turned, 10);
-    if (*turned == ':') options.turned = strtod(turned + 1, NULL);
-    for (size_t i = 0; i < count; i++)
-        if (strlen(kinds[i].name) == (size_t)(colon - name) &&
-            memcmp(kinds[i].name, name, (size_t)(colon - name)) == 0)
-            return sl_generate(context, &kinds[i], &options, map);
-    bench_fail("there is no such kind of map");
-    return SL_BAD_ARGUMENT;
-}
-
-static void bake(sl_context *context, const char *name, const char *which, sl_baked *baked) {
-    const char *colon = strchr(name, ':'), *ending = strrchr(name, '.');
-    const bool is_wad = ending && strcmp(ending, ".wad") == 0;
-    sl_import_options import = sl_import_options_default();
-    import.map = is_wad ? which : NULL;
-    import.has_slice = which && !is_wad;
-    import.slice = import.has_slice ? strtod(which, NULL) : 0;
-    sl_see_options options = sl_see_options_default();
-    options.solver = sl_funnel();
-    size_t count;
-    const sl_status status = colon ? generate(context, name, colon, &baked->map)
-                                   : sl_map_read(context, name, &import, &baked->map);
-    if (status != SL_OK || sl_map_clean(context, &baked->map, NULL, NULL) != SL_OK ||
-        sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space) !=
-            SL_OK ||
-        sl_see_methods(&count)->see(context, &baked->space, &options, &baked->visibility) != SL_OK)
-        bench_fail(sl_context_message(context));
 }
 
 // --- what moves: boxes and eyes, on the way through the inside
@@ -88,7 +39,6 @@ static sl_point place(const sl_space *space, sl_random *random) {
         if (cell != SL_NO_CELL && space->cells[cell].inside && !space->cells[cell].solid) return p;
     }
     bench_fail("the map has no inside");
-    return b.min;
 }
 
 /// Half the width of a box: as a person in a room.
@@ -144,23 +94,20 @@ typedef cost question(bench *b, const frame *f, size_t boxes, size_t eyes);
 
 static cost ask_query(bench *b, const frame *f, size_t boxes, size_t eyes) {
     cost c = {0};
-    const double start = now();
-    if (sl_query_set_boxes(b->context, b->query, f->boxes, boxes) != SL_OK)
-        bench_fail(sl_context_message(b->context));
+    const double start = bench_seconds();
+    bench_must(b->context, sl_query_set_boxes(b->context, b->query, f->boxes, boxes));
     // The boxes are placed when the first question needs them.
     sl_view view = sl_view_all_round(b->baked.space.bounds.min);
     view.eye.x -= 1;
-    if (sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL) != SL_OK)
-        bench_fail(sl_context_message(b->context));
-    const double placed = now();
+    bench_must(b->context, sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL));
+    const double placed = bench_seconds();
     for (size_t i = 0; i < eyes; i++) {
         view = sl_view_all_round(f->eyes[i]);
-        if (sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL) != SL_OK)
-            bench_fail(sl_context_message(b->context));
+        bench_must(b->context, sl_query_boxes_seen(b->context, b->query, &view, b->seen, NULL));
         for (size_t k = 0; k < boxes; k++) c.seen += b->seen[k];
     }
-    c.place = placed - start;
-    c.look = now() - placed;
+    c.place = 1e3 * (placed - start);
+    c.look = 1e3 * (bench_seconds() - placed);
     return c;
 }
 
@@ -169,19 +116,19 @@ static cost ask_runtime(bench *b, const frame *f, size_t boxes, size_t eyes) {
     sl_runtime_boxes *placed = &b->placed;
     if (placed->count != boxes)
         sl_runtime_boxes_start(placed, &b->runtime, b->list, (uint32_t)boxes, ROOM, b->memory);
-    const double start = now();
+    const double start = bench_seconds();
     for (uint32_t i = 0; i < boxes; i++) {
         const sl_box at = f->boxes[i].box;
         const sl_runtime_box to = {at.min.x, at.min.y, at.max.x, at.max.y, f->boxes[i].blocks};
         if (!sl_runtime_boxes_move(placed, i, &to)) bench_fail("there is no room for the boxes");
     }
-    const double moved = now();
+    const double moved = bench_seconds();
     for (size_t i = 0; i < eyes; i++) {
         const sl_runtime_view view = sl_runtime_view_all_round(f->eyes[i].x, f->eyes[i].y);
         c.seen += sl_runtime_boxes_seen(placed, &view, NULL, 0, b->scratch, b->said);
     }
-    c.place = moved - start;
-    c.look = now() - moved;
+    c.place = 1e3 * (moved - start);
+    c.look = 1e3 * (bench_seconds() - moved);
     return c;
 }
 
@@ -225,12 +172,10 @@ int main(int argc, char **argv) {
     if (argc < 2) bench_fail("usage: bench_boxes KIND:N[:DEGREES] | MAP [LEVEL]");
     bench *b = room(1, sizeof *b);
     b->context = sl_context_create(NULL);
-    b->baked = (sl_baked){.method = "dfs", .solver = "funnel"};
     b->name = argv[argc > 2 ? 2 : 1];
-    if (!b->context || sl_io_use(b->context) != SL_OK) bench_fail("out of memory");
-    bake(b->context, argv[1], argc > 2 ? argv[2] : NULL, &b->baked);
-    if (sl_query_create(b->context, &b->baked, &b->query) != SL_OK)
-        bench_fail(sl_context_message(b->context));
+    if (!b->context) bench_fail("out of memory");
+    bench_bake(b->context, argv[1], argc > 2 ? argv[2] : NULL, &b->baked);
+    bench_must(b->context, sl_query_create(b->context, &b->baked, &b->query));
     open_runtime(b);
     puts("map,cells,boxes,eyes,asked,place_ms,look_ms,share_seen");
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)

@@ -35,12 +35,6 @@ typedef struct bench {
     const char *machine;
 } bench;
 
-static void check(const bench *b, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_doors: %s\n", sl_context_message(b->context));
-    exit(1);
-}
-
 // --- the bake
 
 static void see(const bench *b, const sl_space *space, const sl_plan *plan, sl_visibility *out) {
@@ -52,21 +46,21 @@ static void see(const bench *b, const sl_space *space, const sl_plan *plan, sl_v
     options.plan = plan;
     for (size_t i = 0; i < count; i++)
         if (strcmp(methods[i].name, plan ? "prune" : "sweep") == 0)
-            check(b, methods[i].see(b->context, space, &options, out));
+            bench_must(b->context, methods[i].see(b->context, space, &options, out));
 }
 
 static void bake(bench *b) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
     b->baked = (sl_baked){.method = "prune", .solver = "funnel"};
-    check(b, doors_plan(b->context, &b->baked.map));
-    check(b, sl_map_clean(b->context, &b->baked.map, NULL, NULL));
-    check(b, sl_subdivide_kd(b->context, &b->baked.map, &rules, &b->baked.space));
+    bench_must(b->context, doors_plan(b->context, &b->baked.map));
+    bench_must(b->context, sl_map_clean(b->context, &b->baked.map, NULL, NULL));
+    bench_must(b->context, sl_subdivide_kd(b->context, &b->baked.map, &rules, &b->baked.space));
     sl_plan plan = sl_plan_make(&b->baked.map);
     plan.door_limit = b->limit;
     see(b, &b->baked.space, &plan, &b->baked.visibility);
     FILE *stream = open_memstream(&b->bytes, &b->size);
     if (!stream) exit(1);
-    check(b, sli_slv_print(b->context, &b->baked, stream));
+    bench_must(b->context, sli_slv_print(b->context, &b->baked, stream));
     if (fclose(stream) != 0 || sl_runtime_open(b->bytes, b->size, &b->runtime) != SL_RUNTIME_OK)
         exit(1);
     b->scratch = calloc(sl_runtime_scratch_count(&b->runtime), sizeof *b->scratch);
@@ -120,7 +114,8 @@ static uint64_t make_filtered(bench *b, size_t i) {
     const sl_filtered_space filtered = {.shut = b->shut_flags};
     sl_space walled;
     (void)i;
-    check(b, sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
+    bench_must(b->context,
+               sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
     const uint64_t portals = walled.portal_count;
     sl_space_destroy(b->context, &walled);
     return portals;
@@ -132,7 +127,8 @@ static uint64_t bake_afresh(bench *b, size_t i) {
     sl_space walled;
     sl_visibility seen = {0};
     (void)i;
-    check(b, sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
+    bench_must(b->context,
+               sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
     see(b, &walled, NULL, &seen);
     const uint64_t pairs = seen.account.pairs;
     sl_visibility_destroy(b->context, &seen);

@@ -39,17 +39,6 @@ typedef struct bench {
     uint64_t timed;
 } bench;
 
-static void *read_file(const char *name, size_t *size) {
-    FILE *file = fopen(name, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) bench_fail("cannot read the file");
-    *size = (size_t)ftell(file);
-    rewind(file);
-    void *bytes = malloc(*size + 1);
-    if (!bytes || fread(bytes, 1, *size, file) != *size) bench_fail("cannot read the file");
-    fclose(file);
-    return bytes;
-}
-
 // --- eyes
 
 static sl_point any_point(bench *b) {
@@ -139,7 +128,7 @@ static void time_batch(bench *b) {
 static void open_file(bench *b, const char *name) {
     size_t size;
     bench_must(b->context, sl_baked_read(b->context, name, &b->baked));
-    const void *bytes = read_file(name, &size);
+    const void *bytes = bench_read_file(name, &size);
     const sl_runtime_status status = sl_runtime_open(bytes, size, &b->runtime);
     if (status != SL_RUNTIME_OK) bench_fail(sl_runtime_status_text(status));
     if (b->runtime.loose) bench_fail("the file is loose: bake the map again");

@@ -16,11 +16,13 @@ shift
 wanted=("$@")
 cd "$(dirname "$0")/../.."
 build=${BUILD:-build/release} data=${DATA:-../shared/data} wads=${WADS:-/usr/share/games/doom} web=${WEB:-build/web}
-python=${PYTHON:-python3}
+# Its path: a part of this script is called python.
+python=$(type -P "${PYTHON:-python3}") || { echo "run.sh: there is no ${PYTHON:-python3}" >&2; exit 2; }
 build=$(cd "$build" && pwd)
 PATH=$build/tools:$build/tests/bench:$build/tests/sightlines:$build/viewer:$PATH
 soda=$data/soda-hall-floor5.ug gallery=$data/gallery.dxf
 doom1=$wads/freedoom1.wad doom2=$wads/freedoom2.wad
+hall_cells=("$soda" slice=1040 start=1398,1630)
 hall=("$soda" --slice 1040 --start 1398,1630)
 TIMEFORMAT='seconds: %R by the clock, %U + %S of the processor'
 
@@ -142,11 +144,11 @@ regions() {
 }
 
 view_cells() {
-    local scene method
+    local method
     sightline generate city --walls 3000 -o "$out/city.map"
-    for scene in "$soda slice=1040 start=1398,1630" "$doom2 map=MAP01" "$out/city.map"; do
-        bench_view_cells times $scene cells=50000 evaluate=10000
-    done
+    bench_view_cells times "${hall_cells[@]}" cells=50000 evaluate=10000
+    bench_view_cells times "$doom2" map=MAP01 cells=50000 evaluate=10000
+    bench_view_cells times "$out/city.map" cells=50000 evaluate=10000
     bench_view_work 32000
     for method in av-m hybrid; do
         time sightline viewcells "${hall[@]}" --method $method --elementary 5000 --threads 1 --json
@@ -185,15 +187,15 @@ viewer() {
 
 # No times: other programs may run beside it.
 counts() {
-    local hall_cells="$soda slice=1040 start=1398,1630" cells exact
+    local cells exact
     sightline generate city --walls 3000 -o "$out/city.map"
-    bench_view_cells curves $hall_cells chart="$out/view_cells_curves.png"
+    bench_view_cells curves "${hall_cells[@]}" chart="$out/view_cells_curves.png"
     bench_view_cells curves "$doom2" map=MAP01
     bench_view_cells curves "$out/city.map"
-    bench_view_cells samples $hall_cells
-    bench_view_cells histogram $hall_cells cells=2000
+    bench_view_cells samples "${hall_cells[@]}"
+    bench_view_cells histogram "${hall_cells[@]}" cells=2000
     bench_view_cells histogram "$out/city.map" cells=3000
-    bench_view_cells walls $hall_cells turn=30 cells=2000 samples=500000
+    bench_view_cells walls "${hall_cells[@]}" turn=30 cells=2000 samples=500000
     for cells in 50 200; do
         for exact in "--samples 1500000 --evaluate 0" "--samples 1500000 --exact" "--method hybrid"; do
             sightline viewcells "${hall[@]}" --objects cells --elementary 1000 $exact --cells $cells --slv "$out/views.slv" --json
@@ -214,6 +216,9 @@ long() {
     time sightline bake "$out/city.map" -o "$out/city.slv" --inside --threads 2 --json
 }
 
+for part in "${wanted[@]}"; do
+    declare -F "$part" >/dev/null || { echo "run.sh: there is no part $part" >&2; exit 2; }
+done
 failed=0
 
 # run NAME NEEDED...: a part, if it is wanted and if the files and programs that it needs are there.

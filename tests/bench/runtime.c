@@ -1,84 +1,32 @@
 // What a game pays for a question to the runtime, beside a matrix of bits that it could keep
 // itself.
-//   bench_runtime MAP [Z]       a map file, and the height of its slice
-//   bench_runtime KIND:N        a generated map: office:20
-//   bench_runtime FILE.slv      a baked file, an older program's too
+//   bench_runtime MAP [Z]             a map file, and the height of its slice or its level
+//   bench_runtime KIND:N[:DEGREES]    a generated map, turned: office:20, office:20:17
+//   bench_runtime FILE.slv            a baked file, an older program's too
 // CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
+#include "bench.h"
+
 #include "bake/slv.h"
-#include "sightline/generate.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
-#include "sightline/io.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/utsname.h>
-#include <time.h>
-
-static void fail(const char *what) {
-    fprintf(stderr, "bench_runtime: %s\n", what);
-    exit(1);
-}
 
 // --- what is asked
 
-/// KIND:N is a generated map of the size N; any other name, without a colon, is a file's.
-static sl_status generate(sl_context *context, const char *name, const char *colon, sl_map *map) {
-    size_t count;
-    const sl_map_kind *kinds = sl_map_kinds(&count);
-    const size_t length = (size_t)(colon - name);
-    sl_generate_options options = sl_generate_options_default();
-    options.size = strtoull(colon + 1, NULL, 10);
-    for (size_t i = 0; i < count; i++)
-        if (strlen(kinds[i].name) == length && memcmp(kinds[i].name, name, length) == 0)
-            return sl_generate(context, &kinds[i], &options, map);
-    fail("there is no such kind of map");
-    return SL_BAD_ARGUMENT;
-}
-
-static void read_map(sl_context *context, const char *name, const char *slice, sl_map *map) {
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = slice != NULL;
-    options.slice = slice ? strtod(slice, NULL) : 0;
-    const char *colon = strchr(name, ':');
-    const sl_status status =
-        colon ? generate(context, name, colon, map) : sl_map_read(context, name, &options, map);
-    if (status != SL_OK || sl_map_clean(context, map, NULL, NULL) != SL_OK)
-        fail(sl_context_message(context));
-}
-
 /// The baked file's bytes, for free().
 static char *bake(sl_context *context, const char *name, const char *slice, size_t *size) {
-    sl_baked baked = {.method = "dfs", .solver = "funnel"};
-    sl_see_options options = sl_see_options_default();
-    options.solver = sl_funnel();
-    size_t count;
-    read_map(context, name, slice, &baked.map);
-    if (sl_subdivision_for(&baked.map)->subdivide(context, &baked.map, NULL, &baked.space) !=
-            SL_OK ||
-        sl_see_methods(&count)->see(context, &baked.space, &options, &baked.visibility) != SL_OK)
-        fail(sl_context_message(context));
+    sl_baked baked;
+    bench_bake(context, name, slice, &baked);
     char *bytes = NULL;
     FILE *stream = open_memstream(&bytes, size);
     if (!stream || sli_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
-        fail("out of memory");
+        bench_fail("out of memory");
     sl_baked_destroy(context, &baked);
-    return bytes;
-}
-
-/// A baked file's bytes, for free().
-static char *read_baked(const char *name, size_t *size) {
-    FILE *file = fopen(name, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) fail("cannot read the file");
-    *size = (size_t)ftell(file);
-    rewind(file);
-    char *bytes = malloc(*size + 1);
-    if (!bytes || fread(bytes, 1, *size, file) != *size) fail("cannot read the file");
-    fclose(file);
     return bytes;
 }
 
@@ -204,7 +152,7 @@ static double measure(const bench *b, question *ask, uint32_t count, uint64_t *s
 
 static void *room(size_t bytes) {
     void *block = calloc(bytes ? bytes : 1, 1);
-    if (!block) fail("out of memory");
+    if (!block) bench_fail("out of memory");
     return block;
 }
 
@@ -290,17 +238,17 @@ static void print_table(const bench *b, const char *name) {
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) fail("usage: bench_runtime MAP [Z] | KIND:N | FILE.slv");
+    if (argc < 2) bench_fail("usage: bench_runtime MAP [Z] | KIND:N | FILE.slv");
     sl_context *context = sl_context_create(NULL);
     bench *b = room(sizeof *b);
-    if (!context || sl_io_use(context) != SL_OK) fail("out of memory");
+    if (!context) bench_fail("out of memory");
     const size_t length = strlen(argv[1]);
     char *bytes = length > 4 && strcmp(argv[1] + length - 4, ".slv") == 0
-                      ? read_baked(argv[1], &b->size)
+                      ? bench_read_file(argv[1], &b->size)
                       : bake(context, argv[1], argc > 2 ? argv[2] : NULL, &b->size);
     b->bytes = bytes;
     const sl_runtime_status status = sl_runtime_open(bytes, b->size, &b->runtime);
-    if (status != SL_RUNTIME_OK) fail(sl_runtime_status_text(status));
+    if (status != SL_RUNTIME_OK) bench_fail(sl_runtime_status_text(status));
     prepare(b);
     print_table(b, argv[1]);
     free(b->matrix);

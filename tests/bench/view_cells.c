@@ -50,17 +50,12 @@ typedef struct bench {
     unsigned line_count;
 } bench;
 
-static void check(const bench *b, sl_status status) {
-    if (status != SL_OK) bench_fail(sl_context_message(b->context));
-}
-
 static const sl_view_method *method_named(const char *name) {
     size_t count;
     const sl_view_method *methods = sl_view_methods(&count);
     for (size_t i = 0; i < count; i++)
         if (strcmp(methods[i].name, name) == 0) return &methods[i];
     bench_fail(name);
-    return NULL;
 }
 
 // --- the map
@@ -80,14 +75,15 @@ static void turn_map(bench *b) {
 }
 
 static void read_map(bench *b, const sl_import_options *options, const sl_point *start) {
-    check(b, sl_io_use(b->context));
-    check(b, sl_map_read(b->context, b->path, options, &b->map));
-    if (start) check(b, sl_map_add_start(b->context, &b->map, *start, 0, 0));
-    check(b, sl_map_clean(b->context, &b->map, NULL, NULL));
+    bench_must(b->context, sl_io_use(b->context));
+    bench_must(b->context, sl_map_read(b->context, b->path, options, &b->map));
+    if (start) bench_must(b->context, sl_map_add_start(b->context, &b->map, *start, 0, 0));
+    bench_must(b->context, sl_map_clean(b->context, &b->map, NULL, NULL));
     if (b->turn != 0) turn_map(b);
-    check(b, sl_subdivision_for(&b->map)->subdivide(b->context, &b->map, NULL, &b->space));
-    check(b, sl_outline_make(b->context, &b->space, &b->outline));
-    check(b, sl_view_places_inside(b->context, &b->space, &b->places));
+    bench_must(b->context,
+               sl_subdivision_for(&b->map)->subdivide(b->context, &b->map, NULL, &b->space));
+    bench_must(b->context, sl_outline_make(b->context, &b->space, &b->outline));
+    bench_must(b->context, sl_view_places_inside(b->context, &b->space, &b->places));
     b->scene = (sl_view_scene){&b->space, b->objects, sl_render_cost_default(), &b->places};
 }
 
@@ -96,7 +92,7 @@ static void sample(bench *b, uint64_t samples, uint64_t seed, sl_view_segments *
     sampling.objects = b->objects;
     sampling.samples = samples;
     sampling.seed = seed;
-    check(b, sl_view_sample(b->context, &b->outline, &sampling, out));
+    bench_must(b->context, sl_view_sample(b->context, &b->outline, &sampling, out));
 }
 
 // --- making and telling
@@ -123,18 +119,20 @@ static void join(bench *b, const sl_view_method *method, const sl_view_segments 
                  const sl_view_found *found, made *m) {
     sl_view_sets sets = found->sets;
     if (!method->exact)
-        check(b, sl_view_sets_sample(b->context, &b->scene, &m->tree, by, 0, &sets));
+        bench_must(b->context, sl_view_sets_sample(b->context, &b->scene, &m->tree, by, 0, &sets));
     const double start = bench_seconds();
-    check(b, (method->merges ? sl_view_merge : sl_view_join_splits)(b->context, &b->scene, &m->tree,
-                                                                    &sets, &m->told));
+    bench_must(b->context, (method->merges ? sl_view_merge : sl_view_join_splits)(
+                               b->context, &b->scene, &m->tree, &sets, &m->told));
     m->merge = bench_seconds() - start;
     sl_view_sets_destroy(b->context, &sets);
 }
 
 static void tell(bench *b, made *m) {
     sl_view_sets sets;
-    check(b, sl_view_sets_sample(b->context, &b->scene, &m->tree, &b->others, 0, &sets));
-    check(b, sl_view_evaluate(b->context, &b->scene, &m->tree, &m->told, &sets, &m->others));
+    bench_must(b->context,
+               sl_view_sets_sample(b->context, &b->scene, &m->tree, &b->others, 0, &sets));
+    bench_must(b->context,
+               sl_view_evaluate(b->context, &b->scene, &m->tree, &m->told, &sets, &m->others));
     sl_view_sets_destroy(b->context, &sets);
     m->told_costs = calloc(m->told.cell_count, sizeof *m->told_costs);
     m->costs = calloc(m->told.cell_count, sizeof *m->costs);
@@ -148,7 +146,7 @@ static void make(bench *b, const sl_view_method *method, const sl_view_segments 
     *m = (made){0};
     sl_view_found found = {0};
     const double start = bench_seconds();
-    check(b, method->divide(b->context, &b->scene, by, options, &m->tree, &found));
+    bench_must(b->context, method->divide(b->context, &b->scene, by, options, &m->tree, &found));
     m->divide = bench_seconds() - start;
     join(b, method, by, &found, m);
     tell(b, m);
@@ -195,7 +193,7 @@ static void draw(bench *b, const char *title, sl_chart_axis x, sl_chart_axis y) 
                             .series = b->series,
                             .series_count = b->series_count,
                             .width = 1000};
-    check(b, sl_draw_chart_file(b->context, &chart, b->chart));
+    bench_must(b->context, sl_draw_chart_file(b->context, &chart, b->chart));
 }
 
 // --- the figures
@@ -280,7 +278,7 @@ static void histogram(bench *b) {
         const uint32_t cells = sl_view_cut_by_count(&m.others, wanted);
         uint32_t *of = calloc(m.others.cell_count, sizeof *of), *numbers = calloc(cells, 4);
         if (!of || !numbers) bench_fail("out of memory");
-        check(b, sl_view_cut(b->context, &m.others, cells, of, numbers));
+        bench_must(b->context, sl_view_cut(b->context, &m.others, cells, of, numbers));
         double bins[BINS] = {0}, most = 0;
         for (uint32_t v = 0; v < cells; v++) most = fmax(most, m.others.cost[numbers[v]]);
         if (i == 0) top = 1.5 * most / BINS;

@@ -24,12 +24,6 @@ enum { PAIRS, LOOKS, CANDIDATES, RELATIONS, TESTS, WEIGHED, SECONDS, MEASURES };
 static const char *const measures[] = {"pairs", "looks",   "candidates", "relations",
                                        "tests", "weighed", "seconds"};
 
-static void check(const sl_context *context, sl_status status) {
-    if (status == SL_OK) return;
-    fprintf(stderr, "bench_view_work: %s\n", sl_context_message(context));
-    exit(1);
-}
-
 static const sl_view_method *hybrid(void) {
     size_t count, i = 0;
     const sl_view_method *methods = sl_view_methods(&count);
@@ -53,9 +47,9 @@ static void measure(sl_context *context, const sl_map_kind *kind, uint64_t walls
     sl_view_places places;
     sl_view_tree tree;
     sl_view_found found;
-    check(context, sl_generate(context, kind, &generate, &map));
-    check(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
-    check(context, sl_view_places_inside(context, &space, &places));
+    bench_must(context, sl_generate(context, kind, &generate, &map));
+    bench_must(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
+    bench_must(context, sl_view_places_inside(context, &space, &places));
     const sl_view_scene scene = {&space, SL_VIEW_CELLS, sl_render_cost_default(), &places};
     sl_view_subdivision options = sl_view_subdivision_default();
     options.threads = 1;
@@ -63,7 +57,7 @@ static void measure(sl_context *context, const sl_map_kind *kind, uint64_t walls
     options.least_gain = 0;
     options.patience = UINT32_MAX;
     const double start = bench_seconds();
-    check(context, hybrid()->divide(context, &scene, NULL, &options, &tree, &found));
+    bench_must(context, hybrid()->divide(context, &scene, NULL, &options, &tree, &found));
     out[SECONDS] = bench_seconds() - start;
     const sl_view_work *w = &found.work;
     const double counts[] = {count_pairs(&found.sets), (double)w->looks, (double)w->candidates,

@@ -325,6 +325,67 @@ static void test_door_in_the_open(void **state) {
     viewer_end(app);
 }
 
+/// While the pointer stays at its place of the grid, a new door makes no new space.
+static void test_door_that_rests(void **state) {
+    (void)state;
+    app_state *app = viewer_start(true);
+    open_map(app, MAPS "/flat.map");
+    viewer_press(app, "X");
+    const sl_wall wall = app->document.map.walls[0];
+    const sl_point from = middle(wall.a, wall.b);
+    const sl_point low = on_page(app, from), high = on_page(app, wall.b);
+    assert_true(drag(app, from, 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), false) > 0);
+    const uint32_t edit = app->document.edit;
+    const sl_point at = app->tool.pointer;
+    input_move(app, (sl_point){at.x + 0.25, at.y + 0.25});
+    app_tick(app, 1.0 / 60);
+    assert_int_equal(app->document.edit, edit);
+    viewer_end(app);
+}
+
+static void write_wall(const char *path, double x, double y) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "sightline 1\nwall %.17g %.17g %.17g %.17g\nstart %.17g %.17g 90\n", x, y, x + 20,
+            y, x + 5, y - 3);
+    fclose(file);
+}
+
+/// A map needs a wall: a door along all of the last one is not made.
+static void test_door_for_the_last_wall(void **state) {
+    (void)state;
+    write_wall("one.map", 0, 5);
+    app_state *app = viewer_start(true);
+    open_map(app, "one.map");
+    viewer_press(app, "X");
+    const sl_map *map = &app->document.map;
+    const sl_wall wall = map->walls[0];
+    const double length = on_page(app, wall.b).x - on_page(app, wall.a).x;
+    assert_true(drag(app, wall.a, length, 0, true) > 0);
+    assert_int_equal(map->door_count, 0);
+    assert_int_equal(map->wall_count, 1);
+    assert_memory_equal(&map->walls[0].a, &wall.a, 2 * sizeof wall.a);
+    assert_non_null(strstr(app->ui.message, "the last wall stays"));
+    assert_fresh(app, true);
+    assert_true(drag(app, wall.a, length / 2, 0, true) > 0);
+    assert_int_equal(map->door_count, 1);
+    assert_int_equal(map->wall_count, 1);
+    viewer_end(app);
+    remove("one.map");
+}
+
+/// Far from the origin messages have all digits of a place.
+static void test_far_places(void **state) {
+    (void)state;
+    write_wall("far.map", 5000000, 400000);
+    app_state *app = viewer_start(true);
+    open_map(app, "far.map");
+    assert_true(drag(app, (sl_point){5000002, 399998}, 60, 0, true) > 0);
+    assert_non_null(strstr(app->ui.message, "wall from 5000002,399998 to 500000"));
+    viewer_end(app);
+    remove("far.map");
+}
+
 /// Esc, or Ctrl+Z, while the button is down takes all of it back.
 static void test_taken_back(void **state) {
     (void)state;
@@ -347,7 +408,7 @@ static void test_taken_back(void **state) {
         wait_for_all(app);
         assert_int_equal(app->document.map.wall_count, count);
         assert_memory_equal(app->document.map.walls, before, count * sizeof *before);
-        assert_int_equal(app->document.history.done_count, 0);
+        assert_int_equal(app->document.history.done.count, 0);
         assert_fresh(app, true);
         free(before);
         viewer_end(app);
@@ -564,13 +625,23 @@ static void test_message(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_maps),       cmocka_unit_test(test_turned),
-        cmocka_unit_test(test_corner),     cmocka_unit_test(test_door),
-        cmocka_unit_test(test_new_door),   cmocka_unit_test(test_door_in_the_open),
-        cmocka_unit_test(test_taken_back), cmocka_unit_test(test_new_wall),
-        cmocka_unit_test(test_mended),     cmocka_unit_test(test_exported),
-        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_message),    cmocka_unit_test(test_cursor_tip),
+        cmocka_unit_test(test_maps),
+        cmocka_unit_test(test_turned),
+        cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_door),
+        cmocka_unit_test(test_new_door),
+        cmocka_unit_test(test_door_in_the_open),
+        cmocka_unit_test(test_far_places),
+        cmocka_unit_test(test_door_that_rests),
+        cmocka_unit_test(test_door_for_the_last_wall),
+        cmocka_unit_test(test_taken_back),
+        cmocka_unit_test(test_new_wall),
+        cmocka_unit_test(test_mended),
+        cmocka_unit_test(test_exported),
+        cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_message),
+        cmocka_unit_test(test_cursor_tip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ export function table(head, rows) {
 /** How near a pointer must be to a handle to take it, in pixels. */
 const NEAR = 28;
 
-/** In lecture mode lines and letters of pictures are up to so many times as large, where a picture keeps this width for them. */
+/** In lecture mode lines and letters are up to LARGER times as large, as long as LEAST_WIDTH of their own pixels fit across. */
 const [LARGER, LEAST_WIDTH] = [2, 360];
 
 let count = 0;

@@ -8,8 +8,9 @@ export function tellItem({ kind, name, points, value }) {
     const what = [kind === 'oneway' ? 'glass' : kind, name ?? value].filter((word) => word !== undefined).join(' ');
     if (points.length === 2) return `${what} at ${placeOf(points)}`;
     if (points.length !== 4) return what;
-    const length = Math.hypot(points[2] - points[0], points[3] - points[1]);
-    return `${what} from ${placeOf(points)} to ${placeOf(points.slice(2))}, length ${round(length)}`;
+    const ends = `${what} from ${placeOf(points)} to ${placeOf(points.slice(2))}`;
+    if (kind === 'object') return ends; // a box, by two of its corners
+    return `${ends}, length ${round(Math.hypot(points[2] - points[0], points[3] - points[1]))}`;
 }
 
 /** @param {import('../formats/map-text.js').Item[]} from @param {import('../formats/map-text.js').Item[]} to */
