@@ -546,7 +546,7 @@ static const action_row actions[] = {
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
     {"delete", "Delete", "Delete", "draw: delete the chosen wall or door", DRAW, 0, delete_chosen,
      NULL},
-    {"draw_doors", "X", "New doors, no walls", "draw: new doors, or new walls", DRAW, 0, draw_doors,
+    {"draw_doors", "X", "Draw doors", "draw: new doors, or new walls", DRAW, 0, draw_doors,
      is_draw_doors},
 
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",

@@ -17,6 +17,7 @@ import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
 import { packMap, unpackMap } from '../playground/share.js';
+import { tellChange } from '../playground/told.js';
 import { bakeNative, needsNative, shapes } from './native.mjs';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
@@ -257,4 +258,10 @@ test('Markdown as HTML', () => {
     for (const part of ['<h1 id="a-b">A <code>b</code></h1>', '<em>two</em> <a href="y.html">x</a> &lt;i&gt;\nmore', '<li>a b</li>',
         '<td><code>x</code></td>', '$ &lt;a&gt;'])
         assert.ok(html.includes(part), `${part} in ${html}`);
+});
+
+test('what a step has done is told by kind, name and place', () => {
+    const items = (statement) => parseMap(`sightline 1\n${statement}\n`);
+    assert.equal(tellChange([], items('wall 0 0 3 4')), 'Added: wall from 0, 0 to 3, 4, length 5');
+    assert.equal(tellChange([], items('object crate 4 4 5 5')), 'Added: object crate from 4, 4 to 5, 5');
 });
