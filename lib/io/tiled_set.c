@@ -118,7 +118,7 @@ static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
 }
 
 bool sli_tiled_looks_like_xml(const sl_bytes *bytes) {
-    const char *at = sli_lines_of(bytes->data, bytes->size).at;
+    const char *at = sli_skip_mark(bytes->data, bytes->size);
     return at[strspn(at, " \t\r\n")] == '<';
 }
 
