@@ -1,6 +1,7 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
 #include "base/base.h"
+#include "base/bits.h"
 #include "base/size.h"
 #include "effects/mirrors.h"
 #include "space/index.h"
@@ -413,8 +414,7 @@ static sl_status load_done(const reader *r, sl_partial *partial) {
     SL_TRY(load(r, "DONE", sizeof *partial->done, false, &partial->done, &words));
     if (words != sl_bits_words(partial->unit_count) || !bits_beyond_are_clear(partial))
         return fail_file(r, "damaged: section DONE does not tell of each unit");
-    for (uint64_t i = 0; i < words; i++)
-        partial->done_count += (uint32_t)__builtin_popcountll(partial->done[i]);
+    partial->done_count = (uint32_t)sli_bits_count(partial->done, (size_t)words);
     return SL_OK;
 }
 

@@ -6,6 +6,7 @@
 /// always seen, which never misses anything.
 #include "cell_to_cell/door_table.h"
 
+#include "base/bits.h"
 #include "sightline/doors.h"
 #include "sightline/support.h"
 
@@ -234,9 +235,8 @@ static sl_status append_number(sl_context *context, sli_row_bytes *row, uint32_t
 
 static sl_status append_set(sl_context *context, const sl_bits *set, size_t words,
                             sli_row_bytes *row) {
-    uint32_t count = 0, last = UINT32_MAX;
-    for (size_t i = 0; i < words; i++) count += (uint32_t)__builtin_popcountll(set[i]);
-    SL_TRY(append_number(context, row, count));
+    uint32_t last = UINT32_MAX;
+    SL_TRY(append_number(context, row, (uint32_t)sli_bits_count(set, words)));
     for (uint32_t door = 0; door < 64 * words; door++) {
         if (!sl_bits_has(set, door)) continue;
         SL_TRY(append_number(context, row, door - last - 1));

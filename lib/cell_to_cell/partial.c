@@ -8,6 +8,7 @@
 /// conservative. An exact search finds a pair from either of its cells, "prune" from the lower one.
 /// A rounded search may find it from one and not from the other, so that it needs both. With
 /// effects each source has rows of its own: what it sees, by mirror too, and through which doors.
+#include "base/bits.h"
 #include "base/size.h"
 #include "cell_to_cell/methods.h"
 
@@ -110,9 +111,8 @@ sl_status sli_partial_begin(sl_context *context, const sl_space *space,
 }
 
 static void count_done(sl_partial *partial) {
-    partial->done_count = 0;
-    for (size_t i = 0; i < sl_bits_words(partial->unit_count); i++)
-        partial->done_count += (uint32_t)__builtin_popcountll(partial->done[i]);
+    partial->done_count =
+        (uint32_t)sli_bits_count(partial->done, sl_bits_words(partial->unit_count));
 }
 
 /// Notes units as done.

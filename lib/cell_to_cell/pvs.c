@@ -5,6 +5,7 @@
 /// follow. Neighbouring cells have neighbouring numbers, so that runs are long and rows short.
 #include "cell_to_cell/pvs_rows.h"
 
+#include "base/bits.h"
 #include "base/size.h"
 
 #include <string.h>
@@ -304,12 +305,6 @@ typedef struct result_rows {
     sl_bits *set, *open; ///< scratch
 } result_rows;
 
-static uint64_t count_bits(const sl_bits *set, size_t words) {
-    uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(set[i]);
-    return count;
-}
-
 static sl_status finish_row(sl_context *context, const both_ways *in, result_rows *rows,
                             uint32_t cell, sl_visibility *out) {
     const uint32_t count = in->sure->cell_count;
@@ -322,10 +317,10 @@ static sl_status finish_row(sl_context *context, const both_ways *in, result_row
     if (in->doubtful_back.cell_count) sli_row_add_to(&in->doubtful_back, cell, rows->open);
     for (size_t i = 0; i < words; i++) rows->open[i] &= ~rows->set[i];
     SL_TRY(sli_row_append(context, &rows->doubtful[cell], rows->open, count));
-    out->account.doubtful_pairs += count_bits(rows->open, words);
+    out->account.doubtful_pairs += sli_bits_count(rows->open, words);
     if (out->sight == SL_CLOSED)
         for (size_t i = 0; i < words; i++) rows->set[i] |= rows->open[i];
-    out->account.pairs += count_bits(rows->set, words);
+    out->account.pairs += sli_bits_count(rows->set, words);
     return sli_row_append(context, &rows->seen[cell], rows->set, count);
 }
 

@@ -12,6 +12,7 @@
 /// 7-3).
 #include "cell_to_cell/rows.h"
 
+#include "base/bits.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
 
@@ -326,22 +327,16 @@ sl_status sli_bit_rows_add_word(sl_context *context, sli_bit_rows *rows, uint32_
 
 // --- encoding
 
-static uint64_t count_bits(const sl_bits *bits, size_t words) {
-    uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(bits[i]);
-    return count;
-}
-
 static sl_status append_row(sl_context *context, sli_bit_rows *rows, uint32_t cell,
                             sli_row_bytes *bytes, uint64_t *pairs) {
     if (rows->bits) {
-        *pairs += count_bits(sli_bit_rows_dense(rows, cell), rows->words);
+        *pairs += sli_bits_count(sli_bit_rows_dense(rows, cell), rows->words);
         return sli_row_append(context, bytes, sli_bit_rows_dense(rows, cell), rows->count);
     }
     sli_sparse_row *row = &rows->sparse[cell];
     const bool all = row->count == SLI_ALL_WORDS;
     const size_t count = all ? rows->words : row->count;
-    *pairs += count_bits(row->words, count);
+    *pairs += sli_bits_count(row->words, count);
     SL_TRY(sli_row_append_words(context, bytes, row->words, all ? NULL : sli_sparse_index(row),
                                 count));
     sli_sparse_row_destroy(context, row);

@@ -57,7 +57,7 @@ double sli_chart_heading(cairo_t *cairo, const sli_chart_page *page, bool paint)
 static void draw_disc(cairo_t *cairo, const sl_palette *palette, sl_colour colour, sl_point at,
                       double radius) {
     cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, radius, 0, 2 * 3.14159265358979323846);
+    cairo_arc(cairo, at.x, at.y, radius, 0, SLI_FULL_TURN);
     sl_set_colour(cairo, colour);
     cairo_fill_preserve(cairo);
     sli_pen_stroke(cairo, palette->floor[0], 0.28 * radius);

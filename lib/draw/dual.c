@@ -11,8 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define FULL_TURN 6.283185307179586
-#define MINUS     "\xe2\x88\x92"
+#define MINUS "\xe2\x88\x92"
 
 // --- the frame
 
@@ -157,9 +156,7 @@ static void draw_axes(cairo_t *cairo, const sl_palette *palette, const sl_dual_f
             write_number(k * step, text);
             cairo_move_to(cairo, at.x, at.y);
             cairo_line_to(cairo, axis ? f->left + f->width : at.x, axis ? at.y : f->top);
-            sl_set_colour(cairo, faint);
-            cairo_set_line_width(cairo, (k == 0 ? 1.6 : 0.7) * f->unit);
-            cairo_stroke(cairo);
+            sli_pen_stroke(cairo, faint, (k == 0 ? 1.6 : 0.7) * f->unit);
             // The corner belongs to neither axis.
             if (axis && at.y > f->top + f->height - 1.6 * size) continue;
             sl_text_show(cairo, palette->faint, at.x + 0.3 * size, at.y - 0.25 * size, text);
@@ -343,9 +340,7 @@ static void draw_polygon(cairo_t *cairo, const sl_palette *palette, const sl_dua
     const sl_colour c = palette->portal;
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.3);
     cairo_fill_preserve(cairo);
-    sl_set_colour(cairo, c);
-    cairo_set_line_width(cairo, 1.6 * f->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, c, 1.6 * f->unit);
 }
 
 /// A bar at the optimum, as high as the line can move up and down.
@@ -357,13 +352,11 @@ static void draw_best(cairo_t *cairo, const sl_palette *palette, const sl_dual_f
         sl_dual_frame_point(f, (sl_dual_line){dual->best.slope, dual->best.height + m});
     const sl_point under =
         sl_dual_frame_point(f, (sl_dual_line){dual->best.slope, dual->best.height - m});
-    sl_set_colour(cairo, palette->ink);
-    cairo_set_line_width(cairo, 1.2 * f->unit);
     cairo_move_to(cairo, over.x, over.y);
     cairo_line_to(cairo, under.x, under.y);
     cairo_move_to(cairo, at.x - 5 * f->unit, at.y);
     cairo_line_to(cairo, at.x + 5 * f->unit, at.y);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, palette->ink, 1.2 * f->unit);
 }
 
 void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame *f,
@@ -384,7 +377,7 @@ void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame
     draw_names(&g);
     const sl_point at = sl_dual_frame_point(f, chosen);
     cairo_new_path(cairo);
-    cairo_arc(cairo, at.x, at.y, 5.5 * f->unit, 0, FULL_TURN);
+    cairo_arc(cairo, at.x, at.y, 5.5 * f->unit, 0, SLI_FULL_TURN);
     sl_set_colour(cairo, palette->page);
     cairo_set_line_width(cairo, 3 * f->unit);
     cairo_stroke_preserve(cairo);

@@ -236,9 +236,7 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
 static void draw_frame(cairo_t *cairo, const sli_explained *pic, const sl_frame *frame) {
     if (!pic->part) return;
     cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);
-    sl_set_colour(cairo, pic->scene.palette.faint);
-    cairo_set_line_width(cairo, frame->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, pic->scene.palette.faint, frame->unit);
 }
 
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,

@@ -13,8 +13,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define FULL_TURN 6.283185307179586
-
 /// Radii, in units of the frame.
 #define BADGE     11.0
 #define MINOR_END 3.4
@@ -45,9 +43,7 @@ static void stroke_cased(cairo_t *cairo, sl_colour casing, double around, sl_col
     cairo_set_source_rgba(cairo, casing.red, casing.green, casing.blue, 0.85);
     cairo_set_line_width(cairo, width + around);
     cairo_stroke_preserve(cairo);
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, colour, width);
 }
 
 /// The pens stroke the path: the line that sees, directly or by mirror; the way of a sequence that
@@ -96,12 +92,10 @@ static void mark_badge(cairo_t *cairo, const sli_explained *pic, sl_point at, do
                        unsigned number) {
     const sl_palette *palette = &pic->scene.palette;
     cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, radius, 0, FULL_TURN);
+    cairo_arc(cairo, at.x, at.y, radius, 0, SLI_FULL_TURN);
     sl_set_colour(cairo, number ? palette->page : palette->ink);
     cairo_fill_preserve(cairo);
-    sl_set_colour(cairo, number ? palette->portal : palette->page);
-    cairo_set_line_width(cairo, 0.16 * radius);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, number ? palette->portal : palette->page, 0.16 * radius);
     if (number) {
         char text[16];
         snprintf(text, sizeof text, "%u", number);
@@ -317,7 +311,7 @@ static void draw_meeting(overlay *o) {
     if (!(share >= 0 && share <= 1)) return;
     const sl_point at = {a[0].x + share * ax, a[0].y + share * ay};
     cairo_new_sub_path(o->cairo);
-    cairo_arc(o->cairo, at.x, at.y, 8 * o->unit, 0, FULL_TURN);
+    cairo_arc(o->cairo, at.x, at.y, 8 * o->unit, 0, SLI_FULL_TURN);
     stroke_cased(o->cairo, o->pic->scene.palette.page, 2.4 * o->unit, o->pic->scene.palette.ink,
                  1.8 * o->unit);
     take_spot(o, at, 8 * o->unit);
@@ -364,7 +358,7 @@ static void draw_badge(overlay *o, uint32_t number) {
     for (int ring = 0; ring < 4; ring++)
         for (int side = 0; side < 8 && least > 0; side++) {
             // Beyond the ends, before and behind the portal, and between.
-            const double away = (1.5 + 1.2 * ring) * radius, turn = side * FULL_TURN / 8;
+            const double away = (1.5 + 1.2 * ring) * radius, turn = side * SLI_FULL_TURN / 8;
             const double along = cos(turn) * (away + half * fabs(cos(turn)));
             const double across = sin(turn) * away;
             const sl_point tried = {at.x + along * ux - across * uy,
@@ -379,9 +373,7 @@ static void draw_badge(overlay *o, uint32_t number) {
     if (distance_to_segment(best, left, right) > 1.8 * radius) {
         cairo_move_to(o->cairo, best.x, best.y);
         cairo_line_to(o->cairo, at.x, at.y);
-        sl_set_colour(o->cairo, o->pic->scene.palette.portal);
-        cairo_set_line_width(o->cairo, o->unit);
-        cairo_stroke(o->cairo);
+        sli_pen_stroke(o->cairo, o->pic->scene.palette.portal, o->unit);
     }
     const bool stops = o->pic->miss && number + 1 == o->pic->sequence->directed_count;
     mark_badge(o->cairo, o->pic, best, radius, stops ? 0 : number + 1);

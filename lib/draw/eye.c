@@ -74,8 +74,6 @@ static double draw_boxes_key(cairo_t *cairo, const sl_palette *palette, size_t c
     return 1.95 * size;
 }
 
-#define FULL_TURN 6.283185307179586
-
 enum { KEY_TEXT = 256 };
 
 typedef struct eye_picture {
@@ -124,7 +122,7 @@ static sl_status paint_cells(sl_context *context, eye_picture *p) {
 
 /// Degrees counter-clockwise from +x.
 static double heading_to(sl_point from, sl_point to) {
-    return atan2(to.y - from.y, to.x - from.x) * (360 / FULL_TURN);
+    return atan2(to.y - from.y, to.x - from.x) * (360 / SLI_FULL_TURN);
 }
 
 static double width_of(const sl_view *view) {
@@ -139,8 +137,8 @@ static void draw_cone(cairo_t *cairo, const eye_picture *p, const sl_frame *fram
     const sl_palette *palette = &p->scene.palette;
     const sl_point eye = sl_frame_point(frame, p->view->eye);
     const double reach = 2 * hypot(frame->width, frame->height);
-    const double right = heading_to(p->view->eye, p->view->right) * (FULL_TURN / 360);
-    const double left = right + width_of(p->view) * (FULL_TURN / 360);
+    const double right = heading_to(p->view->eye, p->view->right) * (SLI_FULL_TURN / 360);
+    const double left = right + width_of(p->view) * (SLI_FULL_TURN / 360);
     cairo_save(cairo);
     cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);
     cairo_clip(cairo);
@@ -159,7 +157,7 @@ static void draw_cone(cairo_t *cairo, const eye_picture *p, const sl_frame *fram
 
 static void draw_disc(cairo_t *cairo, const sl_palette *palette, sl_point at, double radius) {
     cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, radius, 0, FULL_TURN);
+    cairo_arc(cairo, at.x, at.y, radius, 0, SLI_FULL_TURN);
     cairo_set_line_width(cairo, 0.6 * radius);
     sl_set_colour(cairo, palette->page);
     cairo_stroke_preserve(cairo);
@@ -211,9 +209,7 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
     cairo_rectangle(cairo, left, middle - height / 2, width, height);
     sl_set_colour(cairo, sli_scene_colour(&p->scene, paint_of_layer(p, entry)));
     cairo_fill_preserve(cairo);
-    sl_set_colour(cairo, p->scene.palette.outline);
-    cairo_set_line_width(cairo, 0.06 * size);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, p->scene.palette.outline, 0.06 * size);
 }
 
 /// "exact: 12 cells, 1.8 % of the area", the last entry for the eye.

@@ -124,9 +124,7 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
         cairo_move_to(cairo, a.x, a.y);
         cairo_line_to(cairo, b.x, b.y);
     }
-    sl_set_colour(cairo, p->scene.palette.page);
-    cairo_set_line_width(cairo, 0.8 * frame->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, p->scene.palette.page, 0.8 * frame->unit);
 }
 
 /// From low to high values, each a little wider than the last. Lines without a value lie below.
@@ -135,9 +133,7 @@ static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const pi
     for (size_t i = 0; i < p->value_count; i++)
         if (isnan(p->values[i]))
             sl_path_segment(cairo, frame, p->lines->lines[i].a, p->lines->lines[i].b);
-    sl_set_colour(cairo, p->scene.palette.faint);
-    cairo_set_line_width(cairo, frame->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, p->scene.palette.faint, frame->unit);
     for (int step = 0; step < RAMP_STEPS; step++) {
         SL_TRY(sl_check_cancelled(context));
         for (size_t i = 0; i < p->value_count; i++) {
@@ -155,12 +151,10 @@ static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const pi
 static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl_point eye) {
     const sl_point at = sl_frame_point(frame, eye);
     cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
+    cairo_arc(cairo, at.x, at.y, 5 * frame->unit, 0, SLI_FULL_TURN);
     sl_set_colour(cairo, p->scene.palette.start);
     cairo_fill_preserve(cairo);
-    sl_set_colour(cairo, p->scene.palette.page);
-    cairo_set_line_width(cairo, 1.2 * frame->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, p->scene.palette.page, 1.2 * frame->unit);
 }
 
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
@@ -288,9 +282,7 @@ static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bo
         const double x = g->margin + labels[i].share * width;
         cairo_move_to(cairo, x, g->key + high);
         cairo_line_to(cairo, x, g->key + high + 0.35 * g->text);
-        sl_set_colour(cairo, ink);
-        cairo_set_line_width(cairo, 0.09 * g->text);
-        cairo_stroke(cairo);
+        sli_pen_stroke(cairo, ink, 0.09 * g->text);
         sl_text_show(cairo, ink, labels[i].left, g->key + high + 1.5 * g->text, labels[i].text);
     }
     if (beside)

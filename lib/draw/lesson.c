@@ -4,8 +4,6 @@
 #include "draw/marks.h"
 #include "sightline/support.h"
 
-#define FULL_TURN 6.283185307179586
-
 static void fill(cairo_t *cairo, const sl_frame *frame, const sl_point *corners, size_t count,
                  sl_colour c, double opacity) {
     sl_path_polygon(cairo, frame, corners, count);
@@ -66,7 +64,7 @@ static void draw_disc(cairo_t *cairo, const sl_frame *frame, sl_point point, dou
     sl_point at;
     if (!sl_frame_holds(frame, point, &at)) return;
     cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, radius * frame->unit, 0, FULL_TURN);
+    cairo_arc(cairo, at.x, at.y, radius * frame->unit, 0, SLI_FULL_TURN);
 }
 
 void sli_draw_mesh_points(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,

@@ -141,18 +141,16 @@ void sl_set_colour(cairo_t *cairo, sl_colour colour) {
     cairo_set_source_rgb(cairo, colour.red, colour.green, colour.blue);
 }
 
-static void stroke(cairo_t *cairo, sl_colour colour, double width, cairo_line_cap_t cap) {
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_set_line_cap(cairo, cap);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_stroke(cairo);
-}
-
 void sli_pen_stroke(cairo_t *cairo, sl_colour colour, double width) {
     sl_set_colour(cairo, colour);
     cairo_set_line_width(cairo, width);
     cairo_stroke(cairo);
+}
+
+static void stroke(cairo_t *cairo, sl_colour colour, double width, cairo_line_cap_t cap) {
+    cairo_set_line_cap(cairo, cap);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    sli_pen_stroke(cairo, colour, width);
 }
 
 static void stroke_dashed(cairo_t *cairo, sl_colour colour, double width, double on, double off,
@@ -219,6 +217,15 @@ void sli_pen_tree(cairo_t *cairo, sl_colour colour, const sli_pens *pens, uint32
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(cairo);
+}
+
+void sli_path_portal_end(cairo_t *cairo, sl_point at, bool left, double radius) {
+    cairo_new_sub_path(cairo);
+    if (left)
+        cairo_arc(cairo, at.x, at.y, radius, 0, SLI_FULL_TURN);
+    else
+        cairo_rectangle(cairo, at.x - 0.88 * radius, at.y - 0.88 * radius, 1.76 * radius,
+                        1.76 * radius);
 }
 
 void sli_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
@@ -316,9 +323,7 @@ static void stroke_rimmed(cairo_t *cairo, const sl_palette *palette, sl_fault_ki
     cairo_set_source_rgba(cairo, rim.red, rim.green, rim.blue, 0.8);
     cairo_set_line_width(cairo, 2 * width);
     cairo_stroke_preserve(cairo);
-    sl_set_colour(cairo, colour_of(kind));
-    cairo_set_line_width(cairo, width);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, colour_of(kind), width);
 }
 
 static void add_line(cairo_t *cairo, sl_point a, sl_point b) {
@@ -328,7 +333,7 @@ static void add_line(cairo_t *cairo, sl_point a, sl_point b) {
 
 static void add_ring(cairo_t *cairo, sl_point at, double radius) {
     cairo_new_sub_path(cairo);
-    cairo_arc(cairo, at.x, at.y, radius, 0, 6.283185307179586);
+    cairo_arc(cairo, at.x, at.y, radius, 0, SLI_FULL_TURN);
 }
 
 /// A square, or one on its corner.

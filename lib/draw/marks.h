@@ -4,6 +4,8 @@
 
 #include "draw/plan.h"
 
+#define SLI_FULL_TURN 6.283185307179586 ///< in radians
+
 /// Widths of lines, and the size of a start's mark. They follow the size of the cells on the page,
 /// within bounds that keep them visible and apart.
 typedef struct sli_pens {

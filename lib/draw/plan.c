@@ -535,7 +535,7 @@ static void add_dot(const plan *p, const sli_stroke *stroke) {
     sl_point place;
     if (!sl_frame_holds(p->frame, joint_at(p, stroke, stroke->to, false).place, &place)) return;
     cairo_new_sub_path(p->cairo);
-    cairo_arc(p->cairo, place.x, place.y, radius, 0, 6.283185307179586);
+    cairo_arc(p->cairo, place.x, place.y, radius, 0, SLI_FULL_TURN);
 }
 
 static void draw_tree(const plan *p) {

@@ -9,8 +9,6 @@
 
 // --- cells, eyes, portals
 
-#define FULL_TURN 6.283185307179586
-
 static void set_faded(cairo_t *cairo, sl_colour c, double opacity) {
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
 }
@@ -39,10 +37,8 @@ void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, 
         set_faded(cairo, colour, opacity);
         cairo_fill_preserve(cairo);
     }
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, colour, width);
 }
 
 void sl_draw_cone(cairo_t *cairo, const sl_frame *frame, sl_point eye, double heading, double fov,
@@ -51,13 +47,13 @@ void sl_draw_cone(cairo_t *cairo, const sl_frame *frame, sl_point eye, double he
     if (!sl_frame_holds(frame, eye, &at)) return;
     cairo_new_path(cairo);
     if (fov < 360) {
-        const double from = (heading - fov / 2) * (FULL_TURN / 360);
-        const double to = (heading + fov / 2) * (FULL_TURN / 360);
+        const double from = (heading - fov / 2) * (SLI_FULL_TURN / 360);
+        const double to = (heading + fov / 2) * (SLI_FULL_TURN / 360);
         cairo_move_to(cairo, at.x, at.y);
         cairo_arc_negative(cairo, at.x, at.y, reach, -from, -to); // on the page y runs down
         cairo_close_path(cairo);
     } else {
-        cairo_arc(cairo, at.x, at.y, reach, 0, FULL_TURN);
+        cairo_arc(cairo, at.x, at.y, reach, 0, SLI_FULL_TURN);
     }
     set_faded(cairo, colour, 0.10);
     cairo_fill_preserve(cairo);
@@ -74,7 +70,7 @@ void sl_draw_eye_mark(cairo_t *cairo, const sl_palette *palette, const sl_frame 
     cairo_new_path(cairo);
     sli_mark_start(cairo, palette, at, heading, 2.2 * radius);
     cairo_new_path(cairo);
-    cairo_arc(cairo, at.x, at.y, 0.55 * radius, 0, FULL_TURN);
+    cairo_arc(cairo, at.x, at.y, 0.55 * radius, 0, SLI_FULL_TURN);
     sl_set_colour(cairo, palette->page);
     cairo_fill(cairo);
 }
@@ -82,19 +78,8 @@ void sl_draw_eye_mark(cairo_t *cairo, const sl_palette *palette, const sl_frame 
 void sl_draw_line(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b, sl_colour colour,
                   double width) {
     sl_path_segment(cairo, frame, a, b);
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-    cairo_stroke(cairo);
-}
-
-void sli_path_portal_end(cairo_t *cairo, sl_point at, bool left, double radius) {
-    cairo_new_sub_path(cairo);
-    if (left)
-        cairo_arc(cairo, at.x, at.y, radius, 0, FULL_TURN);
-    else
-        cairo_rectangle(cairo, at.x - 0.88 * radius, at.y - 0.88 * radius, 1.76 * radius,
-                        1.76 * radius);
+    sli_pen_stroke(cairo, colour, width);
 }
 
 void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
@@ -124,10 +109,8 @@ void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double rad
     sl_point place;
     if (!sl_frame_holds(frame, at, &place)) return;
     cairo_new_path(cairo);
-    cairo_arc(cairo, place.x, place.y, radius, 0, FULL_TURN);
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, width);
-    cairo_stroke(cairo);
+    cairo_arc(cairo, place.x, place.y, radius, 0, SLI_FULL_TURN);
+    sli_pen_stroke(cairo, colour, width);
 }
 
 /// Fills and strokes what lies between the ends of one side: a triangle, a segment or a point.
@@ -151,9 +134,7 @@ static void draw_between(cairo_t *cairo, const sl_palette *palette, const sl_fra
     sl_set_colour(cairo, palette->page);
     cairo_set_line_width(cairo, 4.4 * frame->unit);
     cairo_stroke_preserve(cairo);
-    sl_set_colour(cairo, colour);
-    cairo_set_line_width(cairo, 2.4 * frame->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, colour, 2.4 * frame->unit);
 }
 
 /// An arrow through a portal's middle, the way that it is crossed.
@@ -177,9 +158,7 @@ static void draw_crossing(cairo_t *cairo, const sl_palette *palette, const sl_fr
     sl_set_colour(cairo, palette->page);
     cairo_set_line_width(cairo, 5 * frame->unit);
     cairo_stroke_preserve(cairo);
-    sl_set_colour(cairo, palette->ink);
-    cairo_set_line_width(cairo, 2.4 * frame->unit);
-    cairo_stroke(cairo);
+    sli_pen_stroke(cairo, palette->ink, 2.4 * frame->unit);
 }
 
 static double within(double value, double low, double high) {

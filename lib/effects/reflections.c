@@ -49,10 +49,11 @@ sli_mirror_frame sli_mirror_frame_of_map(void) {
     return (sli_mirror_frame){.xx = 1, .yy = 1};
 }
 
-/// a + b; *rounded where that is not the sum (Knuth's TwoSum).
+/// a + b; *rounded where that is not the sum.
 static double add_noting(double a, double b, bool *rounded) {
-    const double sum = a + b, part = sum - a;
-    if ((a - (sum - part)) + (b - part) != 0) *rounded = true;
+    double rest;
+    const double sum = sli_two_sum(a, b, &rest);
+    if (rest != 0) *rounded = true;
     return sum;
 }
 

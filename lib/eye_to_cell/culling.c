@@ -14,6 +14,7 @@
 ///
 /// Cost: disjoint_cell tests each cell of the visible set, connected_component and incident_portals
 /// each directed portal of the cells they keep. exact.c has the exact method.
+#include "base/bits.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "eye_to_cell/eye_search.h"
 
@@ -28,7 +29,7 @@ static sl_status cell_to_cell(sl_context *context, sl_eye_search *search, const 
     const size_t words = sl_eye_words(search->space);
     if (query.cell != SL_NO_CELL) {
         memcpy(cells, search->row, words * sizeof *cells);
-        for (size_t i = 0; i < words; i++) query.nodes += (uint64_t)__builtin_popcountll(cells[i]);
+        query.nodes += sli_bits_count(cells, words);
     }
     sli_eye_end(&query, account);
     return SL_OK;
@@ -42,8 +43,7 @@ static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *searc
     const sl_pvs *mirrored = &search->visibility->mirrored;
     if (query.cell != SL_NO_CELL && mirrored->cell_count) {
         sli_row_add_to(mirrored, query.cell, cells);
-        for (size_t i = 0; i < sl_eye_words(search->space); i++)
-            query.nodes += (uint64_t)__builtin_popcountll(cells[i]);
+        query.nodes += sli_bits_count(cells, sl_eye_words(search->space));
     }
     sli_eye_end(&query, account);
     return SL_OK;

@@ -210,7 +210,7 @@ static sli_eye_ray to_start(const expansion *x, uint32_t i) {
 static bool is_far(const expansion *x, uint32_t i) {
     const sl_point a = side(x, i)->start, b = side(x, side(x, i)->next)->start;
     const sl_point p = sli_eye_offset(&x->region->memory->eye, a), d = {b.x - a.x, b.y - a.y};
-    const double along = -(p.x * d.x + p.y * d.y) / (d.x * d.x + d.y * d.y);
+    const double along = -sli_dot(p, d) / sli_dot(d, d);
     const double share = along > 0 ? along < 1 ? along : 1 : 0;
     return sli_length(p.x + share * d.x, p.y + share * d.y) > x->region->range * (1 + 1e-9);
 }

@@ -3,7 +3,7 @@
 /// The region is star-shaped about the eye. Each edge and the eye make a triangle, or a sector
 /// where the edge is an arc:
 ///
-///       q ----- p      area = sum of sli_cross(p, q) / 2, with p and q as offsets from the eye.
+///       q ----- p      area = sum of p x q / 2, with p and q as offsets from the eye.
 ///        `.   .'       A radial edge (occluding, or the cone's border) adds no area.
 ///          eye
 ///
@@ -16,18 +16,14 @@
 
 static const double pi = 3.14159265358979323846;
 
-static double dot(sl_point a, sl_point b) {
-    return a.x * b.x + a.y * b.y;
-}
-
 static double angle_between(sl_point a, sl_point b) {
-    return atan2(sli_cross(a, b), dot(a, b));
+    return atan2(sli_cross(a, b), sli_dot(a, b));
 }
 
 /// The angle of an arc. Rounding may turn the sign of half a circle.
 static double angle_of_arc(sl_point a, sl_point b) {
     const double angle = angle_between(a, b);
-    return dot(a, b) < 0 ? fabs(angle) : angle;
+    return sli_dot(a, b) < 0 ? fabs(angle) : angle;
 }
 
 static sl_point offset_after(const sl_region *region, size_t i) {
@@ -72,7 +68,7 @@ static moments moments_of(const sl_region *region, size_t i) {
     }
     const double length = sli_length(q.x - p.x, q.y - p.y);
     const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
-    const double h = sli_cross(p, along), from = dot(p, along), to = dot(q, along);
+    const double h = sli_cross(p, along), from = sli_dot(p, along), to = sli_dot(q, along);
     if (!(h > 0)) return (moments){0};
     const double turned = asinh(to / h) - asinh(from / h);
     m.first = h * turned;
@@ -83,7 +79,7 @@ static moments moments_of(const sl_region *region, size_t i) {
 
 static double distance_to(sl_point p, sl_point q) {
     const sl_point d = {q.x - p.x, q.y - p.y};
-    const double square = dot(d, d), share = square > 0 ? -dot(p, d) / square : 0;
+    const double square = sli_dot(d, d), share = square > 0 ? -sli_dot(p, d) / square : 0;
     if (!(share > 0)) return sli_length(p.x, p.y);
     if (!(share < 1)) return sli_length(q.x, q.y);
     return fabs(sli_cross(p, d)) / sqrt(square);

@@ -23,10 +23,11 @@ static pair quick_sum(double a, double b) {
     return (pair){sum, b - (sum - a)};
 }
 
-/// Exact (Knuth; Shewchuk 1997, theorem 7).
+/// Exact (Shewchuk 1997, theorem 7).
 static pair difference(double a, double b) {
-    const double sum = a - b, part = sum - a;
-    return (pair){sum, (a - (sum - part)) - (b + part)};
+    pair sum;
+    sum.high = sli_two_sum(a, -b, &sum.low);
+    return sum;
 }
 
 static pair product(pair a, pair b) {
@@ -242,7 +243,7 @@ typedef struct chord {
 static chord chord_of(sl_point p, sl_point q, double range) {
     const double length = sli_length(q.x - p.x, q.y - p.y);
     const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
-    const double distance = fabs(sli_cross(p, along)), foot = -(p.x * along.x + p.y * along.y);
+    const double distance = fabs(sli_cross(p, along)), foot = -sli_dot(p, along);
     const double half =
         distance < range ? sqrt((range - distance) * (range + distance)) : -INFINITY;
     return (chord){along, length, fmax(foot - half, 0), fmin(foot + half, length)};

@@ -19,6 +19,8 @@
 /// relation that it finds, where K is the number of view cells that depend on one (Laine 2005,
 /// section 6.3).
 #include "from_region/scene.h"
+
+#include "base/bits.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -58,12 +60,6 @@ static bool faces_quadrant(const sl_from_region_scene *scene, uint32_t face, int
 
 static void add_row(sl_bits *to, const sl_bits *from, size_t words) {
     for (size_t i = 0; i < words; i++) to[i] |= from[i];
-}
-
-static uint64_t count_row(const sl_bits *row, size_t words) {
-    uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(row[i]);
-    return count;
 }
 
 // --- solving by several threads
@@ -315,7 +311,7 @@ static sl_status task_unit(sl_context *context, region_work *work, region_thread
         make_set(work, t.node);
         return SL_OK;
     }
-    thread->candidates += count_row(set, words);
+    thread->candidates += sli_bits_count(set, words);
     sl_bits *seen = h->cache + t.face * words;
     SL_TRY(solve_face(context, work, thread, t.face, -1, set, seen));
     const node *n = &h->nodes.items[t.node];
@@ -397,8 +393,8 @@ static sl_status visit_unit(sl_context *context, region_work *work, region_threa
         SL_TRY(solve_face(context, work, thread, f, v.quadrant, refine, row));
     }
     add_row(row, sli_from_region_inside(scene, v.view_cell), scene->words);
-    thread->candidates += count_row(thread->set, scene->words);
-    thread->relations += count_row(row, scene->words);
+    thread->candidates += sli_bits_count(thread->set, scene->words);
+    thread->relations += sli_bits_count(row, scene->words);
     pthread_mutex_lock(&work->lock);
     add_row(work->seen + v.view_cell * scene->words, row, scene->words);
     pthread_mutex_unlock(&work->lock);
@@ -482,7 +478,7 @@ bool sl_from_region_sees(const sl_from_region_result *result, uint32_t view_cell
 }
 
 uint64_t sl_from_region_pairs(const sl_from_region_result *result) {
-    return count_row(result->seen, (size_t)result->view_cells * result->words);
+    return sli_bits_count(result->seen, (size_t)result->view_cells * result->words);
 }
 
 static sl_status check_options(sl_context *context, const sl_from_region_options *options) {

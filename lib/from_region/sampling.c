@@ -196,24 +196,32 @@ static void pixels_of(const sampler *s, const extent *from, const extent *what, 
     *end = high > 0 ? high < count ? (uint32_t)high : count : 0;
 }
 
+/// An image at work: the rays of one point of a face.
+typedef struct drawing {
+    image image;
+    uint32_t behind; ///< the place of the leaf behind the face
+    extent from;     ///< the point
+    ray *rays;
+    size_t count;
+    sl_bits *seen;
+} drawing;
+
 /// Draws an item. A solid one is kept where it is the nearest. One that is seen through is seen
 /// where nothing solid is nearer.
-static void draw(const sampler *s, image i, const sli_item *item, const extent *from,
-                 uint32_t behind, ray *rays, size_t count, sl_bits *seen) {
-    const sl_from_region_scene *scene = s->scene;
-    const uint32_t place = scene->passes[i.quadrant].place[item->leaf];
-    if (place > behind) return; // before the face
-    const sl_portal_ends ends = sli_item_ends(item, i.quadrant);
-    const extent what = extent_of(i, ends.left, ends.right);
+static void draw(const sampler *s, const drawing *d, const sli_item *item) {
+    const uint32_t place = s->scene->passes[d->image.quadrant].place[item->leaf];
+    if (place > d->behind) return; // before the face
+    const sl_portal_ends ends = sli_item_ends(item, d->image.quadrant);
+    const extent what = extent_of(d->image, ends.left, ends.right);
     uint32_t first, end;
-    if (!in_frustum(from, &what)) return;
-    pixels_of(s, from, &what, &first, &end);
-    for (size_t k = 0; k < count && rays[k].pixel < end; k++) {
-        ray *r = &rays[k];
+    if (!in_frustum(&d->from, &what)) return;
+    pixels_of(s, &d->from, &what, &first, &end);
+    for (size_t k = 0; k < d->count && d->rays[k].pixel < end; k++) {
+        ray *r = &d->rays[k];
         if (r->pixel < first || (r->object != UINT32_MAX && place < r->leaf)) continue;
         if (!passes(r->line, ends.left, ends.right)) continue;
         if (item->through) {
-            sl_bits_add(seen, item->object);
+            sl_bits_add(d->seen, item->object);
         } else {
             r->object = item->object;
             r->leaf = place;
@@ -221,32 +229,29 @@ static void draw(const sampler *s, image i, const sli_item *item, const extent *
     }
 }
 
-/// Draws one image: a point of the face, half a quadrant.
-static void draw_image(sampler *s, image i, const sli_from_region_query *query, const extent *from,
-                       ray *rays, size_t count, sl_bits *seen, sli_from_region_account *account) {
+static void draw_image(sampler *s, const drawing *d, const sl_bits *refine,
+                       sli_from_region_account *account) {
     const sl_from_region_scene *scene = s->scene;
-    const uint32_t behind =
-        scene->passes[i.quadrant].place[scene->space.directed[query->face->directed].cell];
     s->refined.count = 0;
     for (size_t word = 0; word < scene->words; word++)
-        for (sl_bits left = query->refine[word]; left; left &= left - 1) {
+        for (sl_bits left = refine[word]; left; left &= left - 1) {
             const uint32_t object = (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(left);
             const sl_box *box = &scene->boxes[object];
-            const extent what = extent_of(i, box->min, box->max);
-            if (in_frustum(from, &what)) s->refined.items[s->refined.count++] = object;
+            const extent what = extent_of(d->image, box->min, box->max);
+            if (in_frustum(&d->from, &what)) s->refined.items[s->refined.count++] = object;
         }
     account->images++;
-    account->rays += count;
+    account->rays += d->count;
     account->refined += s->refined.count;
     for (int through = 0; through < 2; through++)
         for (size_t k = 0; k < s->refined.count; k++) {
             const uint32_t object = s->refined.items[k];
             for (uint32_t n = scene->first_item[object]; n < scene->first_item[object + 1]; n++)
                 if (scene->items.items[n].through == (through == 1))
-                    draw(s, i, &scene->items.items[n], from, behind, rays, count, seen);
+                    draw(s, d, &scene->items.items[n]);
         }
-    for (size_t k = 0; k < count; k++)
-        if (rays[k].object != UINT32_MAX) sl_bits_add(seen, rays[k].object);
+    for (size_t k = 0; k < d->count; k++)
+        if (d->rays[k].object != UINT32_MAX) sl_bits_add(d->seen, d->rays[k].object);
 }
 
 /// The part of a face from which the lines of one of its points leave, and a little more.
@@ -278,9 +283,13 @@ static sl_status run(sl_context *context, void *state, const sli_from_region_que
         SL_TRY(make_rays(context, s, i, portal, points));
         for (uint32_t point = 0; point < points; point++) {
             const uint32_t first = s->starts.items[point], end = s->starts.items[point + 1];
-            const extent from = point_of(i, portal, point, points, s->step);
-            if (first < end)
-                draw_image(s, i, query, &from, s->rays.items + first, end - first, seen, account);
+            const drawing d = {i,
+                               s->scene->passes[i.quadrant].place[portal->cell],
+                               point_of(i, portal, point, points, s->step),
+                               s->rays.items + first,
+                               end - first,
+                               seen};
+            if (d.count) draw_image(s, &d, query->refine, account);
         }
     }
     return SL_OK;

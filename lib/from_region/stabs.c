@@ -5,6 +5,7 @@
 /// In the plane the lines of a quadrant that leave by a face go through leaves in one way each. So
 /// sequences share no inner lines, and their number is at most the square of the number of portal
 /// ends. This is the exact solver of two dimensions, where three dimensions need Plücker space.
+#include "base/bits.h"
 #include "cell_to_cell/portal_search.h"
 #include "from_region/scene.h"
 
@@ -121,9 +122,7 @@ static sl_status run(sl_context *context, void *state, const sli_from_region_que
     static const sli_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
     searcher *s = state;
     memcpy(s->left, query->refine, s->scene->words * sizeof *s->left);
-    s->left_count = 0;
-    for (size_t i = 0; i < s->scene->words; i++)
-        s->left_count += (uint64_t)__builtin_popcountll(s->left[i]);
+    s->left_count = sli_bits_count(s->left, s->scene->words);
     account->images++;
     account->refined += s->left_count;
     s->query = query;

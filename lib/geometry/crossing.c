@@ -271,10 +271,6 @@ static rough rough_between(const sli_fine *from, const sli_fine *to) {
     return (rough){sum, 0x1p-51 * (size(at) + size(rest))};
 }
 
-static double dot(sl_point a, sl_point b) {
-    return a.x * b.x + a.y * b.y;
-}
-
 /// A bound of the error of a product of two vectors.
 static double error_of(const rough *a, const rough *b) {
     return 0x1p-50 * size(a->at) * size(b->at) + a->error * size(b->at) + b->error * size(a->at);
@@ -301,14 +297,14 @@ static int compare_in_doubles(const sli_glance *g, double length) {
     for (int side = 0; side < 2; side++) {
         const rough d = rough_between(&g->eye, side ? &g->to : &g->from);
         const bool away = side ? g->to_away : g->from_away;
-        const double along = away ? -dot(d.at, w.at) : dot(d.at, w.at);
+        const double along = away ? -sli_dot(d.at, w.at) : sli_dot(d.at, w.at);
         const double over = sli_cross(d.at, w.at);
         if (!is_sure(along, error_of(&d, &w))) return 0;
         if (side ? along > 0 : along < 0) continue;
         if (!is_sure(over, error_of(&d, &w)) || !is_sure(size(d.at), d.error)) return 0;
-        return compare_roughly(area * area * (dot(d.at, d.at) / (over * over)), square);
+        return compare_roughly(area * area * (sli_dot(d.at, d.at) / (over * over)), square);
     }
-    return compare_roughly(area * area / dot(w.at, w.at), square);
+    return compare_roughly(area * area / sli_dot(w.at, w.at), square);
 }
 
 // --- distances: in whole numbers
@@ -413,7 +409,7 @@ int sli_nearest_compare(const sli_glance *glance, double length) {
 int sli_distance_compare(sl_point a, sl_point b, double length) {
     const sli_fine from = {.at = a}, to = {.at = b};
     const rough v = rough_between(&from, &to);
-    const int sign = compare_roughly(dot(v.at, v.at), length * length);
+    const int sign = compare_roughly(sli_dot(v.at, v.at), length * length);
     if (sign) return sign;
     int exponent = INT_MAX;
     lower_by(&exponent, &from);

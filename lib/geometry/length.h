@@ -1,7 +1,7 @@
-/// Lengths, sums, cross products, and the lesser and the greater of two numbers. A length is the
-/// same to the last bit on every machine. The hypot of mathematical libraries is not: they round
-/// differently, some by the processor they find. A difference of one bit is enough to cut a map
-/// another way.
+/// Lengths, sums, cross and dot products, and the lesser and the greater of two numbers. A length
+/// is the same to the last bit on every machine. The hypot of mathematical libraries is not: they
+/// round differently, some by the processor they find. A difference of one bit is enough to cut a
+/// map another way.
 #ifndef SLI_LENGTH_H
 #define SLI_LENGTH_H
 
@@ -26,6 +26,10 @@ static inline double sli_length(double x, double y) {
 /// a x b, rounded. For its sign there is orient.h.
 static inline double sli_cross(sl_point a, sl_point b) {
     return a.x * b.y - a.y * b.x;
+}
+
+static inline double sli_dot(sl_point a, sl_point b) {
+    return a.x * b.x + a.y * b.y;
 }
 
 /// a + b, and what that leaves out (Knuth's TwoSum).

@@ -15,7 +15,7 @@
 
 sl_status sli_json_open(sl_context *context, const char *name, const char *text, size_t size,
                         sli_json_file *file) {
-    const char *begin = sli_lines_of(text, size).at;
+    const char *begin = sli_skip_mark(text, size);
     json_error_t error;
     json_t *root = json_loadb(begin ? begin : "", size - (size_t)(begin - text), 0, &error);
     if (!root) {

@@ -6,12 +6,6 @@
 
 // --- names
 
-static sli_word trimmed(sli_word word) {
-    while (word.length && strchr(" \t", *word.at)) word.at++, word.length--;
-    while (word.length && strchr(" \t", word.at[word.length - 1])) word.length--;
-    return word;
-}
-
 static char small(char c) {
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
@@ -48,7 +42,7 @@ static sl_status read_pairs(sli_dxf *dxf, const char *text, size_t size) {
     sli_word code, value;
     while (sli_lines_next(&lines, &code)) {
         sli_dxf_pair pair;
-        code = trimmed(code);
+        code = sli_trimmed(code);
         if (!read_code(code, &pair.code))
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "expected a group code (a whole number), found '%s'",
@@ -57,7 +51,7 @@ static sl_status read_pairs(sli_dxf *dxf, const char *text, size_t size) {
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "the file ends where the value of group %d should be", pair.code);
         pair.line = lines.line;
-        pair.value = trimmed(value);
+        pair.value = sli_trimmed(value);
         SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->pairs, 1));
         dxf->pairs.items[dxf->pairs.count++] = pair;
         if (pair.code == 0 && sli_word_is(pair.value, "EOF")) return SL_OK;

@@ -266,10 +266,10 @@ static sl_status read_object(export_reader *reader, const sli_json *object) {
 
 /// Files of that ending that no reader knows come here.
 static sl_status refuse_geojson(const sli_json *root) {
-    const sli_json type = sli_json_member(root, "type");
+    const char *type = sli_json_text_of(root, "type");
     const char *const kinds[] = {"FeatureCollection", "Feature", "GeometryCollection"};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (json_is_string(type.value) && strcmp(json_string_value(type.value), kinds[i]) == 0)
+        if (strcmp(type, kinds[i]) == 0)
             return sl_fail_at(root->file->context, root->file->name, 1,
                               "GeoJSON is no map to read; use map text, DXF or SVG, or the JSON "
                               "export");

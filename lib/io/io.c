@@ -2,6 +2,7 @@
 #include "sightline/io.h"
 
 #include "io/wad.h"
+#include "map/scan.h"
 
 #include <string.h>
 
@@ -79,30 +80,26 @@ static bool knows_dxf(const char *text, size_t size) {
     static const char binary[] = "AutoCAD Binary DXF";
     if (size >= 6 && memcmp(text, "AC10", 4) == 0) return true;
     if (size >= sizeof binary && memcmp(text, binary, sizeof binary - 1) == 0) return true;
-    const char *at = text + strspn(text, " \t\r\n");
-    while (strncmp(at, "999", 3) == 0 && is_one_of("\r\n", at[3])) {
-        at += strcspn(at, "\n");
-        at += *at == '\n';
-        at += strcspn(at, "\n");
-        at += strspn(at, " \t\r\n");
-    }
-    if (*at != '0' || !is_one_of(" \t\r\n", at[1])) return false;
-    at += 1 + strspn(at + 1, " \t\r\n");
-    return strncmp(at, "SECTION", 7) == 0;
-}
-
-/// Whether a line begins with this key.
-static bool has_key(const char *text, const char *key) {
-    for (const char *at = text; at; at = strchr(at, '\n')) {
-        at += *at == '\n';
-        if (strncmp(at, key, strlen(key)) == 0) return true;
+    sli_lines lines = sli_lines_of(text, size);
+    for (sli_word code, value; sli_lines_next(&lines, &code) && sli_lines_next(&lines, &value);) {
+        code = sli_trimmed(code);
+        if (!sli_word_is(code, "999"))
+            return sli_word_is(code, "0") && sli_word_is(sli_trimmed(value), "SECTION");
     }
     return false;
 }
 
+/// Whether a line begins with this key.
+static bool has_key(const char *text, size_t size, const char *key) {
+    const size_t length = strlen(key);
+    sli_lines lines = sli_lines_of(text, size);
+    for (sli_word line; sli_lines_next(&lines, &line);)
+        if (line.length >= length && memcmp(line.at, key, length) == 0) return true;
+    return false;
+}
+
 static bool knows_ros(const char *text, size_t size) {
-    (void)size;
-    return has_key(text, "image:") && has_key(text, "resolution:");
+    return has_key(text, size, "image:") && has_key(text, size, "resolution:");
 }
 
 static const sl_map_format map_formats[] = {

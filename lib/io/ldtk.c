@@ -47,16 +47,10 @@ static sli_json find_values(const ldtk *reader, const sli_json *layer, sli_json 
     return (sli_json){.file = layer->file};
 }
 
-static bool value_says_solid(const sli_json *value) {
-    const sli_json name = sli_json_member(value, "identifier");
-    const char *text = json_string_value(name.value);
-    return text && sli_says_solid(text);
-}
-
 static bool any_says_solid(const sli_json *values) {
     for (size_t i = 0; i < json_array_size(values->value); i++) {
         const sli_json value = sli_json_item(values, i);
-        if (value_says_solid(&value)) return true;
+        if (sli_says_solid(sli_json_text_of(&value, "identifier"))) return true;
     }
     return false;
 }
@@ -73,10 +67,10 @@ static cell_meaning meaning_of(const sli_json *values, bool by_name, int64_t cel
     cell_meaning meaning = {.solid = !by_name && cell != 0};
     for (size_t i = 0; cell && i < json_array_size(values->value); i++) {
         const sli_json value = sli_json_item(values, i), number = sli_json_member(&value, "value");
-        const sli_json name = sli_json_member(&value, "identifier");
+        const char *name = sli_json_text_of(&value, "identifier");
         if (!json_is_integer(number.value) || json_integer_value(number.value) != cell) continue;
-        meaning.solid |= value_says_solid(&value);
-        meaning.says = sli_says_of(json_string_value(name.value), NULL);
+        meaning.solid |= sli_says_solid(name);
+        meaning.says = sli_says_of(name, NULL);
         break;
     }
     return meaning;

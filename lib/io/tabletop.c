@@ -17,9 +17,8 @@
 static const char *marked_name(const sli_json *door, bool flags) {
     const sli_json of_flags = sli_json_member(door, "flags");
     const sli_json own = sli_json_member(flags ? &of_flags : door, "sightline");
-    const sli_json name = sli_json_member(&own, "name");
-    const char *text = json_string_value(name.value);
-    return text && sli_name_usable(text, strlen(text)) ? text : NULL;
+    const char *name = sli_json_text_of(&own, "name");
+    return sli_name_usable(name, strlen(name)) ? name : NULL;
 }
 
 static bool is_marked(const sli_json *doors, bool flags, const char *name) {
@@ -422,11 +421,10 @@ static sl_status add_door(foundry *reader, const sli_json *walls, const sli_json
 
 /// Names a wall by its place in the list and its id: "walls[12], id eX3".
 static sl_status name_wall(foundry *reader, const sli_json *wall, const record *read) {
-    const sli_json id = sli_json_member(wall, "_id");
-    const char *text = json_string_value(id.value);
+    const char *id = sli_json_text_of(wall, "_id");
     char label[SL_LINE_TEXT];
-    snprintf(label, sizeof label, "walls[%u]%s%s", (unsigned)read->item - 1, text ? ", id " : "",
-             text ? sli_show((sli_word){text, strlen(text)}).text : "");
+    snprintf(label, sizeof label, "walls[%u]%s%s", (unsigned)read->item - 1, *id ? ", id " : "",
+             sli_show((sli_word){id, strlen(id)}).text);
     return sl_map_add_label(reader->context, reader->map, read->item, label);
 }
 

@@ -76,10 +76,8 @@ static bool are_numbers(sli_word gids) {
 /// Looks for a layer in a list of layers and in its groups.
 static bool find_layer(const sli_json *layers, sli_word word, sli_word *gids) {
     for (size_t i = 0; i < json_array_size(layers->value); i++) {
-        const sli_json layer = sli_json_item(layers, i), name = sli_json_member(&layer, "name");
-        const sli_json inner = sli_json_member(&layer, "layers");
-        const char *text = json_string_value(name.value);
-        if (text && names(word, text, gids)) return true;
+        const sli_json layer = sli_json_item(layers, i), inner = sli_json_member(&layer, "layers");
+        if (names(word, sli_json_text_of(&layer, "name"), gids)) return true;
         if (find_layer(&inner, word, gids)) return true;
     }
     return false;

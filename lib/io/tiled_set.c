@@ -44,12 +44,10 @@ sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {
     for (sli_json value; word == SLI_TILED_UNSAID && sli_tiled_next_property(&at, &name, &value);)
         word = word_of_property(name, &value);
     if (word != SLI_TILED_UNSAID) return word;
-    const sli_json type = sli_json_member(thing, class_key),
-                   class = sli_json_member(thing, "class");
-    const char *texts[] = {json_string_value(type.value), json_string_value(class.value)};
-    for (size_t i = 0; i < 2; i++)
-        if (texts[i] && sli_says_solid(texts[i])) return SLI_TILED_SOLID;
-    return SLI_TILED_UNSAID;
+    return sli_says_solid(sli_json_text_of(thing, class_key)) ||
+                   sli_says_solid(sli_json_text_of(thing, "class"))
+               ? SLI_TILED_SOLID
+               : SLI_TILED_UNSAID;
 }
 
 static sl_status add_tile(sl_context *context, sli_tiled_set *set, sli_tiled_tile tile) {
@@ -93,9 +91,7 @@ static sl_status read_tiles(const sli_json *json, sli_tiled_set *set) {
 /// Shapes of isometric sets are drawn in a diamond that stands on the tile's lower left corner.
 static sl_status read_grid(const sli_json *json, sli_tiled_set *set) {
     const sli_json grid = sli_json_member(json, "grid");
-    const sli_json orientation = sli_json_member(&grid, "orientation");
-    const char *text = json_string_value(orientation.value);
-    if (!text || strcmp(text, "isometric") != 0) return SL_OK;
+    if (strcmp(sli_json_text_of(&grid, "orientation"), "isometric") != 0) return SL_OK;
     const sli_json width = sli_json_member(&grid, "width");
     const sli_json height = sli_json_member(&grid, "height");
     int64_t columns, rows;
@@ -122,7 +118,7 @@ static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
 }
 
 bool sli_tiled_looks_like_xml(const sl_bytes *bytes) {
-    const char *at = sli_lines_of(bytes->data, bytes->size).at;
+    const char *at = sli_skip_mark(bytes->data, bytes->size);
     return at[strspn(at, " \t\r\n")] == '<';
 }
 

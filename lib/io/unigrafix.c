@@ -358,7 +358,7 @@ static sl_status check_slice(const ug_model *model, const sl_import_options *opt
 static sl_status read_points(ug_model *model, const char *text, size_t size) {
     SL_TRY(sli_refuse_nul(model->context, model->name, text, size));
     model->end = size ? text + size : text;
-    SL_TRY(read_statements(model, sli_lines_of(text, size).at, false));
+    SL_TRY(read_statements(model, sli_skip_mark(text, size), false));
     if (model->vertices.count) return SL_OK;
     return sl_fail_at(model->context, model->name, 0, "the model has no vertices");
 }
@@ -369,7 +369,7 @@ static sl_status read_model(ug_model *model, const char *text, size_t size,
     SL_TRY(check_slice(model, options));
     model->slice = options->slice;
     model->map->ground_guessed = true;
-    SL_TRY(read_statements(model, sli_lines_of(text, size).at, true));
+    SL_TRY(read_statements(model, sli_skip_mark(text, size), true));
     if (model->notes.count) {
         model->notes.items[model->notes.count] = '\0';
         SL_TRY(sl_map_add_note(model->context, model->map, model->notes.items));

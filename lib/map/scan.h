@@ -17,6 +17,13 @@ static inline bool sli_word_is(sli_word word, const char *text) {
     return word.length == strlen(text) && memcmp(word.at, text, word.length) == 0;
 }
 
+/// A word without the spaces and tabs around it.
+static inline sli_word sli_trimmed(sli_word word) {
+    while (word.length && strchr(" \t", *word.at)) word.at++, word.length--;
+    while (word.length && strchr(" \t", word.at[word.length - 1])) word.length--;
+    return word;
+}
+
 /// A word for a message. It lives to the end of the expression: sli_show(word).text.
 typedef struct sli_shown {
     char text[48];
@@ -46,11 +53,14 @@ typedef struct sli_lines {
     uint32_t line;
 } sli_lines;
 
-/// Skips a byte order mark at the start. Lines end with LF or CR LF; in a text without any LF, with
-/// CR.
+/// The text behind a byte order mark, if it begins with one.
+static inline const char *sli_skip_mark(const char *text, size_t size) {
+    return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
+}
+
+/// Lines end with LF or CR LF; in a text without any LF, with CR.
 static inline sli_lines sli_lines_of(const char *text, size_t size) {
-    const size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    return (sli_lines){.at = size ? text + mark : text,
+    return (sli_lines){.at = sli_skip_mark(text, size),
                        .end = size ? text + size : text,
                        .ending = size && !memchr(text, '\n', size) ? '\r' : '\n'};
 }

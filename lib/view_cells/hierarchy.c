@@ -14,6 +14,7 @@
 /// A heap holds the pairs of neighbours by the increase in cost. A pair is stale where one of the
 /// two has been merged; it is then dropped. The joint takes over the longer of the two lists of
 /// neighbours. Cost: O(p log p) heap steps for p pairs, each new pair with one union of two sets.
+#include "base/bits.h"
 #include "view_cells/divide.h"
 #include "view_cells/tree.h"
 
@@ -306,16 +307,10 @@ static uint64_t row_bytes(const sl_bits *set, uint32_t count) {
     return bytes;
 }
 
-static uint32_t count_objects(const sl_bits *set, size_t words) {
-    uint32_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint32_t)__builtin_popcountll(set[i]);
-    return count;
-}
-
 static void measure(const sli_view_render *render, const sl_view_sets *sets, const sl_bits *set,
                     sl_point middle, uint32_t number, sl_view_hierarchy *h) {
     h->cost[number] = sli_view_render_set(render, set, sets->words, middle);
-    h->objects[number] = count_objects(set, sets->words);
+    h->objects[number] = (uint32_t)sli_bits_count(set, sets->words);
     h->bytes[number] = row_bytes(set, sets->object_count);
 }
 

@@ -5,6 +5,7 @@
 /// convex polygon or a point, with its share of the probability. An object costs
 /// max(a, b * t, c * p) for t walls and a share p of the full circle, as seen from the middle of
 /// the view cell.
+#include "base/bits.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
@@ -236,8 +237,7 @@ double sli_view_render_share(const sli_view_render *render, uint32_t object, sl_
 double sli_view_render_set(const sli_view_render *render, const sl_bits *set, size_t words,
                            sl_point from) {
     if (render->even) {
-        uint64_t count = 0;
-        for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(set[i]);
+        const uint64_t count = sli_bits_count(set, words);
         return count ? (double)count * render->fixed[0] : 0;
     }
     double sum = 0;

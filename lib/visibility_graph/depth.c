@@ -15,6 +15,7 @@
 ///
 /// Cost: O(pairs that see each other, from points beside walls) for each start. Invariant: lengths
 /// leave the heap in ascending order.
+#include "base/bits.h"
 #include "geometry/length.h"
 #include "visibility_graph/heap.h"
 #include "visibility_graph/measures.h"
@@ -424,8 +425,7 @@ static sl_status contract(sl_context *context, const sl_vga_grid *grid, const sl
     for (uint32_t k = 0; k < c->graph.count; k++) { // no place sees itself
         sl_bits *row = c->graph.rows + k * c->graph.words;
         if (sl_bits_has(row, k)) sl_bits_flip(row, k);
-        for (size_t w = 0; w < c->graph.words; w++)
-            c->graph.edges += (uint64_t)__builtin_popcountll(row[w]);
+        c->graph.edges += sli_bits_count(row, c->graph.words);
     }
     return SL_OK;
 }

@@ -16,6 +16,7 @@
 ///
 /// Cost: for each eye, the sides of the rooms that it sees and the points in them. Invariant: a
 /// cone is narrower than half a circle, and the rooms behind a portal lie beyond its line.
+#include "base/bits.h"
 #include "geometry/length.h"
 #include "sightline/vga.h"
 
@@ -316,13 +317,6 @@ static sl_status look_from_unit(sl_context *context, void *all, void *state, siz
     return SL_OK;
 }
 
-static uint64_t count_edges(const sl_vga_graph *graph) {
-    uint64_t edges = 0;
-    for (size_t i = 0; i < graph->count * graph->words; i++)
-        edges += (uint64_t)__builtin_popcountll(graph->rows[i]);
-    return edges;
-}
-
 static sl_status connect(sl_context *context, job *j, unsigned threads) {
     const sl_work work = {.job = j,
                           .begin = begin,
@@ -356,7 +350,7 @@ sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline, cons
         sl_vga_graph_destroy(context, &graph);
         return status;
     }
-    graph.edges = count_edges(&graph);
+    graph.edges = sli_bits_count(graph.rows, graph.count * graph.words);
     *out = graph;
     return SL_OK;
 }

@@ -12,6 +12,7 @@
 /// Invariant: counts are exact or upper bounds, but for the queues of searches. Those are guessed
 /// from maps that were measured, so the answer is no bound where a queue grows longer. Cost:
 /// O(edges), and for points beside walls a few rows for each step.
+#include "base/bits.h"
 #include "visibility_graph/paths.h"
 
 #include <string.h>
@@ -57,7 +58,6 @@ static uint64_t most(uint64_t a, uint64_t b) {
 static uint64_t count_near(counting *c, uint32_t point) {
     const size_t words = c->graph->words;
     const sl_bits *row = sli_vga_row(c->graph, point);
-    uint64_t count = 0;
     memcpy(c->near, row, words * sizeof *row);
     sl_bits_add(c->near, point);
     for (size_t w = 0; w < words; w++)
@@ -66,8 +66,7 @@ static uint64_t count_near(counting *c, uint32_t point) {
             const sl_bits *next = sli_vga_row(c->graph, u);
             for (size_t k = 0; k < words; k++) c->near[k] |= next[k];
         }
-    for (size_t k = 0; k < words; k++) count += (uint64_t)__builtin_popcountll(c->near[k]);
-    return count;
+    return sli_bits_count(c->near, words);
 }
 
 /// Steps from a point to points beside walls.

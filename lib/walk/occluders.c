@@ -81,8 +81,8 @@ static double wall_size(const sli_chooser *c, sl_point p, sl_point q) {
     }
     const double turn = sli_cross(p, q);
     if (!(turn > 0)) return -2;
-    const double dot = p.x * q.x + p.y * q.y;
-    const double size = -(dot * fabs(dot)) / ((p.x * p.x + p.y * p.y) * (q.x * q.x + q.y * q.y));
+    const double dot = sli_dot(p, q);
+    const double size = -(dot * fabs(dot)) / (sli_dot(p, p) * sli_dot(q, q));
     return size >= -1 ? size : -1;
 }
 

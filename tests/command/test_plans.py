@@ -214,17 +214,19 @@ class Drawings(Plans):
 
     def test_drawings_and_ros_maps_are_known_by_their_bytes(self):
         text = "999\nmade by hand\n" + str(flat())
-        self.write("drawing", text)
-        self.assertIn("drawing: 6 entities", self.run_well("info", "drawing", *LAYERS).stderr)
-        with open(self.box.path("drawing"), encoding="utf-8") as stream:
-            self.assertIn("-: 6 entities", self.run_well("info", "-", *LAYERS, stdin=stream).stderr)
+        for ends in (text, text.replace("\n", "\r")):
+            self.write("drawing", ends)
+            self.assertIn("drawing: 6 entities", self.run_well("info", "drawing", *LAYERS).stderr)
+            with open(self.box.path("drawing"), encoding="utf-8") as stream:
+                self.assertIn("-: 6 entities", self.run_well("info", "-", *LAYERS, stdin=stream).stderr)
         for name, text in (("plan.dwg", "AC1027"), ("plan", "AC1032....")):
             self.write(name, text)
             self.assertIn(f"{name}: a DWG drawing: save it as ASCII DXF in the program that it is from",
                           self.refused("bake", name, "-o", "a.slv"))
         self.write("map.pgm", "P2 3 1 255 0 205 254")
-        self.write("floor", "image: map.pgm\nresolution: 0.5\n")
-        self.assertIn("unit      m\n", self.printed("info", "floor"))
+        for end in "\n\r":
+            self.write("floor", f"image: map.pgm{end}resolution: 0.5{end}")
+            self.assertIn("unit      m\n", self.printed("info", "floor"))
 
     def test_bounds_are_printed_without_noise(self):
         self.write("a.map", "sightline 1\nwall -2.8499999999999996 0 9 5\n")

@@ -403,6 +403,24 @@ static void glass_is_dark_from_one_side(void **state) {
     sl_context_destroy(context);
 }
 
+/// A hall of many cells, more than a step is followed through, and a wall in it near its end.
+static void a_long_step_meets_a_wall_far_away(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char text[1000] = "walls 0 0 100 0 100 10 0 10 0 0\nwall 97 4 97 6\n";
+    for (int x = 2; x < 96; x += 2) {
+        const size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "wall %d 0 %d 1\n", x, x);
+    }
+    baked_file f = baked_file_of_text(context, text);
+    assert_true(f.runtime.cell_count > 40);
+    assert_false(sl_runtime_can_walk(&f.runtime, 1, 5, 99, 5, NULL));
+    assert_false(sl_runtime_can_walk(&f.runtime, 99, 5, 1, 5, NULL));
+    assert_true(sl_runtime_can_walk(&f.runtime, 1, 8, 99, 8, NULL));
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 /// The map's own range holds without a word, and a larger one changes nothing.
 static void the_range_of_the_level_counts(void **state) {
     (void)state;
@@ -424,6 +442,7 @@ static void the_range_of_the_level_counts(void **state) {
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glass_is_dark_from_one_side),
+        cmocka_unit_test(a_long_step_meets_a_wall_far_away),
         cmocka_unit_test(the_range_of_the_level_counts),
         cmocka_unit_test(past_doors_and_glass),
         cmocka_unit_test(past_oblique_doors_and_glass),
