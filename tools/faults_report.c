@@ -288,7 +288,7 @@ static sl_point likely_start(const sl_space *space) {
             continue;
         inside = cell->inside;
         largest = area;
-        at = input_middle(space, i);
+        at = sl_space_middle(space, i);
     }
     return at;
 }

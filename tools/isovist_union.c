@@ -56,7 +56,7 @@ static sl_status count_regions(sl_context *context, const seen_parts *regions, i
     sl_point *middles = sl_alloc_array(context, pieces->cell_count, sizeof *middles);
     sl_status status = middles ? SL_OK : SL_NO_MEMORY;
     for (uint32_t c = 0; c < pieces->cell_count && middles; c++)
-        middles[c] = input_middle(pieces, c);
+        middles[c] = sl_space_middle(pieces, c);
     for (size_t i = 0; i < regions->count && status == SL_OK; i++) {
         const sl_box box = box_of(&regions->items[i]);
         status = sl_check_cancelled(context);
