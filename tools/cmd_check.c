@@ -51,13 +51,14 @@ static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl
 }
 
 /// Closes gaps and writes the map.
-static sl_status mend(sl_context *context, const check_plan *plan, const sl_map *map,
-                      faults_report *report, checked *after) {
-    SL_TRY(mend_copy(context, plan, map, report->gap, &report->snap, after));
+static sl_status mend(sl_context *context, const check_plan *plan, faults_report *report,
+                      checked *after) {
+    const checked *c = report->found;
+    SL_TRY(mend_copy(context, plan, &c->map, c->gap, &report->snap, after));
     if (!after->map.wall_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
-                       report->gap);
+                       c->gap);
     SL_TRY(sl_map_write_text(context, &after->map, plan->snap));
     report->mended = plan->snap;
     report->left = after;
@@ -82,7 +83,7 @@ static double round_up(double width) {
 static sl_status suggest_gap(sl_context *context, const check_plan *plan, const checked *c,
                              faults_report *report) {
     const sl_faults *faults = &c->faults;
-    if (!faults->counts[SL_FAULT_LEAK] || !(faults->items[0].size > report->gap)) return SL_OK;
+    if (!faults->counts[SL_FAULT_LEAK] || !(faults->items[0].size > c->gap)) return SL_OK;
     const double gap = round_up(faults->items[0].size);
     if (gap > 20 * sl_usual_gap(&c->map)) return SL_OK;
     checked after = {0};
@@ -107,16 +108,15 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     sl_context *context = console->context;
     SL_TRY(read_map(context, &plan->pipeline, &c->map));
     SL_TRY(examine(context, plan, plan->faults.gap, c));
-    const double usual = sl_usual_gap(&c->map);
     faults_report report = {.input = plan->pipeline.path,
                             .found = c,
-                            .gap = plan->faults.gap > 0 ? plan->faults.gap : usual,
-                            .thin = plan->faults.thin > 0 ? plan->faults.thin : usual,
+                            .thin =
+                                plan->faults.thin > 0 ? plan->faults.thin : sl_usual_gap(&c->map),
                             .most = plan->most,
                             .picture = plan->output,
                             .given = &plan->pipeline.given};
     if (plan->snap)
-        SL_TRY(mend(context, plan, &c->map, &report, after));
+        SL_TRY(mend(context, plan, &report, after));
     else
         SL_TRY(suggest_gap(context, plan, c, &report));
     const uint32_t *counts = c->faults.counts;
