@@ -12,6 +12,7 @@ typedef struct check_plan {
     sl_faults_options faults;
     sl_draw_options drawing;
     const char *output, *snap;
+    const char *for_one; ///< an option that is for one map
     uint64_t most;
     bool json, strict, every;
 } check_plan;
@@ -174,11 +175,9 @@ static sl_status check_each(command_console *console, const check_plan *plan,
 static sl_status check_every(command_console *console, const check_plan *plan) {
     sl_context *context = console->context;
     const char *path = plan->pipeline.path;
-    if (plan->snap || plan->output || plan->pipeline.input.import.map)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s is for one map",
-                       plan->snap     ? "--snap"
-                       : plan->output ? "--output"
-                                      : "--map");
+    if (plan->for_one || plan->pipeline.input.import.map)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: --%s is for one map",
+                       plan->for_one ? plan->for_one : "map");
     sl_map_list list = {0};
     SL_TRY(sl_map_list_read(context, path, &list));
     size_t done = 0, broken = 0;
@@ -220,15 +219,16 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         {"thin", 0, "SIZE", "list cells thinner than this (same default)",
          .number = &plan.faults.thin, .over_0 = true, .rare = true},
         {"snap", 0, "FIXED.map", "close such gaps, and write the result as map text",
-         .text = &plan.snap, .check = CHECK_FILE, .endings = ".map"},
+         .text = &plan.snap, .check = CHECK_FILE, .endings = ".map", .given = &plan.for_one},
         {"output", 'o', "PICTURE", "draw the plan with all faults: .png, .svg or .pdf",
-         .text = &plan.output, .check = CHECK_PICTURE},
+         .text = &plan.output, .check = CHECK_PICTURE, .given = &plan.for_one},
         {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
          .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX,
+         .given = &plan.for_one, .rare = true},
+        {"dark", 0, NULL, "draw light on dark", .flag = &plan.drawing.dark, .given = &plan.for_one,
          .rare = true},
-        {"dark", 0, NULL, "draw light on dark", .flag = &plan.drawing.dark, .rare = true},
         {"most", 0, "N", "print up to N faults of each kind (default 10)", .count = &plan.most,
-         .most = UINT32_MAX, .rare = true},
+         .most = UINT32_MAX, .given = &plan.for_one, .rare = true},
         {"strict", 0, NULL, "exit with status 3 if there is a fault", .flag = &plan.strict},
         {"every-map", 0, NULL,
          "check each map of a file that holds several, such as a WAD; one line a map",
