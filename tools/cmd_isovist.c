@@ -362,8 +362,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",
          "look from the points of a table: x,y or x,y,heading or x,y,heading,fov; its first line "
-         "may "
-         "name the columns",
+         "may name the columns",
          .text = &plan.points, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},
