@@ -22,9 +22,8 @@ static sl_status cut(sl_context *context, const seen_parts *regions, sl_space *p
             status = sl_map_add_wall(context, &map, region->points[k],
                                      region->points[k + 1 < region->count ? k + 1 : 0], 0);
     }
-    const sl_clean_options options = sl_clean_options_default();
-    if (status == SL_OK && map.wall_count) {
-        status = sl_map_clean(context, &map, &options, NULL);
+    if (map.wall_count) {
+        if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
         if (status == SL_OK)
             status = sl_subdivision_for(&map)->subdivide(context, &map, NULL, pieces);
     }
