@@ -42,10 +42,10 @@ class Library:
                         if item.tag in ("class-decl", "union-decl") and
                         not item.get("is-declaration-only")}
         self.lines, self.told = [], set()
-        exported = {symbol.get("name") for symbol in tree.iter("elf-symbol")}
-        functions = {item.get("name"): item for item in tree.iter("function-decl")
-                     if item.get("elf-symbol-id") and item.get("name") in exported}
-        for name in sorted(functions):
+        # Not each has an elf-symbol-id: some stand only as another file declares them.
+        functions = {item.get("name"): item for item in tree.iter("function-decl")}
+        for name in sorted(symbol.get("name") for symbol in tree.iter("elf-symbol")
+                           if symbol.get("type") == "func-type"):
             self.lines.append(self.signature(functions[name], name))
 
     def signature(self, function, name):
