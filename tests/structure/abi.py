@@ -32,7 +32,8 @@ class Library:
     """What abidw says of a library, as lines."""
 
     def __init__(self, path):
-        done = subprocess.run(["abidw", "--headers-dir", ROOT / "lib/include", "--no-show-locs", path],
+        done = subprocess.run(["abidw", "--headers-dir", ROOT / "lib/include", "--drop-private-types",
+                               "--no-show-locs", path],
                               stdout=subprocess.PIPE, check=True)
         tree = xml.etree.ElementTree.fromstring(done.stdout)
         self.types = {item.get("id"): item for item in tree.iter()
