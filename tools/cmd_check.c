@@ -12,6 +12,7 @@ typedef struct check_plan {
     sl_faults_options faults;
     sl_draw_options drawing;
     const char *output, *snap;
+    const char *for_one; ///< an option that is for one map
     uint64_t most;
     bool json, strict, every;
 } check_plan;
@@ -51,13 +52,14 @@ static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl
 }
 
 /// Closes gaps and writes the map.
-static sl_status mend(sl_context *context, const check_plan *plan, const sl_map *map,
-                      faults_report *report, checked *after) {
-    SL_TRY(mend_copy(context, plan, map, report->gap, &report->snap, after));
+static sl_status mend(sl_context *context, const check_plan *plan, faults_report *report,
+                      checked *after) {
+    const checked *c = report->found;
+    SL_TRY(mend_copy(context, plan, &c->map, c->gap, &report->snap, after));
     if (!after->map.wall_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
-                       report->gap);
+                       c->gap);
     SL_TRY(sl_map_write_text(context, &after->map, plan->snap));
     report->mended = plan->snap;
     report->left = after;
@@ -82,7 +84,7 @@ static double round_up(double width) {
 static sl_status suggest_gap(sl_context *context, const check_plan *plan, const checked *c,
                              faults_report *report) {
     const sl_faults *faults = &c->faults;
-    if (!faults->counts[SL_FAULT_LEAK] || !(faults->items[0].size > report->gap)) return SL_OK;
+    if (!faults->counts[SL_FAULT_LEAK] || !(faults->items[0].size > c->gap)) return SL_OK;
     const double gap = round_up(faults->items[0].size);
     if (gap > 20 * sl_usual_gap(&c->map)) return SL_OK;
     checked after = {0};
@@ -107,16 +109,15 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     sl_context *context = console->context;
     SL_TRY(read_map(context, &plan->pipeline, &c->map));
     SL_TRY(examine(context, plan, plan->faults.gap, c));
-    const double usual = sl_usual_gap(&c->map);
     faults_report report = {.input = plan->pipeline.path,
                             .found = c,
-                            .gap = plan->faults.gap > 0 ? plan->faults.gap : usual,
-                            .thin = plan->faults.thin > 0 ? plan->faults.thin : usual,
+                            .thin =
+                                plan->faults.thin > 0 ? plan->faults.thin : sl_usual_gap(&c->map),
                             .most = plan->most,
                             .picture = plan->output,
                             .given = &plan->pipeline.given};
     if (plan->snap)
-        SL_TRY(mend(context, plan, &c->map, &report, after));
+        SL_TRY(mend(context, plan, &report, after));
     else
         SL_TRY(suggest_gap(context, plan, c, &report));
     const uint32_t *counts = c->faults.counts;
@@ -174,11 +175,9 @@ static sl_status check_each(command_console *console, const check_plan *plan,
 static sl_status check_every(command_console *console, const check_plan *plan) {
     sl_context *context = console->context;
     const char *path = plan->pipeline.path;
-    if (plan->snap || plan->output || plan->pipeline.input.import.map)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s is for one map",
-                       plan->snap     ? "--snap"
-                       : plan->output ? "--output"
-                                      : "--map");
+    if (plan->for_one || plan->pipeline.input.import.map)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: --%s is for one map",
+                       plan->for_one ? plan->for_one : "map");
     sl_map_list list = {0};
     SL_TRY(sl_map_list_read(context, path, &list));
     size_t done = 0, broken = 0;
@@ -220,15 +219,16 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         {"thin", 0, "SIZE", "list cells thinner than this (same default)",
          .number = &plan.faults.thin, .over_0 = true, .rare = true},
         {"snap", 0, "FIXED.map", "close such gaps, and write the result as map text",
-         .text = &plan.snap, .check = CHECK_FILE, .endings = ".map"},
+         .text = &plan.snap, .check = CHECK_FILE, .endings = ".map", .given = &plan.for_one},
         {"output", 'o', "PICTURE", "draw the plan with all faults: .png, .svg or .pdf",
-         .text = &plan.output, .check = CHECK_PICTURE},
+         .text = &plan.output, .check = CHECK_PICTURE, .given = &plan.for_one},
         {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
          .number = &plan.drawing.width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX,
+         .given = &plan.for_one, .rare = true},
+        {"dark", 0, NULL, "draw light on dark", .flag = &plan.drawing.dark, .given = &plan.for_one,
          .rare = true},
-        {"dark", 0, NULL, "draw light on dark", .flag = &plan.drawing.dark, .rare = true},
         {"most", 0, "N", "print up to N faults of each kind (default 10)", .count = &plan.most,
-         .most = UINT32_MAX, .rare = true},
+         .most = UINT32_MAX, .given = &plan.for_one, .rare = true},
         {"strict", 0, NULL, "exit with status 3 if there is a fault", .flag = &plan.strict},
         {"every-map", 0, NULL,
          "check each map of a file that holds several, such as a WAD; one line a map",

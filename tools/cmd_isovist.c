@@ -41,7 +41,8 @@ typedef struct isovist_work {
     sl_room_mirrors mirrors;
     isovist_scene scene;
     eye_places eyes;
-    isovist_result *isovists;
+    isovist_result *isovists; ///< NULL with --union
+    seen_parts parts;         ///< of all eyes, once they are gathered
     isovist_union together;
 } isovist_work;
 
@@ -183,14 +184,15 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     return status;
 }
 
-static sl_status gather_parts(sl_context *context, const isovist_work *w, seen_parts *parts) {
+static sl_status gather_parts(sl_context *context, isovist_work *w) {
     sl_mirrored_region region = {0};
     sl_status status = SL_OK;
     for (size_t i = 0; i < w->eyes.list.count && status == SL_OK; i++) {
         const sl_view view = eye_view(&w->baked.space, &w->eyes.list.items[i]);
-        status = isovist_look(context, &w->scene, &view, &region);
+        status = sl_check_cancelled(context);
+        if (status == SL_OK) status = isovist_look(context, &w->scene, &view, &region);
         if (status == SL_OK)
-            status = seen_parts_add(context, &w->baked.space, &region, true, parts);
+            status = seen_parts_add(context, &w->baked.space, &region, true, &w->parts);
     }
     sl_mirrored_region_destroy(context, &region);
     return status;
@@ -213,20 +215,9 @@ static sl_status need_inside(sl_context *context, const isovist_work *w) {
 }
 
 static sl_status join_regions(sl_context *context, isovist_work *w) {
-    seen_parts parts = {0};
-    sl_region region = {0};
-    sl_status status = need_inside(context, w);
-    for (size_t i = 0; i < w->eyes.list.count && status == SL_OK; i++) {
-        const sl_view view = eye_view(&w->baked.space, &w->eyes.list.items[i]);
-        status = sl_region_make(context, &w->outline, &view, w->scene.range, &region);
-        if (status == SL_OK)
-            status = seen_parts_add_region(context, &w->baked.space, &region, &parts);
-    }
-    if (status == SL_OK)
-        status = isovist_union_make(context, &w->baked.space, &parts, &w->together);
-    sl_region_destroy(context, &region);
-    seen_parts_destroy(context, &parts);
-    return status;
+    SL_TRY(need_inside(context, w));
+    SL_TRY(gather_parts(context, w));
+    return isovist_union_make(context, &w->baked.space, &w->parts, &w->together);
 }
 
 /// "2 viewpoints see 52 m² of 60 m² (87 %)"
@@ -260,17 +251,13 @@ static void write_caption(const isovist_work *w, char *text, size_t size) {
              m->drift_magnitude, unit, m->drift_angle);
 }
 
-static sl_status draw_points(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
-    seen_parts parts = {0};
+static sl_status draw_points(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     char caption[256];
     write_caption(w, caption, sizeof caption);
-    sl_status status = gather_parts(context, w, &parts);
-    if (status == SL_OK)
-        status = sl_draw_regions_file(context, &w->baked, parts.items, parts.count,
-                                      w->eyes.list.count == 1 || plan->together ? caption : NULL,
-                                      &plan->drawing, plan->picture);
-    seen_parts_destroy(context, &parts);
-    return status;
+    if (!plan->together) SL_TRY(gather_parts(context, w));
+    return sl_draw_regions_file(context, &w->baked, w->parts.items, w->parts.count,
+                                w->eyes.list.count == 1 || plan->together ? caption : NULL,
+                                &plan->drawing, plan->picture);
 }
 
 static sl_status make_outline(sl_context *context, isovist_work *w) {
@@ -288,6 +275,12 @@ static sl_status note_inside(sl_context *context, const isovist_plan *plan, cons
     return pipeline_need_inside(context, &plan->pipeline, map, space, "");
 }
 
+static sl_status measure(sl_context *context, const isovist_plan *plan, isovist_work *w) {
+    w->isovists = sl_alloc_array(context, w->eyes.list.count, sizeof *w->isovists);
+    if (!w->isovists) return SL_NO_MEMORY;
+    return isovist_run(context, &w->scene, &w->eyes, plan->threads, w->isovists);
+}
+
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(
@@ -299,14 +292,13 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(make_outline(context, w));
     w->scene = (isovist_scene){&w->outline, NULL, plan->range, plan->mirror_depth};
-    if (w->baked.map.mirror_count) {
+    if (w->baked.map.mirror_count && plan->together) {
+        sl_note(context, "mirrors are walls here: --union counts what is seen directly");
+    } else if (w->baked.map.mirror_count) {
         SL_TRY(sl_room_mirrors_make(context, &w->outline, &w->baked.map, &w->mirrors));
         w->scene.mirrors = &w->mirrors;
     }
-    w->isovists = sl_alloc_array(context, w->eyes.list.count, sizeof *w->isovists);
-    if (!w->isovists) return SL_NO_MEMORY;
-    SL_TRY(isovist_run(context, &w->scene, &w->eyes, plan->threads, w->isovists));
-    if (plan->together) SL_TRY(join_regions(context, w));
+    SL_TRY(plan->together ? join_regions(context, w) : measure(context, plan, w));
     if (plan->picture)
         SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
     progress_line_clear(&console->line);
@@ -370,8 +362,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",
          "look from the points of a table: x,y or x,y,heading or x,y,heading,fov; its first line "
-         "may "
-         "name the columns",
+         "may name the columns",
          .text = &plan.points, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},
@@ -405,6 +396,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     isovist_work w = {0};
     const sl_status status = work(console, &plan, &w);
     sl_free(console->context, w.isovists);
+    seen_parts_destroy(console->context, &w.parts);
     isovist_union_destroy(console->context, &w.together);
     eyes_destroy(console->context, &w.eyes);
     sl_room_mirrors_destroy(console->context, &w.mirrors);

@@ -1,7 +1,6 @@
 /// The results of a comparison as a table, as CSV and as JSON.
 #include "compare.h"
 
-#include "inputs.h"
 #include "json_print.h"
 #include "names.h"
 #include "report.h"
@@ -196,8 +195,8 @@ typedef struct disagreement {
 static void write_pair(FILE *stream, const disagreement *d, uint32_t a, uint32_t b) {
     const sl_space *space = d->comparison->space;
     fprintf(stream, "%" PRIu32 ",%" PRIu32, a, b);
-    write_point(stream, input_middle(space, a));
-    write_point(stream, input_middle(space, b));
+    write_point(stream, sl_space_middle(space, a));
+    write_point(stream, sl_space_middle(space, b));
     for (size_t k = 0; k < d->comparison->run_count; k++)
         if (d->comparison->runs[k].outcome == RUN_DONE)
             fprintf(stream, ",%d", sl_bits_has(d->rows + k * d->words, b));

@@ -288,7 +288,7 @@ static sl_point likely_start(const sl_space *space) {
             continue;
         inside = cell->inside;
         largest = area;
-        at = input_middle(space, i);
+        at = sl_space_middle(space, i);
     }
     return at;
 }
@@ -314,7 +314,7 @@ static void print_next_of_mended(const faults_report *report) {
     for (size_t i = 0; i < report->given->count; i++)
         gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
-    if (left && !gap_given) printf(" --gap %.6g", report->gap);
+    if (left && !gap_given) printf(" --gap %.6g", report->found->gap);
     if (left) print_name(report, " -o ", "-fixed.png");
 }
 
@@ -358,7 +358,7 @@ void faults_print(const faults_report *report) {
     const sl_faults *faults = &found->faults;
     printf("%s: %zu walls, %u cells; looked for gaps up to %.4g and cells thinner than %.4g\n",
            report->input, found->map.wall_count, (unsigned)found->baked.space.cell_count,
-           report->gap, report->thin);
+           found->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
         print_kind(found, (sl_fault_kind)kind, report->most);
     if (faults->welded)
@@ -432,7 +432,7 @@ sl_status faults_print_json(sl_context *context, const faults_report *report) {
     json_add_text(&fields, "file", report->input);
     json_add_count(&fields, "walls", found->map.wall_count);
     json_add_count(&fields, "cells", found->baked.space.cell_count);
-    json_add_real(&fields, "gap", report->gap);
+    json_add_real(&fields, "gap", found->gap);
     json_add_real(&fields, "thin", report->thin);
     json_add_flag(&fields, "has_starts", found->faults.has_starts);
     json_add_text(&fields, "inside", inside_words[found->inside]);

@@ -19,7 +19,7 @@ typedef struct checked {
 typedef struct faults_report {
     const char *input;
     const checked *found;
-    double gap, thin;
+    double thin;
     const char *mended; ///< the file written; NULL for none
     sl_snap_account snap;
     const checked *left; ///< the mended map

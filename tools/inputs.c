@@ -212,16 +212,6 @@ sl_status input_locate(sl_context *context, const char *name, const char *text,
                    "%s %s: the point is in solid ground; choose a point in a room", name, text);
 }
 
-sl_point input_middle(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    sl_point middle = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        middle.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
-        middle.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
-    }
-    return middle;
-}
-
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {
     for (; from < map->start_count; from++) {
         const uint32_t cell = sl_space_locate(space, map->starts[from].at);

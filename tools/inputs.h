@@ -63,9 +63,6 @@ void input_print_formats(void);
 sl_status input_locate(sl_context *context, const char *name, const char *text,
                        const sl_space *space, sl_point at, uint32_t *cell);
 
-/// A place in a cell, but for rounding: the mean of its corners.
-sl_point input_middle(const sl_space *space, uint32_t cell);
-
 /// The map's first start from the given one on that is in no solid ground; start_count for none.
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from);
 

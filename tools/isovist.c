@@ -194,6 +194,8 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
             status = read_line(context, path, number, line, length, &columns, space, like, eyes);
     }
     sl_free(context, text.data);
+    if (status == SL_OK && !eyes->list.count)
+        status = sl_fail(context, SL_BAD_INPUT, "%s: there is no point in it", path);
     return status;
 }
 

@@ -41,7 +41,8 @@ sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, e
 
 /// A table: lines of x,y or x,y,heading or x,y,heading,fov. A first line of words that has x and y
 /// names the columns, of which others may be there too; any other first line of words is skipped.
-/// SL_BAD_INPUT with FILE:LINE on anything else, and on points outside the map.
+/// SL_BAD_INPUT with FILE:LINE on anything else, and on points outside the map; and without a
+/// point.
 sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
                         eye_place like, eye_places *eyes);
 

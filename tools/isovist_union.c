@@ -22,9 +22,8 @@ static sl_status cut(sl_context *context, const seen_parts *regions, sl_space *p
             status = sl_map_add_wall(context, &map, region->points[k],
                                      region->points[k + 1 < region->count ? k + 1 : 0], 0);
     }
-    const sl_clean_options options = sl_clean_options_default();
-    if (status == SL_OK && map.wall_count) {
-        status = sl_map_clean(context, &map, &options, NULL);
+    if (map.wall_count) {
+        if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
         if (status == SL_OK)
             status = sl_subdivision_for(&map)->subdivide(context, &map, NULL, pieces);
     }
@@ -56,7 +55,7 @@ static sl_status count_regions(sl_context *context, const seen_parts *regions, i
     sl_point *middles = sl_alloc_array(context, pieces->cell_count, sizeof *middles);
     sl_status status = middles ? SL_OK : SL_NO_MEMORY;
     for (uint32_t c = 0; c < pieces->cell_count && middles; c++)
-        middles[c] = input_middle(pieces, c);
+        middles[c] = sl_space_middle(pieces, c);
     for (size_t i = 0; i < regions->count && status == SL_OK; i++) {
         const sl_box box = box_of(&regions->items[i]);
         status = sl_check_cancelled(context);

@@ -1,6 +1,5 @@
 #include "walk_run.h"
 
-#include "inputs.h"
 #include "isovist.h"
 #include "sightline/support.h"
 #include "sightline/walk.h"
@@ -122,7 +121,7 @@ static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, walk_w
         way->items[i] = way->items[--k];
         way->items[k] = swapped;
     }
-    return add_point(context, way, input_middle(t->space, cell));
+    return add_point(context, way, sl_space_middle(t->space, cell));
 }
 
 double way_length(const walk_way *way) {

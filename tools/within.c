@@ -85,7 +85,7 @@ static void choose_inside(const sl_space *plan, const sl_map *outlines, sl_space
     space->inside_count = 0;
     for (uint32_t c = 0; c < space->cell_count; c++) {
         sl_cell *cell = &space->cells[c];
-        const sl_point middle = input_middle(space, c);
+        const sl_point middle = sl_space_middle(space, c);
         const uint32_t of_plan = sl_space_locate(plan, middle);
         cell->inside =
             of_plan != SL_NO_CELL && plan->cells[of_plan].inside && within_has(outlines, middle);

@@ -109,30 +109,20 @@ static void below(app_state *app, const sl_frame *frame) {
     sl_draw_cell(app->ui.cairo, space, frame, cell, palette->source_edge, 0.55, 2 * frame->unit);
 }
 
-static sl_point middle_of(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    sl_point middle = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        middle.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
-        middle.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
-    }
-    return middle;
-}
-
 /// From a cell through the middle of each of its faces to the cell behind.
 static void draw_dependences(app_state *app, const sl_frame *frame, uint32_t cell, sl_colour colour,
                              double width) {
     const sl_space *space = &app->document.baked->space;
     const sli_pass *pass = pass_of(&app->tool.lesson);
     const sl_cell *c = &space->cells[cell];
-    const sl_point from = middle_of(space, cell);
+    const sl_point from = sl_space_middle(space, cell);
     for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
         if (pass->faces[i] == SLI_NO_FACE) continue;
         const sl_directed_portal *directed = &space->directed[i];
         const sl_point through = {(directed->left.x + directed->right.x) / 2,
                                   (directed->left.y + directed->right.y) / 2};
         sl_draw_line(app->ui.cairo, frame, from, through, colour, width);
-        sl_draw_line(app->ui.cairo, frame, through, middle_of(space, directed->cell), colour,
+        sl_draw_line(app->ui.cairo, frame, through, sl_space_middle(space, directed->cell), colour,
                      width);
     }
 }

@@ -133,16 +133,6 @@ void walk_tick(app_state *app, double seconds) {
     if (!try_move(&app->view, dx, dy, body, &wall)) slide(&app->view, dx, dy, body, wall);
 }
 
-static sl_point middle_of(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    sl_point sum = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        sum.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
-        sum.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
-    }
-    return sum;
-}
-
 void walk_home(app_state *app) {
     const document_state *d = &app->document;
     if (!d->baked) return;
@@ -164,5 +154,5 @@ void walk_home(app_state *app) {
             largest = d->areas[cell];
             best = cell;
         }
-    if (d->baked->space.cell_count) app->view.eye.at = middle_of(&d->baked->space, best);
+    if (d->baked->space.cell_count) app->view.eye.at = sl_space_middle(&d->baked->space, best);
 }

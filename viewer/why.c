@@ -58,18 +58,6 @@ static size_t find_step(const lesson_state *lesson, const sl_space *space, const
     return SIZE_MAX;
 }
 
-/// The middle of a cell's corners.
-static sl_point middle_of(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    const sl_point *corners = space->vertices + c->first_vertex;
-    sl_point middle = corners[0];
-    for (uint32_t i = 1; i < c->vertex_count; i++) {
-        middle.x += (corners[i].x - corners[0].x) / c->vertex_count;
-        middle.y += (corners[i].y - corners[0].y) / c->vertex_count;
-    }
-    return middle;
-}
-
 void why_go_to_step(app_state *app) {
     lesson_state *lesson = &app->tool.lesson;
     if (!app->tool.quiz.answered || !app->document.baked) {
@@ -78,7 +66,7 @@ void why_go_to_step(app_state *app) {
     }
     const sl_space *space = &app->document.baked->space;
     const wanted w = wanted_of(app);
-    if (app_eye_cell(app) != w.from) app->view.eye.at = middle_of(space, w.from);
+    if (app_eye_cell(app) != w.from) app->view.eye.at = sl_space_middle(space, w.from);
     lesson_set_subject(app->context, lesson, subject_find(&lesson_search));
     action_run(app, action_find("learn"));
     if (!lesson_shows(lesson, &app->document)) return;

@@ -141,18 +141,6 @@ static sl_point middle(sl_point a, sl_point b) {
     return (sl_point){a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
 }
 
-/// The middle of a cell's corners.
-static sl_point cell_middle(const overlay *o, uint32_t cell) {
-    const sl_cell *c = &o->space->cells[cell];
-    const sl_point *corners = o->space->vertices + c->first_vertex;
-    sl_point sum = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        sum.x += (corners[i].x - corners[0].x) / c->vertex_count;
-        sum.y += (corners[i].y - corners[0].y) / c->vertex_count;
-    }
-    return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
-}
-
 /// Room for all spots was made before.
 static void take_spot(overlay *o, sl_point at, double radius) {
     o->spots.items[o->spots.count++] = (spot){at, radius};
@@ -215,7 +203,7 @@ static sl_point bend(const overlay *o, uint32_t cell, const sl_directed_portal *
 /// From the middle of the first cell from portal to portal, as far as the sequence goes.
 static void draw_way(const overlay *o) {
     uint32_t cell = o->pic->explanation->from;
-    sl_point start = cell_middle(o, cell), leave = start;
+    sl_point start = sl_space_middle(o->space, cell), leave = start;
     for (uint32_t i = 0; i < o->pic->sequence->directed_count; i++) {
         const sl_directed_portal *directed = directed_at(o, i);
         const sl_point end = portal_middle(directed);
@@ -386,7 +374,7 @@ static void draw_name(overlay *o, uint32_t cell, sl_colour colour) {
     const double size = 17 * o->unit;
     sl_text_font(o->cairo, size, true);
     const double width = sl_text_width(o->cairo, text);
-    const sl_point at = place(o, cell_middle(o, cell));
+    const sl_point at = place(o, sl_space_middle(o->space, cell));
     // Below and above, where the middle is taken by the line or by a portal's marks.
     static const double steps[] = {0, 1.1, -1.1, 2.2, -2.2};
     double least = INFINITY;

@@ -79,7 +79,7 @@ static void show(numbers *n, sl_box box, double size, sl_colour colour, const ch
 static void draw_cell_number(numbers *n, uint32_t number) {
     const sl_space *space = &n->scene->baked->space;
     const sl_cell *cell = &space->cells[number];
-    const sl_point at = sl_frame_point(n->frame, sli_scene_middle(n->scene, number));
+    const sl_point at = sl_frame_point(n->frame, sl_space_middle(space, number));
     char text[NUMBER_TEXT];
     if (!sli_scene_shows(n->scene, number) || !on_page(n->frame, at)) return;
     snprintf(text, sizeof text, "%u", number);

@@ -25,23 +25,6 @@ typedef struct maker {
     double *area_before; ///< of cells shown, up to each cell; the last entry is all of it
 } maker;
 
-/// The middle of a cell's corners.
-static sl_point cell_middle(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    sl_point sum = {0, 0};
-    // Relative to a corner, so that neither far places nor huge ones lose the middle.
-    const sl_point *corners = space->vertices + c->first_vertex, base = corners[0];
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        sum.x += (corners[i].x - base.x) / c->vertex_count;
-        sum.y += (corners[i].y - base.y) / c->vertex_count;
-    }
-    return (sl_point){base.x + sum.x, base.y + sum.y};
-}
-
-sl_point sli_scene_middle(const sl_scene *scene, uint32_t cell) {
-    return cell_middle(&scene->baked->space, cell);
-}
-
 sl_colour sli_scene_colour(const sl_scene *scene, unsigned paint) {
     const sl_palette *palette = &scene->palette;
     if (paint >= SLI_PAINT_HEAT)
@@ -247,7 +230,7 @@ static sl_point find_eye(const sl_baked *baked, uint32_t cell) {
     for (size_t i = 0; i < baked->map.start_count; i++)
         if (sl_space_locate(&baked->space, baked->map.starts[i].at) == cell)
             return baked->map.starts[i].at;
-    return cell_middle(&baked->space, cell);
+    return sl_space_middle(&baked->space, cell);
 }
 
 static sl_status fill(sl_context *context, maker *m, sl_scene *scene) {

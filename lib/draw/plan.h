@@ -90,9 +90,6 @@ sl_status sli_scene_check_cell(sl_context *context, const sl_baked *baked, uint3
 /// Whether a cell is of the group that is shown. Never true of solid ground.
 bool sli_scene_shows(const sl_scene *scene, uint32_t cell);
 
-/// The middle of a cell's corners.
-sl_point sli_scene_middle(const sl_scene *scene, uint32_t cell);
-
 /// Draws the numbers of cells and portals where they have room.
 void sli_draw_numbers(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame);
 

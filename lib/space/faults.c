@@ -179,16 +179,6 @@ static sl_status find_leaks(sli_fault_search *search, rooms *r, sl_bits *reached
     return status;
 }
 
-static sl_point middle_of(const sl_space *space, uint32_t number) {
-    const sl_cell *cell = &space->cells[number];
-    sl_point sum = {0, 0};
-    for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        sum.x += space->vertices[cell->first_vertex + i].x / cell->vertex_count;
-        sum.y += space->vertices[cell->first_vertex + i].y / cell->vertex_count;
-    }
-    return sum;
-}
-
 /// Measures the room of a cell. None of its cells was reached before.
 static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, uint32_t first,
                              bool *open) {
@@ -215,7 +205,7 @@ static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, 
             r->queue[end++] = next;
         }
     }
-    room.at.a = room.at.b = middle_of(space, room.cell);
+    room.at.a = room.at.b = sl_space_middle(space, room.cell);
     return room;
 }
 

@@ -204,6 +204,18 @@ double sl_space_area(const sl_space *space, uint32_t cell) {
     return twice / 2;
 }
 
+sl_point sl_space_middle(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    sl_point sum = {0, 0};
+    // Relative to a corner, so that neither far places nor huge ones lose the middle.
+    const sl_point *corners = space->vertices + c->first_vertex, base = corners[0];
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        sum.x += (corners[i].x - base.x) / c->vertex_count;
+        sum.y += (corners[i].y - base.y) / c->vertex_count;
+    }
+    return (sl_point){base.x + sum.x, base.y + sum.y};
+}
+
 // --- the table of subdivisions
 
 static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,

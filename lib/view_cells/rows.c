@@ -237,7 +237,7 @@ static sl_point eye_of(const sl_space *space, const sl_view_rows *rows, uint32_t
     for (uint32_t i = 0; i < space->cell_count; i++) {
         if (rows->view_cells[i] != view_cell || sl_space_area(space, i) <= most) continue;
         most = sl_space_area(space, i);
-        eye = sli_view_cell_middle(space, i);
+        eye = sl_space_middle(space, i);
     }
     return eye;
 }

@@ -44,8 +44,10 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
     return (uint32_t)~at;
 }
 
-/// The mean of some corners, from the first one: large coordinates lose nothing.
-static sl_point middle_of(const sl_point *corners, uint32_t count) {
+/// The mean of its corners, from the first one: large coordinates lose nothing.
+sl_point sli_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
+    const sl_point *corners = tree->corners + tree->first[leaf];
+    const uint32_t count = tree->first[leaf + 1] - tree->first[leaf];
     sl_point sum = {0, 0};
     for (uint32_t i = 1; i < count; i++) {
         sum.x += (corners[i].x - corners[0].x) / count;
@@ -54,17 +56,8 @@ static sl_point middle_of(const sl_point *corners, uint32_t count) {
     return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
 }
 
-sl_point sli_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
-    return middle_of(tree->corners + tree->first[leaf], tree->first[leaf + 1] - tree->first[leaf]);
-}
-
-sl_point sli_view_cell_middle(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    return middle_of(space->vertices + c->first_vertex, c->vertex_count);
-}
-
 uint32_t sli_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
-    if (homes->neighbour) return sl_space_locate(homes, sli_view_cell_middle(space, cell));
+    if (homes->neighbour) return sl_space_locate(homes, sl_space_middle(space, cell));
     const sl_cell *c = &space->cells[cell];
     sl_point least = space->vertices[c->first_vertex];
     for (uint32_t i = 1; i < c->vertex_count; i++) {

@@ -27,9 +27,6 @@ static inline double sli_view_node_side(const sl_view_tree *tree, const sl_view_
 /// The mean of a leaf's corners.
 sl_point sli_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf);
 
-/// The mean of the corners of a space's cell.
-sl_point sli_view_cell_middle(const sl_space *space, uint32_t cell);
-
 /// The cell of another space that a cell lies in; no side of that one runs through it. In a
 /// kd-tree's space it is found by the lower left corner of the cell's box, however thin the cell
 /// is: a point on a split is right of it, or over it. In a mesh it is found by the cell's rounded

@@ -2,6 +2,7 @@
 // search_methods [--seed N] [--count N] [--quiet]. A map that fails is made smaller, wall by wall,
 // and printed as map text. Spaces with oblique walls are tried between, printed by their seed.
 #include "oracle/convex_space.h"
+#include "oracle/must.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
 #include "sightline/sightline.h"
@@ -11,14 +12,6 @@
 #include <string.h>
 
 enum { PUSH_LIMIT = 30000, WHY_SIZE = 160 };
-
-static void *must(void *block) {
-    if (!block) {
-        fputs("search_methods: out of memory\n", stderr);
-        abort();
-    }
-    return block;
-}
 
 static void need(sl_context *context, sl_status status) {
     if (status == SL_OK) return;

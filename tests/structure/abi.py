@@ -32,7 +32,8 @@ class Library:
     """What abidw says of a library, as lines."""
 
     def __init__(self, path):
-        done = subprocess.run(["abidw", "--headers-dir", ROOT / "lib/include", "--no-show-locs", path],
+        done = subprocess.run(["abidw", "--headers-dir", ROOT / "lib/include", "--drop-private-types",
+                               "--no-show-locs", path],
                               stdout=subprocess.PIPE, check=True)
         tree = xml.etree.ElementTree.fromstring(done.stdout)
         self.types = {item.get("id"): item for item in tree.iter()
@@ -42,10 +43,10 @@ class Library:
                         if item.tag in ("class-decl", "union-decl") and
                         not item.get("is-declaration-only")}
         self.lines, self.told = [], set()
-        exported = {symbol.get("name") for symbol in tree.iter("elf-symbol")}
-        functions = {item.get("name"): item for item in tree.iter("function-decl")
-                     if item.get("elf-symbol-id") and item.get("name") in exported}
-        for name in sorted(functions):
+        # Not each has an elf-symbol-id: some stand only as another file declares them.
+        functions = {item.get("name"): item for item in tree.iter("function-decl")}
+        for name in sorted(symbol.get("name") for symbol in tree.iter("elf-symbol")
+                           if symbol.get("type") == "func-type"):
             self.lines.append(self.signature(functions[name], name))
 
     def signature(self, function, name):

@@ -19,13 +19,18 @@ ELSEWHERE = {"maps/FORMAT.md"}
 # Of esbuild, valgrind and sbatch.
 FOREIGN = {"--bundle", "--tool", "--toggle-collect", "--separate-threads", "--fair-sched", "--branch-sim", "--cache-sim",
            "--array"}
+OPTION = r"(?<![\w-])--[a-z][\w-]*"
+
+
+def texts(root, *endings):
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root)
+        if path.suffix in endings and name.parts[0] not in ("build", "out", ".git"):
+            yield name, path.read_text(encoding="utf-8")
 
 
 def documents(root):
-    for path in sorted(root.rglob("*.md")):
-        name = path.relative_to(root)
-        if not name.parts[0] in ("build", "out", ".git"):
-            yield name, path.read_text(encoding="utf-8")
+    return texts(root, ".md")
 
 
 def commands(text):
@@ -104,9 +109,8 @@ def command_options(folder):
 def options(root, folder):
     of_commands = command_options(folder)
     anywhere = FOREIGN.union(*of_commands.values(), {"--help", "--version"})
-    for path in root.rglob("*"):
-        if path.suffix in (".py", ".sh", ".js", ".mjs", ".c", ".json") and path.relative_to(root).parts[0] != "build":
-            anywhere |= set(re.findall(r"(?<![\w-])--[a-z][\w-]*", path.read_text(encoding="utf-8", errors="replace")))
+    for _, text in texts(root, ".py", ".sh", ".js", ".mjs", ".c", ".json"):
+        anywhere |= set(re.findall(OPTION, text))
     count = 0
     for name, text in documents(root):
         if name.name == "CHANGELOG.md":  # it names what is gone
@@ -114,7 +118,7 @@ def options(root, folder):
         for span in re.findall(r"`([^`]*)`", without_code(text)):
             command = re.match(r"(?:sightline )?([a-z]+)(?= )", span)
             known = of_commands.get(command[1], anywhere) if command else anywhere
-            for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", span):
+            for option in re.findall(OPTION, span):
                 count += 1
                 if option not in known:
                     yield f"{name}: there is no option {option}: {span}"

@@ -1,15 +1,9 @@
 // Any map file by one call: which format it is read as, and what the map says of its file.
 #include "testing.h"
 
+#include "import_check.h"
 #include "map_same.h"
 #include "sightline/io.h"
-
-static void write_file(const char *path, const char *text) {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
 
 /// Whether each word of a list is in another one.
 static bool all_words_in(const char *words, const char *others) {
@@ -79,7 +73,7 @@ static void test_endings(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char path[100];
         snprintf(path, sizeof path, "%s/%s", folder, cases[i].file);
-        write_file(path, cases[i].text);
+        import_write_file(path, cases[i].text);
         const sl_import_options options = {.has_slice = cases[i].slice, .slice = 1};
         sl_map map = {0};
         assert_ok(context, sl_map_read(context, path, &options, &map));
@@ -107,11 +101,11 @@ static void test_report_and_failures(void **state) {
     char path[] = "/tmp/sightline-formats-XXXXXX";
     assert_true(mkstemp(path) >= 0);
     sl_map map = {0};
-    write_file(path, "sightline 1\nwall 0 0 1 0");
+    import_write_file(path, "sightline 1\nwall 0 0 1 0");
     assert_ok(context, sl_map_read(context, path, NULL, &map));
     assert_int_equal(reports, 1);
     sl_map_destroy(context, &map);
-    write_file(path, "sightline 1\n\nwall 0 0 1\n");
+    import_write_file(path, "sightline 1\n\nwall 0 0 1\n");
     assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_INPUT);
     assert_true(map_is_empty(&map));
     char where[100];
@@ -131,7 +125,7 @@ static void test_options_refused(void **state) {
     assert_ok(context, sl_io_use(context));
     char path[] = "/tmp/sightline-formats-XXXXXX";
     assert_true(mkstemp(path) >= 0);
-    write_file(path, "sightline 1\nwall 0 0 1 0");
+    import_write_file(path, "sightline 1\nwall 0 0 1 0");
     const struct {
         const char *name;
         sl_import_options options;
@@ -168,7 +162,7 @@ static void test_formats_missing(void **state) {
     char folder[] = "/tmp/sightline-formats-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/plan.dxf", folder);
-    write_file(path, "  0\nSECTION\n");
+    import_write_file(path, "  0\nSECTION\n");
     sl_map map = {0};
     assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), ".dxf:1: "));

@@ -106,13 +106,6 @@ static void test_refused(void **state) {
 
 // --- ROS
 
-static void write_file(const char *path, const char *text) {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
-
 /// A picture of an obstacle, unknown ground and free ground.
 static void read_ros(const char *yaml, double threshold, const char *expected,
                      const char *message) {
@@ -120,7 +113,7 @@ static void read_ros(const char *yaml, double threshold, const char *expected,
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/m.yaml", folder);
     snprintf(picture, sizeof picture, "%s/m.pgm", folder);
-    write_file(picture, "P2 3 1 255 0 205 254");
+    import_write_file(picture, "P2 3 1 255 0 205 254");
     sl_context *context = testing_context(NULL);
     sl_import_options options = sl_import_options_default();
     options.threshold = threshold;

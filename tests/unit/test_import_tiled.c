@@ -752,10 +752,7 @@ static void test_long_texts(void **state) {
 static void write_file(const char *folder, const char *name, const char *text) {
     char path[256];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
+    import_write_file(path, text);
 }
 
 static void remove_file(const char *folder, const char *name) {

@@ -29,6 +29,16 @@ static void two_rooms_are_joined_by_one_portal(void **state) {
     sl_context_destroy(context);
 }
 
+static void the_middle_of_a_far_cell_is_in_it(void **state) {
+    (void)state;
+    const double at = 1e15 + 1, step = nextafter(at, INFINITY) - at;
+    sl_point corners[] = {{at, at}, {at + 3 * step, at}, {at, at + 3 * step}};
+    sl_cell cell = {.vertex_count = 3};
+    const sl_space space = {.cells = &cell, .cell_count = 1, .vertices = corners};
+    const sl_point middle = sl_space_middle(&space, 0);
+    assert_true(middle.x == at + step && middle.y == at + step);
+}
+
 static void points_on_boundaries_have_a_cell(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -287,6 +297,7 @@ static void memory_may_fail_at_any_call(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_rooms_are_joined_by_one_portal),
+        cmocka_unit_test(the_middle_of_a_far_cell_is_in_it),
         cmocka_unit_test(points_on_boundaries_have_a_cell),
         cmocka_unit_test(starts_or_the_border_tell_inside_from_outside),
         cmocka_unit_test(an_oblique_wall_is_named),

@@ -22,6 +22,7 @@ function pointOf(call, point) {
 /** An eye's x, y and view. One object may hold all; there `dx` and `dy` may stand for the heading. */
 function eyeOf(x, y, options) {
   if (typeof x !== 'object' || !x) return [x, y, options]
+  if (y !== undefined || options !== undefined) throw new SightlineError('x: one object holds all, the view too')
   const { x: left, y: up, dx, dy, ...view } = x
   if (dx !== undefined || dy !== undefined) view.heading ??= (Math.atan2(dy, dx) * 180) / Math.PI
   return [left, up, view]

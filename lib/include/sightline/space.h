@@ -217,6 +217,9 @@ SL_API const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t p
 /// Area of a cell.
 SL_API double sl_space_area(const sl_space *space, uint32_t cell);
 
+/// A place in a cell, but for rounding: the mean of its corners.
+SL_API sl_point sl_space_middle(const sl_space *space, uint32_t cell);
+
 /// Checks the whole graph, exactly. SL_BAD_INPUT with the first fault found.
 ///
 /// - Cells are convex, of positive area, and tile the bounds. No wall is inside a cell.
