@@ -190,7 +190,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
     const name_table lines = {"kind of lines", kinds, sizeof *kinds, sizeof kinds / sizeof *kinds,
                               NULL};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
-    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);
     const option_table within = within_option_table(
         &plan.within, "only lines within the closed outlines of a drawing or map; they end there "

@@ -48,8 +48,6 @@ static sl_status make_plan(sl_context *context, const char *input, compare_plan 
     SL_TRY(pipeline_plan(context, input, &plan->pipeline));
     SL_TRY(compare_eye_read_fovs(context, plan->fov, &plan->eye_plan));
     if (plan->output) SL_TRY(built_need_pictures(context));
-    if (plan->dark && !plan->output)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--dark is for the chart, which needs -o");
     return SL_OK;
 }
 
@@ -341,7 +339,8 @@ sl_status cmd_compare(command_console *console, int argc, char **argv) {
          .given = for_eye, .rare = true},
         {"fov", 0, "DEG,...", "view cones for --eye, in degrees (default 360,60)",
          .text = &plan.fov, .given = for_eye, .rare = true},
-        {"dark", 0, NULL, "draw the chart light on dark", .flag = &plan.dark, .rare = true},
+        {"dark", 0, NULL, "draw the chart light on dark", .flag = &plan.dark,
+         .without = "output", .rare = true},
         {.group = &pipeline},
     };
     const command_usage usage = {

@@ -103,7 +103,7 @@ static void print_layers(void) {
 
 sl_status cmd_draw(command_console *console, int argc, char **argv) {
     draw_plan plan = {.drawing = sl_draw_options_default()};
-    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table picture = picture_option_table(&plan.drawing, "output", true);
     const option_spec options[] = {
         {"output", 'o', "PICTURE", "the picture: .png, .svg or .pdf", .text = &plan.output,
          .check = CHECK_PICTURE},

@@ -81,7 +81,7 @@ sl_status cmd_explain(command_console *console, int argc, char **argv) {
     explain_plan plan = {.options = sl_explain_options_default(),
                          .mirror_depth = 1,
                          .drawing = sl_draw_options_default()};
-    const option_table picture = picture_option_table(&plan.drawing, false);
+    const option_table picture = picture_option_table(&plan.drawing, "output", false);
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"output", 'o', "PICTURE", "draw the answer: .png, .svg or .pdf", .text = &plan.output,

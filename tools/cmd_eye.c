@@ -285,7 +285,7 @@ static void print_methods(void) {
 
 sl_status cmd_eye(command_console *console, int argc, char **argv) {
     eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = sl_draw_options_default()};
-    option_table picture = picture_option_table(&plan.drawing, false);
+    option_table picture = picture_option_table(&plan.drawing, "output", false);
     for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
@@ -330,9 +330,9 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
-    if (plan.picture_given && (!plan.output || output_has_ending(plan.output, EYE_FILES)))
+    if (plan.picture_given && output_has_ending(plan.output, EYE_FILES))
         return sl_fail(console->context, SL_BAD_ARGUMENT,
-                       "--width and --dark are for the picture, which needs -o");
+                       "--%s is for a picture, and %s is none", plan.picture_given, plan.output);
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, plan.input, &baked));
     sl_status status =

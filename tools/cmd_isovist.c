@@ -326,7 +326,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                          .mirror_depth = 1,
                          .drawing = sl_draw_options_default()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
-    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);
     const option_table within = within_option_table(&plan.within, WITHIN_GRID);
     const option_spec options[] = {

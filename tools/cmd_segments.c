@@ -140,7 +140,7 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
         .reading = input_options_default(), .measure = 2, .drawing = sl_draw_options_default()};
     const name_table names = {"measure", measures, sizeof *measures, MEASURES, NULL};
     const option_table reading = input_option_table(&plan.reading);
-    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_spec options[] = {
         {"output", 'o', "TABLE",
          "where the table goes: .csv, or .geojson for a GIS (default: stdout, or nowhere if there "

@@ -480,7 +480,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
                      .agents = sl_vga_agents_default(),
                      .drawing = sl_draw_options_default()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
-    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);
     const option_table points = vga_grid_option_table(&plan.points);
     const option_spec options[] = {

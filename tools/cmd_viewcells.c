@@ -472,7 +472,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     const sl_view_method *methods = sl_view_methods(&count);
     const name_table method_names = {"method", methods, sizeof *methods, count, NULL};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
-    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_spec options[] = {
         {"cells", 0, "N", "make this number of view cells", .count = &run->cells, .least = 1,
          .most = MAX_COUNT, .given = &plan.cells_given},

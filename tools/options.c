@@ -411,6 +411,22 @@ static sl_status check_apart(const parsing *p, size_t output, const char *input)
     return SL_OK;
 }
 
+/// SL_BAD_ARGUMENT where an option is given without the one that it belongs to.
+static sl_status check_useful(const parsing *p) {
+    for (size_t i = 0; i < p->count; i++) {
+        const option_spec *option = &p->options[i];
+        char label[LABEL];
+        if (!p->arguments[i] || !option->without) continue;
+        size_t k = 0;
+        while (strcmp(p->options[k].name, option->without) != 0) k++;
+        if (p->arguments[k]) continue;
+        write_label(&p->options[k], label);
+        return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s is of no use without %s", option->name,
+                       label);
+    }
+    return SL_OK;
+}
+
 /// Names are checked when all options are known, and before the work begins.
 static sl_status check_outputs(const parsing *p, const char *input) {
     for (size_t i = 0; i < p->count; i++) {
@@ -448,5 +464,6 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
         usage->given->items[usage->given->count++] =
             (struct option_given){option->name, option->argument ? p.arguments[i] : NULL};
     }
+    SL_TRY(check_useful(&p));
     return check_outputs(&p, usage->operands[0] ? operands[0] : NULL);
 }

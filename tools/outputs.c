@@ -139,12 +139,14 @@ sl_status output_choose_export(sl_context *context, const name_table *formats, c
     return output_fail_ending(context, option, output, all);
 }
 
-option_table picture_option_table(sl_draw_options *drawing, bool titled) {
+option_table picture_option_table(sl_draw_options *drawing, const char *output, bool titled) {
     const option_spec options[] = {
         {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
-         .number = &drawing->width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
-        {"dark", 0, NULL, "draw light on dark", .flag = &drawing->dark},
-        {"title", 0, "TEXT", "write a line over the picture", .text = &drawing->title},
+         .number = &drawing->width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX,
+         .without = output},
+        {"dark", 0, NULL, "draw light on dark", .flag = &drawing->dark, .without = output},
+        {"title", 0, "TEXT", "write a line over the picture", .text = &drawing->title,
+         .without = output},
     };
     option_table table = {0};
     option_table_add(&table, options, titled ? 3 : 2);

@@ -50,8 +50,9 @@ bool output_is_plain_file(const char *path);
 sl_status output_check_apart(sl_context *context, const char *input, const char *option,
                              const char *output);
 
-/// The options --width, --dark and, if `titled`, --title.
-option_table picture_option_table(sl_draw_options *drawing, bool titled);
+/// The options --width, --dark and, if `titled`, --title, of the picture that the option `output`
+/// names.
+option_table picture_option_table(sl_draw_options *drawing, const char *output, bool titled);
 
 /// Several files in one folder, all or none. They are written into a temporary folder and moved to
 /// their places at the end.
