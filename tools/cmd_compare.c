@@ -339,8 +339,8 @@ sl_status cmd_compare(command_console *console, int argc, char **argv) {
          .given = for_eye, .rare = true},
         {"fov", 0, "DEG,...", "view cones for --eye, in degrees (default 360,60)",
          .text = &plan.fov, .given = for_eye, .rare = true},
-        {"dark", 0, NULL, "draw the chart light on dark", .flag = &plan.dark,
-         .without = "output", .rare = true},
+        {"dark", 0, NULL, "draw the chart light on dark", .flag = &plan.dark, .without = "output",
+         .rare = true},
         {.group = &pipeline},
     };
     const command_usage usage = {

@@ -331,8 +331,8 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
     if (plan.picture_given && output_has_ending(plan.output, EYE_FILES))
-        return sl_fail(console->context, SL_BAD_ARGUMENT,
-                       "--%s is for a picture, and %s is none", plan.picture_given, plan.output);
+        return sl_fail(console->context, SL_BAD_ARGUMENT, "--%s is for a picture, and %s is none",
+                       plan.picture_given, plan.output);
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, plan.input, &baked));
     sl_status status =

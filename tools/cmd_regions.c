@@ -279,8 +279,8 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
         {"sight", 0, "closed|open",
          "stabs: whether lines that only touch wall ends count (default: closed, they do)",
          .sight = &plan.how.sight, .given = stabs, .rare = true},
-        {"dark", 0, NULL, "draw charts light on dark", .flag = &plan.dark,
-         .without = "output", .rare = true},
+        {"dark", 0, NULL, "draw charts light on dark", .flag = &plan.dark, .without = "output",
+         .rare = true},
         {.group = &input_table},
         {.group = &without},
     };

@@ -63,7 +63,7 @@ export interface View {
   range?: number
 }
 
-/** An eye and its view in one. A heading may also be given as the vector `dx`, `dy`. */
+/** An eye and its view in one. A heading may also be given as the vector `dx`, `dy`, which is not 0, 0. */
 export interface Eye extends Point, View {
   dx?: number
   dy?: number

@@ -24,7 +24,7 @@ function eyeOf(x, y, options) {
   if (typeof x !== 'object' || !x) return [x, y, options]
   if (y !== undefined || options !== undefined) throw new SightlineError('x: one object holds all, the view too')
   const { x: left, y: up, dx, dy, ...view } = x
-  if (dx !== undefined || dy !== undefined) view.heading ??= (Math.atan2(dy, dx) * 180) / Math.PI
+  if (dx !== undefined || dy !== undefined) view.heading ??= (dx || dy ? Math.atan2(dy, dx) * 180 : NaN) / Math.PI
   return [left, up, view]
 }
 

@@ -154,6 +154,7 @@ test('arguments that are wrong say so', async () => {
     assert.deepEqual(level[call]({ x: 1, y: 1, dx: 0, dy: 2, ...view }), level[call](1, 1, { heading: 90, ...view }))
     assert.deepEqual(level[call]({ x: 1, y: 1 }), level[call](1, 1))
     assert.throws(() => level[call]({ x: 1, y: 1, dx: 1 }), /heading: a number/)
+    assert.throws(() => level[call]({ x: 1, y: 1, dx: 0, dy: 0 }), /heading: a number/)
     assert.throws(() => level[call]({ x: 1, y: 1 }, view), /one object holds all/)
   }
   assert.ok(level.visiblePolygon(1, 1, null).length && level.look(1, 1, { fov: 360 }).length)
