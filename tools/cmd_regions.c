@@ -161,34 +161,43 @@ static sl_status note_inside(sl_context *context, const map_pipeline *pipeline, 
     return status;
 }
 
-static sl_status measure_map(sl_context *context, const regions_plan *plan, const char *path,
-                             uint32_t grid, regions_rows *rows) {
-    sl_map map = {0};
+/// A map that was read, and its name without folders.
+typedef struct measured_map {
+    sl_map map;
+    char name[48];
+} measured_map;
+
+static sl_status read_map(sl_context *context, const regions_plan *plan, const char *path,
+                          measured_map *read) {
     map_pipeline pipeline = plan->pipeline;
     pipeline.path = path;
-    sl_from_region_scene_options what = plan->what;
-    what.grid = grid;
-    char name[48];
     size_t length;
     const char *base = input_base_name(path, &length);
-    snprintf(name, sizeof name, "%.*s", (int)length, base);
-    sl_status status = pipeline_read_clean(context, &pipeline, &map, NULL);
-    if (status == SL_OK)
-        status = sl_effects_check_because(context, &map, "regions", 0,
-                                          "the methods that it compares know walls alone");
-    if (status == SL_OK) status = note_inside(context, &pipeline, &map);
-    if (status == SL_OK) status = regions_measure(context, &map, name, &what, &plan->how, rows);
-    sl_map_destroy(context, &map);
-    return status;
+    snprintf(read->name, sizeof read->name, "%.*s", (int)length, base);
+    SL_TRY(pipeline_read_clean(context, &pipeline, &read->map, NULL));
+    SL_TRY(sl_effects_check_because(context, &read->map, "regions", 0,
+                                    "the methods that it compares know walls alone"));
+    return note_inside(context, &pipeline, &read->map);
 }
 
+/// All maps with a grid, then all with the next one.
 static sl_status measure_all(sl_context *context, const regions_plan *plan, regions_rows *rows) {
-    for (size_t i = 0; i < plan->grid_count; i++) {
-        SL_TRY(measure_map(context, plan, plan->pipeline.path, plan->grids[i], rows));
-        for (size_t k = 0; k < plan->also.count; k++)
-            SL_TRY(measure_map(context, plan, plan->also.items[k], plan->grids[i], rows));
+    const size_t count = plan->also.count + 1;
+    measured_map *maps = sl_alloc_array(context, count, sizeof *maps);
+    if (!maps) return SL_NO_MEMORY;
+    memset(maps, 0, count * sizeof *maps);
+    sl_status status = read_map(context, plan, plan->pipeline.path, &maps[0]);
+    for (size_t k = 1; k < count && status == SL_OK; k++)
+        status = read_map(context, plan, plan->also.items[k - 1], &maps[k]);
+    sl_from_region_scene_options what = plan->what;
+    for (size_t i = 0; i < plan->grid_count && status == SL_OK; i++) {
+        what.grid = plan->grids[i];
+        for (size_t k = 0; k < count && status == SL_OK; k++)
+            status = regions_measure(context, &maps[k].map, maps[k].name, &what, &plan->how, rows);
     }
-    return SL_OK;
+    for (size_t k = 0; k < count; k++) sl_map_destroy(context, &maps[k].map);
+    sl_free(context, maps);
+    return status;
 }
 
 static sl_status write_file(sl_context *context, const regions_plan *plan, const regions_rows *rows,
