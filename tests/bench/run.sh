@@ -254,7 +254,9 @@ run vga "$gallery"
 run regions
 run view_cells "$soda" "$doom2"
 run walk "$soda" "$doom1"
-run python
+if "$python" -c 'import numpy, scipy, shapely' 2>/dev/null; then run python; else
+    echo "python: skipped, $python has no numpy, scipy or shapely"
+fi
 run wasm node chromium "$web/package"
 run frame node chromium "$web/site"
 run viewer "$soda" "$doom1" "$doom2"
