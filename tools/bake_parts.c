@@ -219,7 +219,7 @@ static sl_status look(sl_context *context, const sl_see_method *method, const sl
     SL_TRY(crew_agree(context, method->run(context, space, &see, partial)));
     if (crew_size() == 1) return SL_OK;
     partial->shard = partial->shard_count = 0;
-    return crew_join(context, partial);
+    return crew_agree(context, crew_join(context, partial));
 }
 
 static sl_status see_parts(sl_context *context, const bake_parts *parts,

@@ -21,6 +21,7 @@ static void destroy(sl_context *context, checked *c) {
     sl_map_destroy(context, &c->map);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
+    sl_strays_destroy(context, &c->strays);
 }
 
 /// Subdivides and finds faults. c->map is as it was read; c->baked.map becomes a clean copy.
@@ -31,8 +32,10 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
     c->gap = gap > 0 ? gap : sl_usual_gap(&c->map);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
+    sl_strays_destroy(context, &c->strays);
+    SL_TRY(sl_find_strays(context, &c->map, &c->strays));
     SL_TRY(sl_map_copy(context, &c->map, &c->baked.map));
-    SL_TRY(input_clean(context, &plan->pipeline.input, &c->baked.map, NULL));
+    SL_TRY(pipeline_clean(context, &plan->pipeline, &c->baked.map, NULL));
     map_pipeline pipeline = plan->pipeline;
     const sl_subdivision *way = pipeline.bake.subdivision;
     if (c->mended && way && way->takes_cells) pipeline.bake.subdivision = NULL;
@@ -161,7 +164,8 @@ static sl_status check_each(command_console *console, const check_plan *plan,
         if (plan->json && (refused || status == SL_OK))
             items[*done] = refused ? refused_fields(name, context) : faults_line_fields(name, &c);
         else if (refused)
-            printf("%s: %s\n", name, sl_context_message(context));
+            printf("%s: %s\n", name,
+                   text_without_folder(sl_context_message(context), plan->pipeline.path));
         else if (status == SL_OK)
             faults_print_line(name, &c);
         console->fault |= status == SL_OK && plan->strict && checked_has_fault(&c);
@@ -179,6 +183,7 @@ static sl_status check_every(command_console *console, const check_plan *plan) {
         return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: --%s is for one map",
                        plan->for_one ? plan->for_one : "map");
     sl_map_list list = {0};
+    sl_context_set_limits(context, &plan->pipeline.input.limits);
     SL_TRY(sl_map_list_read(context, path, &list));
     size_t done = 0, broken = 0;
     json_fields *items = sl_alloc_array(context, list.count, sizeof *items);
@@ -241,8 +246,9 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP"},
         .what = "Lists what may be wrong with a map: leaks (openings through which a start leads "
-                "out of the map), gaps between walls, overlaps, crossings, thin cells, and rooms "
-                "that no start reaches. Each fault has its place and the names of its walls in "
+                "out of the map), gaps between walls, overlaps, crossings, thin cells, rooms that "
+                "no start reaches, and strays (what lies far away from the rest). Each fault has "
+                "its place and the names of its walls in "
                 "the file: line, layer, handle, id. The last line is the next command to run.\n"
                 "\n"
                 "--snap moves ends of walls by up to --gap. Faults that it cannot mend are marked "

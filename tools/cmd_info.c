@@ -138,14 +138,21 @@ static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
     memcpy(counts, all, sizeof all);
 }
 
+/// The layers that hold something, and how many do not.
 static void print_layers(const sl_drawing_layers *layers) {
+    size_t empty = 0;
     if (layers->count) puts("  layers, with their entities");
     for (size_t i = 0; i < layers->count; i++) {
         const sl_drawing_layer *layer = &layers->items[i];
+        if (!layer->entities) {
+            empty++;
+            continue;
+        }
         printf("    %6zu  ", layer->entities);
         console_print_text(stdout, layer->name, strlen(layer->name));
         puts(layer->on ? "" : " (off: read only by --layers)");
     }
+    if (empty) printf("    %6zu  empty layer%s (--json lists all)\n", empty, empty == 1 ? "" : "s");
 }
 
 /// "layers": [{"name": "WALLS", "entities": 12, "on": true}, ...]
@@ -261,6 +268,7 @@ static void print_list(const char *path, const sl_map_list *list) {
 /// which can be read only once.
 static sl_status inform_of_list(command_console *console, info_request *request, bool *done) {
     sl_map_choice choice;
+    sl_context_set_limits(console->context, &request->input.limits);
     SL_TRY(sl_map_choice_parse(console->context, request->path, request->bytes.data,
                                request->bytes.size, &choice));
     progress_line_clear(&console->line);
@@ -278,6 +286,7 @@ static sl_status inform_of_list(command_console *console, info_request *request,
 static sl_status inform_of_map(command_console *console, info_request *request) {
     sl_map map = {0};
     sl_clean_account cleaning;
+    sl_context_set_limits(console->context, &request->input.limits);
     if (request->is_drawing)
         SL_TRY(sl_drawing_layers_dxf(console->context, request->path, request->bytes.data,
                                      request->bytes.size, &request->layers));

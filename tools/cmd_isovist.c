@@ -7,6 +7,7 @@
 #include "json_print.h"
 #include "outputs.h"
 #include "pipeline.h"
+#include "places.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 #include "within.h"
@@ -100,6 +101,23 @@ static void note_solid(sl_context *context, const char *name, const isovist_work
                 solid, w->eyes.list.count);
 }
 
+static sl_status note_path(sl_context *context, const sl_path *path, const isovist_work *w) {
+    char what[128];
+    snprintf(what, sizeof what, "--path %s", path->name);
+    places_note_outside(context, what, &w->baked.space, w->eyes.list.items, w->eyes.list.count);
+    return places_note_path(context, path->name, &w->baked.space, path->points, path->count);
+}
+
+/// The points of a table.
+static sl_status add_table(sl_context *context, const isovist_plan *plan, isovist_work *w) {
+    const sl_space *space = &w->baked.space;
+    char what[256];
+    SL_TRY(eyes_read_csv(context, plan->points, space, plan->like, &w->eyes));
+    snprintf(what, sizeof what, "--points %s", plan->points);
+    places_note_outside(context, what, space, w->eyes.list.items, w->eyes.list.count);
+    return SL_OK;
+}
+
 static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const char *name = plan->path;
     const sl_map *map = &w->baked.map;
@@ -107,7 +125,7 @@ static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist
         if (strcmp(map->paths[i].name, name) == 0) {
             SL_TRY(eyes_add_path(context, &map->paths[i], plan->step, plan->like, &w->eyes));
             note_solid(context, name, w);
-            return SL_OK;
+            return note_path(context, &map->paths[i], w);
         }
     const name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count, NULL};
     char names[NAME_LIST];
@@ -139,14 +157,15 @@ static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isov
     const sl_space *space = &w->baked.space;
     if (plan->at.count) return add_points(context, plan, w);
     if (plan->path) return add_path(context, plan, w);
-    if (plan->points) return eyes_read_csv(context, plan->points, space, plan->like, &w->eyes);
+    if (plan->points) return add_table(context, plan, w);
     if (!(plan->grid > 0) && !plan->squares_given) return add_starts(context, plan, w);
     double step = plan->grid;
     if (plan->squares_given) {
         const sl_box *b = &space->bounds;
         step = fmax(b->max.x - b->min.x, b->max.y - b->min.y) / (double)plan->squares;
     }
-    SL_TRY(eyes_add_grid(context, space, step, plan->like, &w->eyes));
+    const sl_status laid = eyes_add_grid(context, space, step, plan->like, &w->eyes);
+    SL_TRY(pipeline_name_stray(context, plan->input, &w->baked.map, space, laid));
     if (!plan->within.path) return SL_OK;
     sl_map outlines = {0};
     SL_TRY(within_read(context, &plan->within, &plan->pipeline.input, &outlines));

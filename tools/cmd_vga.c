@@ -368,9 +368,10 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(make_outline(context, w));
     sl_status status = check_area(context, plan, &w->baked.space);
+    status = pipeline_name_stray(context, plan->input, &w->baked.map, &w->baked.space, status);
     if (status == SL_OK)
-        status = vga_grid_choose(context, &plan->points, &plan->pipeline.input, &w->outline,
-                                 &w->table.grid);
+        status = vga_grid_choose(context, &plan->points, &plan->pipeline, &w->baked.map,
+                                 &w->outline, &w->table.grid);
     SL_TRY(name_unit(context, plan, &w->baked.map, &w->baked.space, status));
     if (plan->points.links)
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
@@ -566,7 +567,9 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         .operands = {"MAP|FILE.slv"},
         .what = "Computes visibility graph analysis (space syntax). The graph joins the points of "
                 "a grid that see each other. Writes a table under the names that depthmapX gives "
-                "the measures.",
+                "the measures. Shortest and straightest paths turn only at points beside walls, "
+                "and add up in single precision, as those of depthmapX. A measure that is not "
+                "defined at a point has no value there.",
         .tables = print_tables,
         .examples = "  sightline vga office.map --grid 1 -o office.csv --picture office.png\n"
                     "  sightline vga office.map --grid 1 --measure visual_control --picture "

@@ -5,6 +5,7 @@
 #include "names.h"
 #include "outputs.h"
 #include "pipeline.h"
+#include "places.h"
 #include "report.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
@@ -231,7 +232,7 @@ typedef struct walk_work {
     walk_rows rows;
 } walk_work;
 
-enum { TOUR_STEPS_ACROSS = 500, MOST_REPEATS = 1000 };
+enum { MOST_REPEATS = 1000 };
 
 static name_table walk_method_table(void) {
     size_t count;
@@ -274,8 +275,6 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
     const char *name = plan->path;
     const sl_map *map = &w->baked.map;
     const sl_space *space = &w->baked.space;
-    const sl_box *b = &space->bounds;
-    const double size = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
     for (size_t i = 0; name && i < map->path_count; i++) {
         const sl_path *p = &map->paths[i];
         if (strcmp(p->name, name) != 0) continue;
@@ -292,15 +291,15 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
         if (w->way.count < 2 || !(length > 0))
             return sl_fail(context, SL_BAD_ARGUMENT, "--path %s: a path of no length", name);
         w->step = plan->step > 0 ? plan->step : length / (double)plan->steps;
-        return SL_OK;
+        return places_note_path(context, name, space, w->way.items, w->way.count);
     }
     if (!map->start_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start for a tour: give a --path or a --start");
     const size_t first = input_next_start(map, space, 0);
     const sl_point start = map->starts[first < map->start_count ? first : 0].at;
-    w->step = plan->step > 0 ? plan->step : size / TOUR_STEPS_ACROSS;
-    return way_tour(context, space, start, plan->options.seed, w->step * (double)plan->steps,
+    w->step = plan->step;
+    return way_tour(context, space, start, plan->options.seed, (double)plan->steps, &w->step,
                     &w->way);
 }
 

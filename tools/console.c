@@ -1,6 +1,7 @@
 #include "console.h"
 
 #include "built.h"
+#include "crew.h"
 #include "sightline/support.h"
 #include "system.h"
 
@@ -107,13 +108,28 @@ static atomic_bool interrupted;
 static atomic_bool asks_first;
 static atomic_int asked;
 
-/// The first signal makes the running call stop and tidy up; the next one ends the program. Where
-/// the first one is only noted, the second and the third do this.
-static void on_signal(int number) {
-    (void)number;
+/// Signals that came to this process, and the most of which it knows that came to one process.
+static atomic_int own, known;
+
+/// The first signal makes the running call stop and tidy up. Where the first one is only noted, the
+/// second does this.
+void console_hear_interruptions(int count) {
+    int before = atomic_load(&known);
+    while (before < count && !atomic_compare_exchange_weak(&known, &before, count)) continue;
+    if (before >= count) return;
     if (atomic_load(&asks_first) && !atomic_exchange(&asked, 1)) return;
     atomic_store(&interrupted, true);
-    system_on_interruption(NULL);
+}
+
+int console_interruptions(void) {
+    return atomic_load(&own);
+}
+
+/// A signal after the one that stops the call ends the program.
+static void on_signal(int number) {
+    (void)number;
+    console_hear_interruptions(atomic_fetch_add(&own, 1) + 1);
+    if (atomic_load(&interrupted)) system_on_interruption(NULL);
 }
 
 void console_ask_first(void) {
@@ -141,9 +157,30 @@ void console_print_line(FILE *stream, const char *before, const char *text, size
     putc('\n', stream);
 }
 
+const char *text_without_folder(const char *text, const char *path) {
+    const size_t length = strlen(path);
+    const bool begins = strncmp(text, path, length) == 0 && text[length] == ':';
+    return begins ? text + (sl_path_name(path) - path) : text;
+}
+
+/// The first of several notes on a file of the command line has the file's path, the others its
+/// name.
+static const char *shorten_note(command_console *console, const char *message) {
+    const char *before = console->noted;
+    console->noted = NULL;
+    for (int i = 0; i < console->word_count; i++) {
+        const char *shorter = text_without_folder(message, console->words[i]);
+        if (shorter == message) continue;
+        console->noted = console->words[i];
+        return console->noted == before ? shorter : message;
+    }
+    return message;
+}
+
 static void show_note(void *user, const char *message) {
     command_console *console = user;
     if (console->quiet) return;
+    message = shorten_note(console, message);
     progress_line_clear(&console->line);
     console_print_line(stderr, "note: ", message, strlen(message));
 }
@@ -157,7 +194,10 @@ static void show_progress(void *user, const sl_progress *progress) {
 /// units of work.
 static bool is_cancelled(void *user) {
     command_console *console = user;
-    if (pthread_equal(pthread_self(), console->main_thread)) progress_line_tick(&console->line);
+    if (pthread_equal(pthread_self(), console->main_thread)) {
+        progress_line_tick(&console->line);
+        crew_listen();
+    }
     return atomic_load(&interrupted);
 }
 

@@ -28,6 +28,9 @@ typedef struct command_console {
     progress_line line;    ///< shown where stderr is a terminal
     bool quiet;            ///< --quiet: neither notes nor progress
     bool fault;            ///< check --strict found a fault: the exit status is 3
+    char *const *words;    ///< of the command line
+    int word_count;
+    const char *noted; ///< the one of them, a file's path, that the last note began with
 } command_console;
 
 /// False where there is no memory; a message has been printed.
@@ -39,11 +42,20 @@ void console_ask_first(void);
 /// Whether there was one.
 bool console_is_asked(void);
 
+/// How many there were in this process.
+int console_interruptions(void);
+/// Another process that shares the work had so many. This one does as if they had come to it: what
+/// comes to several processes at once counts once.
+void console_hear_interruptions(int count);
+
 /// Prints text from a file. Control characters become '?', since they could play tricks on the
 /// terminal.
 void console_print_text(FILE *stream, const char *text, size_t length);
 /// Prints a line of such text.
 void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
+
+/// A message without the folder of a file, where it begins with the file's path: "FILE:LINE: ...".
+const char *text_without_folder(const char *text, const char *path);
 
 /// Adds to a text in `size` bytes, as far as there is room.
 void text_append(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);

@@ -12,6 +12,10 @@ void crew_end(void);
 uint32_t crew_rank(void); ///< from 0
 uint32_t crew_size(void);
 
+/// Tells the others of the interruptions that came to this process, and hears of theirs. The main
+/// thread calls it often while it works.
+void crew_listen(void);
+
 /// The outcome of a step in all processes: SL_OK where it went well everywhere. All must call it.
 sl_status crew_agree(sl_context *context, sl_status mine);
 

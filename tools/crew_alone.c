@@ -8,6 +8,9 @@ void crew_begin(int *argc, char ***argv) {
 void crew_end(void) {
 }
 
+void crew_listen(void) {
+}
+
 uint32_t crew_rank(void) {
     return 0;
 }

@@ -6,21 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The digits for a place in a map, which may lie far from the origin.
-static int digits_in(const sl_map *map) {
-    const sl_box box = sl_map_bounds(map);
-    const double most =
-        fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
-    const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
-    if (!(across > 0 && most > 0)) return 6;
-    return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
-}
-
 /// The digits that tell two points of a map apart, to about a hundredth of their distance.
 static int digits_for(const sl_map *map, sl_segment at) {
     const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
     const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
-    const int least = digits_in(map);
+    const int least = sl_map_digits(map);
     if (!(most > 0)) return least;
     if (!(apart > 0)) return at.a.x == at.b.x && at.a.y == at.b.y ? least : 17;
     return (int)fmin(fmax(ceil(log10(most / apart)) + 3, least), 17);
@@ -68,7 +58,7 @@ static void print_leak(const checked *found, const sl_fault *fault) {
     print_width(fault->size);
     print_ends(&found->map, fault->at);
     print_lines(&found->map, fault);
-    print_point("; the way to it begins at ", way[0], digits_in(&found->map));
+    print_point("; the way to it begins at ", way[0], sl_map_digits(&found->map));
     // A wider one is no matter of snapping.
     if (fault->stays && fault->size <= found->gap) printf("; needs a decision");
     putchar('\n');
@@ -91,7 +81,7 @@ static void print_fault(const checked *found, const sl_fault *fault) {
         print_lines(&found->map, fault);
         break;
     case SL_FAULT_CROSSING:
-        print_point("    at ", fault->at.a, digits_in(&found->map));
+        print_point("    at ", fault->at.a, sl_map_digits(&found->map));
         print_lines(&found->map, fault);
         break;
     case SL_FAULT_THIN:
@@ -101,7 +91,7 @@ static void print_fault(const checked *found, const sl_fault *fault) {
     default:
         printf("    %u cell%s, area %.6g", (unsigned)fault->cells, fault->cells == 1 ? "" : "s",
                fault->size);
-        print_point(", about ", fault->at.a, digits_in(&found->map));
+        print_point(", about ", fault->at.a, sl_map_digits(&found->map));
     }
     putchar('\n');
 }
@@ -138,6 +128,31 @@ static void print_kind(const checked *found, sl_fault_kind kind, uint64_t most) 
         printf("    ... and %u more (--most N, --json)\n", (unsigned)(count - printed));
 }
 
+/// What lies far away, and what to do about it.
+static void print_strays(const faults_report *report) {
+    const sl_map *map = &report->found->map;
+    const sl_strays *strays = &report->found->strays;
+    const sl_box *rest = &strays->rest;
+    if (!strays->count) return;
+    printf("  %u stray%s (far away from the rest of the map, which is %.4g by %.4g):\n",
+           (unsigned)strays->count, strays->count == 1 ? "" : "s", rest->max.x - rest->min.x,
+           rest->max.y - rest->min.y);
+    for (uint32_t i = 0; i < strays->count && i < report->most; i++) {
+        const sl_stray *stray = &strays->items[i];
+        char line[SL_LINE_TEXT];
+        sl_map_say_line(map, stray->line, line);
+        printf("    %s%s", line, *line ? ", " : "");
+        print_point("at ", stray->at, 12); // as in the file, to look for it
+        printf(", %.4g away\n", stray->distance);
+    }
+    if (strays->count > report->most)
+        printf("    ... and %u more (--most N, --json)\n",
+               (unsigned)(strays->count - report->most));
+    printf("  correct or remove %s in %s, then check again: until then pictures show the rest as a "
+           "dot\n",
+           strays->count == 1 ? "it" : "them", sl_path_name(report->input));
+}
+
 /// The faults of a kind that snapping closes.
 static uint32_t closable(const sl_faults *faults, sl_fault_kind kind) {
     uint32_t count = 0;
@@ -164,7 +179,8 @@ static void print_mended(const faults_report *report) {
              "inside");
     if (left->counts[SL_FAULT_LEAK] || left->counts[SL_FAULT_GAP])
         printf("  what is left needs a decision (by %s of %s):\n",
-               report->left->map.lines_are_items ? "the names" : "lines", report->input);
+               report->left->map.lines_are_items ? "the names" : "lines",
+               sl_path_name(report->input));
     print_kind(report->left, SL_FAULT_LEAK, report->most);
     print_kind(report->left, SL_FAULT_GAP, report->most);
 }
@@ -237,9 +253,9 @@ static bool is_repeated(const struct option_given *option, next_use use) {
     static const char *const own[] = {"gap",    "snap", "output", "width", "dark", "most",
                                       "strict", "json", "quiet",  "help",  NULL};
     static const char *const for_check[] = {"thin", NULL};
-    static const char *const reading[] = {"map",   "slice",       "layers",  "tolerance",
-                                          "unit",  "threshold",   "sectors", "doors",
-                                          "start", "start-names", "without", NULL};
+    static const char *const reading[] = {"map",         "slice",   "layers", "tolerance", "unit",
+                                          "threshold",   "sectors", "doors",  "entrance",  "start",
+                                          "start-names", "without", NULL};
     const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
     if (is_among(option->name, own)) return false;
     if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;
@@ -276,37 +292,46 @@ static void print_name(const faults_report *report, const char *option, const ch
     print_file(option, name);
 }
 
-/// The middle of the largest cell that may be inside. Solid ground is not.
-static sl_point likely_start(const sl_space *space) {
-    double largest = -1;
-    bool inside = false;
-    sl_point at = {0, 0};
+/// The middle of the cell that has the roomiest place. Where that is not known: of the largest cell
+/// that is not solid.
+static sl_point likely_start(const sl_baked *baked) {
+    const sl_space *space = &baked->space;
+    const uint32_t roomiest = sl_space_locate(space, baked->map.interior.roomiest);
+    if (roomiest != SL_NO_CELL) return sl_space_middle(space, roomiest);
+    uint32_t largest = 0;
+    double area = -1;
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const sl_cell *cell = &space->cells[i];
-        const double area = sl_space_area(space, i);
-        if (cell->solid || (inside && !cell->inside) || (inside == cell->inside && area <= largest))
-            continue;
-        inside = cell->inside;
-        largest = area;
-        at = sl_space_middle(space, i);
+        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
+        largest = i;
+        area = sl_space_area(space, i);
     }
-    return at;
+    return sl_space_middle(space, largest);
 }
 
 /// Checks again, with a start.
 static void print_next_start(const faults_report *report, next_use use, const checked *found) {
-    const sl_point start = likely_start(&found->baked.space);
-    const int digits = digits_in(&found->map);
-    puts("  the next command has a start in the largest cell: put another place there if that is "
+    const sl_point start = likely_start(&found->baked);
+    const int digits = sl_map_digits(&found->map);
+    puts("  the next command has a start in the roomiest place: put another place there if that is "
          "outside");
     print_command(report, use, 0);
     printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
+}
+
+/// Checks again, with the doubtful opening as an entrance.
+static void print_next_entrance(const faults_report *report, next_use use, const checked *found) {
+    print_command(report, use, 0);
+    printf(" --entrance %.4g", found->baked.map.interior.doubtful_width);
 }
 
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
     bool gap_given = false;
+    if (!left && report->left->inside == SL_INSIDE_OPENING) {
+        print_next_entrance(report, NEXT_CHECK_MENDED, report->left);
+        return;
+    }
     if (!left && !report->left->faults.has_starts) {
         print_next_start(report, NEXT_CHECK_MENDED, report->left);
         return;
@@ -329,11 +354,15 @@ static void print_next(const faults_report *report) {
     } else if (closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK)) {
         print_command(report, NEXT_CHECK, 0);
         print_name(report, " --snap ", "-fixed.map");
+    } else if (report->found->inside == SL_INSIDE_OPENING) {
+        print_next_entrance(report, NEXT_CHECK, report->found);
     } else if (!faults->has_starts && report->found->inside != SL_INSIDE_NONE) {
         print_next_start(report, NEXT_CHECK, report->found);
-    } else if (grave && !report->picture) {
+    } else if (grave && !report->picture && !report->found->strays.count) {
         print_command(report, NEXT_CHECK, 0);
         print_name(report, " -o ", "-check.png");
+    } else if (report->found->strays.count) {
+        print_command(report, NEXT_CHECK, 0);
     } else if (grave) {
         puts("  mend the walls named above before the next command");
         print_command(report, NEXT_CHECK, 0);
@@ -353,6 +382,30 @@ static const char *how_welded(const faults_report *report) {
                                             : "the map's own tolerance";
 }
 
+/// What is inside, where that is not plain.
+static void print_inside(const checked *found) {
+    const sl_interior *interior = &found->baked.map.interior;
+    const char *name = found->map.unit, *space = *name ? " " : "";
+    const int digits = sl_map_digits(&found->map);
+    if (interior->entrances)
+        printf("  inside ends at %zu opening%s up to %.4g%s%s wide (--entrance)\n",
+               interior->entrances, interior->entrances == 1 ? "" : "s", interior->width, space,
+               name);
+    if (found->inside == SL_INSIDE_OPENING)
+        printf("  inside is doubtful: an opening %.4g%s%s wide, at %.*g,%.*g, is wider than "
+               "entrances (%.4g%s%s)\n",
+               interior->doubtful_width, space, name, digits, interior->doubtful.a.x, digits,
+               interior->doubtful.a.y, interior->width, space, name);
+    else if (found->inside == SL_INSIDE_SMALL)
+        puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
+    else if (found->inside == SL_INSIDE_FEW)
+        puts("  inside is doubtful: most of the area is in rooms that no start leads to");
+    else if (found->inside == SL_INSIDE_NONE)
+        puts("  nothing is inside: all is solid ground");
+    else if (!found->faults.count && !found->strays.count)
+        puts("  nothing found");
+}
+
 void faults_print(const faults_report *report) {
     const checked *found = report->found;
     const sl_faults *faults = &found->faults;
@@ -361,18 +414,12 @@ void faults_print(const faults_report *report) {
            found->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
         print_kind(found, (sl_fault_kind)kind, report->most);
+    print_strays(report);
     if (faults->welded)
         printf("  %u gap%s up to %.3g wide %s closed on import (by %s); no fault\n",
                (unsigned)faults->welded, faults->welded == 1 ? "" : "s", faults->weld,
                faults->welded == 1 ? "is" : "are", how_welded(report));
-    if (found->inside == SL_INSIDE_SMALL)
-        puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
-    else if (found->inside == SL_INSIDE_FEW)
-        puts("  inside is doubtful: most of the area is in rooms that no start leads to");
-    else if (found->inside == SL_INSIDE_NONE)
-        puts("  nothing is inside: all is solid ground");
-    else if (!faults->count)
-        puts("  nothing found");
+    print_inside(found);
     if (!faults->has_starts)
         puts("  leaks and unreachable rooms are found only from a start: give --start X,Y");
     if (report->mended)
@@ -421,7 +468,26 @@ static void add_counts(json_fields *fields, const char *key,
     json_add_fields(fields, key, &inner);
 }
 
-static const char *const inside_words[] = {"sure", "leaks", "doubtful", "few", "none"};
+static const char *const inside_words[] = {"sure", "leaks", "doubtful", "few", "none", "opening"};
+
+static sl_status add_stray_list(sl_context *context, json_fields *fields, const checked *found) {
+    const uint32_t count = found->strays.count;
+    json_fields *items = sl_alloc_array(context, count, sizeof *items);
+    if (!items) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_stray *stray = &found->strays.items[i];
+        const char *label = sl_map_label(&found->map, stray->line);
+        items[i] = json_begin();
+        json_add_points(&items[i], "at", &stray->at, 1);
+        json_add_real(&items[i], "distance", stray->distance);
+        if (stray->wall != UINT32_MAX) json_add_count(&items[i], "wall", stray->wall);
+        json_add_count(&items[i], found->map.lines_are_items ? "item" : "line", stray->line);
+        if (label) json_add_text(&items[i], "label", label);
+    }
+    json_add_list(fields, "strays", items, count);
+    sl_free(context, items);
+    return SL_OK;
+}
 
 sl_status faults_print_json(sl_context *context, const faults_report *report) {
     const checked *found = report->found;
@@ -443,6 +509,7 @@ sl_status faults_print_json(sl_context *context, const faults_report *report) {
     add_counts(&fields, "counts", found->faults.counts);
     for (uint32_t i = 0; i < count; i++) items[i] = fault_fields(found, &found->faults.items[i]);
     json_add_list(&fields, "faults", items, count);
+    const sl_status status = add_stray_list(context, &fields, found);
     if (report->mended) {
         json_fields mended = json_begin();
         json_add_text(&mended, "file", report->mended);
@@ -454,13 +521,18 @@ sl_status faults_print_json(sl_context *context, const faults_report *report) {
         json_add_fields(&fields, "mended", &mended);
     }
     sl_free(context, items);
+    if (status != SL_OK) {
+        json_drop(&fields);
+        return status;
+    }
     return json_print(context, &fields);
 }
 
 // --- one line a map
 
 bool checked_has_fault(const checked *c) {
-    return c->faults.count || c->inside == SL_INSIDE_SMALL || c->inside == SL_INSIDE_NONE;
+    return c->faults.count || c->strays.count || c->inside == SL_INSIDE_SMALL ||
+           c->inside == SL_INSIDE_NONE || c->inside == SL_INSIDE_OPENING;
 }
 
 void faults_print_line(const char *name, const checked *c) {
@@ -471,9 +543,12 @@ void faults_print_line(const char *name, const checked *c) {
         print_count(before, (sl_fault_kind)kind, c->faults.counts[kind]);
         before = ", ";
     }
+    if (c->strays.count)
+        printf("%s%u stray%s", before, (unsigned)c->strays.count, c->strays.count == 1 ? "" : "s");
     if (c->inside == SL_INSIDE_NONE)
         printf("; nothing is inside");
-    else if (c->inside == SL_INSIDE_SMALL || c->inside == SL_INSIDE_FEW)
+    else if (c->inside == SL_INSIDE_SMALL || c->inside == SL_INSIDE_FEW ||
+             c->inside == SL_INSIDE_OPENING)
         printf("; inside is doubtful");
     puts(checked_has_fault(c) || c->inside == SL_INSIDE_FEW ? "" : "; nothing found");
 }
@@ -485,5 +560,6 @@ json_fields faults_line_fields(const char *name, const checked *c) {
     json_add_count(&fields, "cells", c->baked.space.cell_count);
     json_add_text(&fields, "inside", inside_words[c->inside]);
     add_counts(&fields, "counts", c->faults.counts);
+    json_add_count(&fields, "strays", c->strays.count);
     return fields;
 }

@@ -11,6 +11,7 @@ typedef struct checked {
     sl_map map;     ///< as read: walls with their lines
     sl_baked baked; ///< its space, and the rest of the map for the picture
     sl_faults faults;
+    sl_strays strays;
     sl_inside inside;
     double gap;  ///< up to which gaps were looked for
     bool mended; ///< snapped: the map's own cells are gone

@@ -68,6 +68,10 @@ option_table input_option_table(input_options *input) {
         {"unit", 0, "UNIT",
          "convert a drawing to this unit: mm cm m km in ft yd; mm=m: it is in mm, whatever it says",
          .text = &to->unit, .given = given, .rare = true},
+        {"entrance", 0, "W",
+         "how wide openings to the outside are at most: inside is what a disc of that width cannot "
+         "enter (default: 1.2 m if the unit is known, else found from the plan)",
+         .number = &to->entrance, .over_0 = true, .given = given, .rare = true},
         {"weld", 0, "T",
          "join wall ends up to T apart, in map units; 0 joins none (default: 2^-46 of the largest "
          "coordinate on oblique maps, or 5 units of the last digit of a drawing)",
@@ -80,6 +84,18 @@ option_table input_option_table(input_options *input) {
         {"doors", 0, NULL,
          "keep the doors of the format as doors (default: walls if shut, gaps if open)",
          .flag = &to->doors, .given = given},
+        {"max-squares", 0, "N", "refuse a map of more tiles or cells than this (default 2^27)",
+         .count = &input->limits.squares, .least = 1, .given = given, .rare = true},
+        {"max-pixels", 0, "N", "refuse a picture of more pixels (default 2^28)",
+         .count = &input->limits.pixels, .least = 1, .given = given, .rare = true},
+        {"max-walls", 0, "N", "refuse a drawing that gives more walls (default 2^24)",
+         .count = &input->limits.walls, .least = 1, .given = given, .rare = true},
+        {"max-entities", 0, "N",
+         "refuse a drawing whose blocks and uses give more entities (default 2^24)",
+         .count = &input->limits.entities, .least = 1, .given = given, .rare = true},
+        {"max-depth", 0, "N",
+         "refuse blocks or groups within others deeper than this (default 128)",
+         .count = &input->limits.depth, .least = 1, .most = 1000, .given = given, .rare = true},
     };
     option_table table = {0};
     option_table_add(&table, options, sizeof options / sizeof *options);
@@ -104,6 +120,7 @@ sl_status input_read_map(sl_context *context, const char *path, const input_opti
                          sl_map *map) {
     if (is_baked_name(path)) return fail_baked(context, path);
     sl_bytes bytes;
+    sl_context_set_limits(context, &input->limits);
     SL_TRY(sl_file_read(context, path, &bytes));
     const sl_status status =
         input_is_baked(path, &bytes)
@@ -164,6 +181,7 @@ static sl_status parse_map_of_baked(sl_context *context, const char *path, const
 
 sl_status input_parse_either(sl_context *context, const char *path, const sl_bytes *bytes,
                              const input_options *input, sl_map *map) {
+    sl_context_set_limits(context, &input->limits);
     if (!input_is_baked(path, bytes))
         return sl_map_parse(context, path, bytes->data, bytes->size, &input->import, map);
     SL_TRY(input_refuse_options(context, path, input));
@@ -192,24 +210,61 @@ void input_print_formats(void) {
     sl_context_destroy(context);
 }
 
+// --- places to look from
+
+const char *input_say_nearest(const sl_space *space, sl_point at, char text[INPUT_NEAREST_TEXT]) {
+    sl_point near, read = {0};
+    *text = '\0';
+    if (!sl_space_nearest_inside(space, at, &near)) return text;
+    for (int digits = 6; digits <= 17; digits++) {
+        char x[32], y[32];
+        snprintf(x, sizeof x, "%.*g", digits, near.x);
+        snprintf(y, sizeof y, "%.*g", digits, near.y);
+        snprintf(text, INPUT_NEAREST_TEXT, "; the nearest place inside: %s,%s", x, y);
+        (void)sl_number_read(x, strlen(x), &read.x);
+        (void)sl_number_read(y, strlen(y), &read.y);
+        if (sl_space_is_inside(space, read)) break;
+    }
+    return text;
+}
+
 /// SL_BAD_ARGUMENT: the point of an option or operand lies outside the map's bounds.
-static sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
-                                    sl_box bounds) {
+static sl_status fail_outside(sl_context *context, const char *name, const char *text,
+                              const sl_space *space, sl_point at) {
+    const sl_box bounds = space->bounds;
     const double values[4] = {bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y};
-    char numbers[4][SL_NUMBER_TEXT];
+    char numbers[4][SL_NUMBER_TEXT], near[INPUT_NEAREST_TEXT];
     for (int i = 0; i < 4; i++) sl_number_write(values[i], numbers[i]);
-    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s",
-                   name, text, numbers[0], numbers[1], numbers[2], numbers[3]);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s%s",
+                   name, text, numbers[0], numbers[1], numbers[2], numbers[3],
+                   input_say_nearest(space, at, near));
 }
 
 sl_status input_locate(sl_context *context, const char *name, const char *text,
                        const sl_space *space, sl_point at, uint32_t *cell) {
     const uint32_t found = sl_space_locate(space, at);
+    char near[INPUT_NEAREST_TEXT];
     if (cell) *cell = found;
-    if (found == SL_NO_CELL) return input_fail_outside(context, name, text, space->bounds);
-    if (!space->cells[found].solid) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "%s %s: the point is in solid ground; choose a point in a room", name, text);
+    if (found == SL_NO_CELL) return fail_outside(context, name, text, space, at);
+    if (space->cells[found].solid)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: the point is in solid ground%s", name,
+                       text, input_say_nearest(space, at, near));
+    if (!cell && !space->cells[found].inside && *input_say_nearest(space, at, near))
+        sl_note(context, "%s %s: the point is not inside%s", name, text, near);
+    return SL_OK;
+}
+
+sl_status input_check_place(sl_context *context, const char *path, unsigned line,
+                            const sl_space *space, sl_point at) {
+    const uint32_t found = sl_space_locate(space, at);
+    char near[INPUT_NEAREST_TEXT];
+    if (found == SL_NO_CELL)
+        return sl_fail_at(context, path, line, "the point lies outside the map%s",
+                          input_say_nearest(space, at, near));
+    if (space->cells[found].solid)
+        return sl_fail_at(context, path, line, "the point is in solid ground%s",
+                          input_say_nearest(space, at, near));
+    return SL_OK;
 }
 
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from) {

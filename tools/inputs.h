@@ -18,6 +18,7 @@ const char *input_base_name(const char *path, size_t *length);
 typedef struct input_options {
     sl_import_options import;
     sl_clean_options clean;
+    sl_limits limits;  ///< of reading; 0: the usual ones
     const char *given; ///< the name of an option that is given; NULL for none
 } input_options;
 
@@ -58,10 +59,22 @@ sl_status input_parse_either(sl_context *context, const char *path, const sl_byt
 /// Prints the formats of maps that can be read.
 void input_print_formats(void);
 
+enum { INPUT_NEAREST_TEXT = 96 };
+
+/// "; the nearest place inside: 1.5,2", with the digits that it needs to be inside, or nothing
+/// where nothing is inside.
+const char *input_say_nearest(const sl_space *space, sl_point at, char text[INPUT_NEAREST_TEXT]);
+
 /// Finds the cell of a place to look from, which an option or operand gives. SL_BAD_ARGUMENT where
-/// it lies outside the map's bounds or in solid ground. `cell` may be NULL.
+/// it lies outside the map's bounds or in solid ground. `cell` may be NULL: a viewpoint, which is
+/// noted where it is not inside. Messages name the nearest place inside.
 sl_status input_locate(sl_context *context, const char *name, const char *text,
                        const sl_space *space, sl_point at, uint32_t *cell);
+
+/// SL_BAD_INPUT with FILE:LINE where a point of a file lies outside the map's bounds or in solid
+/// ground.
+sl_status input_check_place(sl_context *context, const char *path, unsigned line,
+                            const sl_space *space, sl_point at);
 
 /// The map's first start from the given one on that is in no solid ground; start_count for none.
 size_t input_next_start(const sl_map *map, const sl_space *space, size_t from);

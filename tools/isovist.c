@@ -166,11 +166,7 @@ static sl_status read_line(sl_context *context, const char *path, unsigned numbe
     const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
     if (!(eye.fov >= 0 && eye.fov <= 360))
         return sl_fail_at(context, path, number, "fov must be 0 to 360 degrees");
-    const uint32_t cell = sl_space_locate(space, eye.at);
-    if (cell == SL_NO_CELL)
-        return sl_fail_at(context, path, number, "the point lies outside the map");
-    if (space->cells[cell].solid)
-        return sl_fail_at(context, path, number, "the point is in solid ground");
+    SL_TRY(input_check_place(context, path, number, space, eye.at));
     return eyes_add(context, eyes, eye);
 }
 

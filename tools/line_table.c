@@ -30,8 +30,7 @@ sl_status line_table_add(sl_context *context, line_table *table, const line_meas
         if (!column.values) return SL_NO_MEMORY;
         for (uint32_t i = 0; i < table->count; i++) {
             const char *of_line = (const char *)measures + i * size;
-            const double value = *(const double *)(of_line + kinds[k].offset);
-            column.values[i] = isfinite(value) ? value : NAN;
+            column.values[i] = *(const double *)(of_line + kinds[k].offset);
         }
         table->columns.items[table->columns.count++] = column;
     }
@@ -75,7 +74,7 @@ static sl_status write_geojson(sl_context *context, const line_table *t, FILE *f
         sl_geojson_put_line(&out, "line", t->lines[i].a, t->lines[i].b);
         for (size_t k = 0; k < t->columns.count; k++) {
             const line_column *c = &t->columns.items[k];
-            if (!isnan(c->values[i])) sl_geojson_add_real(&out, c->name, c->values[i]);
+            sl_geojson_add_real(&out, c->name, c->values[i]);
         }
         sl_geojson_end_feature(&out);
     }
@@ -200,12 +199,16 @@ static sl_status parse_table(sl_context *context, const char *path, const sl_byt
         columns[k] = table.names ? number_table_column(&table, names[k]) : k;
     for (size_t k = 0; k < 4 && status == SL_OK; k++)
         if (columns[k] >= table.columns)
-            status = sl_fail_at(context, path, 1, "the columns x1,y1,x2,y2 are needed");
+            status =
+                sl_fail_at(context, path, table.first_line, "the columns x1,y1,x2,y2 are needed");
     for (size_t i = 0; i < table.rows && status == SL_OK; i++) {
         double v[4];
-        for (size_t k = 0; k < 4; k++) v[k] = number_table_at(&table, i, columns[k]);
-        if (sl_coordinate_usable(v[0]) && sl_coordinate_usable(v[1]) &&
-            sl_coordinate_usable(v[2]) && sl_coordinate_usable(v[3]))
+        bool usable = true;
+        for (size_t k = 0; k < 4; k++) {
+            v[k] = number_table_at(&table, i, columns[k]);
+            usable &= fabs(v[k]) <= SL_COORDINATE_MAX;
+        }
+        if (usable)
             status = sl_map_add_wall(context, map, (sl_point){v[0], v[1]}, (sl_point){v[2], v[3]},
                                      table.lines[i]);
         else

@@ -71,6 +71,10 @@ static sl_status read_names(reader *r, const char *line, size_t length) {
 static sl_status read_row(reader *r, const char *line, size_t length) {
     number_table *to = r->to;
     const size_t count = count_fields(line, length);
+    if (count != to->columns && !to->rows && to->names)
+        return sl_fail_at(r->context, to->path, to->first_line,
+                          "%zu name%s of columns; line %u has %zu columns", to->columns,
+                          to->columns == 1 ? "" : "s", r->line, count);
     if (count != to->columns)
         return sl_fail_at(r->context, to->path, r->line, "%zu columns; the first line has %zu",
                           count, to->columns);
@@ -113,6 +117,7 @@ static sl_status read_lines(reader *r, const char *text, size_t size) {
             continue;
         }
         to->columns = count_fields(line, length);
+        to->first_line = r->line;
         SL_TRY(has_names(line, length) ? read_names(r, line, length) : read_row(r, line, length));
     }
     return SL_OK;

@@ -7,14 +7,16 @@
 /// Rows of numbers. NAN stands for an empty field.
 typedef struct number_table {
     const char *path;
-    char **names; ///< of the columns; NULL where the file has no line of names
+    char **names;        ///< of the columns; NULL where the file has no line of names
+    unsigned first_line; ///< the line of the names, or of the first row without them
     size_t columns, rows;
     unsigned *lines; ///< by row: its line in the file
     double *values;  ///< row after row
 } number_table;
 
 /// Reads a table, "-" from stdin. The first line may hold names. SL_BAD_INPUT, with file and line,
-/// for a field that is neither empty nor a finite number, and for a row of another length.
+/// for a field that is neither empty nor a finite number, and for a row of another length. Where
+/// the line of names differs from the first row, the names are at fault.
 sl_status number_table_read(sl_context *context, const char *path, number_table *out);
 /// As number_table_read, from memory. `path` is for messages.
 sl_status number_table_parse(sl_context *context, const char *path, const char *text, size_t size,

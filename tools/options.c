@@ -69,6 +69,13 @@ static sl_status fail_unknown(const parsing *p, const char *word) {
                    near ? " (did you mean --" : "", near ? near : "", near ? "?)" : "", command);
 }
 
+static sl_status fail_half_name(const parsing *p, size_t i, const char *word) {
+    return sl_fail(p->context, SL_BAD_ARGUMENT,
+                   "unknown option '%.*s' (did you mean --%s?); 'sightline %s --help' lists the "
+                   "options",
+                   (int)strcspn(word, "="), word, p->options[i].name, p->usage->name);
+}
+
 /// The input of getopt_long: the long options, coded by their place in the table, and the letters.
 static void fill_getopt(const parsing *p, struct option *longs, char *letters) {
     *letters++ = '-'; // return words that are no options where they stand, coded 1
@@ -108,6 +115,15 @@ static sl_status take_argument(parsing *p, size_t i) {
     return SL_OK;
 }
 
+/// Whether a word is the beginning of an option's name up to a '-': --start for --start-names. That
+/// is more likely an option of another command.
+static bool is_half_name(const option_spec *option, const char *word) {
+    const char *bare = word + strspn(word, "-");
+    const size_t length = strcspn(bare, "=");
+    return strncmp(word, "--", 2) == 0 && strncmp(option->name, bare, length) == 0 &&
+           option->name[length] == '-';
+}
+
 /// Whether a word is a negative number, or a point that begins with one.
 static bool is_negative(const char *word) {
     return word[0] == '-' && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
@@ -135,6 +151,10 @@ static sl_status take_words(parsing *p, int argc, char **argv) {
         }
         size_t i = find_option(p, code);
         if (i < p->count) {
+            const bool apart = optarg && optarg == argv[optind - 1];
+            const char *word = argv[optind - (apart ? 2 : 1)];
+            if (code >= 256 && is_half_name(&p->options[i], word))
+                return fail_half_name(p, i, word);
             SL_TRY(take_argument(p, i));
             continue;
         }
@@ -238,6 +258,9 @@ sl_status read_point(sl_context *context, const char *label, const char *text, s
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s %s: two finite numbers with a comma between are needed, as 3.5,2", label,
                        text);
+    // Too small for a coordinate: 0, as in map files.
+    if (fabs(p.x) < SL_COORDINATE_MIN) p.x = 0;
+    if (fabs(p.y) < SL_COORDINATE_MIN) p.y = 0;
     *point = p;
     return SL_OK;
 }

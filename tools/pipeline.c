@@ -189,7 +189,14 @@ sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_ma
 sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
                               sl_clean_account *account) {
     SL_TRY(pipeline_read(context, pipeline, map));
-    return input_clean(context, &pipeline->input, map, account);
+    return pipeline_clean(context, pipeline, map, account);
+}
+
+sl_status pipeline_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                         sl_clean_account *account) {
+    const sl_clean_options *clean = &pipeline->input.clean;
+    SL_TRY(sl_map_clean(context, map, clean, account));
+    return sl_map_find_inside(context, map, clean, account);
 }
 
 sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
@@ -206,6 +213,7 @@ static sl_status read_map_or_baked(sl_context *context, const map_pipeline *pipe
     sl_bytes bytes;
     const input_options *input = &pipeline->input;
     const char *path = pipeline->path;
+    sl_context_set_limits(context, &input->limits);
     SL_TRY(sl_file_read(context, path, &bytes));
     *is_baked = input_is_baked(path, &bytes);
     sl_status status = *is_baked ? input_refuse_options(context, path, input) : SL_OK;
@@ -235,8 +243,18 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else) {
     const sl_ground_shares shares = sl_space_ground(space);
+    const sl_interior *found = &map->interior;
+    const int digits = sl_map_digits(map);
     sl_inside doubt;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    if (doubt == SL_INSIDE_OPENING && !found->place_count)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
+                       "than entrances are (%.4g); if it is an entrance, add --entrance %.4g; else "
+                       "say where a room is with --start X,Y%s",
+                       found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
+                       found->doubtful.a.x, digits, found->doubtful.a.y, found->width,
+                       found->doubtful_width, or_else);
     if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || shares.inside > FEW_INSIDE)
         return pipeline_note_inside(context, pipeline, map, space);
     return sl_fail(context, SL_BAD_ARGUMENT,
@@ -245,41 +263,72 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
                    100 * shares.inside, or_else);
 }
 
+/// What to do next about what is inside.
+static void say_next(sl_inside doubt, const sl_map *map, const char *path, char text[2 * SAID]) {
+    const size_t size = 2 * SAID;
+    switch (doubt) {
+    case SL_INSIDE_SURE:
+        snprintf(text, size, "; for another width, add --entrance W");
+        break;
+    case SL_INSIDE_LEAKS:
+        snprintf(text, size, "; to see where, run: sightline check %s", path);
+        break;
+    case SL_INSIDE_SMALL:
+        snprintf(text, size, "; add a start: sightline check %s --start X,Y", path);
+        break;
+    case SL_INSIDE_FEW:
+        snprintf(text, size, "; sightline check %s lists them, --start X,Y adds a start", path);
+        break;
+    case SL_INSIDE_NONE:
+        snprintf(text, size, "; to see it, run: sightline check %s -o check.png", path);
+        break;
+    case SL_INSIDE_OPENING:
+        snprintf(text, size, ": sightline check %s --entrance %.4g", path,
+                 map->interior.doubtful_width);
+        break;
+    }
+}
+
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
-    char text[SAID];
+    char said[SL_INSIDE_TEXT], path[SAID], then[2 * SAID];
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
-    const char *path = say_map(pipeline, &reading, text);
     sl_inside doubt;
+    SL_TRY(sl_say_inside(context, map, space, said));
+    if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    const sl_ground_shares shares = sl_space_ground(space);
-    if (doubt == SL_INSIDE_LEAKS)
-        sl_note(context,
-                "a start leads out of the map, so the outside counts as inside, too (%.0f %% of "
-                "the area); to see where, run: sightline check %s",
-                100 * shares.inside, path);
-    if (doubt == SL_INSIDE_SMALL && shares.outside > 0)
-        sl_note(context,
-                "the map has no start, and walls enclose only %.0f %% of the area, so inside is "
-                "doubtful; add a start: sightline check %s --start X,Y",
-                100 * shares.inside, path);
-    if (doubt == SL_INSIDE_SMALL && !(shares.outside > 0))
-        sl_note(context,
-                "the map has no start, and walls enclose nothing, so all of it counts as inside; "
-                "add a start: sightline check %s --start X,Y",
-                path);
-    if (doubt == SL_INSIDE_FEW)
-        sl_note(context,
-                "a start reaches %.2g %% of the area, and rooms that no start reaches have more; "
-                "they count as outside; sightline check %s lists them, --start X,Y adds a start",
-                100 * shares.inside, path);
-    if (doubt == SL_INSIDE_NONE)
-        sl_note(context,
-                "all of the map is solid ground, so nothing is inside; to see it, run: "
-                "sightline check %s -o check.png",
-                path);
+    say_next(doubt, map, say_map(pipeline, &reading, path), then);
+    sl_note(context, "%s%s", said, then);
     return SL_OK;
+}
+
+static sl_status fail_stray(sl_context *context, const char *path, const sl_map *map,
+                            const sl_strays *strays) {
+    const sl_stray *stray = &strays->items[0];
+    const sl_box rest = strays->rest;
+    char message[512], line[SL_LINE_TEXT], more[48] = "";
+    snprintf(message, sizeof message, "%s", sl_context_message(context));
+    sl_map_say_line(map, stray->line, line);
+    if (strays->count > 1) snprintf(more, sizeof more, " and %u more", (unsigned)strays->count - 1);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s; the rest of the map is %.4g by %.4g, and this lies far away: %s, %s%sat "
+                   "%.12g,%.12g%s; correct or remove it",
+                   message, rest.max.x - rest.min.x, rest.max.y - rest.min.y, sl_path_name(path),
+                   line, *line ? ", " : "", stray->at.x, stray->at.y, more);
+}
+
+sl_status pipeline_name_stray(sl_context *context, const char *path, const sl_map *map,
+                              const sl_space *space, sl_status status) {
+    if (status != SL_BAD_ARGUMENT) return status;
+    sl_map whole = *map; // baking moves the walls to the space
+    sl_strays strays;
+    whole.walls = space->walls;
+    whole.wall_count = space->wall_count;
+    SL_TRY(sl_find_strays(context, &whole, &strays));
+    if (strays.count) status = fail_stray(context, path, &whole, &strays);
+    sl_strays_destroy(context, &strays);
+    return status;
 }
 
 sl_status pipeline_look_through(sl_context *context, const sl_map *map, const sl_space *space,

@@ -39,7 +39,11 @@ sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl
 /// Reads the map, adds the start of --start and drops the effects of --without.
 sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map);
 
-/// Does the same, and cleans the map. `account` may be NULL.
+/// Cleans a map and finds what is inside. `account` may be NULL.
+sl_status pipeline_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                         sl_clean_account *account);
+
+/// Reads the map as pipeline_read() does, and cleans it. `account` may be NULL.
 sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
                               sl_clean_account *account);
 
@@ -66,6 +70,11 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
 /// Notes how much is inside if that is in doubt, and what to run next.
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space);
+
+/// Gives the status of laying a grid over a space. Where the grid is refused as too large and
+/// strays make the map large, the message names the first of them.
+sl_status pipeline_name_stray(sl_context *context, const char *path, const sl_map *map,
+                              const sl_space *space, sl_status status);
 
 /// The space that eyes look through: `space`, or with one-way glass `dark`, which has walls on the
 /// dark sides. `dark` must be empty before, and the caller destroys it.

@@ -136,8 +136,11 @@ static sl_status run_in_crew(command_console *console, int argc, char **argv) {
 int main(int argc, char **argv) {
     command_console console;
     system_begin(&argc, &argv);
-    crew_begin(&argc, &argv);
+    // First the console: from then on a signal stops all processes, and no longer just this one.
     if (!console_open(&console)) return 1;
+    crew_begin(&argc, &argv);
+    console.words = argv;
+    console.word_count = argc;
     const sl_status status = run_in_crew(&console, argc, argv);
     const int code = console_close(&console, crew_agree(console.context, status));
     crew_end();

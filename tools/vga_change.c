@@ -102,7 +102,7 @@ static sl_status write_geojson(sl_context *context, const vga_change *c, FILE *f
             values_of(c, k, &c->pairs[n], values);
             for (size_t i = 0; i < VALUES; i++) {
                 snprintf(key, sizeof key, "%s%s", name_table_at(&names, k), endings[i]);
-                if (!isnan(values[i])) sl_geojson_add_real(&out, key, values[i]);
+                sl_geojson_add_real(&out, key, values[i]);
             }
         }
         sl_geojson_end_feature(&out);
@@ -168,14 +168,15 @@ static bool find_mean(const vga_change *c, size_t measure, size_t which, double 
 
 enum { BEST = 10 };
 
-/// The places of the largest changes, the first of equal ones.
-static size_t find_best(const vga_change *c, size_t measure, size_t best[BEST]) {
+/// The places of the largest gains, or of the largest losses with a sign of -1; the first of equal
+/// ones.
+static size_t find_best(const vga_change *c, size_t measure, int sign, size_t best[BEST]) {
     size_t count = 0;
     for (size_t n = 0; n < c->count; n++) {
-        const double value = change_of(c, measure, &c->pairs[n]);
+        const double value = sign * change_of(c, measure, &c->pairs[n]);
         size_t at = count;
-        if (isnan(value)) continue;
-        while (at && value > change_of(c, measure, &c->pairs[best[at - 1]])) at--;
+        if (!(value > 0)) continue;
+        while (at && value > sign * change_of(c, measure, &c->pairs[best[at - 1]])) at--;
         if (at == BEST) continue;
         if (count < BEST) count++;
         for (size_t k = count - 1; k > at; k--) best[k] = best[k - 1];
@@ -184,9 +185,22 @@ static size_t find_best(const vga_change *c, size_t measure, size_t best[BEST]) 
     return count;
 }
 
+static void print_best(const vga_change *c, size_t measure, int sign) {
+    const name_table names = vga_measures();
+    size_t best[BEST];
+    const size_t count = find_best(c, measure, sign, best);
+    if (count)
+        printf("largest %s of %s:\n  %12s %12s %12s\n", sign > 0 ? "gains" : "losses",
+               name_table_at(&names, measure), "x", "y", "change");
+    for (size_t k = 0; k < count; k++) {
+        const vga_pair *p = &c->pairs[best[k]];
+        printf("  %12.6g %12.6g %12.6g\n", p->at.x, p->at.y, change_of(c, measure, p));
+    }
+}
+
 void vga_change_print(const vga_change *change, size_t measure) {
     const name_table names = vga_measures();
-    size_t best[BEST], both = 0, before = 0, after = 0;
+    size_t both = 0, before = 0, after = 0;
     for (size_t n = 0; n < change->count; n++) {
         const vga_pair *p = &change->pairs[n];
         before += p->after == UINT32_MAX;
@@ -209,12 +223,6 @@ void vga_change_print(const vga_change *change, size_t measure) {
         else
             printf("  %-36s %12s\n", name_table_at(&names, k), "not defined");
     }
-    const size_t count = find_best(change, measure, best);
-    if (count)
-        printf("largest gain of %s:\n  %12s %12s %12s\n", name_table_at(&names, measure), "x", "y",
-               "change");
-    for (size_t k = 0; k < count; k++) {
-        const vga_pair *p = &change->pairs[best[k]];
-        printf("  %12.6g %12.6g %12.6g\n", p->at.x, p->at.y, change_of(change, measure, p));
-    }
+    print_best(change, measure, 1);
+    print_best(change, measure, -1);
 }

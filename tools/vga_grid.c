@@ -31,14 +31,17 @@ typedef struct place_table {
     size_t columns[4]; ///< of x and y, or of x1, y1, x2, y2
 } place_table;
 
-/// The columns of these names, else the first ones: "Ref,x,y" is what depthmapX writes.
-static void find_columns(place_table *places, const char *const *names, size_t needed) {
+/// The columns of these names: "Ref,x,y" is what depthmapX writes. Else all columns there are, or
+/// the first ones of a table without names. Returns whether there are such columns.
+static bool find_columns(place_table *places, const char *const *names, size_t needed) {
+    const number_table *table = &places->table;
     bool named = true;
     for (size_t k = 0; k < needed; k++) {
         places->columns[k] = number_table_column(&places->table, names[k]);
         named &= places->columns[k] < places->table.columns;
     }
     for (size_t k = 0; k < needed && !named; k++) places->columns[k] = k;
+    return named || table->columns == needed || (table->columns > needed && !table->names);
 }
 
 /// A table whose `needed` columns are numbers everywhere.
@@ -49,10 +52,13 @@ static sl_status read_places(sl_context *context, const char *path, size_t neede
     number_table *table = &places->table;
     SL_TRY(number_table_read(context, path, table));
     sl_status status = SL_OK;
-    find_columns(places, names[needed == 4], needed);
-    if (!table->rows || table->columns < needed)
-        status = sl_fail_at(context, path, table->rows ? table->lines[0] : 0,
-                            "rows of %s are needed", what);
+    const bool found = find_columns(places, names[needed == 4], needed);
+    if (!table->rows)
+        status = sl_fail_at(context, path, 0, "rows of %s are needed", what);
+    else if (!found)
+        status =
+            sl_fail_at(context, path, table->first_line,
+                       table->names ? "the columns %s are needed" : "rows of %s are needed", what);
     for (size_t i = 0; i < table->rows && status == SL_OK; i++)
         for (size_t k = 0; k < needed && status == SL_OK; k++)
             if (isnan(number_table_at(table, i, places->columns[k])))
@@ -122,8 +128,8 @@ static sl_status drop_others(sl_context *context, const vga_grid_plan *plan,
 }
 
 sl_status vga_grid_choose(sl_context *context, const vga_grid_plan *plan,
-                          const input_options *input, const sl_outline *outline,
-                          sl_vga_grid *grid) {
+                          const map_pipeline *pipeline, const sl_map *map,
+                          const sl_outline *outline, sl_vga_grid *grid) {
     sl_point *seeds = sl_alloc_array(context, plan->at.count + 1, sizeof *seeds);
     sl_status status = seeds ? SL_OK : SL_NO_MEMORY;
     for (size_t i = 0; i < plan->at.count && status == SL_OK; i++) {
@@ -132,14 +138,16 @@ sl_status vga_grid_choose(sl_context *context, const vga_grid_plan *plan,
             status =
                 input_locate(context, "--at", plan->at.items[i], outline->space, seeds[i], NULL);
     }
-    if (status == SL_OK)
+    if (status == SL_OK) {
         status = sl_vga_grid_fill(context, outline, plan->step, seeds, plan->at.count, grid);
+        status = pipeline_name_stray(context, pipeline->path, map, outline->space, status);
+    }
     sl_free(context, seeds);
     if (status == SL_OK && grid->count == 0)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--grid %.9g: no point of the grid is inside the map; choose a smaller step",
                        plan->step);
-    return status == SL_OK ? drop_others(context, plan, input, grid) : status;
+    return status == SL_OK ? drop_others(context, plan, &pipeline->input, grid) : status;
 }
 
 // --- chosen points and links

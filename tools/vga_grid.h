@@ -19,9 +19,11 @@ typedef struct vga_grid_plan {
 
 option_table vga_grid_option_table(vga_grid_plan *plan);
 
-/// Fills the grid and drops the points that are not asked for. `input`: how `within` is read.
+/// Fills the grid and drops the points that are not asked for. `pipeline`: how `within` is read,
+/// and where the map is from.
 sl_status vga_grid_choose(sl_context *context, const vga_grid_plan *plan,
-                          const input_options *input, const sl_outline *outline, sl_vga_grid *grid);
+                          const map_pipeline *pipeline, const sl_map *map,
+                          const sl_outline *outline, sl_vga_grid *grid);
 
 /// The points of the grid that an option's places stand for. `from` has an entry for each.
 sl_status vga_grid_find(sl_context *context, const sl_vga_grid *grid, const char *option,

@@ -84,8 +84,7 @@ double vga_value(const vga_table *table, size_t measure, uint32_t point) {
     if (c->part == VGA_PART_AGENTS) return (double)table->gates[point];
     if (c->part >= VGA_PART_STEPS) from = &table->depths[point];
     if (c->part == VGA_PART_ISOVIST) from = &table->isovists[point].measures;
-    const double value = *(const double *)((const char *)from + c->offset);
-    return isfinite(value) ? value : NAN;
+    return *(const double *)((const char *)from + c->offset);
 }
 
 // --- files

@@ -1,5 +1,6 @@
 #include "walk_run.h"
 
+#include "inputs.h"
 #include "isovist.h"
 #include "sightline/support.h"
 #include "sightline/walk.h"
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WALK_COLUMNS = 640 };
+enum { WALK_COLUMNS = 640, TOUR_STEPS_ACROSS = 500 };
 
 typedef struct walk_canvas {
     const sl_hierarchy *hierarchy;
@@ -53,11 +54,7 @@ static sl_status read_line(sl_context *context, const char *path, unsigned numbe
     if (!count) return SL_OK;
     if (count < 2) return sl_fail_at(context, path, number, "two finite numbers are needed: x y");
     const sl_point point = {values[0], values[1]};
-    const uint32_t cell = sl_space_locate(space, point);
-    if (cell == SL_NO_CELL)
-        return sl_fail_at(context, path, number, "the point lies outside the map");
-    if (space->cells[cell].solid)
-        return sl_fail_at(context, path, number, "the point is in solid ground");
+    SL_TRY(input_check_place(context, path, number, space, point));
     return add_point(context, way, point);
 }
 
@@ -124,22 +121,45 @@ static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, walk_w
     return add_point(context, way, sl_space_middle(t->space, cell));
 }
 
-double way_length(const walk_way *way) {
+static double length_from(const walk_way *way, size_t first) {
     double length = 0;
-    for (size_t i = 1; i < way->count; i++)
+    for (size_t i = first; i < way->count; i++)
         length +=
             hypot(way->items[i].x - way->items[i - 1].x, way->items[i].y - way->items[i - 1].y);
     return length;
 }
 
-static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t seed,
-                          double length, walk_way *way) {
+double way_length(const walk_way *way) {
+    return length_from(way, 1);
+}
+
+/// The longer side of the box around the cells in the queue. It is not that of the map's bounds,
+/// which one wall far away would make large.
+static double size_of_walk(const tour *t, uint32_t count) {
+    sl_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_cell *cell = &t->space->cells[t->queue[i]];
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            const sl_point at = t->space->vertices[cell->first_vertex + k];
+            box.min = (sl_point){fmin(box.min.x, at.x), fmin(box.min.y, at.y)};
+            box.max = (sl_point){fmax(box.max.x, at.x), fmax(box.max.y, at.y)};
+        }
+    }
+    return fmax(box.max.x - box.min.x, box.max.y - box.min.y);
+}
+
+static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t seed, double steps,
+                          double *step, walk_way *way) {
     sl_random random = {seed};
     uint32_t cell = sl_space_locate(t->space, start);
+    uint32_t count = search(t, cell);
+    if (!(*step > 0)) *step = size_of_walk(t, count) / TOUR_STEPS_ACROSS;
+    const double length = *step * steps;
+    double laid = 0;
     SL_TRY(add_point(context, way, start));
-    while (way_length(way) < length) {
+    for (; laid < length; count = search(t, cell)) {
+        const size_t before = way->count;
         SL_TRY(sl_check_cancelled(context));
-        const uint32_t count = search(t, cell);
         if (count < 2)
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "no other cell can be walked to from %.17g,%.17g: give a --path, or "
@@ -147,9 +167,10 @@ static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t
                            start.x, start.y);
         cell = t->queue[1 + sl_random_below(&random, count - 1)];
         SL_TRY(go_to(context, t, cell, way));
+        laid += length_from(way, before);
     }
     // Cut off what is too long.
-    double over = way_length(way) - length;
+    double over = laid - length;
     sl_point *last = &way->items[way->count - 1];
     while (way->count > 2 && hypot(last->x - last[-1].x, last->y - last[-1].y) < over) {
         over -= hypot(last->x - last[-1].x, last->y - last[-1].y);
@@ -164,14 +185,14 @@ static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t
 }
 
 sl_status way_tour(sl_context *context, const sl_space *space, sl_point start, uint64_t seed,
-                   double length, walk_way *way) {
+                   double steps, double *step, walk_way *way) {
     tour t = {.space = space};
     t.came_by = sl_alloc_array(context, space->cell_count, sizeof *t.came_by);
     t.came_from = sl_alloc_array(context, space->cell_count, sizeof *t.came_from);
     t.queue = sl_alloc_array(context, space->cell_count, sizeof *t.queue);
     sl_status status = SL_NO_MEMORY;
     if (t.came_by && t.came_from && t.queue)
-        status = lay_tour(context, &t, start, seed, length, way);
+        status = lay_tour(context, &t, start, seed, steps, step, way);
     sl_free(context, t.came_by);
     sl_free(context, t.came_from);
     sl_free(context, t.queue);

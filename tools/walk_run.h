@@ -14,10 +14,11 @@ typedef SL_ARRAY(sl_point) walk_way;
 /// FILE:LINE on anything else, on points outside the map, and on fewer than two points.
 sl_status way_read(sl_context *context, const char *path, const sl_space *space, walk_way *way);
 
-/// A tour to random cells that can be reached, through the middles of portals, until it is `length`
-/// long. It begins at `start`, which must lie inside the bounds.
+/// A tour to random cells that can be reached, through the middles of portals, until it is `steps`
+/// of length *step long. It begins at `start`, which must lie inside the bounds. A step of 0
+/// becomes a share of the size of all that can be reached.
 sl_status way_tour(sl_context *context, const sl_space *space, sl_point start, uint64_t seed,
-                   double length, walk_way *way);
+                   double steps, double *step, walk_way *way);
 
 double way_length(const walk_way *way);
 

@@ -123,12 +123,16 @@ static void say_document(app_state *app) {
     map_file_name(app, name);
     effects_in_words(&app->document.map, calls);
     sl_baked_say_partial(app->document.baked, partial);
+    char inside[SL_INSIDE_TEXT + 2] = "";
+    if (*app->document.inside) snprintf(inside, sizeof inside, "; %s", app->document.inside);
     if (partial[0])
         ui_say(&app->ui, false, "%s is %s", name, partial);
     else
         ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s%s", name, space->cell_count,
                space->portal_count, space->wall_count, *calls ? "; " : "", calls,
-               *app->document.notes ? "; Ctrl+J: what was read" : "");
+               *inside                ? inside
+               : *app->document.notes ? "; Ctrl+J: what was read"
+                                      : "");
 }
 
 /// A wall may change how the whole map is cut into cells. That is said, as all cells are others.

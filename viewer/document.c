@@ -42,6 +42,7 @@ struct bake_job {
     sl_status status;         ///< when `done`
     char message[1024];
     char notes[NOTES_TEXT]; ///< the job's until space_ready
+    char inside[SL_INSIDE_TEXT];
     pthread_t thread;
     atomic_bool cancel, space_ready, seen_ready, done;
     bool live;      ///< the space alone
@@ -164,6 +165,8 @@ static sl_status bake(sl_context *context, bake_job *job) {
     sl_map_destroy(context, &map);
     SL_TRY(status);
     job->weld = account.cleaning.tolerance;
+    SL_TRY(sl_say_inside(context, &job->baked->map, &job->baked->space, job->inside));
+    if (job->inside[0]) sl_note(context, "%s", job->inside);
     SL_TRY(measure_space(context, job));
     if (!job->live) SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
     atomic_store(&job->space_ready, true);
@@ -338,12 +341,22 @@ bool document_awaits_space(const document_state *document) {
     return document->job && !document->job->taken;
 }
 
+/// The doors of the clean map stand in the order of the map's, without those of no length.
+static void copy_door_states(const sl_map *map, sl_map *clean) {
+    size_t next = 0;
+    for (size_t i = 0; i < clean->door_count; i++) {
+        while (next < map->door_count && strcmp(map->doors[next].name, clean->doors[i].name) != 0)
+            next++;
+        if (next == map->door_count) return;
+        clean->doors[i].open = map->doors[next++].open;
+    }
+}
+
 void document_touch(document_state *document) {
     const sl_map *map = &document->map;
     document->touched++;
-    if (!document->baked || document->baked->map.door_count != map->door_count) return;
-    for (size_t i = 0; i < map->door_count; i++)
-        document->baked->map.doors[i].open = map->doors[i].open;
+    if (!document->baked) return;
+    copy_door_states(map, &document->baked->map);
     if (document->baked->map.object_count != map->object_count) return;
     for (size_t i = 0; i < map->object_count; i++)
         document->baked->map.objects[i].box = map->objects[i].box;
@@ -424,6 +437,7 @@ static sl_status take_space(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     drop_baked(context, document);
     take_made(document, job);
+    memcpy(document->inside, job->inside, sizeof document->inside);
     if (job->source.path || job->begins) {
         document->shown = document->edit; // the file's map takes the place of all changes
         sl_map_destroy(context, &document->map);

@@ -6,6 +6,7 @@
 #include "history.h"
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
+#include "sightline/faults.h"
 #include "sightline/import.h"
 #include "sightline/map.h"
 #include "sightline/region.h"
@@ -56,13 +57,14 @@ typedef struct document_state {
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
     uint32_t read;    ///< the same, and with every file that is read again
-    char notes[NOTES_TEXT]; ///< what the reader of the file said it took, in lines
-    bake_job *job;          ///< NULL: none runs
-    edit_history history;   ///< of changes by hand
-    bool stale;             ///< the map changes while something is dragged: it is to be made anew
-    bool live;              ///< the space is one of a drag: no visible sets are made for it
-    uint32_t edit, shown;   ///< number of the last change that needs a bake, and of the one shown
-    double weld;            ///< ends of walls this near to each other are one corner
+    char notes[NOTES_TEXT];      ///< what the reader of the file said it took, in lines
+    char inside[SL_INSIDE_TEXT]; ///< what is inside, where that is not plain
+    bake_job *job;               ///< NULL: none runs
+    edit_history history;        ///< of changes by hand
+    bool stale;           ///< the map changes while something is dragged: it is to be made anew
+    bool live;            ///< the space is one of a drag: no visible sets are made for it
+    uint32_t edit, shown; ///< number of the last change that needs a bake, and of the one shown
+    double weld;          ///< ends of walls this near to each other are one corner
 } document_state;
 
 /// The progress of the work in the background.

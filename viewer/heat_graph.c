@@ -49,8 +49,7 @@ static double *entry(sl_vga_measures *of, const heat_measure *measure) {
 }
 
 double heat_graph_value(const heat_graph *graph, const heat_measure *measure, uint32_t point) {
-    const double value = *entry(&graph->measures[point], measure);
-    return isfinite(value) ? value : NAN;
+    return *entry(&graph->measures[point], measure);
 }
 
 // --- the work

@@ -21,6 +21,7 @@ typedef enum field_name {
     FIELD_THRESHOLD,
     FIELD_WELD,
     FIELD_START,
+    FIELD_ENTRANCE,
     FIELDS
 } field_name;
 
@@ -55,6 +56,7 @@ static const struct {
     [FIELD_THRESHOLD] = {"Dark from", "0.5; up to 1", SL_TAKES_THRESHOLD},
     [FIELD_WELD] = {"Weld ends within", "rounding only", 0},
     [FIELD_START] = {"Start of the eye", "the map's own; else X,Y", 0},
+    [FIELD_ENTRANCE] = {"Widest entrance", "the map's own, or found from the plan", 0},
 };
 
 void import_destroy(app_state *app) {
@@ -97,6 +99,7 @@ static void fill_fields(import_state *s) {
         snprintf(text, sizeof text, "%s,%s", x, y);
     }
     field_set(&s->fields[FIELD_START], text);
+    set_number(&s->fields[FIELD_ENTRANCE], o->entrance > 0, o->entrance);
     s->doors = o->doors;
     s->cells = o->cells;
 }
@@ -189,7 +192,7 @@ static bool read_start(import_state *s, document_source *out) {
     const char *second = comma ? comma + 1 + strspn(comma + 1, " ") : NULL;
     if (comma && sl_number_read(text, (size_t)(comma - text), &out->start.x) &&
         sl_number_read(second, strlen(second), &out->start.y) &&
-        sl_coordinate_usable(out->start.x) && sl_coordinate_usable(out->start.y))
+        fabs(out->start.x) <= SL_COORDINATE_MAX && fabs(out->start.y) <= SL_COORDINATE_MAX)
         return true;
     return complain(s, fields[FIELD_START].label, "a place is needed, as 3,4.5");
 }
@@ -235,9 +238,11 @@ static bool read_source(import_state *s, document_source *out, char layers[FIELD
     // A model is cut in its middle if no height is given.
     if (!given) o->slice = s->source.lowest + (s->source.highest - s->source.lowest) / 2;
     o->has_slice = (s->source.takes & SL_TAKES_SLICE) != 0;
-    o->tolerance = o->threshold = 0;
+    o->tolerance = o->threshold = o->entrance = 0;
     return read_number(s, FIELD_TOLERANCE, 1e-300, 1e300, &given, &o->tolerance) &&
            read_number(s, FIELD_THRESHOLD, 1e-300, 1, &given, &o->threshold) &&
+           read_number(s, FIELD_ENTRANCE, SL_COORDINATE_MIN, SL_COORDINATE_MAX, &given,
+                       &o->entrance) &&
            read_number(s, FIELD_WELD, 0, 1e150, &out->has_weld, &out->weld) && read_start(s, out);
 }
 

@@ -44,6 +44,7 @@ static const option_row option_rows[] = {
     {"start-names", "NAME,...", "which objects of a game map are starts; 'none': no starts", 'n'},
     {"tolerance", "T", "largest distance of a curve from its walls", 't'},
     {"unit", "UNIT", "convert a drawing to this unit: mm cm m km in ft yd", 'u'},
+    {"entrance", "W", "how wide openings to the outside are at most, where there is no start", 'w'},
     {"threshold", "T", "darkness from which a pixel is solid, up to 1", 'd'},
     {"doors", NULL, "keep the doors of the format as doors", 'r'},
     {"cells", NULL, "take the cells that the file has (GL nodes of a WAD)", 'c'},
@@ -110,7 +111,8 @@ static sl_status read_number(sl_context *context, const char *option, const char
     char *end;
     *value = strtod(text, &end);
     if (end == text || *end || !isfinite(*value) || *value < low)
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a number is needed", option, text);
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a number%s is needed", option, text,
+                       low > 0 && low < 1 ? " over 0" : "");
     return SL_OK;
 }
 
@@ -121,8 +123,8 @@ static sl_status read_point(sl_context *context, const char *option, const char 
     const bool comma = end != text && *end == ',';
     const char *second = end + 1;
     if (comma) point->y = strtod(second, &end);
-    if (!comma || end == second || *end || !sl_coordinate_usable(point->x) ||
-        !sl_coordinate_usable(point->y))
+    if (!comma || end == second || *end || !(fabs(point->x) <= SL_COORDINATE_MAX) ||
+        !(fabs(point->y) <= SL_COORDINATE_MAX))
         return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a place is needed, as X,Y", option, text);
     return SL_OK;
 }
@@ -147,6 +149,8 @@ static sl_status read_map_option(sl_context *context, int option, arguments *a) 
     case 'u':
         o->unit = optarg;
         return SL_OK;
+    case 'w':
+        return read_number(context, "--entrance", optarg, 1e-300, &o->entrance);
     case 'd':
         SL_TRY(read_number(context, "--threshold", optarg, 1e-300, &o->threshold));
         if (o->threshold <= 1) return SL_OK;

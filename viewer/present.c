@@ -10,8 +10,10 @@ typedef struct present_own {
     /// both. `doors` has walls in shut doors alone, `one_way` also on the dark sides of glass.
     sl_space doors, one_way;
     sl_outline outline;
-    sl_visibility row; ///< of one cell
-    uint32_t cell;
+    sl_visibility row; ///< of the first of the eye's cells: what all of them see
+    uint32_t *cells;   ///< the eye's
+    uint32_t cell_count;
+    sl_bits *marks;
     sl_eye_search *search;
 } own;
 
@@ -65,6 +67,8 @@ static void drop_own(sl_context *context, present_state *present) {
     if (!o) return;
     sl_eye_search_destroy(context, o->search);
     sl_visibility_destroy(context, &o->row);
+    sl_free(context, o->cells);
+    sl_free(context, o->marks);
     sl_outline_destroy(context, &o->outline);
     sl_space_destroy(context, &o->space);
     sl_space_destroy(context, &o->doors);
@@ -137,14 +141,15 @@ static size_t encode_row(const sl_bits *set, uint32_t count, uint8_t *out) {
     return out ? (size_t)(at - out) : 5 * numbers;
 }
 
-/// What the eye's cell sees, as rows of which the others are empty.
+/// What the eye's cells see, as rows of which all but the first cell's are empty.
 static sl_status make_row(sl_context *context, const present_state *present,
-                          const document_state *document, add_function add, uint32_t cell,
-                          sl_pvs *out) {
+                          const document_state *document, add_function add, sl_pvs *out) {
+    const own *o = present->own;
     const uint32_t count = document->baked->space.cell_count;
+    const uint32_t cell = o->cell_count ? o->cells[0] : SL_NO_CELL;
     sl_pvs made = {.cell_count = count};
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
-    if (set && cell != SL_NO_CELL) add(present, document, cell, set);
+    for (uint32_t i = 0; i < o->cell_count && set; i++) add(present, document, o->cells[i], set);
     made.offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *made.offsets);
     if (set) made.bytes = sl_alloc_array(context, encode_row(set, count, NULL), 1);
     const bool good = set && made.offsets && made.bytes;
@@ -163,18 +168,18 @@ static sl_status make_row(sl_context *context, const present_state *present,
 static sl_status follow_eye(sl_context *context, present_state *present,
                             const document_state *document, sl_point eye) {
     own *o = present->own;
-    const uint32_t cell = sl_space_locate(&o->space, eye);
-    if (o->search && (o->cell == cell || !present->has_rows)) return SL_OK;
+    const uint32_t before = o->cell_count ? o->cells[0] : SL_NO_CELL, count = o->cell_count;
+    o->cell_count = sl_eye_cells(&o->space, eye, o->cells, o->marks);
+    const bool same = count == 1 && o->cell_count == 1 && o->cells[0] == before;
+    if (o->search && (same || !present->has_rows)) return SL_OK;
     sl_visibility row = {.sight = document->baked->visibility.sight};
     sl_status status = SL_OK;
-    if (present->has_rows)
-        status = make_row(context, present, document, present_add_row, cell, &row.pvs);
+    if (present->has_rows) status = make_row(context, present, document, present_add_row, &row.pvs);
     if (status == SL_OK && present->has_rows && document->map.mirror_count)
-        status = make_row(context, present, document, present_add_mirrored, cell, &row.mirrored);
+        status = make_row(context, present, document, present_add_mirrored, &row.mirrored);
     sl_visibility_destroy(context, &o->row);
     o->row = row;
     SL_TRY(status);
-    o->cell = cell;
     if (o->search) return SL_OK;
     const sl_space *space = o->one_way.cell_count ? &o->one_way : &o->space;
     SL_TRY(sl_eye_search_create(context, space, &o->row, &o->search));
@@ -186,6 +191,9 @@ static sl_status make_own(sl_context *context, present_state *present,
     own *o = present->own = sl_alloc_array(context, 1, sizeof *o);
     if (!o) return SL_NO_MEMORY;
     SL_TRY(make_space(context, present, document, &o->space));
+    o->cells = sl_alloc_array(context, o->space.cell_count, sizeof *o->cells);
+    o->marks = sl_alloc_array(context, sl_eye_words(&o->space), sizeof *o->marks);
+    if (!o->cells || !o->marks) return SL_NO_MEMORY;
     if (!has_both(document)) return sl_outline_make(context, &o->space, &o->outline);
     sl_filtered_space filtered = {.shut = present->shut};
     SL_TRY(sl_filtered_space_make(context, &document->baked->space, &filtered, NULL, &o->doors));

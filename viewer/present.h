@@ -14,8 +14,8 @@ typedef struct present_state {
     const sl_space *space; ///< its cells and directed portals' cells are the document's; directed
                            ///< portals are not
     const sl_outline *outline;
-    /// Where something is shut, the search has the visible set of the eye's cell alone. It has none
-    /// where the bake had a shorter range.
+    /// Where something is shut, the search has the visible sets of the eye's cells alone. It has
+    /// none where the bake had a shorter range.
     sl_eye_search *search;
     /// The space with the map's objects and mirrors in it; NULL where it has none, or where they
     /// cannot be put in. If any of them blocks sight, the outline is that of this space, and its

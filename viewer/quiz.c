@@ -106,7 +106,7 @@ static const sl_sequence *sequence_of(const sl_explanation *e) {
 
 static bool is_door_shut(const app_state *app) {
     const present_state *present = &app->view.present;
-    for (size_t i = 0; present->shut && i < app->document.map.door_count; i++)
+    for (size_t i = 0; present->shut && i < app->document.baked->map.door_count; i++)
         if (present->shut[i]) return true;
     return false;
 }

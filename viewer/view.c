@@ -147,6 +147,12 @@ void walk_home(app_state *app) {
         app->view.eye.heading = fmod(map->starts[i].heading, 360);
         return;
     }
+    // Where an opening is doubtful, all of the map counts, and the largest cell may be outdoors.
+    const uint32_t roomiest = sl_space_locate(&d->baked->space, map->interior.roomiest);
+    if (map->interior.doubtful_width > 0 && roomiest != SL_NO_CELL) {
+        app->view.eye.at = sl_space_middle(&d->baked->space, roomiest);
+        return;
+    }
     uint32_t best = 0;
     double largest = -1;
     for (uint32_t cell = 0; cell < d->baked->space.cell_count; cell++)

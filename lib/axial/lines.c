@@ -43,8 +43,10 @@ typedef struct plan {
     uint32_t *first, *ends;
     uint8_t *open;
     uint32_t count, wall_count;
-    // Buckets: columns * rows squares, with the walls that touch them.
-    double side;
+    // Buckets: columns * rows, with the walls that touch them. Their limits are corners'
+    // coordinates such that as many corners lie in each column and row, wherever corners are. The
+    // first and the last column and row have no end.
+    double *column_limits, *row_limits; ///< columns - 1 and rows - 1, ascending
     uint32_t columns, rows;
     uint32_t *bucket_first, *bucket;
 } plan;
@@ -71,6 +73,8 @@ static void plan_destroy(sl_context *context, plan *p) {
     sl_free(context, p->first);
     sl_free(context, p->ends);
     sl_free(context, p->open);
+    sl_free(context, p->column_limits);
+    sl_free(context, p->row_limits);
     sl_free(context, p->bucket_first);
     sl_free(context, p->bucket);
 }
@@ -146,40 +150,82 @@ typedef struct span {
     uint32_t from, to; ///< rows
 } span;
 
-static double clamp(double value, uint32_t count) {
-    return fmin(fmax(floor(value), 0), (double)count - 1);
+/// How many limits are at a value or below it: the column or row of the value.
+static uint32_t bucket_at(const double *limits, uint32_t count, double value) {
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (limits[middle] <= value)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// More than the rounding of a place between two others.
+static double slack_of(double a, double b) {
+    return 1e-12 * (fabs(a) + fabs(b));
 }
 
 /// The rows that a segment touches in a column; a little more, so that rounding loses none.
 static span rows_of(const plan *p, sl_point a, sl_point b, uint32_t column) {
-    const double slack = 1e-6, left = column - slack, right = column + 1 + slack;
-    const double ax = (a.x - p->space->bounds.min.x) / p->side;
-    const double ay = (a.y - p->space->bounds.min.y) / p->side;
-    const double bx = (b.x - p->space->bounds.min.x) / p->side;
-    const double by = (b.y - p->space->bounds.min.y) / p->side;
-    double low = fmin(ay, by), high = fmax(ay, by);
-    if (fabs(bx - ax) > slack) {
-        const double slope = (by - ay) / (bx - ax);
-        const double in = ay + (fmin(fmax(left, fmin(ax, bx)), fmax(ax, bx)) - ax) * slope;
-        const double out = ay + (fmin(fmax(right, fmin(ax, bx)), fmax(ax, bx)) - ax) * slope;
+    const double wide = b.x - a.x, slack = slack_of(a.x, b.x);
+    double low = fmin(a.y, b.y), high = fmax(a.y, b.y);
+    if (fabs(wide) > slack) {
+        const double least = fmin(a.x, b.x), most = fmax(a.x, b.x);
+        const double left = column ? p->column_limits[column - 1] - slack : least;
+        const double right = column + 1 < p->columns ? p->column_limits[column] + slack : most;
+        const double in = a.y + (fmin(fmax(left, least), most) - a.x) / wide * (b.y - a.y);
+        const double out = a.y + (fmin(fmax(right, least), most) - a.x) / wide * (b.y - a.y);
         low = fmax(low, fmin(in, out));
         high = fmin(high, fmax(in, out));
     }
-    return (span){(uint32_t)clamp(low - slack, p->rows), (uint32_t)clamp(high + slack, p->rows)};
+    const double above = slack_of(a.y, b.y);
+    return (span){bucket_at(p->row_limits, p->rows - 1, low - above),
+                  bucket_at(p->row_limits, p->rows - 1, high + above)};
 }
 
 static span columns_of(const plan *p, sl_point a, sl_point b) {
-    const double slack = 1e-6, origin = p->space->bounds.min.x;
-    return (span){(uint32_t)clamp((fmin(a.x, b.x) - origin) / p->side - slack, p->columns),
-                  (uint32_t)clamp((fmax(a.x, b.x) - origin) / p->side + slack, p->columns)};
+    const double slack = slack_of(a.x, b.x);
+    return (span){bucket_at(p->column_limits, p->columns - 1, fmin(a.x, b.x) - slack),
+                  bucket_at(p->column_limits, p->columns - 1, fmax(a.x, b.x) + slack)};
+}
+
+static int compare_values(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/// Keeps, of sorted values, every so many: at most `most`, all different. Returns their number.
+static uint32_t keep_limits(double *values, size_t count, uint32_t most) {
+    uint32_t kept = 0;
+    for (uint32_t i = 1; i <= most; i++) {
+        const double value = values[count * i / ((size_t)most + 1)];
+        if (!kept || value > values[kept - 1]) values[kept++] = value;
+    }
+    return kept;
+}
+
+/// Sets the limits of about as many buckets as there are walls.
+static sl_status choose_limits(sl_context *context, plan *p) {
+    const uint32_t most = (uint32_t)sqrt(p->wall_count + 1.0);
+    p->column_limits = sl_alloc_array(context, p->count, sizeof *p->column_limits);
+    p->row_limits = sl_alloc_array(context, p->count, sizeof *p->row_limits);
+    if (!p->column_limits || !p->row_limits) return SL_NO_MEMORY;
+    for (uint32_t c = 0; c < p->count; c++) {
+        p->column_limits[c] = p->corners[c].x;
+        p->row_limits[c] = p->corners[c].y;
+    }
+    qsort(p->column_limits, p->count, sizeof *p->column_limits, compare_values);
+    qsort(p->row_limits, p->count, sizeof *p->row_limits, compare_values);
+    p->columns = 1 + (p->count ? keep_limits(p->column_limits, p->count, most) : 0);
+    p->rows = 1 + (p->count ? keep_limits(p->row_limits, p->count, most) : 0);
+    return SL_OK;
 }
 
 static sl_status fill_buckets(sl_context *context, plan *p) {
-    const sl_box b = p->space->bounds;
-    const double wide = b.max.x - b.min.x, high = b.max.y - b.min.y;
-    p->side = fmax(sqrt(wide * high / (p->wall_count + 1.0)), fmax(wide, high) / 1024);
-    p->columns = (uint32_t)ceil(wide / p->side) + 1;
-    p->rows = (uint32_t)ceil(high / p->side) + 1;
+    SL_TRY(choose_limits(context, p));
     const size_t squares = (size_t)p->columns * p->rows;
     p->bucket_first = sl_alloc_array(context, squares + 2, sizeof *p->bucket_first);
     if (!p->bucket_first) return SL_NO_MEMORY;

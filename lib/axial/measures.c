@@ -18,6 +18,7 @@
 
 #include "axial/touch.h"
 #include "sightline/support.h"
+#include "visibility_graph/integration.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -208,14 +209,6 @@ static void add_choice(const job *j, scratch *s, uint32_t reached) {
     }
 }
 
-static double diamond_value(double n) {
-    return 2 * (n * (log2((n + 2) / 3) - 1) + 1) / ((n - 1) * (n - 2));
-}
-
-static double pyramid_value(double n) {
-    return 2 * (n - log2(n) - 1) / ((n - 1) * (n - 2));
-}
-
 static void measure_depths(const scratch *s, uint32_t reached, sl_axial_measures *out) {
     const double nodes = reached;
     double total = 0, entropy = 0;
@@ -232,12 +225,10 @@ static void measure_depths(const scratch *s, uint32_t reached, sl_axial_measures
     const double mean = total / (nodes - 1);
     out->mean_depth = mean;
     out->entropy = entropy;
-    if (reached == 2 || mean <= 1) return;
-    const double ra = 2 * (mean - 1) / (nodes - 2);
-    out->integration_hh = diamond_value(nodes) / ra;
-    out->integration_pvalue = pyramid_value(nodes) / ra;
-    const double tekl = log(0.5 * (nodes - 2)) / log(total - nodes + 1);
-    if (isfinite(tekl)) out->integration_tekl = tekl;
+    const sli_integration integration = sli_integration_of(nodes, total);
+    out->integration_hh = integration.hh;
+    out->integration_pvalue = integration.pvalue;
+    out->integration_tekl = integration.tekl;
 }
 
 static void measure_local(const job *j, scratch *s, uint32_t line, sl_axial_measures *out) {

@@ -62,9 +62,12 @@ static sl_status make_space(sl_context *context, const sl_map *map, const sl_bak
 
 sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options, sl_baked *out,
                         sl_bake_account *account) {
+    sl_bake_account unwanted = {0};
     double time = sl_seconds();
+    if (!account) account = &unwanted;
     SL_TRY(settle_doors(context, map, options));
     SL_TRY(sl_map_clean(context, map, &options->clean, &account->cleaning));
+    SL_TRY(sl_map_find_inside(context, map, &options->clean, &account->cleaning));
     SL_TRY(choose(context, map, options));
     account->seconds.clean = lap(&time);
     SL_TRY(make_space(context, map, options, &out->space, account, &time));

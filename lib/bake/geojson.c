@@ -9,6 +9,8 @@
 #include "geometry/orient.h"
 #include "sightline/support.h"
 
+#include <math.h>
+
 // --- the writer
 
 sl_geojson_writer sl_geojson_begin(FILE *stream) {
@@ -130,9 +132,12 @@ void sl_geojson_put_shape(sl_geojson_writer *out, const char *kind, const sl_sha
     end_geometry(out, kind);
 }
 
-void sl_geojson_add_real(sl_geojson_writer *out, const char *key, double finite) {
+void sl_geojson_add_real(sl_geojson_writer *out, const char *key, double value) {
     sl_json_put_key(&out->json, key);
-    sl_json_put_real(&out->json, finite);
+    if (isnan(value))
+        sl_json_put_null(&out->json);
+    else
+        sl_json_put_real(&out->json, value);
 }
 
 void sl_geojson_add_count(sl_geojson_writer *out, const char *key, uint64_t count) {

@@ -7,6 +7,7 @@
 #ifndef SL_SLV_H
 #define SL_SLV_H
 
+#include "base/base.h"
 #include "sightline/bake.h"
 
 #include <stdio.h>
@@ -107,6 +108,13 @@ bool sli_slv_is_native(void);
 void sli_slv_order(const char *tag, uint32_t item_bytes, void *items, uint64_t count);
 void sli_slv_order_header(sli_slv_header *header); ///< likewise
 void sli_slv_order_entry(sli_slv_section *entry);  ///< likewise
+
+/// What a writer reads back of its file: the header, the table of sections, the checksum of all
+/// bytes, INFO, and the map text, whole and with as many things as `map`. Not the arrays of the
+/// space and the visible sets: they are those in memory, which are checked as they are made, and to
+/// read them again would take as much memory once more.
+sl_status sli_slv_read_back(sl_context *context, const char *name, const sl_map *map,
+                            sli_again *again);
 
 /// Writes the file to a stream that is open already. Whether the stream took all is the caller's to
 /// ask.

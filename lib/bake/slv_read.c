@@ -4,6 +4,7 @@
 #include "base/bits.h"
 #include "base/size.h"
 #include "effects/mirrors.h"
+#include "map/scan.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
 
@@ -32,15 +33,19 @@ static sl_status in_file(const reader *r, sl_status status) {
     return fail_file(r, what);
 }
 
-/// The checksum over the file, its own four bytes taken as 0.
-static uint32_t checksum_of(const reader *r) {
+/// Begins the checksum over the file, in which its own four bytes count as 0.
+static void begin_sum(const reader *r, sli_checksum *sum) {
     sli_slv_header header = r->header;
     header.checksum = 0;
     sli_slv_order_header(&header);
+    sli_checksum_begin(sum);
+    sli_checksum_add(sum, &header, sizeof header);
+}
+
+static uint32_t checksum_of(const reader *r) {
     sli_checksum sum;
-    sli_checksum_begin(&sum);
-    sli_checksum_add(&sum, &header, sizeof header);
-    sli_checksum_add(&sum, r->bytes + sizeof header, r->size - sizeof header);
+    begin_sum(r, &sum);
+    sli_checksum_add(&sum, r->bytes + sizeof r->header, r->size - sizeof r->header);
     return sli_checksum_value(&sum);
 }
 
@@ -63,8 +68,11 @@ static sl_status check_header(reader *r) {
                           (unsigned long long)h->file_bytes, r->size);
     if (h->section_count > (r->size - sizeof *h) / sizeof(sli_slv_section))
         return fail_file(r, "damaged: more sections than fit");
-    if (checksum_of(r) != h->checksum) return fail_file(r, "damaged: the checksum does not match");
     return SL_OK;
+}
+
+static sl_status check_sum(const reader *r, uint32_t sum) {
+    return sum == r->header.checksum ? SL_OK : fail_file(r, "damaged: the checksum does not match");
 }
 
 /// Finds a section and checks its place. False where the file has none of that tag.
@@ -506,6 +514,7 @@ static sl_status load_seen(const reader *r) {
 
 static sl_status load_all(reader *r) {
     SL_TRY(check_header(r));
+    SL_TRY(check_sum(r, checksum_of(r)));
     SL_TRY(load_info(r));
     SL_TRY(load_space(r));
     SL_TRY(load_partial(r));
@@ -560,4 +569,88 @@ sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out) {
 
 sl_status sl_baked_read_part(sl_context *context, const char *path, sl_baked *out) {
     return read_file(context, path, true, out);
+}
+
+// --- reading back what was written
+
+/// Takes bytes of the file into the sum, and to `kept` where that is not NULL.
+static sl_status take(const reader *r, sli_again *again, uint64_t bytes, sli_checksum *sum,
+                      char *kept) {
+    char buffer[16384];
+    while (bytes) {
+        const size_t part = bytes < sizeof buffer ? (size_t)bytes : sizeof buffer;
+        SL_TRY(sl_check_cancelled(r->context));
+        if (!sli_again_take(again, buffer, part)) return fail_file(r, "cut short");
+        sli_checksum_add(sum, buffer, part);
+        if (kept) memcpy(kept, buffer, part), kept += part;
+        bytes -= part;
+    }
+    return SL_OK;
+}
+
+/// A section that is kept: where it is put, and its size.
+typedef struct kept_section {
+    const char *tag;
+    char *bytes;
+    size_t size;
+} kept_section;
+
+/// Goes through all sections in the order of the table, which is that of the file.
+static sl_status take_sections(const reader *r, sli_again *again, sli_checksum *sum,
+                               kept_section *kept, size_t kept_count) {
+    for (uint32_t i = 0; i < r->header.section_count; i++) {
+        sli_slv_section s;
+        memcpy(&s, r->bytes + sizeof r->header + i * sizeof s, sizeof s);
+        sli_slv_order_entry(&s);
+        const uint64_t at = r->size - again->left, bytes = s.item_bytes * s.count;
+        if (s.offset < at || s.offset > r->size || bytes > r->size - s.offset)
+            return fail_file(r, "damaged: a section does not fit");
+        SL_TRY(take(r, again, s.offset - at, sum, NULL));
+        kept_section *own = NULL;
+        for (size_t k = 0; k < kept_count; k++)
+            if (!kept[k].bytes && memcmp(kept[k].tag, s.tag, sizeof s.tag) == 0) own = &kept[k];
+        if (own) {
+            own->size = sli_size(bytes);
+            own->bytes = sl_alloc_array(r->context, own->size, 1);
+            if (!own->bytes) return SL_NO_MEMORY;
+        }
+        SL_TRY(take(r, again, bytes, sum, own ? own->bytes : NULL));
+    }
+    return take(r, again, again->left, sum, NULL);
+}
+
+static sl_status check_kept(const reader *r, const kept_section *info, const kept_section *text,
+                            const sl_map *map) {
+    sli_slv_info read;
+    sl_map again = {0};
+    if (info->size != sizeof read || !text->bytes)
+        return fail_file(r, "damaged: section INFO or MAPT is missing");
+    memcpy(&read, info->bytes, sizeof read);
+    sli_slv_order("INFO", sizeof read, &read, 1);
+    if (!makes_sense(&read)) return fail_file(r, "damaged: section INFO makes no sense");
+    SL_TRY(sl_map_read_text(r->context, r->name, text->bytes, text->size, &again));
+    const sl_status status = sli_map_check_again(r->context, r->name, map, &again);
+    sl_map_destroy(r->context, &again);
+    return status;
+}
+
+sl_status sli_slv_read_back(sl_context *context, const char *name, const sl_map *map,
+                            sli_again *again) {
+    enum { MOST_SECTIONS = 48 }; // as the writer's
+    char start[sizeof(sli_slv_header) + MOST_SECTIONS * sizeof(sli_slv_section)];
+    reader r = {.context = context, .name = name, .bytes = start, .size = sli_size(again->left)};
+    kept_section kept[] = {{.tag = "INFO"}, {.tag = "MAPT"}};
+    sli_checksum sum;
+    if (!sli_again_take(again, start, sizeof r.header)) return fail_file(&r, "cut short");
+    SL_TRY(check_header(&r));
+    const size_t table = r.header.section_count * sizeof(sli_slv_section);
+    if (r.header.section_count > MOST_SECTIONS) return fail_file(&r, "damaged: too many sections");
+    begin_sum(&r, &sum);
+    sl_status status = take(&r, again, table, &sum, start + sizeof r.header);
+    if (status == SL_OK) status = take_sections(&r, again, &sum, kept, 2);
+    if (status == SL_OK) status = check_sum(&r, sli_checksum_value(&sum));
+    if (status == SL_OK) status = check_kept(&r, &kept[0], &kept[1], map);
+    sl_free(context, kept[0].bytes);
+    sl_free(context, kept[1].bytes);
+    return status;
 }

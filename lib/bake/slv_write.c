@@ -18,6 +18,7 @@ typedef struct plan {
     void *
         copies[MOST_SECTIONS]; ///< of the contents in the file's order of bytes, if that is another
     sl_segment *walls;
+    const sl_map *map; ///< of which the text is
     char *map_text;
     sli_slv_views views;
     sli_slv_part part;
@@ -83,6 +84,7 @@ static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size
     if (!sli_memory_open(&memory)) return sl_fail_memory(context);
     const sl_status status = sli_map_print_text(context, &others, memory.stream);
     if (!sli_memory_close(&memory)) return sl_fail_memory(context);
+    p->map = map;
     p->map_text = memory.text;
     *size = memory.size;
     return status;
@@ -233,7 +235,8 @@ static void lay_out(plan *p) {
 }
 
 /// Refused writes are left to the stream's error flag, which the commit asks.
-static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
+static sl_status write_plan(sl_context *context, const void *user, FILE *stream) {
+    const plan *p = user;
     static const char zeros[8] = {0};
     const sli_slv_header header = ordered_header(p);
     fwrite(&header, sizeof header, 1, stream);
@@ -275,10 +278,10 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     return SL_OK;
 }
 
-static sl_status write_file(sl_context *context, const plan *p, const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, write_plan(context, p, output.stream));
+static sl_status read_back(sl_context *context, const void *user, const char *name,
+                           sli_again *again) {
+    const plan *p = user;
+    return sli_slv_read_back(context, name, p->map, again);
 }
 
 static void destroy_plan(sl_context *context, plan *p) {
@@ -300,7 +303,8 @@ sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char 
     plan p = {0};
     const sli_slv_info info = make_info(baked);
     sl_status status = make_plan(context, baked, &info, &p);
-    if (status == SL_OK) status = write_file(context, &p, path);
+    const sli_to_write file = {&p, write_plan, read_back};
+    if (status == SL_OK) status = sli_file_write(context, path, &file);
     destroy_plan(context, &p);
     return status;
 }

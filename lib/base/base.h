@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /// A table of methods that other libraries add to: copies of items that begin with their name.
 /// Empty as long as the library's own items are all.
@@ -17,6 +18,7 @@ typedef struct sli_table {
 struct sl_context {
     sl_hooks hooks;
     char message[1024];
+    sl_limits limits;         ///< 0: the usual ones
     sli_table map_formats;    ///< of sl_map_format
     sli_table export_formats; ///< of sl_export_format
 };
@@ -42,5 +44,36 @@ typedef struct sli_checksum {
 void sli_checksum_begin(sli_checksum *sum);
 void sli_checksum_add(sli_checksum *sum, const void *bytes, size_t count);
 uint32_t sli_checksum_value(const sli_checksum *sum);
+
+// --- files that are read back before they take their place
+
+/// What was written, from its beginning.
+typedef struct sli_again {
+    FILE *stream; ///< NULL: it is in memory, at `at`
+    const char *at;
+    uint64_t left; ///< bytes that are not taken yet
+} sli_again;
+
+/// Takes the next bytes; false where fewer are left, or they cannot be read.
+bool sli_again_take(sli_again *again, void *buffer, size_t count);
+
+/// A file to write. `print` writes it: refused writes are left to the stream's error flag.
+/// `read_back` reads what was written as a reader of such files does, and fails as that does.
+typedef struct sli_to_write {
+    const void *user;
+    sl_status (*print)(sl_context *context, const void *user, FILE *stream);
+    sl_status (*read_back)(sl_context *context, const void *user, const char *name,
+                           sli_again *again);
+} sli_to_write;
+
+/// Writes a file beside its target, reads it back, and puts it in its place. So no file is left
+/// that the project's own reader would refuse: SL_UNSUPPORTED, with the reader's message, and the
+/// target stays as it was. Standard output, devices and pipes get nothing either then: for them the
+/// file is written to memory first. Notes and progress of the reading are not handed on.
+sl_status sli_file_write(sl_context *context, const char *path, const sli_to_write *file);
+
+/// Reads back by file->read_back: part of sli_file_write().
+sl_status sli_read_back(sl_context *context, const char *path, const sli_to_write *file,
+                        sli_again again);
 
 #endif

@@ -41,6 +41,10 @@ const sl_hooks *sl_context_hooks(const sl_context *context) {
     return &context->hooks;
 }
 
+void sl_context_set_limits(sl_context *context, const sl_limits *limits) {
+    context->limits = limits ? *limits : (sl_limits){0};
+}
+
 const char *sl_context_message(const sl_context *context) {
     return context->message;
 }

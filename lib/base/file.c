@@ -1,6 +1,7 @@
 /// Whole files. A file is written beside its target, brought to the disk and renamed. So a failure
 /// at any moment leaves the old file as it was, and nothing half-written. Devices and pipes cannot
 /// be replaced: they are written to directly.
+#include "base/base.h"
 #include "base/file_system.h"
 #include "sightline/support.h"
 
@@ -165,4 +166,51 @@ sl_status sl_output_close(sl_context *context, sl_output *output, sl_status stat
     if (status == SL_OK) return sl_output_commit(context, output);
     abandon(context, output);
     return status;
+}
+
+static sl_status read_back_file(sl_context *context, const char *path, const sl_output *output,
+                                const sli_to_write *file) {
+    errno = 0;
+    if (fflush(output->stream) != 0 || ferror(output->stream))
+        return fail_write(context, path, errno);
+    sli_again again = {.stream = sli_file_open(output->temporary, "rb")};
+    if (!again.stream)
+        return sl_fail(context, SL_IO, "%s: cannot read back: %s", path, strerror(errno));
+    sl_status status = SL_OK;
+    if (!sli_file_is_whole(again.stream, &again.left))
+        status = sl_fail(context, SL_IO, "%s: cannot read back", path);
+    if (status == SL_OK) status = sli_read_back(context, path, file, again);
+    if (fclose(again.stream) != 0 && status == SL_OK) status = fail_write(context, path, errno);
+    return status;
+}
+
+/// For what cannot be replaced, nor read back.
+static sl_status write_by_memory(sl_context *context, const char *path, FILE *stream,
+                                 const sli_to_write *file) {
+    sli_memory_stream memory;
+    if (!sli_memory_open(&memory)) return sl_fail_memory(context);
+    sl_status status = file->print(context, file->user, memory.stream);
+    if (!sli_memory_close(&memory)) return sl_fail_memory(context);
+    const sli_again again = {.at = memory.text, .left = memory.size};
+    if (status == SL_OK) status = sli_read_back(context, path, file, again);
+    errno = 0;
+    if (status == SL_OK &&
+        (fwrite(memory.text, 1, memory.size, stream) != memory.size || fflush(stream) != 0))
+        status = fail_write(context, path, errno);
+    free(memory.text);
+    return status;
+}
+
+sl_status sli_file_write(sl_context *context, const char *path, const sli_to_write *file) {
+    sl_output output;
+    sl_status status;
+    SL_TRY(sl_output_open(context, path, &output));
+    if (output.temporary) {
+        status = file->print(context, file->user, output.stream);
+        if (status == SL_OK) status = read_back_file(context, path, &output, file);
+    } else {
+        const char *name = output.path ? path : "standard output";
+        status = write_by_memory(context, name, output.stream, file);
+    }
+    return sl_output_close(context, &output, status);
 }

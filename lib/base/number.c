@@ -128,9 +128,13 @@ size_t sl_number_length(const char *text, size_t length) {
     return at;
 }
 
+/// The longest double takes 1,077 characters without an exponent, down to its last digit.
+enum { MOST_CHARACTERS = 2048 };
+
 bool sl_number_read(const char *text, size_t length, double *value) {
-    char copy[512 + 16];
-    if (length == 0 || length >= 512 || sl_number_length(text, length) != length) return false;
+    char copy[MOST_CHARACTERS + 16];
+    if (length == 0 || length > MOST_CHARACTERS || sl_number_length(text, length) != length)
+        return false;
     memcpy(copy, text, length);
     copy[length] = '\0';
     replace(copy, ".", decimal_point());

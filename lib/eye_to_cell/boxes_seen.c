@@ -241,7 +241,7 @@ static bool meets_behind_wall(const sli_eye_query *query, uint32_t number, sl_bo
         const sli_ray ends[2] = {sli_ray_to(d->left), sli_ray_to(d->right)};
         if (sli_same_point(d->left, eye) || sli_same_point(d->right, eye) ||
             !sli_ray_same_way(&pivot, ends[0], ends[1]))
-            return true; // the eye is on the portal
+            continue; // the eye is on the portal, behind the wall
         if (!sli_ray_same_way(&pivot, ends[0], *ray)) continue;
         // From the nearer end on.
         const bool left_is_near = fabs(d->left.x - eye.x) + fabs(d->left.y - eye.y) <
@@ -255,22 +255,20 @@ static bool meets_behind_wall(const sli_eye_query *query, uint32_t number, sl_bo
 
 static bool sees_in_arc(sli_eye_query *query, uint32_t cell, sl_box box, const sli_arc *arc) {
     if (!meets_within(&query->pivot, query->space, cell, box, arc)) return false;
-    return arc->span != SLI_SPAN_RAY || cell == query->cell ||
-           !sli_cell_holds(query->space, cell, query->pivot.eye) ||
-           meets_behind_wall(query, cell, box, &arc->right);
+    return arc->span != SLI_SPAN_RAY || !sli_cell_holds(query->space, cell, query->pivot.eye) ||
+           sli_eye_is_in(query, cell) || meets_behind_wall(query, cell, box, &arc->right);
 }
 
-/// Whether the eye sees a box in its own cell. A wide cone is two halves, from each border on.
-static bool sees_in_cone(sli_eye_query *query, sl_box box) {
+/// Whether the eye sees a box in a cell of its own. A wide cone is two halves, from each border on.
+static bool sees_in_cone(sli_eye_query *query, uint32_t cell, sl_box box) {
     const sli_cone *cone = &query->cone;
     if (cone->full) return true;
-    if (!cone->wide) return sees_in_arc(query, query->cell, box, &cone->arc);
+    if (!cone->wide) return sees_in_arc(query, cell, box, &cone->arc);
     sli_arc halves[2] = {{cone->arc.left, cone->arc.left, SLI_SPAN_HALF},
                          {cone->arc.right, cone->arc.right, SLI_SPAN_HALF}};
     halves[0].left.away = !halves[0].left.away;
     halves[1].right.away = !halves[1].right.away;
-    return sees_in_arc(query, query->cell, box, &halves[0]) ||
-           sees_in_arc(query, query->cell, box, &halves[1]);
+    return sees_in_arc(query, cell, box, &halves[0]) || sees_in_arc(query, cell, box, &halves[1]);
 }
 
 void sli_eye_meet_boxes(sli_eye_query *query, const sli_eye_step *at, bool first) {
@@ -280,7 +278,7 @@ void sli_eye_meet_boxes(sli_eye_query *query, const sli_eye_step *at, bool first
         bool *seen = &query->search->boxes_seen[lists->items[i]];
         const sl_box box = lists->boxes[lists->items[i]].box;
         if (*seen) continue;
-        if (first) *seen = sees_in_cone(query, box);
+        if (first) *seen = sees_in_cone(query, cell, box);
         for (unsigned k = 0; k < at->arc_count && !*seen; k++)
             *seen = sees_in_arc(query, cell, box, &at->arcs[k]);
     }

@@ -3,9 +3,9 @@
 ///
 /// Each method refines the one before it, so its cells are among those of that one:
 ///
-///   cell_to_cell         the visible set of the eye's cell
+///   cell_to_cell         the visible sets of the eye's cells
 ///   disjoint_cell        of those, the cells that meet the view cone
-///   connected_component  of those, the cells connected to the eye's cell through such cells
+///   connected_component  of those, the cells connected to the eye's cells through such cells
 ///   incident_portals     of those, the cells reached through portals that meet the view cone
 ///   exact                of those, the cells with a sightline from the eye within the view cone
 ///
@@ -27,7 +27,7 @@ static sl_status cell_to_cell(sl_context *context, sl_eye_search *search, const 
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
     const size_t words = sl_eye_words(search->space);
-    if (query.cell != SL_NO_CELL) {
+    if (query.fan_count) {
         memcpy(cells, search->row, words * sizeof *cells);
         query.nodes += sli_bits_count(cells, words);
     }
@@ -41,8 +41,9 @@ static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *searc
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
     const sl_pvs *mirrored = &search->visibility->mirrored;
-    if (query.cell != SL_NO_CELL && mirrored->cell_count) {
-        sli_row_add_to(mirrored, query.cell, cells);
+    if (query.fan_count && mirrored->cell_count) {
+        for (uint32_t at = 0; at < query.fan_count; at++)
+            sli_row_add_to(mirrored, search->queue[at], cells);
         query.nodes += sli_bits_count(cells, sl_eye_words(search->space));
     }
     sli_eye_end(&query, account);
@@ -55,7 +56,7 @@ static sl_status disjoint_cell(sl_context *context, sl_eye_search *search, const
                                uint64_t *cells, sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
-    const size_t words = query.cell == SL_NO_CELL ? 0 : sl_eye_words(search->space);
+    const size_t words = query.fan_count ? sl_eye_words(search->space) : 0;
     for (size_t word = 0; word < words; word++) {
         for (sl_bits rest = search->row[word]; rest; rest &= rest - 1) {
             const uint32_t cell = (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(rest);
@@ -67,7 +68,7 @@ static sl_status disjoint_cell(sl_context *context, sl_eye_search *search, const
     return SL_OK;
 }
 
-// --- spreading from the eye's cell
+// --- spreading from the eye's cells
 
 /// Whether to go through a directed portal.
 typedef bool portal_test(sli_eye_query *query, const sl_directed_portal *portal);
@@ -90,12 +91,10 @@ static size_t spread_from(sli_eye_query *query, portal_test *test, uint32_t from
 
 /// Adds to the result each cell that can be reached, the eye's own first.
 static sl_status spread(sl_context *context, sli_eye_query *query, portal_test *test) {
-    if (query->cell == SL_NO_CELL) return SL_OK;
     uint32_t *queue = query->search->queue;
-    size_t queued = 0;
-    sl_bits_add(query->cells, query->cell);
-    queue[queued++] = query->cell;
-    query->nodes = 1;
+    size_t queued = query->fan_count;
+    for (size_t at = 0; at < queued; at++) sl_bits_add(query->cells, queue[at]);
+    query->nodes = queued;
     for (size_t at = 0; at < queued; at++) {
         if (at % 4096 == 4095) SL_TRY(sl_check_cancelled(context));
         queued = spread_from(query, test, queue[at], queue, queued);
@@ -130,7 +129,7 @@ static sl_status incident_portals(sl_context *context, sl_eye_search *search, co
 
 const sl_eye_method *sl_eye_methods(size_t *count) {
     static const sl_eye_method methods[] = {
-        {"cell_to_cell", "no culling: all that the eye's cell sees", SL_CONSERVATIVE, true,
+        {"cell_to_cell", "no culling: all that the eye's cells see", SL_CONSERVATIVE, true,
          cell_to_cell, cell_to_cell_mirrored},
         {"disjoint_cell", "of those, the cells that meet the view cone", SL_CONSERVATIVE, true,
          disjoint_cell, NULL},

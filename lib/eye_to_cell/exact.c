@@ -1,8 +1,9 @@
 /// The exact culling method: a depth-first search over portal sequences from the eye.
 ///
 /// A step holds the arc of directions in which a line from the eye, within the view cone, crosses
-/// all portals of the sequence. Each such line is a sightline of the eye's cell. So with exact
-/// visible sets the search never leaves the visible set.
+/// all portals of the sequence. The search starts in each of the eye's cells, and so leaves out the
+/// portals between them. Each such line is a sightline of the cell that it starts in. So with exact
+/// visible sets the search never leaves them.
 ///
 /// Arcs that lead to one cell by different sequences overlap in their borders at most. So there are
 /// no more steps than visible pieces of cells, but for single rays. A single ray may pass a point
@@ -74,7 +75,8 @@ SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, vo
     sli_eye_step *to = next, entered;
     const sl_directed_portal *directed = &query->space->directed[number];
     if (!sli_eye_may_see(query, directed->cell) ||
-        !sli_eye_pass_in_range(query, from, job->way.count == 1, directed, &entered))
+        !sli_eye_pass_in_range(query, from, job->way.count == 1, directed, &entered) ||
+        entered.near)
         return SL_OK;
     for (unsigned i = 0; i < entered.arc_count; i++) {
         *to = entered;
@@ -87,16 +89,16 @@ SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, vo
     return SL_OK;
 }
 
-static sl_status search_portals(sl_context *context, sli_eye_query *query) {
+static sl_status search_portals(sl_context *context, sli_eye_query *query, uint32_t fan) {
     static const sli_portal_visitor visitor = {.step_size = sizeof(sli_eye_step), .cross = cross};
     sl_eye_search *search = query->search;
     exact_job job = {.query = query,
                      .way = {.space = query->space,
                              .steps = search->steps,
                              .capacity = (size_t)query->space->cell_count + 3}};
-    query->nodes = 0;
-    search->steps[0] = sli_eye_first_step(query);
-    sl_bits_add(query->cells, query->cell);
+    search->steps[0] = sli_eye_first_step(query, fan);
+    if (sli_eye_leads_into(query, search->steps[0].at.cell))
+        sl_bits_add(query->cells, search->steps[0].at.cell);
     sl_status status = enter(context, &job, &search->steps[0]);
     if (status == SL_OK) status = sli_portal_search_run(context, &job.way, &visitor, &job);
     search->steps = job.way.steps;
@@ -107,10 +109,12 @@ sl_status sli_eye_exact(sl_context *context, sl_eye_search *search, const sl_vie
                         uint64_t *cells, sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, false, cells, &query));
-    bool done = query.cell == SL_NO_CELL;
-    if (!done && !search->boxed && !search->boxes)
-        SL_TRY(sli_eye_exact_tree(context, &query, &done));
-    if (!done) SL_TRY(search_portals(context, &query));
+    for (uint32_t fan = 0; fan < query.fan_count; fan++) {
+        bool done = false;
+        if (!search->boxed && !search->boxes)
+            SL_TRY(sli_eye_exact_tree(context, &query, fan, &done));
+        if (!done) SL_TRY(search_portals(context, &query, fan));
+    }
     sli_eye_end(&query, account);
     return SL_OK;
 }

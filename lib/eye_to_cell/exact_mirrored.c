@@ -131,18 +131,17 @@ static sl_status reflect(sl_context *context, void *job, const void *last, void 
     return enter(context, query, &(sli_eye_step){0}, to);
 }
 
-static sl_status search(sl_context *context, sli_eye_query *query) {
+static sl_status search(sl_context *context, sli_eye_query *query, uint32_t fan) {
     static const sli_portal_visitor visitor = {
         .step_size = sizeof(step), .cross = cross, .reflect = reflect};
     mirrors *m = query->search->mirrors;
     m->way.space = query->space;
     m->way.mirrors = &m->sides;
     SL_TRY(sli_portal_search_start(context, &m->way, sizeof(step)));
-    m->images[0] = (sli_fine){.at = query->pivot.eye};
     step *first = m->way.steps;
-    *first = (step){.at = sli_eye_first_step(query), .mirror = UINT32_MAX};
+    *first = (step){.at = sli_eye_first_step(query, fan), .mirror = UINT32_MAX};
     m->way.count = 1;
-    query->nodes = 1;
+    query->nodes++;
     return sli_portal_search_run(context, &m->way, &visitor, query);
 }
 
@@ -153,8 +152,9 @@ sl_status sli_eye_exact_mirrored(sl_context *context, sl_eye_search *s, const sl
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, s, view, false, cells, &query));
     s->mirrors->rounded = 0;
-    if (query.cell != SL_NO_CELL) SL_TRY(search(context, &query));
+    s->mirrors->images[0] = (sli_fine){.at = view->eye};
+    for (uint32_t fan = 0; fan < query.fan_count; fan++) SL_TRY(search(context, &query, fan));
     sli_eye_end(&query, account);
-    account->rounded = s->mirrors->rounded;
+    if (account) account->rounded = s->mirrors->rounded;
     return SL_OK;
 }

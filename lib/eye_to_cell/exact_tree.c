@@ -5,24 +5,23 @@
 /// search over portals is used instead.
 #include "eye_to_cell/eye_search.h"
 
-#include <string.h>
-
-/// The tree of the eye's cell, and how many nodes; NULL where it is not kept.
-static const sl_stab_node *tree_of(const sli_eye_query *query, uint64_t *count) {
+/// The tree of a cell, and how many nodes; NULL where it is not kept.
+static const sl_stab_node *tree_of(const sli_eye_query *query, uint32_t cell, uint64_t *count) {
     const sl_stab_trees *trees = &query->search->visibility->trees;
     if (!trees->cell_count) return NULL;
-    *count = trees->offsets[query->cell + 1] - trees->offsets[query->cell];
-    return *count ? trees->nodes + trees->offsets[query->cell] : NULL;
+    *count = trees->offsets[cell + 1] - trees->offsets[cell];
+    return *count ? trees->nodes + trees->offsets[cell] : NULL;
 }
 
 /// Goes down to a node; nodes that nothing is seen of stay on the way, without arcs, and so do
-/// mirrors: what is seen by them is searched for by itself.
+/// mirrors, and cells that the eye stands in: what is seen from there is searched for by itself.
 static void go_down(sli_eye_query *query, const sli_eye_step *from, const sl_stab_node *node,
                     uint32_t number, sli_eye_step *to) {
     const bool first = from->at.next == 0, dead = !first && !from->arc_count;
     const bool passes =
         !dead && !sl_stab_is_mirror(node) && sli_eye_may_see(query, node->cell) &&
-        sli_eye_pass_in_range(query, from, first, &query->space->directed[node->directed], to);
+        sli_eye_pass_in_range(query, from, first, &query->space->directed[node->directed], to) &&
+        !to->near;
     if (passes) {
         query->nodes++;
         sl_bits_add(query->cells, node->cell);
@@ -31,23 +30,21 @@ static void go_down(sli_eye_query *query, const sli_eye_step *from, const sl_sta
     to->at.next = number;
 }
 
-sl_status sli_eye_exact_tree(sl_context *context, sli_eye_query *query, bool *done) {
+sl_status sli_eye_exact_tree(sl_context *context, sli_eye_query *query, uint32_t fan, bool *done) {
+    const sli_eye_step start = sli_eye_first_step(query, fan);
     uint64_t node_count = 0;
-    const sl_stab_node *nodes = tree_of(query, &node_count);
+    const sl_stab_node *nodes = tree_of(query, start.at.cell, &node_count);
     *done = false;
     if (!nodes) return SL_OK;
     sli_eye_step *steps = query->search->steps;
     size_t count = 1;
-    steps[0] = sli_eye_first_step(query);
-    sl_bits_add(query->cells, query->cell);
-    query->nodes = 1;
+    steps[0] = start;
+    if (sli_eye_leads_into(query, start.at.cell)) sl_bits_add(query->cells, start.at.cell);
+    query->nodes++;
     for (uint64_t i = 1; i < node_count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         while (count && steps[count - 1].at.next != nodes[i].parent) count--;
-        if (!count || count > query->space->cell_count) {
-            memset(query->cells, 0, sl_eye_words(query->space) * sizeof *query->cells);
-            return SL_OK;
-        }
+        if (!count || count > query->space->cell_count) return SL_OK;
         go_down(query, &steps[count - 1], &nodes[i], (uint32_t)i, &steps[count]);
         count++;
     }

@@ -5,6 +5,7 @@
 #include "cell_to_cell/pvs_rows.h"
 #include "geometry/crossing.h"
 
+#include <math.h>
 #include <string.h>
 
 size_t sl_eye_words(const sl_space *space) {
@@ -66,17 +67,66 @@ static bool add_row(sl_eye_search *search, uint32_t cell) {
     return sl_bits_has(search->row, cell);
 }
 
-/// Finds the visible set of the eye's cell: the union over all cells of the ground that it has a
-/// part of. Where there is none, the eye sees nothing.
-static void find_row(sl_eye_search *search, uint32_t *cell) {
+/// Adds the visible sets of all cells of the ground that a cell has a part of; false where it has
+/// none.
+static bool add_rows(sl_eye_search *search, uint32_t cell) {
     const sli_boxed_space *boxed = search->boxed;
-    const uint32_t row_cells = search->visibility->pvs.cell_count;
-    memset(search->row, 0, sl_bits_words(row_cells) * sizeof *search->row);
-    bool found = add_row(search, boxed ? boxed->parents[*cell] : *cell);
+    bool found = add_row(search, boxed ? boxed->parents[cell] : cell);
     if (boxed && boxed->first_share)
-        for (uint32_t i = boxed->first_share[*cell]; i < boxed->first_share[*cell + 1]; i++)
+        for (uint32_t i = boxed->first_share[cell]; i < boxed->first_share[cell + 1]; i++)
             found |= add_row(search, boxed->shares[i]);
-    if (!found) *cell = SL_NO_CELL;
+    return found;
+}
+
+static bool is_on(sl_point a, sl_point b, sl_point eye) {
+    return fmin(a.x, b.x) <= eye.x && eye.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= eye.y &&
+           eye.y <= fmax(a.y, b.y) && sli_orient(a, b, eye) == 0;
+}
+
+uint32_t sl_eye_cells(const sl_space *space, sl_point eye, uint32_t *cells, uint64_t *marks) {
+    uint32_t count = 0;
+    cells[0] = sli_eye_cell(space, eye);
+    if (cells[0] == SL_NO_CELL) return 0;
+    sl_bits_add(marks, cells[count++]);
+    for (uint32_t at = 0; at < count; at++) {
+        const sl_cell *cell = &space->cells[cells[at]];
+        for (uint32_t i = cell->first_directed; i < cell->first_directed + cell->directed_count;
+             i++) {
+            const sl_directed_portal *portal = &space->directed[i];
+            if (sl_bits_has(marks, portal->cell) || !is_on(portal->left, portal->right, eye))
+                continue;
+            sl_bits_add(marks, portal->cell);
+            cells[count++] = portal->cell;
+        }
+    }
+    for (uint32_t at = 0; at < count; at++) marks[cells[at] / 64] = 0;
+    return count;
+}
+
+bool sli_eye_is_in(const sli_eye_query *query, uint32_t cell) {
+    for (uint32_t at = 0; at < query->fan_count; at++)
+        if (query->search->queue[at] == cell) return true;
+    return false;
+}
+
+bool sli_eye_leads_into(sli_eye_query *query, uint32_t number) {
+    const sl_cell *cell = &query->space->cells[number];
+    const sl_point *vertices = query->space->vertices, eye = query->pivot.eye;
+    const uint32_t first = cell->first_vertex, count = cell->vertex_count;
+    sli_ray right = {0}, left = {0};
+    bool at_border = false;
+    if (query->cone.full) return true;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_point a = vertices[first + i];
+        const sl_point b = vertices[first + (i + 1 == count ? 0 : i + 1)];
+        if (!is_on(a, b, eye)) continue;
+        at_border = true;
+        if (!sli_same_point(a, eye)) left = sli_ray_to(a);
+        if (!sli_same_point(b, eye)) right = sli_ray_to(b);
+    }
+    sli_arc inward, pieces[2];
+    return !at_border || !sli_arc_make(&query->pivot, right, left, &inward) ||
+           sli_cone_clip(&query->pivot, &query->cone, &inward, pieces) > 0;
 }
 
 sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
@@ -88,27 +138,32 @@ sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_vie
         return sl_fail(context, SL_BAD_ARGUMENT, "there are no visible sets to cull");
     const size_t words = sl_eye_words(search->space);
     memset(cells, 0, words * sizeof *cells);
-    *out = (sli_eye_query){.search = search,
-                           .space = search->space,
-                           .pivot = {.eye = view->eye},
-                           .cell = sli_eye_cell(search->space, view->eye),
-                           .cells = cells};
-    if (out->cell == SL_NO_CELL) return SL_OK;
-    if (search->has_pvs) find_row(search, &out->cell);
+    *out = (sli_eye_query){
+        .search = search, .space = search->space, .pivot = {.eye = view->eye}, .cells = cells};
+    const uint32_t count = sl_eye_cells(search->space, view->eye, search->queue, cells);
+    if (!count) return SL_OK;
+    if (search->has_pvs) {
+        const size_t row_words = sl_bits_words(search->visibility->pvs.cell_count);
+        memset(search->row, 0, row_words * sizeof *search->row);
+        if (!add_rows(search, search->queue[0])) return SL_OK;
+        for (uint32_t at = 1; at < count; at++) add_rows(search, search->queue[at]);
+    }
+    out->fan_count = count;
     out->cone = sli_cone_of(&out->pivot, view);
     return SL_OK;
 }
 
 void sli_eye_end(const sli_eye_query *query, sl_eye_account *account) {
-    *account = (sl_eye_account){.nodes = query->nodes, .orientations = query->pivot.tests};
+    if (account)
+        *account = (sl_eye_account){.nodes = query->nodes, .orientations = query->pivot.tests};
 }
 
-sli_eye_step sli_eye_first_step(const sli_eye_query *query) {
-    return (sli_eye_step){.at.cell = query->cell, .near = true};
+sli_eye_step sli_eye_first_step(const sli_eye_query *query, uint32_t fan) {
+    return (sli_eye_step){.at.cell = query->search->queue[fan], .near = true};
 }
 
-/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. False
-/// where nothing is left that counts.
+/// Clips a step's arcs to a directed portal of its cell; `first` for a cell of the eye's own.
+/// False where nothing is left that counts.
 static bool pass(sli_eye_query *query, const sli_eye_step *from, bool first,
                  const sl_directed_portal *portal, sli_eye_step *to) {
     sli_pivot *pivot = &query->pivot;

@@ -21,8 +21,8 @@ enum { SLI_BOXES = 1 };
 typedef struct sli_eye_step {
     sli_portal_step at; ///< `next` is the node's number in a stab tree
     uint32_t ray;       ///< over portals: the number of the ray, where a single one is left
-    bool near;          ///< the eye is on the portal crossed last, or this is its own cell
-    unsigned arc_count; ///< over portals, 1 but for the eye's cell
+    bool near;          ///< the eye is on the portal crossed last, or this is a cell of its own
+    unsigned arc_count; ///< over portals, 1 but for an eye's cell
     sli_arc arcs[2];    ///< what is seen into the cell: within a wide cone up to two arcs
 } sli_eye_step;
 
@@ -52,8 +52,8 @@ struct sl_eye_search {
     const sli_box_lists *boxes;   ///< likewise, with closed sight and without mirrors; NULL: none
     bool *boxes_seen;             ///< by box: whether the search has met it
     bool has_pvs;
-    sl_bits *row;        ///< the visible set of the eye's cell
-    uint32_t *queue;     ///< cells to spread from
+    sl_bits *row;        ///< the visible sets of the eye's cells
+    uint32_t *queue;     ///< cells to spread from, the eye's first
     sli_eye_step *steps; ///< cell_count + 3 of them
     uint32_t *rays;      ///< SLI_RAY_SIDES a cell: the last ray that has come to it
     uint32_t ray_count;
@@ -68,9 +68,10 @@ typedef struct sli_eye_query {
     const sl_space *space;
     sli_pivot pivot;
     sli_cone cone;
-    uint32_t cell;  ///< the eye's cell; SL_NO_CELL where it sees nothing
-    uint64_t nodes; ///< so far
-    sl_bits *cells; ///< the result
+    uint32_t fan_count; ///< of the eye's cells (sightline/view.h), which begin the search's queue;
+                        ///< 0 where it sees nothing
+    uint64_t nodes;     ///< so far
+    sl_bits *cells;     ///< the result
 } sli_eye_query;
 
 /// A search of a space with boxes. The visibility is that of the ground, with `row_cells` cells.
@@ -78,13 +79,13 @@ sl_status sli_eye_search_create_cut(sl_context *context, const sli_boxed_space *
                                     const sl_visibility *visibility, uint32_t row_cells,
                                     sl_eye_search **out);
 
-/// Checks the view, finds the eye's cell and its visible set, and empties the result.
+/// Checks the view, finds the eye's cells and their visible sets, and empties the result.
 sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
                         bool needs_pvs, uint64_t *cells, sli_eye_query *out);
 
 void sli_eye_end(const sli_eye_query *query, sl_eye_account *account);
 
-/// Whether a part of a cell is in the visible set of the eye's cell. True where there are no sets.
+/// Whether a part of a cell is in the visible sets of the eye's cells. True where there are none.
 static inline bool sli_eye_may_see(const sli_eye_query *query, uint32_t cell) {
     const sl_eye_search *search = query->search;
     const sli_boxed_space *boxed = search->boxed;
@@ -111,14 +112,21 @@ static inline bool sli_eye_meets_portal(sli_eye_query *query, const sl_directed_
            sli_cone_meets_segment(&query->pivot, &query->cone, portal->left, portal->right);
 }
 
-/// The first step of the exact method: the eye's cell, with all of the cone.
-sli_eye_step sli_eye_first_step(const sli_eye_query *query);
+/// A first step of the exact method: one of the eye's cells, with all of the cone.
+sli_eye_step sli_eye_first_step(const sli_eye_query *query, uint32_t fan);
+
+/// Whether a cell is one of the eye's.
+bool sli_eye_is_in(const sli_eye_query *query, uint32_t cell);
+
+/// Whether the cone leads into one of the eye's cells: some of its directions enter the cell, or
+/// run along its border. Then the eye sees the cell.
+bool sli_eye_leads_into(sli_eye_query *query, uint32_t cell);
 
 /// Whether to go on from a step of one arc: not where its single ray has come to the cell before.
 /// Gives the ray a number, where it has none from the step before.
 bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_step *to);
 
-/// Marks the targets that are met in a cell just entered; `first` for the eye's own cell.
+/// Marks the targets that are met in a cell just entered; `first` for a cell of the eye's own.
 void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool first);
 
 /// Checks boxes as sl_moving_set_boxes does.
@@ -134,19 +142,20 @@ void sli_box_lists_destroy(sl_context *context, sli_box_lists *lists); ///< and 
 sl_status sli_eye_boxes_seen(sl_context *context, sl_eye_search *search, const sli_box_lists *lists,
                              const sl_view *view, uint64_t *cells, bool *seen);
 
-/// Marks the boxes that are seen in a cell just entered; `first` for the eye's own cell.
+/// Marks the boxes that are seen in a cell just entered; `first` for a cell of the eye's own.
 void sli_eye_meet_boxes(sli_eye_query *query, const sli_eye_step *at, bool first);
 
 void sli_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 
-/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. Leaves out
-/// arcs in which the portal is out of the search's range. False where nothing is left that counts.
+/// Clips a step's arcs to a directed portal of its cell; `first` for a cell of the eye's own.
+/// Leaves out arcs in which the portal is out of the search's range. False where nothing is left
+/// that counts.
 bool sli_eye_pass_in_range(sli_eye_query *query, const sli_eye_step *from, bool first,
                            const sl_directed_portal *portal, sli_eye_step *to);
 
-/// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
-/// the tree is not kept or its nodes are not in the order of a depth-first search.
-sl_status sli_eye_exact_tree(sl_context *context, sli_eye_query *query, bool *done);
+/// The exact method down the stab tree of one of the eye's cells. `done` is false where the tree is
+/// not kept or its nodes are not in the order of a depth-first search.
+sl_status sli_eye_exact_tree(sl_context *context, sli_eye_query *query, uint32_t fan, bool *done);
 
 /// The exact method of the table, and what is seen by mirror with it.
 sl_status sli_eye_exact(sl_context *context, sl_eye_search *search, const sl_view *view,

@@ -93,7 +93,8 @@ static uint32_t dark_wall(const sl_outline *o, uint32_t i) {
     return sl_side_is_dark(o, side) ? side->neighbour - SL_SIDE_WALL : SL_NO_WALL;
 }
 
-bool sli_region_is_dark_for(const sl_outline *o, uint32_t wall, uint32_t eye_cell, sl_point eye) {
+/// Whether glass, by the wall on its dark side, is dark for an eye.
+static bool is_dark_for(const sl_outline *o, uint32_t wall, uint32_t eye_cell, sl_point eye) {
     const sl_space *s = o->space;
     const sl_wall *glass = &s->walls[wall];
     const int turn = sli_orient(glass->a, glass->b, eye);
@@ -104,16 +105,13 @@ bool sli_region_is_dark_for(const sl_outline *o, uint32_t wall, uint32_t eye_cel
     return false;
 }
 
-/// Whether the fan goes on through a side at the eye. Glass there is a wall from both sides where
-/// it is dark for the eye, and else open from both.
-static bool leads_on(const sl_outline *o, const sl_region *region, uint32_t i) {
+bool sli_region_leads_on(const sl_outline *o, uint32_t i, uint32_t eye_cell, sl_point eye) {
     const uint32_t glass = dark_wall(o, i);
     if (glass == SL_NO_WALL) return sl_side_is_portal(side_of(o, i));
-    return !sli_region_is_dark_for(o, glass, region->cell, region->view.eye);
+    return !is_dark_for(o, glass, eye_cell, eye);
 }
 
-/// The other side of a portal, or of glass.
-static uint32_t across(const sl_outline *o, uint32_t i) {
+uint32_t sli_region_across(const sl_outline *o, uint32_t i) {
     const sl_side *side = side_of(o, i);
     return sl_side_is_dark(o, side) ? o->lit[side->neighbour - SL_SIDE_WALL - o->first_dark]
                                     : side->neighbour;
@@ -127,13 +125,13 @@ static uint32_t stop_at(const sl_outline *o, uint32_t i) {
 
 /// The corner at the eye of the room behind a portal there, clockwise.
 static corner neighbour_right(const sl_outline *o, uint32_t portal, sl_point eye) {
-    const uint32_t other = across(o, portal);
+    const uint32_t other = sli_region_across(o, portal);
     return (corner){sli_same_point(end_of(o, other), eye) ? side_of(o, other)->next : other, other};
 }
 
 /// The same, counter-clockwise.
 static corner neighbour_left(const sl_outline *o, uint32_t portal, sl_point eye) {
-    const uint32_t other = across(o, portal);
+    const uint32_t other = sli_region_across(o, portal);
     return (corner){other,
                     sli_same_point(side_of(o, other)->start, eye) ? previous(o, other) : other};
 }
@@ -174,7 +172,7 @@ sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_reg
     // Clockwise as far as portals lead, or once around.
     const uint32_t start = at.right;
     bool around = false;
-    while (!around && leads_on(o, region, at.right)) {
+    while (!around && sli_region_leads_on(o, at.right, region->cell, eye)) {
         at = neighbour_right(o, at.right, eye);
         around = at.right == start;
     }
@@ -182,7 +180,7 @@ sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_reg
     for (;;) {
         SL_TRY(add_sides(context, o, eye, side_of(o, at.right)->next, at.left, m));
         m->left = at.left;
-        if (!leads_on(o, region, at.left)) break;
+        if (!sli_region_leads_on(o, at.left, region->cell, eye)) break;
         at = neighbour_left(o, at.left, eye);
         if (around && at.right == start) return SL_OK;
     }

@@ -90,10 +90,12 @@ static inline int sli_eye_turn(const sli_eye_place *eye, const sli_eye_ray *a,
     return sli_orient(eye->point.at, a->at, b->at);
 }
 
-/// Whether glass, by the wall on its dark side, is dark for an eye. For an eye on its line the
-/// eye's cell decides.
-bool sli_region_is_dark_for(const sl_outline *outline, uint32_t wall, uint32_t eye_cell,
-                            sl_point eye);
+/// Whether an eye sees through a side. One-way glass is a wall from both sides where it is dark for
+/// the eye, and else open from both. For an eye on its line the eye's cell decides.
+bool sli_region_leads_on(const sl_outline *outline, uint32_t side, uint32_t eye_cell, sl_point eye);
+
+/// The other side of a portal, or of glass.
+uint32_t sli_region_across(const sl_outline *outline, uint32_t side);
 
 /// Gathers the fan about the eye, given the cell that it is located in.
 sl_status sli_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);

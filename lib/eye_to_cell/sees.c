@@ -124,12 +124,6 @@ static sl_status enter(sl_context *context, seer *s, uint32_t room) {
     return SL_OK;
 }
 
-/// Whether a side is a wall for the eye: the dark side of glass that the eye sees through is none.
-static bool is_wall(const seer *s, const sl_side *side) {
-    return !sl_side_is_dark(s->outline, side) ||
-           sli_region_is_dark_for(s->outline, side->neighbour - SL_SIDE_WALL, s->cell, s->eye);
-}
-
 /// Enters all rooms that the segment leads to, and finds whether one of them holds the point.
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
@@ -138,12 +132,14 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
         *arrives = *arrives || room_holds(s, room, s->point);
         for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
             const sl_side *side = &o->sides[i];
-            if (sl_side_is_portal(side)) {
-                if (meets(s, side->start, o->sides[side->next].start))
-                    SL_TRY(enter(context, s, room_of(o, side->neighbour)));
-            } else if (side->neighbour < SL_SIDE_BORDER && !s->touches && is_wall(s, side)) {
-                s->touches = meets(s, side->start, o->sides[side->next].start);
-            }
+            const bool open = sli_region_leads_on(o, i, s->cell, s->eye);
+            if (side->neighbour >= SL_SIDE_BORDER || (s->touches && !open) ||
+                !meets(s, side->start, o->sides[side->next].start))
+                continue;
+            if (open)
+                SL_TRY(enter(context, s, room_of(o, sli_region_across(o, i))));
+            else
+                s->touches = true;
         }
     }
     return SL_OK;

@@ -283,13 +283,14 @@ static sl_status run(sl_context *context, void *state, const sli_from_region_que
         SL_TRY(make_rays(context, s, i, portal, points));
         for (uint32_t point = 0; point < points; point++) {
             const uint32_t first = s->starts.items[point], end = s->starts.items[point + 1];
+            if (first == end) continue;
             const drawing d = {i,
                                s->scene->passes[i.quadrant].place[portal->cell],
                                point_of(i, portal, point, points, s->step),
                                s->rays.items + first,
                                end - first,
                                seen};
-            if (d.count) draw_image(s, &d, query->refine, account);
+            draw_image(s, &d, query->refine, account);
         }
     }
     return SL_OK;

@@ -7,6 +7,7 @@
 /// O(leaves) a quadrant, besides the kd-tree.
 #include "from_region/scene.h"
 
+#include "map/scan.h"
 #include "space/kd_tree.h"
 
 #include <string.h>
@@ -28,8 +29,8 @@ static sl_status add_grid(sl_context *context, sl_map *map, uint32_t grid) {
     const sl_box b = sli_padded(sl_map_bounds(map)); // the space's
     for (uint32_t i = 1; i < grid; i++) {
         const double x = sli_grid_line(&b, 0, i, grid), y = sli_grid_line(&b, 1, i, grid);
-        SL_TRY(sl_map_add_seam(context, map, (sl_segment){{x, b.min.y}, {x, b.max.y}}, 0));
-        SL_TRY(sl_map_add_seam(context, map, (sl_segment){{b.min.x, y}, {b.max.x, y}}, 0));
+        SL_TRY(sli_map_add_border(context, map, (sl_segment){{x, b.min.y}, {x, b.max.y}}));
+        SL_TRY(sli_map_add_border(context, map, (sl_segment){{b.min.x, y}, {b.max.x, y}}));
     }
     return SL_OK;
 }
@@ -41,7 +42,7 @@ static sl_status add_borders_of_boxes(sl_context *context, sl_map *map) {
             {a, {b.x, a.y}}, {{b.x, a.y}, b}, {{a.x, b.y}, b}, {a, {a.x, b.y}}};
         for (int k = 0; k < 4; k++)
             if (sides[k].a.x != sides[k].b.x || sides[k].a.y != sides[k].b.y)
-                SL_TRY(sl_map_add_seam(context, map, sides[k], 0));
+                SL_TRY(sli_map_add_border(context, map, sides[k]));
     }
     return SL_OK;
 }

@@ -146,7 +146,7 @@ static double nearest(const quotient *q, const sli_whole *coordinate) {
     int above, below;
     const double share = leading(coordinate, &above) / leading(&q->divisor, &below);
     double value = coordinate->sign * ldexp(share, above - below + q->exponent);
-    if (fabs(value) < SL_COORDINATE_MIN) value = 0;
+    value = sli_coordinate(value);
     for (;;) {
         const double up = next_to(value, HUGE_VAL), down = next_to(value, -HUGE_VAL);
         if (compare_to_middle(q, coordinate, value, up) > 0)

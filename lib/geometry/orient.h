@@ -19,6 +19,16 @@ static inline bool sli_same_point(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
+/// A value as a coordinate: 0 where it is too small to be used (SL_COORDINATE_MIN). What cannot be
+/// a coordinate stays as it is: sl_coordinate_usable() says so.
+static inline double sli_coordinate(double value) {
+    return fabs(value) < SL_COORDINATE_MIN ? copysign(0, value) : value;
+}
+
+static inline sl_point sli_coordinates(sl_point point) {
+    return (sl_point){sli_coordinate(point.x), sli_coordinate(point.y)};
+}
+
 /// Whether corner i of a polygon is where the corner before it is.
 static inline bool sli_corner_repeats(const sl_point *corners, size_t count, size_t i) {
     return sli_same_point(corners[i], corners[i ? i - 1 : count - 1]);

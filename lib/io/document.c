@@ -81,8 +81,7 @@ static const char *way_to(const sli_json *at, char *buffer, size_t size) {
     return buffer + begin;
 }
 
-/// The line of the nearest object about the value that has one; 0 for none.
-static unsigned line_of(const sli_json *at) {
+unsigned sli_json_line(const sli_json *at) {
     for (; at; at = at->parent) {
         const json_t *line = json_object_get(at->value, SLI_JSON_LINE);
         if (line) return (unsigned)json_integer_value(line);
@@ -97,7 +96,7 @@ sl_status sli_json_fail(const sli_json *at, const char *format, ...) {
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
     const char *steps = way_to(at, way, sizeof way);
-    return sl_fail_at(at->file->context, at->file->name, line_of(at), "%s%s%s", steps,
+    return sl_fail_at(at->file->context, at->file->name, sli_json_line(at), "%s%s%s", steps,
                       *steps ? ": " : "", what);
 }
 
@@ -138,9 +137,10 @@ static bool number_of(const sli_json *at, double *number) {
 sl_status sli_json_number(const sli_json *at, double *number) {
     double value;
     if (!number_of(at, &value)) return fail_kind(at, "a number");
+    value = sli_coordinate(value);
     if (!sl_coordinate_usable(value))
-        return sli_json_fail(at, "%g is out of range: expected 0 or a magnitude from %g to %g",
-                             value, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+        return sli_json_fail(at, "%g is out of range: expected a magnitude up to %g", value,
+                             SL_COORDINATE_MAX);
     *number = value;
     return SL_OK;
 }

@@ -44,10 +44,13 @@ sli_json sli_json_item(const sli_json *parent, size_t index);
 /// SL_BAD_INPUT: "FILE: levels[2].pxWid: ", led by the line where it is known, then the message.
 sl_status sli_json_fail(const sli_json *at, const char *format, ...) SL_PRINTF(2, 3);
 
+/// The line of the nearest object about the value that has one; 0 for none.
+unsigned sli_json_line(const sli_json *at);
+
 /// Each gives the value, or fails where it is not there or not of this kind.
 sl_status sli_json_array(const sli_json *at, size_t *count);
 sl_status sli_json_object(const sli_json *at);
-/// A coordinate: 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
+/// A coordinate: of a magnitude up to SL_COORDINATE_MAX; one too small to be used is 0.
 sl_status sli_json_number(const sli_json *at, double *number);
 /// A whole number from low to high, written with a point or without.
 sl_status sli_json_whole(const sli_json *at, int64_t low, int64_t high, int64_t *number);

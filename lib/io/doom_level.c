@@ -313,9 +313,10 @@ typedef struct field {
 
 static sl_status read_field(const text_map *text, field *at, sli_word value) {
     double number;
-    if (!read_number(value, &number) || !sl_coordinate_usable(number))
+    if (!read_number(value, &number) || !sl_coordinate_usable(sli_coordinate(number)))
         return fail_text(text, text->line, "%s: expected a number, found '%s'", at->name,
                          sli_show(value).text);
+    number = sli_coordinate(number);
     at->given = true;
     if (at->real) {
         *at->real = number;

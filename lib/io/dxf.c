@@ -4,6 +4,8 @@
 /// say what was taken.
 #include "io/dxf.h"
 
+#include "map/unit.h"
+
 // --- names for walls
 
 /// Adds a part to a label: "layer WALLS, handle 1F".
@@ -34,22 +36,6 @@ static sl_status name_walls(sli_dxf *dxf) {
 
 // --- the drawing
 
-static sl_status fail_layer(const sli_dxf *dxf, sli_word name) {
-    char names[512] = "";
-    for (size_t i = 0; i < dxf->layers.count; i++) {
-        const size_t used = strlen(names);
-        if (used > sizeof names - 80) {
-            snprintf(names + used, sizeof names - used, " ...");
-            break;
-        }
-        snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
-                 sli_show(dxf->layers.items[i].name).text);
-    }
-    return sl_fail(dxf->context, SL_BAD_ARGUMENT,
-                   "%s: there is no layer '%s' in the drawing; it has %s", dxf->name,
-                   sli_show(name).text, names);
-}
-
 /// A layer that is asked for and not there is a mistake worth telling of.
 static sl_status check_layers(const sli_dxf *dxf) {
     const char *list = dxf->options->layers;
@@ -57,37 +43,17 @@ static sl_status check_layers(const sli_dxf *dxf) {
         bool known = dxf->layers.count == 0;
         for (size_t i = 0; i < dxf->layers.count; i++)
             known |= sli_dxf_same_name(dxf->layers.items[i].name, name);
-        if (!known) return fail_layer(dxf, name);
+        if (known) continue;
+        sli_name_list there = {.full = false};
+        for (size_t i = 0; i < dxf->layers.count; i++)
+            sli_name_list_add(&there, dxf->layers.items[i].name);
+        return sli_fail_layer(dxf->context, dxf->name, name, "drawing", &there);
     }
     return SL_OK;
 }
 
-/// By $INSUNITS: what a drawing's coordinates are in, and how long that is in metres.
-static const struct {
-    const char *name, *sign; ///< the sign for it
-    bool known;              ///< the sign asks for it
-    double metres;
-} units[] = {
-    {"unknown", "", false, 0},
-    {"inches", "in", true, 0.0254},
-    {"feet", "ft", true, 0.3048},
-    {"miles", "mi", false, 1609.344},
-    {"millimetres", "mm", true, 1e-3},
-    {"centimetres", "cm", true, 1e-2},
-    {"metres", "m", true, 1},
-    {"kilometres", "km", true, 1e3},
-    {"microinches", "\xc2\xb5in", false, 2.54e-8},
-    {"mils", "mil", false, 2.54e-5},
-    {"yards", "yd", true, 0.9144},
-    {"angstroms", "\xc3\x85", false, 1e-10},
-    {"nanometres", "nm", false, 1e-9},
-    {"microns", "\xc2\xb5m", false, 1e-6},
-    {"decimetres", "dm", false, 0.1},
-};
-enum { UNITS = sizeof units / sizeof *units };
-
 static const char *unit_name(int unit) {
-    return unit >= 0 && unit < UNITS ? units[unit].name : "unusual";
+    return unit >= 0 && unit < SLI_UNITS ? sli_units[unit].name : "unusual";
 }
 
 static void set_unit(const sli_dxf *dxf, const char *sign) {
@@ -97,9 +63,9 @@ static void set_unit(const sli_dxf *dxf, const char *sign) {
 /// The number of a unit that is asked for.
 static sl_status find_unit(const sli_dxf *dxf, const char *sign, size_t *unit) {
     size_t i = 0;
-    while (i < UNITS && !(units[i].known && strcmp(units[i].sign, sign) == 0)) i++;
+    while (i < SLI_UNITS && !(sli_units[i].known && strcmp(sli_units[i].sign, sign) == 0)) i++;
     *unit = i;
-    if (i < UNITS) return SL_OK;
+    if (i < SLI_UNITS) return SL_OK;
     return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                    "there is no unit '%s'; choose from mm, cm, m, km, in, ft, yd", sign);
 }
@@ -108,7 +74,7 @@ static sl_status find_unit(const sli_dxf *dxf, const char *sign, size_t *unit) {
 /// whatever it says itself.
 static sl_status take_unit(sli_dxf *dxf) {
     const char *word = dxf->options->unit, *told = word ? strchr(word, '=') : NULL;
-    size_t from = dxf->unit >= 0 && dxf->unit < UNITS ? (size_t)dxf->unit : 0, to;
+    size_t from = dxf->unit >= 0 && dxf->unit < SLI_UNITS ? (size_t)dxf->unit : 0, to;
     if (told) {
         char own[16];
         snprintf(own, sizeof own, "%.*s", (int)(told - word < 16 ? told - word : 16), word);
@@ -117,7 +83,7 @@ static sl_status take_unit(sli_dxf *dxf) {
     }
     dxf->pen.map->drawing_unit = (int)from;
     if (!word) {
-        set_unit(dxf, units[from].sign);
+        set_unit(dxf, sli_units[from].sign);
         return SL_OK;
     }
     SL_TRY(find_unit(dxf, word, &to));
@@ -125,11 +91,11 @@ static sl_status take_unit(sli_dxf *dxf) {
         return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                        "%s: the drawing's own unit is %s, so it cannot be turned into %s; if it is "
                        "in mm, say --unit mm=%s",
-                       dxf->name, unit_name(dxf->unit), units[to].name, word);
+                       dxf->name, unit_name(dxf->unit), sli_units[to].name, word);
     set_unit(dxf, word);
     if (from == to) return SL_OK;
     dxf->pen.map->drawing_unit = (int)to;
-    const double scale = units[from].metres / units[to].metres;
+    const double scale = sli_units[from].metres / sli_units[to].metres;
     dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
     return SL_OK;
 }
@@ -154,6 +120,7 @@ static sl_status draw_drawing(sli_dxf *dxf, const char *text, size_t size) {
     SL_TRY(sli_dxf_read(dxf, text, size));
     SL_TRY(check_layers(dxf));
     SL_TRY(take_unit(dxf));
+    SL_TRY(sli_dxf_check_amount(dxf));
     dxf->walls = sl_alloc_array(dxf->context, sl_bits_words(dxf->pairs.count), sizeof(sl_bits));
     if (!dxf->walls) return SL_NO_MEMORY;
     return sli_dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0);

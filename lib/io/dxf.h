@@ -1,5 +1,5 @@
-/// A DXF drawing while it is read: its pairs, layers and blocks (dxf_sections.c), and the pen that
-/// draws its entities (dxf_draw.c). dxf.c makes a map of it.
+/// A DXF drawing while it is read: its pairs, layers and blocks (dxf_sections.c), how much it gives
+/// (dxf_count.c), and the pen that draws its entities (dxf_draw.c). dxf.c makes a map of it.
 #ifndef SL_DXF_H
 #define SL_DXF_H
 
@@ -93,6 +93,10 @@ const sli_dxf_block *sli_dxf_find_block(const sli_dxf *dxf, sli_word name);
 
 /// Reads pairs and sections. dxf->entities are those to draw.
 sl_status sli_dxf_read(sli_dxf *dxf, const char *text, size_t size);
+
+/// SL_BAD_INPUT where dxf->entities, with all that they insert, give more than the limits; asked
+/// before they are drawn.
+sl_status sli_dxf_check_amount(sli_dxf *dxf);
 
 /// Draws the entities of a range with the pen. `layer` is the one that things on layer "0" are on:
 /// that of the insertion; of no length at the top.

@@ -9,11 +9,6 @@
 
 // --- entities: points and planes
 
-/// Blocks within blocks; a block that inserts itself goes deeper than any drawing does.
-#define MOST_DEPTH 64
-/// Entities drawn and blocks inserted, and no more: a few nested blocks could ask for any number.
-#define MOST_WORK ((size_t)1 << 24)
-
 static const double pi = 3.14159265358979323846;
 
 static sl_status read_coordinate(sli_dxf *dxf, sli_dxf_range entity, int code, double *value) {
@@ -261,11 +256,9 @@ static sli_affine insertion(sl_point at, sl_point step, sl_point scale, double t
     return affine;
 }
 
-static sl_status count_work(sli_dxf *dxf, uint32_t line) {
-    if (++dxf->work > MOST_WORK)
-        return sl_fail_at(dxf->context, dxf->name, line,
-                          "the drawing's blocks insert one another more than %zu times", MOST_WORK);
-    return dxf->work % 4096 == 0 ? sl_check_cancelled(dxf->context) : SL_OK;
+/// How much there is was checked before (dxf_count.c).
+static sl_status count_work(sli_dxf *dxf) {
+    return ++dxf->work % 4096 == 0 ? sl_check_cancelled(dxf->context) : SL_OK;
 }
 
 static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer, unsigned depth) {
@@ -275,10 +268,6 @@ static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer,
     if (!block)
         return sl_fail_at(dxf->context, dxf->name, line, "there is no block '%s'",
                           sli_show(name).text);
-    if (depth == MOST_DEPTH)
-        return sl_fail_at(dxf->context, dxf->name, line,
-                          "block '%s' is inserted more than %d blocks deep: does it hold itself?",
-                          sli_show(name).text, MOST_DEPTH);
     sl_point at = {0, 0}, scale = {1, 1}, gap = {0, 0};
     double turn = 0;
     int columns = 1, rows = 1;
@@ -293,7 +282,7 @@ static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer,
     const sli_affine outer = dxf->pen.affine;
     for (int row = 0; row < rows; row++) {
         for (int column = 0; column < columns; column++) {
-            SL_TRY(count_work(dxf, line));
+            SL_TRY(count_work(dxf));
             const sl_point step = {column * gap.x, row * gap.y};
             dxf->pen.affine =
                 sli_affine_after(outer, insertion(at, step, scale, turn, block->base));
@@ -422,7 +411,7 @@ static sl_status draw_entity(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli
 sl_status sli_dxf_draw(sli_dxf *dxf, sli_dxf_range range, sli_word layer, unsigned depth) {
     for (size_t i = range.begin; i < range.end;) {
         const sli_dxf_range entity = sli_dxf_entity(dxf, i, range.end);
-        SL_TRY(count_work(dxf, sli_dxf_at(dxf, i)->line));
+        SL_TRY(count_work(dxf));
         SL_TRY(draw_entity(dxf, entity, range.end, layer, depth));
         i = entity.end;
     }

@@ -4,6 +4,7 @@
 /// the point's axis (group 50). The last entity is followed by a comment with the sum of all
 /// digits, by which the reader sees that nobody has edited the numbers. y is as in the map.
 #include "io/layers.h"
+#include "map/unit.h"
 #include "sightline/io.h"
 
 #include <stdlib.h>
@@ -132,7 +133,8 @@ sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream)
     const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
     char mark[SLI_MARK_TEXT];
     fputs("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n", stream);
-    if (map->drawing_unit) fprintf(stream, "9\n$INSUNITS\n70\n%d\n", map->drawing_unit);
+    const int unit = sli_unit_number(map->unit);
+    if (unit) fprintf(stream, "9\n$INSUNITS\n70\n%d\n", unit);
     fputs("0\nENDSEC\n0\nSECTION\n2\nTABLES\n"
           "0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n"
           "72\n65\n73\n0\n40\n0\n0\nENDTAB\n"

@@ -2,6 +2,7 @@
 /// numbers, and the map.yaml of ROS' map_server, which names a picture, the size of its pixels,
 /// where it lies, and from which occupancy a pixel is an obstacle. Walls run along the edges
 /// between solid pixels and others.
+#include "io/limits.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "map/grid.h"
@@ -9,6 +10,7 @@
 #include "sightline/io.h"
 #include "sightline/support.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <png.h>
 #include <string.h>
@@ -21,10 +23,11 @@ void sl_image_destroy(sl_context *context, sl_image *image) {
 
 static sl_status make_room(sl_context *context, const char *name, size_t width, size_t height,
                            sl_image *image) {
+    char what[64];
     if (width == 0 || height == 0) return sl_fail_at(context, name, 0, "a picture without pixels");
-    if (height > SLI_GRID_MOST / width)
-        return sl_fail_at(context, name, 0, "a picture of %zu x %zu pixels: more than %zu", width,
-                          height, SLI_GRID_MOST);
+    snprintf(what, sizeof what, "a picture of %zu x %zu", width, height);
+    SL_TRY(sli_limit_check(context, name, 0, SLI_LIMIT_PIXELS, sli_limit_product(width, height),
+                           what));
     image->pixels = sl_alloc(context, width * height);
     if (!image->pixels) return SL_NO_MEMORY;
     image->width = width;
@@ -125,6 +128,12 @@ static sl_status read_portable(portable *file, sl_image *image) {
     if (most == 0 || most > 65535)
         return sl_fail_at(file->context, file->name, file->line,
                           "the largest value is %u: expected 1 to 65535", most);
+    // A bit, or a digit, is the least that a pixel takes: a short file has no place for many.
+    const uint64_t least = (uint64_t)(width / 8) * height, left = (uint64_t)(file->end - file->at);
+    if (least > left)
+        return sl_fail_at(file->context, file->name, 0,
+                          "%u x %u pixels need at least %" PRIu64 " bytes; the file has %" PRIu64,
+                          width, height, least, left);
     SL_TRY(make_room(file->context, file->name, width, height, image));
     return kind >= '4' ? read_binary(file, bits, most, image) : read_plain(file, bits, most, image);
 }
@@ -232,10 +241,10 @@ static sl_status read_number(const ros_map *m, const char *key, const ros_value 
     const sli_word word = {value->text, strlen(value->text)};
     double number;
     if (!sl_number_read(word.at, word.length, &number) ||
-        (number != 0 && !sl_coordinate_usable(number)))
+        !sl_coordinate_usable(sli_coordinate(number)))
         return sl_fail_at(m->context, m->name, value->line, "%s: expected a number, found '%s'",
                           key, sli_show(word).text);
-    *out = number;
+    *out = sli_coordinate(number);
     return SL_OK;
 }
 

@@ -72,7 +72,8 @@ static bool knows_wad(const char *text, size_t size) {
 }
 
 /// What files with layers of our own hold (layers.h).
-#define KEEPS_LAYERS (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS)
+#define KEEPS_LAYERS                                                                               \
+    (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE)
 
 /// Pairs of lines begin with a section, perhaps behind comments (999); or the file is a drawing of
 /// the same programs in binary, which the reader refuses with what to do.
@@ -116,7 +117,7 @@ static const sl_map_format map_formats[] = {
      .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT,
      .knows = knows_dxf,
      .write = sl_map_print_dxf,
-     .keeps = KEEPS_LAYERS & ~SL_KEEPS_RANGE & ~SL_KEEPS_CELLS},
+     .keeps = (KEEPS_LAYERS & ~SL_KEEPS_RANGE & ~SL_KEEPS_CELLS) | SL_KEEPS_UNIT},
     {.name = "svg",
      .endings = ".svg",
      .what = "an SVG drawing",

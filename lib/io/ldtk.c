@@ -252,14 +252,15 @@ static sl_status check_layers(const ldtk *reader, const sli_json *layers) {
     const char *list = reader->options->layers;
     for (sli_word name; list && sli_layers_next(&list, &name);) {
         bool known = false;
+        sli_name_list there = {.full = false};
         for (size_t i = 0; i < json_array_size(layers->value); i++) {
             const sli_json layer = sli_json_item(layers, i);
-            known |=
-                is_int_grid(&layer) && sli_word_is(name, sli_json_text_of(&layer, "__identifier"));
+            if (!is_int_grid(&layer)) continue;
+            const char *own = sli_json_text_of(&layer, "__identifier");
+            known |= sli_word_is(name, own);
+            sli_name_list_add(&there, (sli_word){own, strlen(own)});
         }
-        if (!known)
-            return sl_fail(reader->context, SL_BAD_ARGUMENT, "%s: there is no IntGrid layer '%s'",
-                           reader->name, sli_show(name).text);
+        if (!known) return sli_fail_layer(reader->context, reader->name, name, "level", &there);
     }
     return SL_OK;
 }

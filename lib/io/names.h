@@ -7,6 +7,8 @@
 #include "sightline/support.h"
 
 #include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
 
 // --- layers: names with commas between
 
@@ -29,6 +31,31 @@ static inline bool sli_layers_have(const char *list, const char *layer) {
     for (sli_word name; sli_layers_next(&list, &name);)
         if (sli_word_is(name, layer)) return true;
     return false;
+}
+
+/// Names for a message: "walls, doors, ...". Zeroed, it is empty.
+typedef struct sli_name_list {
+    char text[512];
+    bool full; ///< a name did not fit; those behind it are left out, too
+} sli_name_list;
+
+static inline void sli_name_list_add(sli_name_list *list, sli_word name) {
+    const size_t used = strlen(list->text);
+    if (list->full) return;
+    list->full = used > sizeof list->text - 80;
+    if (list->full)
+        snprintf(list->text + used, sizeof list->text - used, ", ...");
+    else
+        snprintf(list->text + used, sizeof list->text - used, "%s%.60s", used ? ", " : "",
+                 sli_show(name).text);
+}
+
+/// SL_BAD_ARGUMENT: a layer that is asked for is not in a file of this name.
+static inline sl_status sli_fail_layer(sl_context *context, const char *file, sli_word name,
+                                       const char *where, const sli_name_list *there) {
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: there is no layer '%s' in the %s; it has %s",
+                   file, sli_show(name).text, where,
+                   *there->text ? there->text : "none with a name");
 }
 
 // --- words for what stops sight

@@ -7,9 +7,11 @@
 #include "io/shapes.h"
 
 #include "geometry/length.h"
+#include "io/limits.h"
 #include "io/things.h"
 #include "sightline/support.h"
 
+#include <inttypes.h>
 #include <math.h>
 
 // --- digits
@@ -78,15 +80,13 @@ double sli_marked_precision(const sl_map *map, double finest, const char *mark, 
                         sl_number_read(mark + 17, strlen(mark + 17), &precision) &&
                         precision >= 0 && precision <= SL_COORDINATE_MAX;
     if (!marked) precision = precision_of(map, finest);
-    return precision < SL_COORDINATE_MIN ? 0 : precision; // map text has no smaller numbers
+    return sli_coordinate(precision); // map text has no smaller numbers
 }
 
 // --- the pen
 
 /// So many chords of one curve and no more.
 #define MOST_CHORDS 4096
-/// So many walls and no more: a few nested blocks could ask for any number.
-#define MOST_WALLS ((size_t)1 << 24)
 
 static const double pi = 3.14159265358979323846;
 
@@ -116,9 +116,7 @@ sli_affine sli_affine_turn(double degrees) {
 
 /// A place in the map; what is too small to be used is 0.
 static bool place(const sli_pen *pen, sl_point point, sl_point *out) {
-    const sl_point at = sli_affine_apply(pen->affine, point);
-    out->x = fabs(at.x) < SL_COORDINATE_MIN ? 0 : at.x;
-    out->y = fabs(at.y) < SL_COORDINATE_MIN ? 0 : at.y;
+    *out = sli_coordinates(sli_affine_apply(pen->affine, point));
     return sl_coordinate_usable(out->x) && sl_coordinate_usable(out->y);
 }
 
@@ -133,9 +131,8 @@ sl_status sli_pen_line(sli_pen *pen, sl_point to) {
         pen->points++;
         return SL_OK;
     }
-    if (pen->walls == MOST_WALLS)
-        return sl_fail_at(pen->context, pen->name, pen->line,
-                          "the drawing gives more than %zu walls", MOST_WALLS);
+    SL_TRY(sli_limit_check(pen->context, pen->name, pen->line, SLI_LIMIT_WALLS, pen->walls + 1,
+                           "the drawing gives"));
     if (pen->walls++ % 1024 == 0) SL_TRY(sl_check_cancelled(pen->context));
     return sl_map_add_wall(pen->context, pen->map, a, b, pen->item ? pen->item : pen->line);
 }
@@ -214,9 +211,8 @@ sl_status sli_pen_cubic(sli_pen *pen, sl_point first, sl_point second, sl_point 
 
 // --- tiles
 
-#define MOST_SQUARES ((size_t)1 << 26)
-#define MOST_SIDE    1048576
-#define MOST_GRIDS   4096
+#define MOST_SIDE  1048576
+#define MOST_GRIDS 4096
 /// Tiles are counted from the first block of a grid; farther out they are on another grid.
 #define FARTHEST 1e9
 
@@ -235,10 +231,18 @@ static bool can_be_told_apart(double from, double step, size_t count) {
     return step >= 1e-9 && farthest <= 1e15 && farthest / step <= 1e12;
 }
 
+sl_status sli_tiles_check(sl_context *context, const sli_tiles *tiles, const char *name,
+                          unsigned line, const char *what, uint64_t columns, uint64_t rows) {
+    const uint64_t all = sli_limit_sum(tiles->squares, sli_limit_product(columns, rows));
+    char text[160];
+    snprintf(text, sizeof text, "%s, %" PRIu64 " x %" PRIu64 "%s", what, columns, rows,
+             tiles->squares ? ", with those before" : "");
+    return sli_limit_check(context, name, line, SLI_LIMIT_SQUARES, all, text);
+}
+
 sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name, sl_point corner,
                         sl_point step, size_t columns, size_t rows, char **squares) {
-    if (columns > MOST_SQUARES / rows)
-        return sl_fail_at(context, name, 0, "%zu x %zu tiles: more than 2^26", columns, rows);
+    SL_TRY(sli_tiles_check(context, tiles, name, 0, "its layers", columns, rows));
     if (!can_be_told_apart(corner.x, step.x, columns) || !can_be_told_apart(corner.y, step.y, rows))
         return sl_fail_at(context, name, 0,
                           "%zu x %zu tiles of %g x %g pixels at %g %g: out of range", columns, rows,
@@ -249,6 +253,7 @@ sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name,
     memset(open, '.', rows * columns);
     tiles->blocks.items[tiles->blocks.count++] = (sli_tile_block){
         .corner = corner, .step = step, .columns = columns, .rows = rows, .squares = open};
+    tiles->squares += (uint64_t)columns * rows;
     *squares = open;
     return SL_OK;
 }
@@ -327,11 +332,14 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
     if (!can_be_told_apart(options->top, all->first->step.y, 0))
         return sl_fail_at(context, name, 0, "its tiles are out of range: its lower edge is at %g",
                           options->top);
-    if (width > MOST_SIDE || height > MOST_SIDE || width * height > (double)MOST_SQUARES)
-        return sl_fail_at(
-            context, name, 0,
-            "its tiles are spread over %.0f x %.0f squares: more than 2^26, or 2^20 on a side",
-            width, height);
+    if (width > MOST_SIDE || height > MOST_SIDE)
+        return sl_fail_at(context, name, 0,
+                          "its tiles are spread over %.0f x %.0f squares: more than 2^20 on a side",
+                          width, height);
+    char what[96];
+    snprintf(what, sizeof what, "its tiles are spread over %.0f x %.0f", width, height);
+    SL_TRY(sli_limit_check(context, name, 0, SLI_LIMIT_SQUARES, (uint64_t)width * (uint64_t)height,
+                           what));
     const sl_point step = all->first->step, corner = all->first->corner;
     sli_grid grid;
     SL_TRY(sli_grid_create(context, (size_t)width, (size_t)height, &grid));

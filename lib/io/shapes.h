@@ -64,7 +64,7 @@ typedef struct sli_pen {
 void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit);
 
 /// Each draws from where the pen is, and moves it. SL_BAD_INPUT where the map's coordinate would
-/// not be usable, or where there are more walls than 2^24.
+/// not be usable, or where there are more walls than the limit.
 sl_status sli_pen_line(sli_pen *pen, sl_point to);
 /// The arc centre + u cos t + v sin t for t from 0 to `sweep` (radians, up to a full turn either
 /// way), to `to`, which is where it ends but for rounding.
@@ -91,7 +91,13 @@ typedef struct sli_tile_block {
 /// Zero it to start.
 typedef struct sli_tiles {
     SL_ARRAY(sli_tile_block) blocks;
+    uint64_t squares; ///< of all blocks
 } sli_tiles;
+
+/// SL_BAD_INPUT where a block of so many more squares goes beyond the limit: asked before its data
+/// is unpacked. `what` says what the block is.
+sl_status sli_tiles_check(sl_context *context, const sli_tiles *tiles, const char *name,
+                          unsigned line, const char *what, uint64_t columns, uint64_t rows);
 
 void sli_tiles_destroy(sl_context *context, sli_tiles *tiles);
 
@@ -112,8 +118,8 @@ typedef struct sli_tiles_options {
 } sli_tiles_options;
 
 /// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then
-/// each grid gives its walls, few and long. SL_BAD_INPUT where a grid is
-/// larger than 2^26 squares, or 2^20 on a side, or there are more than 4096.
+/// each grid gives its walls, few and long. SL_BAD_INPUT where a grid has
+/// more squares than the limit, or 2^20 on a side, or there are more than 4096.
 sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
                               const sli_tiles_options *options, sl_map *map);
 

@@ -6,17 +6,13 @@
 #include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "io/svg_count.h"
 #include "io/svg_style.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <math.h>
-
-/// Groups within groups, uses of groups included.
-#define MOST_DEPTH 128
-/// Elements drawn and no more: a few nested uses could ask for any number.
-#define MOST_WORK ((size_t)1 << 22)
 
 static const double pi = 3.14159265358979323846;
 
@@ -300,6 +296,7 @@ typedef struct svg {
     const sl_import_options *options;
     xmlDoc *document;
     sli_svg_style style;
+    sli_svg_ids ids;
     sli_pen pen;
     size_t work, shapes, hidden, other;
     char *mark;     ///< the sum of the digits that the file's writer knew
@@ -376,6 +373,35 @@ static bool is_layer(const svg *s, xmlNode *node) {
     sli_xml_free(id);
     sli_xml_free(label);
     return is;
+}
+
+// --- layers that are asked for and not there
+
+/// Looks for an element of a name, and lists the names of all groups, the label before the id.
+static bool has_layer(xmlNode *parent, sli_word wanted, sli_name_list *there) {
+    bool found = false;
+    for (xmlNode *node = parent->children; node; node = node->next) {
+        if (node->type != XML_ELEMENT_NODE) continue;
+        char *id = sli_xml_attribute(node, "id"), *label = sli_xml_attribute(node, "label");
+        const char *shown = label ? label : id;
+        found |= (id && sli_word_is(wanted, id)) || (label && sli_word_is(wanted, label));
+        if (shown && strcmp((const char *)node->name, "g") == 0)
+            sli_name_list_add(there, (sli_word){shown, strlen(shown)});
+        sli_xml_free(id);
+        sli_xml_free(label);
+        found |= has_layer(node, wanted, there);
+    }
+    return found;
+}
+
+static sl_status check_layers(const svg *s, xmlNode *root) {
+    const char *list = s->options->layers;
+    for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
+        sli_name_list there = {.full = false};
+        if (!has_layer(root, wanted, &there))
+            return sli_fail_layer(s->context, s->pen.name, wanted, "drawing", &there);
+    }
+    return SL_OK;
 }
 
 // --- shapes
@@ -604,23 +630,12 @@ static sl_status enter_drawing(svg *s, xmlNode *node, sli_affine *inner) {
     return SL_OK;
 }
 
-static xmlNode *find_id(xmlNode *node, const char *id) {
-    for (; node; node = node->next) {
-        if (node->type != XML_ELEMENT_NODE) continue;
-        if (attribute_is(node, "id", id)) return node;
-        xmlNode *within = find_id(node->children, id);
-        if (within) return within;
-    }
-    return NULL;
-}
-
 static sl_status draw_use(svg *s, xmlNode *node, place at) {
     double x = 0, y = 0;
     SL_TRY(read_length(s, node, "x", &x));
     SL_TRY(read_length(s, node, "y", &y));
     char *link = sli_xml_attribute(node, "href");
-    xmlNode *used =
-        link && *link == '#' ? find_id(xmlDocGetRootElement(s->document), link + 1) : NULL;
+    xmlNode *used = link && *link == '#' ? sli_svg_find(&s->ids, link + 1) : NULL;
     const sl_status status =
         used ? SL_OK
              : sl_fail_at(s->context, s->pen.name, s->pen.line, "use: there is no element '%s'",
@@ -633,10 +648,6 @@ static sl_status draw_use(svg *s, xmlNode *node, place at) {
 }
 
 static sl_status draw_group(svg *s, xmlNode *node, place at) {
-    if (at.depth >= MOST_DEPTH)
-        return sl_fail_at(s->context, s->pen.name, s->pen.line,
-                          "elements within elements, more than %d: does a use hold itself?",
-                          MOST_DEPTH);
     if (sli_xml_is(node, "use")) return draw_use(s, node, at);
     at.depth++;
     if (sli_xml_is(node, "svg")) {
@@ -660,10 +671,7 @@ static void pass_over(svg *s, xmlNode *node) {
 
 static sl_status draw_element(svg *s, xmlNode *node, place at) {
     s->pen.line = sli_xml_line(node);
-    s->work += 1 + s->style.rules.count / 16;
-    if (s->work > MOST_WORK)
-        return sl_fail_at(s->context, s->pen.name, s->pen.line,
-                          "the drawing's uses give more than %zu elements", MOST_WORK);
+    s->work++;
     if (s->work % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
     const shape kind = shape_of(node);
     if (kind == NO_SHAPE && !is_group(node)) {
@@ -796,6 +804,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     double box[4], height = 0;
     bool told = false;
     s->pen.line = sli_xml_line(root);
+    SL_TRY(check_layers(s, root));
     SL_TRY(read_view_box(s, root, box));
     if (box[2] > 0)
         height = box[1] + box[3];
@@ -811,6 +820,8 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     SL_TRY(name_walls(s, root));
     SL_TRY(sli_svg_style_read(s->context, root, &s->style));
     find_unit(s, root, box[2]);
+    SL_TRY(sli_svg_ids_read(s->context, root, &s->ids));
+    SL_TRY(sli_svg_check_amount(s->context, s->pen.name, s->options, root, &s->style, &s->ids));
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
@@ -842,6 +853,7 @@ sl_status sl_map_read_svg(sl_context *context, const char *name, const char *tex
                   sli_show((sli_word){(const char *)root->name, strlen((const char *)root->name)})
                       .text);
     sli_svg_style_destroy(context, &s.style);
+    sli_svg_ids_destroy(context, &s.ids);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);
     if (status == SL_OK)

@@ -82,7 +82,7 @@ static sl_status read_point(uvtt *reader, const sli_json *at, sl_point *point) {
     sli_keep_finest(&reader->finest, sli_shortest_unit(read.x));
     sli_keep_finest(&reader->finest, sli_shortest_unit(read.y));
     if (reader->mark) reader->sum += sli_digits_of_number(read.x) + sli_digits_of_number(read.y);
-    read.y = reader->top - read.y;
+    read.y = sli_coordinate(reader->top - read.y);
     if (!sl_coordinate_usable(read.y)) return sli_json_fail(&y, "out of range once y points up");
     *point = read;
     return SL_OK;
@@ -345,10 +345,11 @@ static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at
         SL_TRY(sli_json_number(&number, &values[i]));
         sli_keep_finest(&reader->finest, sli_shortest_unit(values[i]) / reader->pixels);
         if (reader->mark) reader->sum += sli_digits_of_number(values[i]);
-        values[i] /= reader->pixels;
+        values[i] = sli_coordinate(values[i] / reader->pixels);
         if (!sl_coordinate_usable(values[i])) return sli_json_fail(&number, "out of range");
     }
-    *at = (sl_segment){{values[0], reader->top - values[1]}, {values[2], reader->top - values[3]}};
+    *at = (sl_segment){{values[0], sli_coordinate(reader->top - values[1])},
+                       {values[2], sli_coordinate(reader->top - values[3])}};
     if (!sl_coordinate_usable(at->a.y) || !sl_coordinate_usable(at->b.y))
         return sli_json_fail(&c, "out of range once y points up");
     return SL_OK;

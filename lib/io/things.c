@@ -267,7 +267,8 @@ static bool place_in_open(sli_things *things, const sl_map *map, sli_thing *door
 }
 
 static bool is_usable(sl_point point) {
-    return sl_coordinate_usable(point.x) && sl_coordinate_usable(point.y);
+    return sl_coordinate_usable(sli_coordinate(point.x)) &&
+           sl_coordinate_usable(sli_coordinate(point.y));
 }
 
 static void tell_left_out(const sli_things *things, const sli_thing *thing, size_t *count,

@@ -83,14 +83,27 @@ static bool find_layer(const sli_json *layers, sli_word word, sli_word *gids) {
     return false;
 }
 
+/// Lists the layers that can be asked for: those of tiles and objects, and their groups.
+static void name_layers(const sli_json *parent, sli_name_list *out) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = sli_json_text_of(&layer, "name");
+        if (*name) sli_name_list_add(out, (sli_word){name, strlen(name)});
+        name_layers(&layer, out);
+    }
+}
+
 /// SL_BAD_ARGUMENT where the list names a layer that `map` has not, or its numbers are none.
 static sl_status tiled_check_choice(const sli_json *map, const char *list) {
     const sli_json layers = sli_json_member(map, "layers");
     for (sli_word word; list && sli_layers_next(&list, &word);) {
         sli_word gids;
-        if (!find_layer(&layers, word, &gids))
-            return sl_fail(map->file->context, SL_BAD_ARGUMENT, "%s: there is no layer '%s'",
-                           map->file->name, sli_show(word).text);
+        if (!find_layer(&layers, word, &gids)) {
+            sli_name_list there = {.full = false};
+            name_layers(map, &there);
+            return sli_fail_layer(map->file->context, map->file->name, word, "map", &there);
+        }
         if (!are_numbers(gids))
             return sl_fail(map->file->context, SL_BAD_ARGUMENT,
                            "%s: layer '%s': expected tile numbers such as 28+33-35 behind the ':'",
@@ -444,7 +457,6 @@ static layer_text list_layers(const sli_tiled_reader *reader) {
 /// Nothing says what is solid: the lowest tile layer is looked at once more.
 static sl_status guess(sli_tiled_reader *reader) {
     sli_tiles_destroy(reader->context, &reader->tiles);
-    reader->turned = 0;
     reader->guess = true;
     SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
     if (!*reader->guessed_of) return SL_OK;

@@ -207,7 +207,6 @@ typedef struct sli_tiled_reader {
     sli_affine to_plan;  ///< from the screen
     sl_point offset;     ///< staggered and hexagonal: of the layers with tiles
     sli_tiled_range all; ///< and their tiles
-    size_t turned;       ///< squares of staggered blocks
     sli_tiled_sets sets;
     sli_tiles tiles;
     sli_pen pen;

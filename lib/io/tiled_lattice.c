@@ -197,8 +197,7 @@ static sl_point project(const sli_tiled_lattice *lattice, sl_point at) {
     const double x = (at.x + at.y) * lattice->tile.x / (2 * lattice->step.x) + lattice->left;
     const double y = (at.x - at.y) * lattice->tile.y / (2 * lattice->step.y);
     const sl_point on = {x, lattice->height - y};
-    return (sl_point){fabs(on.x) < SL_COORDINATE_MIN ? 0 : on.x,
-                      fabs(on.y) < SL_COORDINATE_MIN ? 0 : on.y};
+    return sli_coordinates(on);
 }
 
 static bool project_usable(const sli_tiled_lattice *lattice, sl_point *at) {

@@ -263,7 +263,9 @@ typedef struct walk {
 static sl_status read_text_number(walk *steps, double *number) {
     const size_t length = strcspn(steps->at, ", \t\r\n");
     const sli_word word = {steps->at, length};
-    if (!sl_number_read(word.at, word.length, number) || !sl_coordinate_usable(*number))
+    const bool read = sl_number_read(word.at, word.length, number);
+    *number = sli_coordinate(*number);
+    if (!read || !sl_coordinate_usable(*number))
         return sli_json_fail(steps->points, "point %zu: expected x,y; found '%s'", steps->next + 1,
                              sli_show(word).text);
     steps->at += length;

@@ -20,8 +20,6 @@
 
 /// Layers of staggered and hexagonal maps are moved by no more pixels.
 #define FARTHEST 1e9
-/// So many squares of staggered layers and no more.
-#define MOST_TURNED ((size_t)1 << 27)
 
 // --- what a block's tiles are
 
@@ -270,14 +268,6 @@ static sl_status add_block(sli_tiled_reader *reader, block *all) {
                              origin.y + (double)all->range.top * lattice->step.y};
     const size_t columns = (size_t)(all->range.right - all->range.left);
     const size_t rows = (size_t)(all->range.bottom - all->range.top);
-    if (lattice->orientation == SLI_TILED_STAGGERED) {
-        // A few long rows make large blocks: a short file must not ask for all memory.
-        reader->turned += columns > MOST_TURNED / rows ? MOST_TURNED : columns * rows;
-        if (reader->turned >= MOST_TURNED)
-            return sli_json_fail(reader->map,
-                                 "its staggered layers or chunks are too large: together they span "
-                                 "more than 2^27 places");
-    }
     SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->map->file->name, all->corner,
                          lattice->step, columns, rows, &all->squares));
     if (lattice->orientation != SLI_TILED_STAGGERED) return SL_OK;
@@ -312,8 +302,20 @@ static sl_status check_offset(sli_tiled_reader *reader, const sli_json *holder, 
         if (*square_of(reader, all, i) == '#')
             return sli_json_fail(holder, "layers of tiles that are moved differently are taken in "
                                          "orthogonal and isometric maps only");
-    sl_free(reader->context, reader->tiles.blocks.items[--reader->tiles.blocks.count].squares);
+    const sli_tile_block *last = &reader->tiles.blocks.items[--reader->tiles.blocks.count];
+    reader->tiles.squares -= (uint64_t)last->columns * last->rows;
+    sl_free(reader->context, last->squares);
     return SL_OK;
+}
+
+/// Before the tiles are unpacked: they may be packed to a thousandth.
+static sl_status check_squares(const sli_tiled_reader *reader, const sli_json *layer,
+                               int64_t columns, int64_t rows) {
+    const char *name = sli_json_text_of(layer, "name");
+    char what[96];
+    snprintf(what, sizeof what, "layer '%s'", sli_show((sli_word){name, strlen(name)}).text);
+    return sli_tiles_check(reader->context, &reader->tiles, reader->map->file->name,
+                           sli_json_line(layer), what, (uint64_t)columns, (uint64_t)rows);
 }
 
 /// `holder` has the size; `column` and `row` are those of its first tile.
@@ -325,10 +327,8 @@ static sl_status read_block(sli_tiled_reader *reader, const sli_json *layer, con
     int64_t columns, rows;
     SL_TRY(sli_json_whole(&width, 1, INT32_MAX, &columns));
     SL_TRY(sli_json_whole(&height, 1, INT32_MAX, &rows));
-    if (columns * rows > INT32_MAX)
-        return sli_json_fail(holder, "%lld x %lld tiles are more than can be read",
-                             (long long)columns, (long long)rows);
     uint32_t *gids;
+    SL_TRY(check_squares(reader, layer, columns, rows));
     SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
     block all = {.offset = at->offset,
                  .column = column,
@@ -384,11 +384,8 @@ static sl_status add_surroundings(sli_tiled_reader *reader) {
                  .row = tiles->top,
                  .columns = (size_t)(tiles->right - tiles->left),
                  .rows = (size_t)(tiles->bottom - tiles->top)};
-    if (all.columns > INT32_MAX / all.rows)
-        return sli_json_fail(reader->map,
-                             "its tiles are spread over %zu x %zu places: more than "
-                             "2^26",
-                             all.columns, all.rows);
+    SL_TRY(sli_tiles_check(reader->context, &reader->tiles, reader->map->file->name, 0,
+                           "its tiles are spread over", all.columns, all.rows));
     SL_TRY(add_block(reader, &all));
     const size_t width = (size_t)(all.range.right - all.range.left);
     const size_t count = width * (size_t)(all.range.bottom - all.range.top);

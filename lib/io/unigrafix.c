@@ -181,7 +181,7 @@ static sl_status read_vertex(ug_model *model, uint32_t line) {
 static double cross(double low, double high, double share) {
     const double value = low + (high - low) * share;
     if (value < fmin(low, high) || value > fmax(low, high)) return high;
-    return fabs(value) < SL_COORDINATE_MIN ? 0 : value;
+    return sli_coordinate(value);
 }
 
 /// Adds the crossing of an edge with the plane; a vertex in the plane counts as above it.

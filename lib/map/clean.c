@@ -482,6 +482,69 @@ static double safe_precision(const sl_map *map, const sl_box *bounds) {
     return fmin(map->precision, fmin(1e-3 * size, shortest(map, noise) / 2));
 }
 
+// --- what has no length left
+
+/// The things of one cleaning that are left out.
+typedef struct leaving {
+    sl_context *context;
+    const sl_map *map;
+    double tolerance;
+    size_t count;
+} leaving;
+
+enum { MOST_NOTES = 5 };
+
+/// Whether a thing is left out. A note names it and its line.
+static bool leave_out(leaving *work, const char *what, const char *name, sl_segment at,
+                      uint32_t line) {
+    char place[SL_LINE_TEXT], apart[SL_NUMBER_TEXT];
+    if (!sli_same_point(at.a, at.b)) return false;
+    if (++work->count > MOST_NOTES) return true;
+    const char *source = work->map->source ? work->map->source : "the map";
+    sl_map_say_line(work->map, line, place);
+    snprintf(apart, sizeof apart, "%.3g", work->tolerance);
+    char why[192] = "its ends are one place; make it longer";
+    if (work->tolerance > 0)
+        snprintf(why, sizeof why,
+                 "its ends became one place, as ends up to %s apart do; make it longer, or give a "
+                 "smaller tolerance (--weld)",
+                 apart);
+    sl_note(work->context, "%s: %s%s%s%s%s is left out: %s", source, place, line ? ": " : "", what,
+            name ? " " : "", name ? name : "", why);
+    return true;
+}
+
+static void leave_out_glass(leaving *work, const char *what, sl_glass *glass, size_t *count) {
+    size_t kept = 0;
+    for (size_t i = 0; i < *count; i++)
+        if (!leave_out(work, what, NULL, glass[i].segment, glass[i].line)) glass[kept++] = glass[i];
+    *count = kept;
+}
+
+/// Doors, glass and seams without length: neither the map text nor the subdivision has a place for
+/// them.
+static void leave_out_short(sl_context *context, sl_map *map, double tolerance) {
+    leaving work = {.context = context, .map = map, .tolerance = tolerance};
+    size_t kept = 0;
+    for (size_t i = 0; i < map->door_count; i++) {
+        sl_door *door = &map->doors[i];
+        if (!leave_out(&work, "door", door->name, door->segment, door->line)) {
+            map->doors[kept++] = *door;
+            continue;
+        }
+        sl_free(context, door->name);
+        sl_free(context, door->parts);
+    }
+    map->door_count = kept;
+    leave_out_glass(&work, "mirror", map->mirrors, &map->mirror_count);
+    leave_out_glass(&work, "one-way glass", map->oneways, &map->oneway_count);
+    leave_out_glass(&work, "seam", map->seams, &map->seam_count);
+    if (work.count > MOST_NOTES)
+        sl_note(context,
+                "%zu more doors, mirrors, one-way glass or seams without length are left out",
+                work.count - MOST_NOTES);
+}
+
 /// An axial map stays axial unless ends really miss each other. The planar graph shows whether
 /// anything would move.
 static sl_status clean(cleaning *work, sl_map *map, double weld) {
@@ -517,6 +580,7 @@ sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options 
     sl_free(context, work.upright_parts.items);
     sl_free(context, work.level_parts.items);
     if (status != SL_OK) return status;
+    leave_out_short(context, map, work.account.tolerance);
     map->precision = 0; // every place is settled
     if (account) *account = work.account;
     return SL_OK;

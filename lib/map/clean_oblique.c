@@ -66,11 +66,16 @@ static sl_status list_segments(sl_context *context, const sl_wall *walls, size_t
     return SL_OK;
 }
 
+typedef struct glass_list {
+    sl_glass *items;
+    size_t count;
+} glass_list;
+
 /// The parts that a map gets in place of its own. They are all made before the map is touched, so
 /// that no failure leaves it half done.
 typedef struct replacement {
     sl_wall *walls;
-    sl_glass *mirrors, *oneways, *seams;
+    glass_list mirrors, oneways, seams;
     sl_segment **doors; ///< by door: its parts
     sl_point *corners;  ///< of cells
     size_t wall_count;
@@ -130,17 +135,23 @@ static sl_status make_walls(maker *m, replacement *out) {
     return done ? SL_OK : SL_NO_MEMORY;
 }
 
-/// The parts that mirrors, one-way glass or seams have become.
+/// The parts that mirrors, one-way glass or seams have become. One that welding closed is kept
+/// without length, as a door is: sl_map_clean() leaves all of these out, and says so.
 static sl_status make_glass(sl_context *context, const sli_planar *graph, size_t first,
-                            const sl_glass *glass, size_t count, sl_glass **out) {
-    size_t next = 0;
-    *out = sl_alloc_array(context, graph->first[first + count] - graph->first[first], sizeof **out);
-    if (!*out) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = graph->first[first + i]; k < graph->first[first + i + 1]; k++) {
-            (*out)[next] = glass[i];
-            (*out)[next++].segment = sli_planar_at(graph, graph->links[k]);
+                            const sl_glass *glass, size_t count, glass_list *out) {
+    const size_t most = graph->first[first + count] - graph->first[first] + count;
+    out->items = sl_alloc_array(context, most, sizeof *out->items);
+    if (!out->items) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const size_t from = graph->first[first + i], to = graph->first[first + i + 1];
+        for (size_t k = from; k < to; k++) {
+            out->items[out->count] = glass[i];
+            out->items[out->count++].segment = sli_planar_at(graph, graph->links[k]);
         }
+        if (from < to) continue;
+        out->items[out->count] = glass[i];
+        out->items[out->count++].segment.b = glass[i].segment.a;
+    }
     return SL_OK;
 }
 
@@ -175,11 +186,11 @@ static sl_status make_replacement(maker *m, const sl_map *map, replacement *out)
 }
 
 static void replace_glass(sl_context *context, sl_glass **glass, size_t *count, size_t *room,
-                          sl_glass **with, size_t with_count) {
+                          glass_list *with) {
     sl_free(context, *glass);
-    *glass = *with;
-    *with = NULL;
-    *count = *room = with_count;
+    *glass = with->items;
+    *count = *room = with->count;
+    with->items = NULL;
 }
 
 /// A door keeps its name and number, however it is cut.
@@ -199,6 +210,7 @@ static void replace_door(sl_context *context, sl_door *door, sl_segment **parts,
 static void replace_cells(sl_context *context, const sli_planar *graph, size_t first, sl_map *map,
                           sl_point **corners) {
     size_t cells = 0, count = 0;
+    uint32_t first_line = 0;
     for (size_t i = 0; i < map->cell_count; i++) {
         sl_map_cell cell = map->cells[i];
         const size_t *sides = graph->first + first + cell.first;
@@ -206,11 +218,19 @@ static void replace_cells(sl_context *context, const sli_planar *graph, size_t f
         for (size_t k = sides[0]; k < sides[cell.count]; k++)
             (*corners)[count++] = sli_planar_at(graph, graph->links[k]).a;
         cell.count = (uint32_t)(count - cell.first);
-        if (cell.count < 3)
-            count = cell.first;
-        else
+        if (cell.count >= 3) {
             map->cells[cells++] = cell;
+            continue;
+        }
+        count = cell.first;
+        if (i == cells) first_line = cell.line;
     }
+    if (cells < map->cell_count)
+        sl_note(context,
+                "%s: %zu of the map's own cells, the first on line %u, have no area after welding "
+                "and are left out; make them larger, or give a smaller tolerance (--weld)",
+                map->source ? map->source : "the map", map->cell_count - cells,
+                (unsigned)first_line);
     sl_free(context, map->corners);
     map->corners = *corners;
     *corners = NULL;
@@ -226,12 +246,9 @@ static void replace(maker *m, replacement *with, sl_map *map) {
     map->walls = with->walls;
     with->walls = NULL;
     map->wall_count = map->wall_room = m->account->after = with->wall_count;
-    replace_glass(context, &map->mirrors, &map->mirror_count, &map->mirror_room, &with->mirrors,
-                  first[list->oneways] - first[list->mirrors]);
-    replace_glass(context, &map->oneways, &map->oneway_count, &map->oneway_room, &with->oneways,
-                  first[list->seams] - first[list->oneways]);
-    replace_glass(context, &map->seams, &map->seam_count, &map->seam_room, &with->seams,
-                  first[list->doors] - first[list->seams]);
+    replace_glass(context, &map->mirrors, &map->mirror_count, &map->mirror_room, &with->mirrors);
+    replace_glass(context, &map->oneways, &map->oneway_count, &map->oneway_room, &with->oneways);
+    replace_glass(context, &map->seams, &map->seam_count, &map->seam_room, &with->seams);
     for (size_t i = 0; i < map->door_count; i++)
         replace_door(context, &map->doors[i], &with->doors[i],
                      first[list->doors + i + 1] - first[list->doors + i]);
@@ -246,8 +263,8 @@ static sl_status take_graph(maker *m, sl_map *map) {
     const sl_status status = make_replacement(m, map, &with);
     if (status == SL_OK) replace(m, &with, map);
     for (size_t i = 0; with.doors && i < map->door_count; i++) sl_free(m->context, with.doors[i]);
-    void *const scratch[] = {with.doors,   with.walls, with.mirrors,
-                             with.oneways, with.seams, with.corners};
+    void *const scratch[] = {with.doors,         with.walls,       with.mirrors.items,
+                             with.oneways.items, with.seams.items, with.corners};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(m->context, scratch[i]);
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "base/file_system.h"
+#include "base/size.h"
 #include "map/scan.h"
 
 #include <string.h>
@@ -39,7 +40,8 @@ static const sl_map_format formats[] = {
      .what = "an ASCII plan",
      .read = read_plan,
      .write = sli_map_print_plan,
-     .keeps = SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES},
+     .keeps =
+         SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -201,6 +203,10 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
                        const sl_import_options *options, sl_map *map) {
     const sl_import_options usual = sl_import_options_default();
     if (!options) options = &usual;
+    if (options->entrance < 0 || !sl_coordinate_usable(options->entrance))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the width of entrances must be a number from %g to %g", SL_COORDINATE_MIN,
+                       SL_COORDINATE_MAX);
     sl_map read = {0};
     char *source = sl_copy_text(context, path, strlen(path));
     sl_status status = source ? SL_OK : SL_NO_MEMORY;
@@ -212,6 +218,10 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
         return tell_of_formats(context, path, status);
     }
     read.source = source;
+    if (options->entrance > 0) {
+        read.entrance = options->entrance;
+        read.entrance_line = 0;
+    }
     *map = read;
     sl_report(context, "read", "bytes", size, size);
     return SL_OK;
@@ -395,6 +405,11 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
     if (!(format->keeps & SL_KEEPS_RANGE) && map->range > 0)
         sl_note(context, "%s: %s has no place for the view range, which is left out", path,
                 format->what);
+    if (!(format->keeps & SL_KEEPS_UNIT) && sl_unit_metres(map->unit) > 0)
+        sl_note(context, "%s: %s has no place for the unit, which is left out", path, format->what);
+    if (!(format->keeps & SL_KEEPS_ENTRANCE) && map->entrance > 0)
+        sl_note(context, "%s: %s has no place for the width of entrances, which is left out", path,
+                format->what);
     if (!(format->keeps & SL_KEEPS_CELLS) && map->snap > 0)
         sl_note(context, "%s: %s has no place for the snap of cells, which is left out", path,
                 format->what);
@@ -410,12 +425,79 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
                 format->what);
 }
 
+sl_status sli_map_check_again(sl_context *context, const char *name, const sl_map *written,
+                              const sl_map *again) {
+    const struct {
+        const char *what;
+        size_t written, again;
+    } things[] = {
+        {"doors", written->door_count, again->door_count},
+        {"mirrors", written->mirror_count, again->mirror_count},
+        {"panes of one-way glass", written->oneway_count, again->oneway_count},
+        {"seams", written->seam_count, again->seam_count},
+        {"starts", written->start_count, again->start_count},
+        {"paths", written->path_count, again->path_count},
+        {"objects", written->object_count, again->object_count},
+    };
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++)
+        if (things[i].written != things[i].again)
+            return sl_fail_at(context, name, 0, "%zu %s instead of %zu", things[i].again,
+                              things[i].what, things[i].written);
+    return SL_OK;
+}
+
+/// A map to write, and how.
+typedef struct map_file {
+    const sl_map *map;
+    const sl_map_format *format;
+} map_file;
+
+static sl_status print_map(sl_context *context, const void *user, FILE *stream) {
+    const map_file *file = user;
+    return file->format->write(context, file->map, stream);
+}
+
+/// All of it, by the format's reader. The formats of other programs have no place for some things,
+/// so that these are counted in the map text alone.
+static sl_status read_map_back(sl_context *context, const void *user, const char *name,
+                               sli_again *again) {
+    const map_file *file = user;
+    const size_t size = sli_size(again->left);
+    char *text = sl_alloc_array(context, size == SIZE_MAX ? size : size + 1, 1);
+    if (!text) return SL_NO_MEMORY;
+    sl_import_options options = sl_import_options_default();
+    options.doors = file->format->takes & SL_TAKES_DOORS;
+    sl_map map = {0};
+    sl_status status = SL_OK;
+    if (!sli_again_take(again, text, size))
+        status = sl_fail(context, SL_IO, "%s: cannot read back", name);
+    if (status == SL_OK) status = file->format->read(context, name, text, size, &options, &map);
+    if (status == SL_OK && file->format->write == sli_map_print_text)
+        status = sli_map_check_again(context, name, file->map, &map);
+    sl_map_destroy(context, &map);
+    sl_free(context, text);
+    return status;
+}
+
+static sl_status write_map(sl_context *context, const sl_map *map, const sl_map_format *format,
+                           const char *path) {
+    const map_file file = {map, format};
+    const sli_to_write written = {&file, print_map, read_map_back};
+    return sli_file_write(context, path, &written);
+}
+
 sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
                        const char *path) {
-    sl_output output;
     if (!format->write)
         return sl_fail(context, SL_UNSUPPORTED, "%s: %s is only read", path, format->what);
     tell_left_out(context, map, format, path);
-    SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, format->write(context, map, output.stream));
+    return write_map(context, map, format, path);
+}
+
+sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {
+    return write_map(context, map, &formats[0], path);
+}
+
+sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path) {
+    return write_map(context, map, &formats[1], path);
 }

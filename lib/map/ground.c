@@ -15,6 +15,7 @@
 
 #include "geometry/orient.h"
 #include "map/planar.h"
+#include "map/scan.h"
 #include "sightline/support.h"
 
 #include <stdlib.h>
@@ -161,14 +162,9 @@ static sl_status find_kind(sl_context *context, const sl_point *corners, size_t 
     return status;
 }
 
-sl_status sli_map_add_ground(sl_context *context, sl_map *map, const char *source, bool open,
+static sl_status add_polygon(sl_context *context, sl_map *map, const char *source, bool open,
                              const sl_point *corners, size_t count, uint32_t line) {
     const char *what = open ? "open" : "solid";
-    if (count < 3)
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s: expected at least 3 corners", what);
-    for (size_t i = 0; i < count; i++)
-        if (!sl_coordinate_usable(corners[i].x) || !sl_coordinate_usable(corners[i].y))
-            return sl_fail(context, SL_BAD_ARGUMENT, "%s: a coordinate is out of range", what);
     loop_kind kind;
     SL_TRY(find_kind(context, corners, count, &kind));
     if (kind == LOOP_CROSSED)
@@ -184,6 +180,18 @@ sl_status sli_map_add_ground(sl_context *context, sl_map *map, const char *sourc
         map->walls[map->wall_count - 1].ground = ground;
     }
     return SL_OK;
+}
+
+sl_status sli_map_add_ground(sl_context *context, sl_map *map, const char *source, bool open,
+                             const sl_point *corners, size_t count, uint32_t line) {
+    const char *what = open ? "open" : "solid";
+    sl_point *settled;
+    if (count < 3)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: expected at least 3 corners", what);
+    SL_TRY(sli_copy_points(context, what, corners, count, &settled));
+    const sl_status status = add_polygon(context, map, source, open, settled, count, line);
+    sl_free(context, settled);
+    return status;
 }
 
 static const char *source_of(const sl_map *map) {

@@ -54,6 +54,7 @@ void sl_map_destroy(sl_context *context, sl_map *map) {
     }
     sl_free(context, map->source);
     sl_free(context, map->notes);
+    sl_free(context, map->interior.places);
     sl_free(context, map->walls);
     sl_free(context, map->doors);
     sl_free(context, map->mirrors);
@@ -81,16 +82,31 @@ void sl_map_drop_cells(sl_context *context, sl_map *map) {
     map->snap_line = 0;
 }
 
-static sl_status check_point(sl_context *context, const char *what, sl_point point) {
-    if (sl_coordinate_usable(point.x) && sl_coordinate_usable(point.y)) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "%s: coordinates %g %g: expected 0 or magnitudes from %g to %g", what, point.x,
-                   point.y, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+/// Makes 0 of coordinates that are too small to be used.
+static sl_status settle_point(sl_context *context, const char *what, sl_point *point) {
+    *point = sli_coordinates(*point);
+    if (sl_coordinate_usable(point->x) && sl_coordinate_usable(point->y)) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: coordinates %g %g: expected magnitudes up to %g",
+                   what, point->x, point->y, SL_COORDINATE_MAX);
 }
 
-static sl_status check_ends(sl_context *context, const char *what, sl_point a, sl_point b) {
-    SL_TRY(check_point(context, what, a));
-    return check_point(context, what, b);
+static sl_status settle_ends(sl_context *context, const char *what, sl_point *a, sl_point *b) {
+    SL_TRY(settle_point(context, what, a));
+    return settle_point(context, what, b);
+}
+
+sl_status sli_copy_points(sl_context *context, const char *what, const sl_point *points,
+                          size_t count, sl_point **out) {
+    sl_point *copy = sl_alloc_array(context, count, sizeof *copy);
+    if (!copy) return SL_NO_MEMORY;
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        copy[i] = points[i];
+        status = settle_point(context, what, &copy[i]);
+    }
+    *out = status == SL_OK ? copy : NULL;
+    if (status != SL_OK) sl_free(context, copy);
+    return status;
 }
 
 /// A copy of the name of a door, path or object.
@@ -110,7 +126,7 @@ static sl_status copy_name(sl_context *context, const char *what, const char *na
                sizeof *(map)->items)
 
 sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b, uint32_t line) {
-    SL_TRY(check_ends(context, "wall", a, b));
+    SL_TRY(settle_ends(context, "wall", &a, &b));
     SL_TRY(MAP_ROOM(context, map, walls, wall));
     map->walls[map->wall_count++] = (sl_wall){.a = a, .b = b, .line = line};
     return SL_OK;
@@ -126,7 +142,7 @@ sl_status sl_map_add_walls(sl_context *context, sl_map *map, const sl_wall *wall
 
 sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                           bool open, uint32_t line) {
-    SL_TRY(check_ends(context, "door", at.a, at.b));
+    SL_TRY(settle_ends(context, "door", &at.a, &at.b));
     SL_TRY(MAP_ROOM(context, map, doors, door));
     sl_door door = {.segment = at, .open = open, .line = line};
     SL_TRY(copy_name(context, "door", name, &door.name));
@@ -135,29 +151,38 @@ sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl
 }
 
 sl_status sl_map_add_mirror(sl_context *context, sl_map *map, sl_segment at, uint32_t line) {
-    SL_TRY(check_ends(context, "mirror", at.a, at.b));
+    SL_TRY(settle_ends(context, "mirror", &at.a, &at.b));
     SL_TRY(MAP_ROOM(context, map, mirrors, mirror));
     map->mirrors[map->mirror_count++] = (sl_glass){.segment = at, .line = line};
     return SL_OK;
 }
 
 sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uint32_t line) {
-    SL_TRY(check_ends(context, "oneway", at.a, at.b));
+    SL_TRY(settle_ends(context, "oneway", &at.a, &at.b));
     SL_TRY(MAP_ROOM(context, map, oneways, oneway));
     map->oneways[map->oneway_count++] = (sl_glass){.segment = at, .line = line};
     return SL_OK;
 }
 
 sl_status sl_map_add_seam(sl_context *context, sl_map *map, sl_segment at, uint32_t line) {
-    SL_TRY(check_ends(context, "seam", at.a, at.b));
+    SL_TRY(settle_ends(context, "seam", &at.a, &at.b));
     SL_TRY(MAP_ROOM(context, map, seams, seam));
     map->seams[map->seam_count++] = (sl_glass){.segment = at, .line = line};
     return SL_OK;
 }
 
+sl_status sli_map_add_border(sl_context *context, sl_map *map, sl_segment at) {
+    if (sl_coordinate_usable(at.a.x) && sl_coordinate_usable(at.a.y) &&
+        sl_coordinate_usable(at.b.x) && sl_coordinate_usable(at.b.y))
+        return sl_map_add_seam(context, map, at, 0);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "border from %g %g to %g %g: expected 0 or magnitudes from %g to %g", at.a.x,
+                   at.a.y, at.b.x, at.b.y, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+}
+
 sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double heading,
                            uint32_t line) {
-    SL_TRY(check_point(context, "start", at));
+    SL_TRY(settle_point(context, "start", &at));
     if (!isfinite(heading))
         return sl_fail(context, SL_BAD_ARGUMENT, "start: heading %g: expected a finite angle",
                        heading);
@@ -169,23 +194,21 @@ sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double
 sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *name,
                           const sl_point *points, size_t count, uint32_t line) {
     if (count == 0) return sl_fail(context, SL_BAD_ARGUMENT, "path: expected at least one point");
-    for (size_t i = 0; i < count; i++) SL_TRY(check_point(context, "path", points[i]));
     SL_TRY(MAP_ROOM(context, map, paths, path));
     sl_path path = {.count = count, .line = line};
-    SL_TRY(copy_name(context, "path", name, &path.name));
-    path.points = sl_alloc_array(context, count, sizeof *points);
-    if (!path.points) {
-        sl_free(context, path.name);
-        return SL_NO_MEMORY;
+    SL_TRY(sli_copy_points(context, "path", points, count, &path.points));
+    const sl_status status = copy_name(context, "path", name, &path.name);
+    if (status != SL_OK) {
+        sl_free(context, path.points);
+        return status;
     }
-    memcpy(path.points, points, count * sizeof *points);
     map->paths[map->path_count++] = path;
     return SL_OK;
 }
 
 sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                             uint32_t line) {
-    SL_TRY(check_ends(context, "object", box.min, box.max));
+    SL_TRY(settle_ends(context, "object", &box.min, &box.max));
     if (box.min.x > box.max.x || box.min.y > box.max.y)
         return sl_fail(context, SL_BAD_ARGUMENT, "object: the box's min is over its max");
     SL_TRY(MAP_ROOM(context, map, objects, object));
@@ -195,9 +218,8 @@ sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, 
     return SL_OK;
 }
 
-sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
+static sl_status add_cell(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
                           uint32_t line) {
-    for (size_t i = 0; i < count; i++) SL_TRY(check_point(context, "cell", corners[i]));
     const size_t distinct = sli_distinct_corners(corners, count);
     if (distinct < 3 || distinct > UINT32_MAX)
         return sl_fail(context, SL_BAD_ARGUMENT, "cell: expected at least three different corners");
@@ -209,6 +231,15 @@ sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corn
     for (size_t i = 0; i < count; i++)
         if (!sli_corner_repeats(corners, count, i)) map->corners[map->corner_count++] = corners[i];
     return SL_OK;
+}
+
+sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
+                          uint32_t line) {
+    sl_point *settled;
+    SL_TRY(sli_copy_points(context, "cell", corners, count, &settled));
+    const sl_status status = add_cell(context, map, settled, count, line);
+    sl_free(context, settled);
+    return status;
 }
 
 sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
@@ -376,6 +407,15 @@ sl_box sl_map_bounds(const sl_map *map) {
     return box;
 }
 
+int sl_map_digits(const sl_map *map) {
+    const sl_box box = sl_map_bounds(map);
+    const double most =
+        fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
+    const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
+    if (!(across > 0 && most > 0)) return 6;
+    return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
+}
+
 size_t sl_map_count_oblique(const sl_map *map) {
     size_t oblique = 0;
     for (size_t i = 0; i < map->wall_count; i++) {
@@ -403,8 +443,10 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
     }
     for (size_t i = 0; i < from->oneway_count; i++)
         SL_TRY(sl_map_add_oneway(context, to, from->oneways[i].segment, from->oneways[i].line));
-    for (size_t i = 0; i < from->seam_count; i++)
+    for (size_t i = 0; i < from->seam_count; i++) {
         SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
+        to->seams[i].entrance = from->seams[i].entrance;
+    }
     return SL_OK;
 }
 
@@ -443,6 +485,16 @@ static sl_status copy_labels(sl_context *context, const sl_map *from, sl_map *to
     return SL_OK;
 }
 
+static sl_status copy_interior(sl_context *context, const sl_map *from, sl_map *to) {
+    const size_t count = from->interior.place_count;
+    sl_point *places = count ? sl_alloc_array(context, count, sizeof *places) : NULL;
+    if (count && !places) return SL_NO_MEMORY;
+    if (count) memcpy(places, from->interior.places, count * sizeof *places);
+    to->interior = from->interior;
+    to->interior.places = places;
+    return SL_OK;
+}
+
 static sl_status copy_comments(sl_context *context, const sl_map *from, sl_map *to) {
     for (size_t i = 0; i < from->comment_count; i++) {
         const sl_comment *c = &from->comments[i];
@@ -459,6 +511,9 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
                   .drawing_unit = from->drawing_unit,
                   .range = from->range,
                   .range_line = from->range_line,
+                  .unit_line = from->unit_line,
+                  .entrance = from->entrance,
+                  .entrance_line = from->entrance_line,
                   .ground_guessed = from->ground_guessed,
                   .lines_are_items = from->lines_are_items};
     memcpy(map.unit, from->unit, sizeof map.unit);
@@ -467,6 +522,7 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     if (status == SL_OK) status = copy_cells(context, from, &map);
     if (status == SL_OK) status = copy_things(context, from, &map);
     if (status == SL_OK) status = copy_labels(context, from, &map);
+    if (status == SL_OK) status = copy_interior(context, from, &map);
     if (status == SL_OK) status = copy_comments(context, from, &map);
     if (status == SL_OK && from->notes) {
         map.notes = sl_copy_text(context, from->notes, strlen(from->notes));

@@ -584,9 +584,3 @@ sl_status sli_map_print_plan(sl_context *context, const sl_map *map, FILE *strea
     sl_free(context, maker.rows);
     return status;
 }
-
-sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, sli_map_print_plan(context, map, output.stream));
-}

@@ -2,6 +2,7 @@
 #ifndef SL_MAP_SCAN_H
 #define SL_MAP_SCAN_H
 
+#include "geometry/orient.h"
 #include "sightline/map.h"
 #include "sightline/support.h"
 
@@ -92,25 +93,18 @@ static inline sl_status sli_refuse_nul(sl_context *context, const char *name, co
     return sl_fail_at(context, name, line, "a NUL byte: expected plain text (ASCII or UTF-8)");
 }
 
-/// Whether a decimal has a digit other than 0 before its exponent.
-static inline bool sli_has_value(sli_word decimal) {
-    for (size_t i = 0; i < decimal.length && (decimal.at[i] | 0x20) != 'e'; i++)
-        if (decimal.at[i] >= '1' && decimal.at[i] <= '9') return true;
-    return false;
-}
-
-/// Reads a coordinate; a message names the line and the wrong word.
+/// Reads a coordinate: one too small to be used is 0. A message names the line and the wrong word.
 static inline sl_status sli_read_coordinate(sl_context *context, const char *name, uint32_t line,
                                             sli_word word, double *value) {
     double number;
     if (!sl_number_read(word.at, word.length, &number))
         return sl_fail_at(context, name, line, "expected a finite decimal number, found '%s'",
                           sli_show(word).text);
-    // A decimal may be so small that it reads as 0.
-    if (!sl_coordinate_usable(number) || (number == 0 && sli_has_value(word)))
+    number = sli_coordinate(number);
+    if (!sl_coordinate_usable(number))
         return sl_fail_at(context, name, line,
-                          "'%s' is out of range: expected 0 or a magnitude from %g to %g",
-                          sli_show(word).text, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+                          "'%s' is out of range: expected a magnitude up to %g",
+                          sli_show(word).text, SL_COORDINATE_MAX);
     *value = number;
     return SL_OK;
 }
@@ -118,6 +112,15 @@ static inline sl_status sli_read_coordinate(sl_context *context, const char *nam
 /// Whether a name can be written as one word of the map text: UTF-8, not empty, without white
 /// space, control characters and '#'.
 bool sli_name_usable(const char *name, size_t length);
+
+/// A copy of points, for sl_free(), in which coordinates too small to be used are 0.
+/// SL_BAD_ARGUMENT, naming what they are of, where one is out of range.
+sl_status sli_copy_points(sl_context *context, const char *what, const sl_point *points,
+                          size_t count, sl_point **out);
+
+/// Adds a computed border as a seam. SL_BAD_ARGUMENT where a coordinate is too small to be used: a
+/// border at 0 instead would be another one.
+sl_status sli_map_add_border(sl_context *context, sl_map *map, sl_segment at);
 
 /// Adds a comment, as sl_comment says; lines go up.
 sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
@@ -129,5 +132,10 @@ sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *strea
 
 /// Prints nothing on failure.
 sl_status sli_map_print_plan(sl_context *context, const sl_map *map, FILE *stream);
+
+/// Fails where a map that was read back has not as many doors, mirrors ... as the one that was
+/// written. Walls are not counted: a text may write several in one.
+sl_status sli_map_check_again(sl_context *context, const char *name, const sl_map *written,
+                              const sl_map *again);
 
 #endif

@@ -119,6 +119,39 @@ static sl_status read_range(text_reader *reader) {
     return SL_OK;
 }
 
+static sl_status read_entrance(text_reader *reader) {
+    if (reader->map->entrance > 0)
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "a second entrance: the first is on line %u", reader->map->entrance_line);
+    SL_TRY(read_over_0(reader, "entrance", &reader->map->entrance));
+    reader->map->entrance_line = reader->line;
+    return SL_OK;
+}
+
+/// A unit may be of two words, such as grid units.
+static sl_status read_unit(text_reader *reader) {
+    char *unit = reader->map->unit;
+    if (*unit)
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "a second unit: the first is %s", unit);
+    size_t length = 0;
+    for (size_t i = 0; i < reader->words.count; i++) {
+        const sli_word word = reader->words.items[i];
+        if (length + !!i + word.length >= sizeof reader->map->unit ||
+            !sli_name_usable(word.at, word.length)) {
+            *unit = '\0';
+            return sl_fail_at(reader->context, reader->name, reader->line,
+                              "unit: expected a short word such as m, mm or ft, found '%s'",
+                              sli_show(word).text);
+        }
+        if (i) unit[length++] = ' ';
+        memcpy(unit + length, word.at, word.length);
+        unit[length += word.length] = '\0';
+    }
+    reader->map->unit_line = reader->line;
+    return SL_OK;
+}
+
 static sl_status read_snap(text_reader *reader) {
     if (reader->map->snap > 0)
         return sl_fail_at(reader->context, reader->name, reader->line,
@@ -223,6 +256,8 @@ static const statement statements[] = {
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
     {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
     {"range", "range r", false, 1, 1, 1, read_range},
+    {"entrance", "entrance w", false, 1, 1, 1, read_entrance},
+    {"unit", "unit NAME", false, 1, 2, 0, read_unit},
     {"start", "start x y heading", false, 3, 3, 2, read_start},
     {"path", "path NAME x y ...", true, 2, ANY, ANY, read_path},
     {"object", "object NAME x0 y0 x1 y1", true, 4, 4, 4, read_object},
@@ -305,7 +340,7 @@ static sl_status read_statement(text_reader *reader) {
         return sl_fail_at(
             reader->context, reader->name, reader->line,
             "unknown statement '%s': expected wall, walls, solid, open, door, mirror, "
-            "oneway, seam, range, start, path, object, cell, snap or precision",
+            "oneway, seam, range, entrance, unit, start, path, object, cell, snap or precision",
             sli_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sli_word));
     const sl_status status = read_by(reader, row);
@@ -635,6 +670,16 @@ static sl_status print_map(text_writer *writer) {
     print_comments(writer, 0, true);
     putc('\n', writer->stream);
     if (map->notes) print_notes(writer->stream, map->notes);
+    if (map->unit_line || sl_unit_metres(map->unit) > 0) {
+        begin(writer, map->unit_line, "unit ");
+        fputs(map->unit, writer->stream);
+        end(writer, map->unit_line);
+    }
+    if (map->entrance > 0) {
+        begin(writer, map->entrance_line, "entrance");
+        print_number(writer->stream, map->entrance);
+        end(writer, map->entrance_line);
+    }
     if (map->range > 0) {
         begin(writer, map->range_line, "range");
         print_number(writer->stream, map->range);
@@ -659,10 +704,4 @@ sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *strea
     const sl_status status = print_map(&writer);
     sl_free(context, writer.done);
     return status;
-}
-
-sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, sli_map_print_text(context, map, output.stream));
 }

@@ -436,9 +436,7 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
 
 sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *view,
                         const sl_eye_method *method, uint64_t *cells, sl_eye_account *account) {
-    sl_eye_account own;
     if (!method) method = exact_method();
-    if (!account) account = &own;
     SL_TRY(make_layers(context, query));
     if (has_blocks(query) && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
@@ -451,12 +449,10 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
 sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                  const sl_eye_method *method, uint64_t *cells,
                                  sl_eye_account *account) {
-    sl_eye_account own;
     if (!method) method = exact_method();
-    if (!account) account = &own;
     if (!has_mirrors(query)) {
         memset(cells, 0, sl_eye_words(&query->baked->space) * sizeof *cells);
-        *account = (sl_eye_account){0};
+        if (account) *account = (sl_eye_account){0};
         return SL_OK;
     }
     if (!method->mirrored)

@@ -240,6 +240,12 @@ SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t 
 SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
                                          unsigned char *bits);
 
+// Where an eye stands, as in view.h of the library: in the cell that sl_runtime_locate gives, and
+// in each cell that open portals at the eye join with it (it is on the portal, or on its end). It
+// sees what it sees from any of these cells. So at the end of a wall and at a corner of solid
+// ground it sees all around. Within a wall or a shut door it sees one side, that of its cell. Where
+// walls meet, it sees the part that has its cell. What is looked at has no side.
+
 /// An eye with its view cone: from the direction `right` counter-clockwise to the direction `left`,
 /// borders included. The directions are vectors of any length from 1e-150 to 1e150. If one is not
 /// (0, NaN), the view is all round.
@@ -262,22 +268,25 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 
 /// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
 /// portals (Teller & Séquin 1991, depth first). Returns their number, and puts the first `room` of
-/// them into `cells`. The eye's own cell comes first; each other cell comes after one through which
-/// it is seen. Returns 0 if the eye is in no cell or in solid ground. `scratch` may hold anything;
-/// each thread needs its own.
+/// them into `cells`. The cell of sl_runtime_locate comes first, if the cone leads into it; each
+/// other cell comes after one through which it is seen, or the eye stands in it. Returns 0 if the
+/// eye is in no cell or in solid ground, or on a wall and looks into it. `scratch` may hold
+/// anything; each thread needs its own.
 ///
 /// Mirrors are walls: sl_runtime_look_mirrored adds what is seen in them.
 ///
 /// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
 /// walls. A line may run along portals and cross them to its left or to its right, but not some to
 /// the left and others to the right. One-way glass is a wall for an eye on its dark side. For an
-/// eye on its line, the eye's cell is the side. All this is as in the library's exact method.
+/// eye on its line, it is dark if any of the cell of sl_runtime_locate is on its dark side. The
+/// cells that the eye stands in are seen if the cone leads into them: some of its directions enter
+/// the cell, or run along its border. All this is as in the library's exact method.
 ///
 /// No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of the
 /// eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of the
-/// row are returned. Nothing beyond the map's own range is, as sl_runtime_look_past explains. A
-/// search that takes very long, which a sound file does not cause, returns this whole row, or all
-/// cells if there is none.
+/// rows of the cells that it stands in are returned. Nothing beyond the map's own range is, as
+/// sl_runtime_look_past explains. A search that takes very long, which a sound file does not cause,
+/// returns these whole rows, or all cells if there are none.
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room);
 
@@ -286,10 +295,12 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
 ///
 /// Doors are exact: a line must reach a cell through portals that are on no shut door. For the
 /// range, the distance to the nearest place that the eye sees of a cell counts. No cell within the
-/// range is missed. A cell outside the range is only added within 2e-12 of the range and 1e-13 of
-/// the distance to the ends of its portal; a larger error is possible only if the border of the
-/// seen part of the portal runs along the portal to within 1e-3 of a turn. The eye's own cell is
-/// always seen.
+/// range is missed, but one beyond it may be added: distances are compared in doubles, and what
+/// rounding could do is taken off. For the portal through which the cell is seen, let d be the sum
+/// of the distances to its two ends, and s the sine of the angle at which the seen part of it is
+/// cut off (1 if nothing is cut off). Then a cell is added only if it is beyond the range by at
+/// most 2e-12 of the range and 3e-14 of d / s. The cells that the eye stands in are within any
+/// range. The library's exact method has no such margin; nor has sl_runtime_sees.
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
@@ -298,12 +309,16 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// `scratch` are as for sl_runtime_look_past. A guard sees the player by this, and may see him,
 /// somewhere in his cell, by sl_runtime_can_see_past.
 ///
-/// Exact: the line passes from the eye's cell (sl_runtime_locate), through open portals that it
-/// touches, to a cell that touches the point. So a point on a wall or on a shut door is seen from
-/// both sides, but an eye there looks from the side of its cell only. If neither point is on a wall
-/// or a shut door, and no one-way glass is between them, each sees the other or none does. (The
-/// range is exact if no coordinate but 0 is 1e70 times smaller than another one.) Time: that of a
-/// look with a cone of one direction, and of clearing a byte for each cell.
+/// Exact, and as sl_sees of the library: open portals that the line touches, ends included, lead
+/// from a cell that the eye stands in to a cell that touches the point. So it may graze walls on
+/// either side. A point on a wall or on a shut door is seen from both sides, but an eye there sees
+/// one. Each of two points sees the other or none does, unless one of them is where walls or shut
+/// doors part what is around it, or one-way glass is between them. (The range is exact if no
+/// coordinate but 0 is 1e70 times smaller than another one.)
+///
+/// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
+/// cells along the line, and of clearing a byte for each cell.
 SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
@@ -334,10 +349,11 @@ SL_RUNTIME_API bool sl_runtime_can_see_mirrored(const sl_runtime *runtime, uint3
                                                 uint32_t to, const unsigned char *shut);
 
 /// As sl_runtime_look_past, and after these cells those that are seen by mirror alone. The first
-/// `*direct` cells are exact: those that the eye sees directly, inside the cone. The others are
-/// those of the row of the eye's cell, whatever the cone and `range` are. If the eye's cell has no
-/// row, or the bake did not look into the map's mirrors, they are all other cells but solid ground.
-/// Without mirrors it is sl_runtime_look_past.
+/// `*direct` cells are those of sl_runtime_look_past: exact, but for the margin that it tells of if
+/// there is a range, the map's own or `range`. The others are those of the rows of the cells that
+/// the eye stands in, whatever the cone and `range` are. If the eye's cell has no row, or the bake
+/// did not look into the map's mirrors, they are all other cells but solid ground. Without mirrors
+/// it is sl_runtime_look_past.
 SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
                                                  const sl_runtime_view *view,
                                                  const unsigned char *shut, double range,
@@ -368,8 +384,8 @@ SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,
 ///
 /// As sl_region_make of the library: no sign comes from a rounded number. Points are corners of the
 /// map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in a
-/// single direction only is not part of it. An eye on a wall sees the side of its cell, and is then
-/// a point of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
+/// single direction only is not part of it. Where walls part what is around the eye, it is a point
+/// of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
 /// sound file does not cause. Time: the sides and portals of the cells that are seen.
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
@@ -1155,7 +1171,8 @@ static uint32_t slrt_take_digits(slrt_text *word, uint32_t *fraction) {
     return count;
 }
 
-/// Splits a word into the parts of a decimal; false if it is none, or has 512 characters or more.
+/// Splits a word into the parts of a decimal; false if it is none, or has 512 characters or
+/// more, as no file has that `sightline bake` writes.
 static bool slrt_parse_decimal(slrt_text word, slrt_decimal *out) {
     int32_t exponent = 0;
     bool down = false;
@@ -2178,7 +2195,8 @@ enum {
     // the right border has crossed it to the left, one on the left border to the right.
     SLRT_ALONG_RIGHT = 16,
     SLRT_ALONG_LEFT = 32,
-    SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT
+    SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT,
+    SLRT_OWN = 64 ///< one of the eye's cells, or on the way to a point
 };
 
 /// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
@@ -2197,7 +2215,8 @@ typedef struct slrt_search {
     const unsigned char *shut; ///< NULL for none
     double range;              ///< 0 for no limit
     double x, y;               ///< the eye
-    uint32_t eye_cell;
+    uint32_t eye_cell;         ///< that sl_runtime_locate gives
+    uint32_t own_count;        ///< of SLRT_OWN
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
@@ -2813,8 +2832,7 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         const slrt_arm along = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
         const bool p_is_near = slrt_same_way(&along, ray);
-        if (slrt_side(&p, &q) || slrt_is_blocked(s, i)) continue;
-        if (!slrt_same_way(&p, &q)) return true; // the eye is on the portal
+        if (slrt_side(&p, &q) || !slrt_same_way(&p, &q) || slrt_is_blocked(s, i)) continue;
         if (!slrt_same_ray(&p, ray)) continue;
         from.x = p_is_near ? p.to_x : q.to_x;
         from.y = p_is_near ? p.to_y : q.to_y;
@@ -2836,8 +2854,8 @@ static bool slrt_sees_box(const slrt_search *s, uint32_t box, uint32_t cell,
     } else {
         slrt_shadow_of(s, at, &u, &v);
     }
-    if (cell != s->eye_cell && slrt_same_ray(&u, &v) && slrt_holds(s->rt, cell, s->x, s->y) &&
-        !slrt_meets_behind_wall(s, at, cell, &u))
+    if (!(s->marks[cell] & SLRT_OWN) && slrt_same_ray(&u, &v) &&
+        slrt_holds(s->rt, cell, s->x, s->y) && !slrt_meets_behind_wall(s, at, cell, &u))
         return false;
     return s->is_hidden ? slrt_sees_box_past(s, box, cell, u, &v)
                         : slrt_sees_box_in(s, at, cell, &u, &v);
@@ -2885,16 +2903,42 @@ static void slrt_see_row(slrt_search *s) {
         if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
 }
 
-/// Takes the next directed portal of the cell on top of the path.
+/// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
+/// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
+    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
     slrt_sector sector;
+    if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
     if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
-    slrt_enter(s, slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4), &sector);
+    slrt_enter(s, to, &sector);
+}
+
+/// Whether a sector leads into a cell of the eye's: some of its directions enter the cell, or run
+/// along its border. Either the first direction of the sector does, or the sector has the first one
+/// of the cell, which is along a side at the eye.
+static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    const unsigned char *a = s->rt->vertices + (size_t)c.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *b = a + (size_t)(c.vertex_count - 1) * SLRT_VERTEX_BYTES;
+    slrt_arm u, v, p, side;
+    bool enters = true;
+    uint32_t i;
+    if (sector->right == SLRT_ALL_ROUND) return true;
+    u = slrt_border(s, sector->right);
+    v = slrt_border(s, sector->left);
+    for (i = 0; i < c.vertex_count; i++, b = a, a += SLRT_VERTEX_BYTES) {
+        if (slrt_side_of_line(b, a, s->x, s->y)) continue;
+        p = slrt_make_arm(s->x, s->y, slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_within(&p, &u, &v, slrt_side(&u, &p), slrt_side(&p, &v))) return true;
+        side = slrt_make_arm(slrt_f64(b), slrt_f64(b + 8), slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_side(&side, &u) < 0) enters = false;
+    }
+    return enters;
 }
 
 static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
@@ -2902,7 +2946,7 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
     sector.right = right;
     sector.left = left;
     sector.along = 0;
-    slrt_enter(s, cell, &sector);
+    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -2937,13 +2981,59 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
     return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
 }
 
-/// Whether the eye is on a directed portal of its cell.
-static bool slrt_is_on_portal(const slrt_search *s, uint32_t cell) {
-    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+/// Whether the eye is on a directed portal, ends included.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
+}
+
+/// Adds the row of a cell to the cells that the search may enter.
+static void slrt_allow_row(slrt_search *s, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(s->rt, cell);
     uint32_t i;
-    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
-        if (!slrt_side(&p, &q) && !slrt_same_way(&p, &q)) return true;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
+}
+
+/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
+static bool slrt_overlap(double a, double b, double c, double d) {
+    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
+}
+
+/// Whether the way from the eye to a point meets a directed portal, ends included.
+static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
+    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
+    if (right * left > 0) return false;
+    if (!right && !left)
+        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
+               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
+    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+}
+
+/// Lists and marks the eye's cell and those that it leads to through all open portals that a way
+/// meets, until a cell touches the end of the way: then true. NULL for the way that is the eye
+/// alone: the cells are the eye's, and their rows count. Until the search starts, the path is the
+/// list.
+static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, i;
+    s->path[0] = s->eye_cell;
+    s->own_count = 1;
+    s->marks[s->eye_cell] |= SLRT_OWN;
+    for (at = 0; at < s->own_count; at++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
+        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            if (s->marks[to] & SLRT_OWN ||
+                !(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
+                slrt_is_blocked(s, i))
+                continue;
+            s->marks[to] |= SLRT_OWN;
+            s->path[s->own_count++] = to;
+            if (s->has_row) slrt_allow_row(s, to);
+        }
     }
     return false;
 }
@@ -2955,7 +3045,7 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     const double *right = s->view->right, *left = s->view->left;
     uint32_t i, pieces = 3, last = 3;
     if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (!slrt_is_on_portal(s, cell)) {
+        if (s->own_count == 1) {
             slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
             return;
         }
@@ -3005,12 +3095,16 @@ static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_run
 
 static void slrt_run_search(slrt_search *s) {
     sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
+    uint32_t i;
     s->count = 0;
     s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
     memset(s->marks, 0, s->rt->cell_count);
     s->has_row = run.next != run.stop;
     while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
+    slrt_follow(s, NULL);
     slrt_search_cone(s, s->eye_cell);
+    for (i = 0; i < s->rt->cell_count && s->own_count > 1; i++)
+        if (s->marks[i] & SLRT_OWN && i != s->eye_cell) slrt_search_cone(s, i);
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
@@ -3048,35 +3142,35 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
     const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
     const double x = slrt_no_dust(x1), y = slrt_no_dust(y1);
     slrt_search s;
-    uint32_t i;
+    slrt_arm way;
     if (!slrt_start_search(&s, runtime, &view, shut, range, scratch) ||
         sl_runtime_locate(runtime, x, y) == SL_RUNTIME_NO_CELL || !slrt_is_within(&s, x, y))
         return false;
-    if (x == s.x && y == s.y) return true;
-    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->directed_count + 16);
+    way = slrt_make_arm(s.x, s.y, x, y);
     memset(s.marks, 0, runtime->cell_count);
-    s.cone[0] = s.cone[3] = slrt_make_arm(s.x, s.y, x, y);
-    slrt_search_from(&s, s.eye_cell, SLRT_ARM, SLRT_ARM + 3);
-    for (i = 0; i < runtime->cell_count; i++)
-        if (s.marks[i] & SLRT_SEEN && slrt_holds(runtime, i, x, y)) return true;
-    return false;
+    return slrt_follow(&s, &way);
+}
+
+/// Adds to a search that has run what is seen by mirror from somewhere in a cell.
+static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(rows, cell);
+    slrt_door_pairs pairs = slrt_door_pairs_of(rows, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++)
+            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
 }
 
 /// Adds to a search that has run what the eye may see by mirror.
 static void slrt_see_mirrored(slrt_search *s) {
     const sl_runtime rows = slrt_mirrored(s->rt);
     const bool known = s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row;
-    sl_runtime_run run;
-    slrt_door_pairs pairs;
     uint32_t i;
-    for (i = 0; i < s->rt->cell_count && !known; i++)
-        if (!sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
-    if (!known) return;
-    run = sl_runtime_row(&rows, s->eye_cell);
-    pairs = slrt_door_pairs_of(&rows, s->eye_cell);
-    while (sl_runtime_next(&run))
-        for (i = run.first; i < run.end; i++)
-            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
+    if (known) slrt_see_mirrored_from(s, &rows, s->eye_cell);
+    for (i = 0; i < s->rt->cell_count && !(known && s->own_count == 1); i++) {
+        if (known && s->marks[i] & SLRT_OWN) slrt_see_mirrored_from(s, &rows, i);
+        if (!known && !sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
+    }
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,

@@ -330,7 +330,16 @@ static sl_status find_shut_in(sl_context *context, const sl_space *space, const 
     return done ? SL_OK : SL_NO_MEMORY;
 }
 
-/// Without a start, all cells count as inside where the border leads to all of them.
+/// Without a start: where the border leads to all cells, all of them count as inside; so they do
+/// where nothing is found by the width of entrances.
+static sl_inside doubt_without_start(const sl_map *map, const sl_ground_shares *shares, bool open) {
+    const sl_interior *found = &map->interior;
+    if (found->doubtful_width > 0 && found->by != SL_ENTRANCE_GIVEN) return SL_INSIDE_OPENING;
+    if (found->place_count && found->entrances && found->building) return SL_INSIDE_SURE;
+    if (found->place_count) open = false; // at an entrance
+    return open || shares->inside < shares->outside ? SL_INSIDE_SMALL : SL_INSIDE_SURE;
+}
+
 sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                           sl_inside *out) {
     border edge;
@@ -345,8 +354,70 @@ sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space
     *out = SL_INSIDE_SURE;
     if (shut_in > shares.inside) *out = SL_INSIDE_FEW;
     if (map->start_count && open) *out = SL_INSIDE_LEAKS;
-    if (!map->start_count && (open || shares.inside < shares.outside)) *out = SL_INSIDE_SMALL;
+    if (!map->start_count) *out = doubt_without_start(map, &shares, open);
     if (!space->inside_count) *out = SL_INSIDE_NONE;
+    return SL_OK;
+}
+
+/// A width in the map's unit: "1.2 m".
+static const char *say_width(const sl_map *map, double width, char text[40]) {
+    snprintf(text, 40, "%.4g%s%s", width, *map->unit ? " " : "", map->unit);
+    return text;
+}
+
+static void say_opening(const sl_map *map, char text[SL_INSIDE_TEXT]) {
+    const sl_interior *found = &map->interior;
+    const int digits = sl_map_digits(map);
+    char opening[40], usual[40];
+    snprintf(text, SL_INSIDE_TEXT,
+             "an opening %s wide, at %.*g,%.*g, is wider than entrances are (%s), so inside is "
+             "doubtful: %s; if it is an entrance, set the entrance to %.4g",
+             say_width(map, found->doubtful_width, opening), digits, found->doubtful.a.x, digits,
+             found->doubtful.a.y, say_width(map, found->width, usual),
+             found->place_count ? "what is behind it counts as outside"
+                                : "all of the map counts as inside",
+             found->doubtful_width);
+}
+
+/// Entrances that nobody has given the width of.
+static void say_entrances(const sl_map *map, char text[SL_INSIDE_TEXT]) {
+    const sl_interior *found = &map->interior;
+    char width[40];
+    if (!found->entrances || found->by == SL_ENTRANCE_GIVEN) return;
+    snprintf(text, SL_INSIDE_TEXT, "inside ends at %zu opening%s up to %s wide (entrance %.4g, %s)",
+             found->entrances, found->entrances == 1 ? "" : "s",
+             say_width(map, found->width, width), found->width,
+             found->by == SL_ENTRANCE_UNIT ? "as is usual" : "found from the plan");
+}
+
+sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *space,
+                        char text[SL_INSIDE_TEXT]) {
+    const sl_ground_shares shares = sl_space_ground(space);
+    sl_inside doubt;
+    text[0] = '\0';
+    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    if (doubt == SL_INSIDE_SURE) say_entrances(map, text);
+    if (doubt == SL_INSIDE_OPENING) say_opening(map, text);
+    if (doubt == SL_INSIDE_LEAKS)
+        snprintf(text, SL_INSIDE_TEXT,
+                 "a start leads out of the map, so the outside counts as inside, too (%.0f %% of "
+                 "the area)",
+                 100 * shares.inside);
+    if (doubt == SL_INSIDE_SMALL && shares.outside > 0)
+        snprintf(text, SL_INSIDE_TEXT,
+                 "the map has no start, and walls enclose only %.0f %% of the area, so inside is "
+                 "doubtful",
+                 100 * shares.inside);
+    if (doubt == SL_INSIDE_SMALL && !(shares.outside > 0))
+        snprintf(text, SL_INSIDE_TEXT,
+                 "the map has no start, and walls enclose nothing, so all of it counts as inside");
+    if (doubt == SL_INSIDE_FEW)
+        snprintf(text, SL_INSIDE_TEXT,
+                 "a start reaches %.2g %% of the area, and rooms that no start reaches have more; "
+                 "they count as outside",
+                 100 * shares.inside);
+    if (doubt == SL_INSIDE_NONE)
+        snprintf(text, SL_INSIDE_TEXT, "all of the map is solid ground, so nothing is inside");
     return SL_OK;
 }
 
@@ -377,13 +448,6 @@ static int compare(const void *left, const void *right) {
     return (a->first_point > b->first_point) - (a->first_point < b->first_point);
 }
 
-/// Whether a fault was found twice, as happens to walls that share several squares of the grid.
-static bool is_same(const sl_fault *a, const sl_fault *b) {
-    return a->kind == b->kind && a->kind != SL_FAULT_LEAK && a->walls[0] == b->walls[0] &&
-           a->walls[1] == b->walls[1] && a->walls[0] != UINT32_MAX && a->at.a.x == b->at.a.x &&
-           a->at.a.y == b->at.a.y;
-}
-
 static void finish(sli_fault_search *search, sl_faults *out) {
     sl_faults faults = {.items = search->faults.items,
                         .points = search->points.items,
@@ -393,12 +457,8 @@ static void finish(sli_fault_search *search, sl_faults *out) {
                         .weld = search->weld,
                         .leaks_left = search->leaks_left};
     if (search->faults.count) qsort(faults.items, search->faults.count, sizeof(sl_fault), compare);
-    for (size_t i = 0; i < search->faults.count; i++) {
-        const sl_fault fault = faults.items[i];
-        if (faults.count && is_same(&faults.items[faults.count - 1], &fault)) continue;
-        faults.items[faults.count++] = fault;
-        faults.counts[fault.kind]++;
-    }
+    faults.count = (uint32_t)search->faults.count;
+    for (uint32_t i = 0; i < faults.count; i++) faults.counts[faults.items[i].kind]++;
     *out = faults;
 }
 
@@ -440,8 +500,7 @@ static sl_status find_all(sli_fault_search *search) {
     SL_TRY(sl_map_clean(search->context, &search->clean, search->options.clean, &account));
     search->weld = account.tolerance;
     search->moved = account.largest_move;
-    SL_TRY(sli_wall_grid_create(search->context, search->map,
-                                fmax(search->options.gap, search->moved), &search->grid));
+    SL_TRY(sli_wall_index_create(search->context, search->map, &search->index));
     SL_TRY(sli_find_wall_faults(search));
     SL_TRY(find_space_faults(search));
     return search->trial || !has_openings(search) ? SL_OK : sli_try_mending(search);
@@ -458,7 +517,7 @@ sl_status sli_find_faults(sl_context *context, const sl_map *map, const sl_space
     if (options->thin == 0) search.options.thin = usual;
     const sl_status status = find_all(&search);
     sl_map_destroy(context, &search.clean);
-    sli_wall_grid_destroy(context, &search.grid);
+    sli_wall_index_destroy(context, &search.index);
     if (status == SL_OK) {
         finish(&search, out);
         return SL_OK;

@@ -18,12 +18,12 @@ typedef struct sli_fault_search {
     sl_map clean;      ///< as it is used: gaps are looked for here
     const sl_space *space;
     sl_faults_options options;
-    sli_wall_grid grid;  ///< over the walls as read
-    double weld;         ///< ends at most this far apart are one, as are an end and a wall at half
-    double moved;        ///< how far a clean wall may be from the walls as read
-    uint32_t welded;     ///< gaps that cleaning closes
-    uint32_t leaks_left; ///< that mending leaves
-    bool trial;          ///< looks for gaps and leaks alone
+    sli_wall_index index; ///< of the walls as read
+    double weld;          ///< ends at most this far apart are one, as are an end and a wall at half
+    double moved;         ///< how far a clean wall may be from the walls as read
+    uint32_t welded;      ///< gaps that cleaning closes
+    uint32_t leaks_left;  ///< that mending leaves
+    bool trial;           ///< looks for gaps and leaks alone
     sli_fault_list faults;
     SL_ARRAY(sl_point) points;
 } sli_fault_search;
@@ -52,9 +52,9 @@ sl_status sli_find_wall_faults(sli_fault_search *search);
 sl_point sli_nearest_on_wall(const sl_wall *wall, sl_point point);
 /// Exact.
 bool sli_touches_wall(const sl_wall *wall, sl_point p);
-/// The wall as read that a place of a clean wall comes from, one of the same line if there is any;
-/// UINT32_MAX for none.
-uint32_t sli_wall_as_read(const sli_fault_search *search, sl_point p, uint32_t line);
+/// Finds the wall as read that a place of a clean wall comes from, one of the same line if there is
+/// any; UINT32_MAX for none.
+sl_status sli_wall_as_read(sli_fault_search *search, sl_point p, uint32_t line, uint32_t *out);
 
 /// Marks the gaps and leaks that mending leaves (faults_snap.c).
 sl_status sli_try_mending(sli_fault_search *search);

@@ -380,14 +380,14 @@ static sl_status add_leak(sli_leak_search *s, uint32_t number, uint32_t piece, s
     const sl_point middle = middle_of(each), left = each->left, right = each->right;
     const bool turned = left.x != right.x ? right.x < left.x : right.y < left.y;
     const sl_segment at_ends = turned ? (sl_segment){right, left} : (sl_segment){left, right};
-    sl_fault leak = {
-        .kind = SL_FAULT_LEAK,
-        .at = at_ends,
-        .size = each->width,
-        .walls = {sli_wall_as_read(search, at_ends.a, 0), sli_wall_as_read(search, at_ends.b, 0)},
-        .cell = sl_space_locate(search->space, middle),
-        .first_point = (uint32_t)search->points.count};
+    sl_fault leak = {.kind = SL_FAULT_LEAK,
+                     .at = at_ends,
+                     .size = each->width,
+                     .cell = sl_space_locate(search->space, middle),
+                     .first_point = (uint32_t)search->points.count};
     size_t at;
+    SL_TRY(sli_wall_as_read(search, at_ends.a, 0, &leak.walls[0]));
+    SL_TRY(sli_wall_as_read(search, at_ends.b, 0, &leak.walls[1]));
     SL_TRY(gather_way(s, number, piece, &at));
     SL_TRY(add_point(search, start));
     SL_TRY(add_part(s, start, 0, at));

@@ -109,21 +109,22 @@ static sl_status move_end(snapper *s, sl_point *end, sl_point to) {
 
 /// Moves ends onto a near place that is used at least as often. Each end moves once. `settled` has
 /// two bits by wall: its ends that have their place.
-static sl_status join_ends(snapper *s, const sli_wall_grid *grid, uint8_t *settled) {
+static sl_status join_ends(snapper *s, sli_wall_index *index, uint8_t *settled) {
     const sl_wall *before = s->map->walls;
     for (size_t i = 0; i < s->count; i++) {
         const wall_end *keep = &s->ends[i];
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
         if (settled[keep->wall] >> keep->second & 1) continue;
-        uint32_t count;
-        const uint32_t *near = sli_wall_grid_at(grid, keep->at, &count);
-        for (uint32_t k = 0; k < count; k++) {
+        const sli_box_list *near = &index->near;
+        SL_TRY(sli_walls_near(s->context, index, (sl_segment){keep->at, keep->at}, s->gap));
+        for (size_t k = 0; k < near->count; k++) {
+            const uint32_t number = near->items[k];
             for (int second = 0; second < 2; second++) {
-                const sl_wall *wall = &before[near[k]];
+                const sl_wall *wall = &before[number];
                 const sl_point at = second ? wall->b : wall->a;
-                if (settled[near[k]] >> second & 1 || sli_apart(at, keep->at) > s->gap) continue;
-                settled[near[k]] |= (uint8_t)(1 << second);
-                const wall_end moved = {.wall = near[k], .second = second};
+                if (settled[number] >> second & 1 || sli_apart(at, keep->at) > s->gap) continue;
+                settled[number] |= (uint8_t)(1 << second);
+                const wall_end moved = {.wall = number, .second = second};
                 SL_TRY(move_end(s, end_of(s, &moved), keep->at));
             }
         }
@@ -184,25 +185,27 @@ static sl_status split_walls(snapper *s) {
     return SL_OK;
 }
 
-static sl_status put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_end *end) {
+/// Each wall may have moved by a gap since the index was made.
+static sl_status put_on_wall(snapper *s, sli_wall_index *index, const wall_end *end) {
     sl_point *at = end_of(s, end);
     const sl_wall *own = &s->map->walls[end->wall];
-    uint32_t count;
-    const uint32_t *near = sli_wall_grid_at(grid, *at, &count);
+    const sli_box_list *near = &index->near;
+    SL_TRY(sli_walls_near(s->context, index, (sl_segment){*at, *at}, 2 * s->gap));
     sl_point best = *at;
     double least = INFINITY;
     uint32_t onto = end->wall;
-    for (uint32_t k = 0; k < count; k++) {
-        const sl_wall *other = &s->map->walls[near[k]];
-        if (near[k] == end->wall || sli_same_point(other->a, other->b)) continue;
+    for (size_t k = 0; k < near->count; k++) {
+        const sl_wall *other = &s->map->walls[near->items[k]];
+        if (near->items[k] == end->wall || sli_same_point(other->a, other->b)) continue;
         if (sli_touches_wall(other, *at)) return SL_OK;
         const sl_point to = meeting(own, *at, other);
         const double way = sli_apart(*at, to);
         const bool there = sli_apart(to, sli_nearest_on_wall(other, to)) <= s->gap;
-        if (way > s->gap || way >= least || !there) continue;
+        if (way > s->gap || !there || way > least) continue;
+        if (way == least && near->items[k] > onto) continue;
         least = way;
         best = to;
-        onto = near[k];
+        onto = near->items[k];
     }
     if (onto == end->wall) return SL_OK;
     SL_TRY(add_split(s, onto, best));
@@ -269,31 +272,29 @@ static size_t drop_points(sl_map *map) {
 }
 
 static sl_status snap_to_ends(snapper *s) {
-    sli_wall_grid grid;
+    sli_wall_index index;
     uint8_t *settled = sl_alloc_array(s->context, s->map->wall_count, sizeof *settled);
     if (!settled) return SL_NO_MEMORY;
-    sl_status status = sli_wall_grid_create(s->context, s->map, s->gap, &grid);
+    sl_status status = sli_wall_index_create(s->context, s->map, &index);
     if (status == SL_OK) {
         list_ends(s);
         qsort(s->ends, s->count, sizeof *s->ends, compare_use);
-        status = join_ends(s, &grid, settled);
-        sli_wall_grid_destroy(s->context, &grid);
+        status = join_ends(s, &index, settled);
     }
+    sli_wall_index_destroy(s->context, &index);
     sl_free(s->context, settled);
     carry_others(s);
     return status;
 }
 
-/// The grid finds walls within twice the gap, as each may move by a gap while the grid is in use.
 static sl_status snap_to_walls(snapper *s) {
-    sli_wall_grid grid;
-    SL_TRY(sli_wall_grid_create(s->context, s->map, 2 * s->gap, &grid));
+    sli_wall_index index;
+    sl_status status = sli_wall_index_create(s->context, s->map, &index);
     list_ends(s);
     qsort(s->ends, s->count, sizeof *s->ends, compare_use);
-    sl_status status = SL_OK;
     for (size_t i = 0; i < s->count && status == SL_OK; i++)
-        if (s->ends[i].users == 1) status = put_on_wall(s, &grid, &s->ends[i]);
-    sli_wall_grid_destroy(s->context, &grid);
+        if (s->ends[i].users == 1) status = put_on_wall(s, &index, &s->ends[i]);
+    sli_wall_index_destroy(s->context, &index);
     if (status == SL_OK) status = split_walls(s);
     carry_others(s);
     return status;

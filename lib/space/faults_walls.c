@@ -1,5 +1,5 @@
-/// Faults between walls: gaps, overlaps and crossings. A grid over the walls gives the pairs that
-/// are near each other; exact signs decide whether two walls touch, cross or overlap.
+/// Faults between walls: gaps, overlaps and crossings. An index of the walls gives those that are
+/// near each other; exact signs decide whether two walls touch, cross or overlap.
 ///
 ///     gap                    closed by a wall that joins the two
 ///
@@ -10,8 +10,11 @@
 /// Gaps are those of the clean map, which is the map as it is used: cleaning closes what the
 /// digits of a drawing leave open. A gap is an end near another wall, with no wall that joins the
 /// two and none between them. Overlaps and crossings are those of the map as read, as cleaning
-/// leaves none; but not where the two walls are welded. Time about O(n log n) for walls that are
-/// short against the map.
+/// leaves none; but not where the two walls are welded.
+///
+/// Many walls may share a piece or cross at one place. Of n walls there, n - 1 pairs are listed and
+/// not all n^2: each wall is named, and each place. Time about O(n log n) for walls that are short
+/// against the map, wherever they lie.
 #include "geometry/length.h"
 #include "space/faults.h"
 
@@ -56,25 +59,15 @@ static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double
 
 /// Whether a wall closes the gap from a wall's end to another wall: it joins the two, or passes
 /// between them.
-static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, sl_point end,
+static bool is_closed(const sl_map *map, const sli_box_list *near, sl_point end,
                       const sl_wall *other, sl_point to) {
     const double reach = 2 * sli_apart(end, to);
-    for (uint32_t i = 0; i < count; i++) {
-        const sl_wall *wall = &map->walls[near[i]];
+    for (size_t i = 0; i < near->count; i++) {
+        const sl_wall *wall = &map->walls[near->items[i]];
         if (wall == other) continue;
         if (crosses(wall, end, to)) return true;
         if (sli_touches_wall(wall, end) && meet_near(wall, other, end, reach)) return true;
     }
-    return false;
-}
-
-/// Whether an earlier wall has the same end, and so reports its gap.
-static bool is_reported(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
-                        sl_point end) {
-    for (uint32_t i = 0; i < count; i++)
-        if (near[i] < wall && (sli_same_point(map->walls[near[i]].a, end) ||
-                               sli_same_point(map->walls[near[i]].b, end)))
-            return true;
     return false;
 }
 
@@ -84,25 +77,53 @@ static bool is_reported_there(const sl_wall *other, sl_point end, sl_point to) {
     return to.x != end.x ? to.x < end.x : to.y < end.y;
 }
 
-static sl_status find_gap(sl_context *context, const sl_map *map, const sli_wall_grid *grid,
-                          double most, uint32_t wall, sl_point end, sli_fault_list *out) {
-    uint32_t count;
-    const uint32_t *near = sli_wall_grid_at(grid, end, &count);
-    if (is_reported(map, near, count, wall, end)) return SL_OK;
-    sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
-    for (uint32_t i = 0; i < count; i++) {
-        const sl_wall *other = &map->walls[near[i]];
-        if (near[i] == wall || sli_touches_wall(other, end)) continue;
-        const sl_point to = sli_nearest_on_wall(other, end);
-        const double width = sli_apart(end, to);
-        if (!(width <= most) || width >= gap.size) continue;
-        if (is_closed(map, near, count, end, other, to)) continue;
-        gap.size = width;
-        gap.at = (sl_segment){end, to};
-        gap.walls[0] = wall;
-        gap.walls[1] = near[i];
+/// A place where walls end, and the first wall that does.
+typedef struct wall_end {
+    sl_point at;
+    uint32_t wall;
+} wall_end;
+
+static int compare_ends(const void *left, const void *right) {
+    const wall_end *a = left, *b = right;
+    const int order = sli_compare_points(a->at, b->at);
+    return order ? order : (a->wall > b->wall) - (a->wall < b->wall);
+}
+
+/// The places where walls end, once each. The caller frees them.
+static sl_status list_ends(sl_context *context, const sl_map *map, wall_end **out, size_t *count) {
+    wall_end *ends = sl_alloc_array(context, 2 * map->wall_count, sizeof *ends);
+    if (!ends) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        ends[2 * i] = (wall_end){map->walls[i].a, (uint32_t)i};
+        ends[2 * i + 1] = (wall_end){map->walls[i].b, (uint32_t)i};
     }
-    if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end, gap.at.b))
+    qsort(ends, 2 * map->wall_count, sizeof *ends, compare_ends);
+    *count = 0;
+    for (size_t i = 0; i < 2 * map->wall_count; i++)
+        if (!*count || !sli_same_point(ends[i].at, ends[*count - 1].at)) ends[(*count)++] = ends[i];
+    *out = ends;
+    return SL_OK;
+}
+
+static sl_status find_gap(sl_context *context, const sl_map *map, sli_wall_index *index,
+                          double most, const wall_end *end, sli_fault_list *out) {
+    const sli_box_list *near = &index->near;
+    SL_TRY(sli_walls_near(context, index, (sl_segment){end->at, end->at}, most));
+    sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
+    for (size_t i = 0; i < near->count; i++) {
+        const sl_wall *other = &map->walls[near->items[i]];
+        if (near->items[i] == end->wall || sli_touches_wall(other, end->at)) continue;
+        const sl_point to = sli_nearest_on_wall(other, end->at);
+        const double width = sli_apart(end->at, to);
+        if (!(width <= most) || width > gap.size) continue;
+        if (width == gap.size && near->items[i] > gap.walls[1]) continue;
+        if (is_closed(map, near, end->at, other, to)) continue;
+        gap.size = width;
+        gap.at = (sl_segment){end->at, to};
+        gap.walls[0] = end->wall;
+        gap.walls[1] = near->items[i];
+    }
+    if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end->at, gap.at.b))
         return SL_OK;
     return sli_add_to_list(context, out, gap);
 }
@@ -110,18 +131,19 @@ static sl_status find_gap(sl_context *context, const sl_map *map, const sli_wall
 /// The gaps between a map's walls, up to a width. The faults' walls are those of this map.
 static sl_status list_gaps(sl_context *context, const sl_map *map, double most, bool reports,
                            sli_fault_list *out) {
-    sli_wall_grid grid;
+    sli_wall_index index;
+    wall_end *ends = NULL;
+    size_t count = 0;
     SL_TRY(sl_check_cancelled(context));
-    sl_status status = sli_wall_grid_create(context, map, most, &grid);
-    SL_TRY(status);
-    for (uint32_t i = 0; i < map->wall_count && status == SL_OK; i++) {
-        if (i % 1024 == 0) status = sl_check_cancelled(context);
-        for (int second = 0; second < 2 && status == SL_OK; second++)
-            status = find_gap(context, map, &grid, most, i,
-                              second ? map->walls[i].b : map->walls[i].a, out);
-        if (reports) sl_report(context, "check", "walls", i + 1, map->wall_count);
+    sl_status status = sli_wall_index_create(context, map, &index);
+    if (status == SL_OK) status = list_ends(context, map, &ends, &count);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        if (i % 256 == 0) status = sl_check_cancelled(context);
+        if (status == SL_OK) status = find_gap(context, map, &index, most, &ends[i], out);
+        if (reports) sl_report(context, "check", "wall ends", i + 1, count);
     }
-    sli_wall_grid_destroy(context, &grid);
+    sl_free(context, ends);
+    sli_wall_index_destroy(context, &index);
     return status;
 }
 
@@ -132,9 +154,9 @@ static sl_status find_gaps(sli_fault_search *search) {
     for (size_t i = first; i < search->faults.count; i++) {
         sl_fault *gap = &search->faults.items[i];
         const sl_wall *walls = search->clean.walls;
-        const uint32_t own = sli_wall_as_read(search, gap->at.a, walls[gap->walls[0]].line);
-        gap->walls[1] = sli_wall_as_read(search, gap->at.b, walls[gap->walls[1]].line);
-        gap->walls[0] = own;
+        const uint32_t lines[2] = {walls[gap->walls[0]].line, walls[gap->walls[1]].line};
+        SL_TRY(sli_wall_as_read(search, gap->at.a, lines[0], &gap->walls[0]));
+        SL_TRY(sli_wall_as_read(search, gap->at.b, lines[1], &gap->walls[1]));
     }
     return SL_OK;
 }
@@ -161,28 +183,110 @@ static sl_status count_welded(sli_fault_search *search) {
 
 // --- walls as read
 
-uint32_t sli_wall_as_read(const sli_fault_search *search, sl_point p, uint32_t line) {
-    uint32_t count, best = UINT32_MAX;
-    const uint32_t *near = sli_wall_grid_at(&search->grid, p, &count);
-    double least = search->options.gap / 1024 + search->moved;
+sl_status sli_wall_as_read(sli_fault_search *search, sl_point p, uint32_t line, uint32_t *out) {
+    const double reach = search->options.gap / 1024 + search->moved;
+    const sli_box_list *near = &search->index.near;
+    double least = reach;
     bool same_line = false;
-    for (uint32_t i = 0; i < count; i++) {
-        const sl_wall *wall = &search->map->walls[near[i]];
+    uint32_t best = UINT32_MAX;
+    SL_TRY(sli_walls_near(search->context, &search->index, (sl_segment){p, p}, reach));
+    for (size_t i = 0; i < near->count; i++) {
+        const sl_wall *wall = &search->map->walls[near->items[i]];
         const double distance = sli_apart(p, sli_nearest_on_wall(wall, p));
         const bool same = line && wall->line == line;
-        if (!(distance <= search->options.gap / 1024 + search->moved)) continue;
+        if (!(distance <= reach)) continue;
         if (best != UINT32_MAX && (same_line && !same)) continue;
         if (best != UINT32_MAX && same_line == same &&
-            (distance > least || (distance == least && near[i] > best)))
+            (distance > least || (distance == least && near->items[i] > best)))
             continue;
         least = distance;
-        best = near[i];
+        best = near->items[i];
         same_line = same;
     }
-    return best;
+    *out = best;
+    return SL_OK;
 }
 
-// --- pairs
+// --- overlaps: walls sorted by their lines, and along each line
+
+/// A wall from its lower end to its upper one, in the order of sli_compare_points.
+typedef struct lined_wall {
+    sl_point low, high;
+    uint32_t wall;
+    uint32_t line; ///< equal for walls in one line
+} lined_wall;
+
+typedef struct lined_walls {
+    lined_wall *items;
+    size_t count;
+} lined_walls;
+
+/// The order of lines: by direction, then from right to left. Exact.
+static int compare_lines(const lined_wall *a, const lined_wall *b) {
+    if (a->low.x == a->high.x && b->low.x == b->high.x)
+        return (a->low.x < b->low.x) - (a->low.x > b->low.x);
+    if (a->low.y == a->high.y && b->low.y == b->high.y)
+        return (a->low.y > b->low.y) - (a->low.y < b->low.y);
+    const int turn = sli_turn(a->low, a->high, b->low, b->high);
+    return turn ? -turn : -sli_orient(a->low, a->high, b->low);
+}
+
+/// On one line, a wall comes before those that it covers.
+static int compare_lined(const void *left, const void *right) {
+    const lined_wall *a = left, *b = right;
+    int order = compare_lines(a, b);
+    if (!order) order = sli_compare_points(a->low, b->low);
+    if (!order) order = sli_compare_points(b->high, a->high);
+    return order ? order : (a->wall > b->wall) - (a->wall < b->wall);
+}
+
+/// The walls of the map that have a length, by line and along it.
+static sl_status sort_by_line(sl_context *context, const sl_map *map, lined_walls *out) {
+    out->items = sl_alloc_array(context, map->wall_count, sizeof *out->items);
+    if (!out->items) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_point a = map->walls[i].a, b = map->walls[i].b;
+        const int order = sli_compare_points(a, b);
+        if (order)
+            out->items[out->count++] =
+                (lined_wall){order < 0 ? a : b, order < 0 ? b : a, (uint32_t)i, 0};
+    }
+    if (out->count) qsort(out->items, out->count, sizeof *out->items, compare_lined);
+    return SL_OK;
+}
+
+static sl_status add_overlap(sli_fault_search *search, const lined_wall *far,
+                             const lined_wall *wall, sl_point end) {
+    const bool turned = wall->wall < far->wall;
+    return sli_add_fault(search, (sl_fault){.kind = SL_FAULT_OVERLAP,
+                                            .at = {wall->low, end},
+                                            .size = sli_apart(wall->low, end),
+                                            .walls = {turned ? wall->wall : far->wall,
+                                                      turned ? far->wall : wall->wall},
+                                            .cell = SL_NO_CELL});
+}
+
+/// Of the walls that begin before a wall on its line, the one that reaches farthest shares all that
+/// any of them shares with it. Keeps the walls that it does not cover: they meet all that the
+/// others meet.
+static sl_status find_overlaps(sli_fault_search *search, lined_walls *walls) {
+    lined_wall far = {0};
+    size_t kept = 0;
+    for (size_t i = 0; i < walls->count; i++) {
+        lined_wall wall = walls->items[i];
+        const bool new_line = i == 0 || compare_lines(&far, &wall) != 0;
+        const bool beyond = new_line || sli_compare_points(wall.high, far.high) > 0;
+        if (!new_line && sli_compare_points(wall.low, far.high) < 0)
+            SL_TRY(add_overlap(search, &far, &wall, beyond ? far.high : wall.high));
+        if (!beyond) continue;
+        wall.line = far.line + new_line;
+        far = walls->items[kept++] = wall;
+    }
+    walls->count = kept;
+    return SL_OK;
+}
+
+// --- crossings
 
 /// Whether an end touches a wall, or is so near that cleaning welds it to the wall.
 static bool joins_wall(const sl_wall *wall, sl_point p, double weld) {
@@ -197,67 +301,113 @@ static bool walls_join(const sl_wall *a, const sl_wall *b, double weld) {
            joins_wall(b, a->b, weld);
 }
 
-/// The piece that two walls in one line share; false if it has no length.
-static bool shared_piece(const sl_wall *a, const sl_wall *b, sl_segment *out) {
-    const bool by_x = fabs(a->b.x - a->a.x) >= fabs(a->b.y - a->a.y);
-    sl_point ends[4] = {a->a, a->b, b->a, b->b};
-#define AT(p) (by_x ? (p).x : (p).y)
-    for (int i = 0; i < 4; i += 2) {
-        if (AT(ends[i]) <= AT(ends[i + 1])) continue;
-        const sl_point swapped = ends[i];
-        ends[i] = ends[i + 1];
-        ends[i + 1] = swapped;
-    }
-    out->a = AT(ends[0]) >= AT(ends[2]) ? ends[0] : ends[2];
-    out->b = AT(ends[1]) <= AT(ends[3]) ? ends[1] : ends[3];
-    return AT(out->a) < AT(out->b);
-#undef AT
-}
-
 static sl_point crossing_point(const sl_wall *a, const sl_wall *b) {
     const sl_point u = {a->b.x - a->a.x, a->b.y - a->a.y}, v = {b->b.x - b->a.x, b->b.y - b->a.y};
     const double at = ((b->a.x - a->a.x) * v.y - (b->a.y - a->a.y) * v.x) / (u.x * v.y - u.y * v.x);
     return (sl_point){a->a.x + at * u.x, a->a.y + at * u.y};
 }
 
-static sl_status compare_walls(sli_fault_search *search, uint32_t i, uint32_t j) {
-    const sl_wall *a = &search->map->walls[i], *b = &search->map->walls[j];
-    sl_fault fault = {.walls = {i, j}, .cell = SL_NO_CELL};
-    if (crosses(a, b->a, b->b)) {
-        if (search->weld > 0 && walls_join(a, b, search->weld)) return SL_OK;
-        fault.kind = SL_FAULT_CROSSING;
-        fault.at.a = fault.at.b = crossing_point(a, b);
-        return sli_add_fault(search, fault);
-    }
-    const bool in_line = !sli_same_point(a->a, a->b) && !sli_same_point(b->a, b->b) &&
-                         sli_orient(a->a, a->b, b->a) == 0 && sli_orient(a->a, a->b, b->b) == 0;
-    if (!in_line || !shared_piece(a, b, &fault.at)) return SL_OK;
-    fault.kind = SL_FAULT_OVERLAP;
-    fault.size = sli_apart(fault.at.a, fault.at.b);
-    return sli_add_fault(search, fault);
+/// A wall that crosses another one, and how far from the first end of that one.
+typedef struct crossing {
+    double along;
+    uint32_t wall;
+} crossing;
+
+typedef SL_ARRAY(crossing) crossing_list;
+
+static int compare_crossings(const void *left, const void *right) {
+    const crossing *a = left, *b = right;
+    if (a->along != b->along) return a->along < b->along ? -1 : 1;
+    return (a->wall > b->wall) - (a->wall < b->wall);
 }
 
-static sl_status compare_in_square(sli_fault_search *search, const uint32_t *walls,
-                                   uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t j = i + 1; j < count; j++) SL_TRY(compare_walls(search, walls[i], walls[j]));
+/// Walls that have an end in common do not cross, which takes no predicate.
+static bool share_end(const sl_wall *a, const sl_wall *b) {
+    return sli_same_point(a->a, b->a) || sli_same_point(a->a, b->b) || sli_same_point(a->b, b->a) ||
+           sli_same_point(a->b, b->b);
+}
+
+/// Lists the walls that cross a wall, along it. The index has the walls as sorted.
+static sl_status list_crossings(sli_fault_search *search, const lined_walls *walls,
+                                sli_wall_index *index, size_t at, crossing_list *out) {
+    const sl_wall *wall = &index->walls[at];
+    const sli_box_list *near = &index->near;
+    out->count = 0;
+    SL_TRY(sli_walls_near(search->context, index, (sl_segment){wall->a, wall->b}, 0));
+    for (size_t i = 0; i < near->count; i++) {
+        const sl_wall *other = &index->walls[near->items[i]];
+        const lined_wall *lined = &walls->items[near->items[i]];
+        if (lined->line == walls->items[at].line || share_end(wall, other)) continue;
+        if (!crosses(wall, other->a, other->b)) continue;
+        if (search->weld > 0 && walls_join(wall, other, search->weld)) continue;
+        SL_TRY(SL_ARRAY_ROOM(search->context, out, 1));
+        const double along = sli_apart(wall->a, crossing_point(wall, other));
+        out->items[out->count++] = (crossing){along, lined->wall};
+    }
+    if (out->count > 1) qsort(out->items, out->count, sizeof *out->items, compare_crossings);
     return SL_OK;
 }
 
-static sl_status compare_all(sli_fault_search *search) {
-    const sli_wall_grid *grid = &search->grid;
-    const size_t squares = (size_t)grid->columns * grid->rows;
-    for (size_t i = 0; i < squares; i++) {
-        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
-        SL_TRY(compare_in_square(search, grid->walls + grid->offsets[i],
-                                 grid->offsets[i + 1] - grid->offsets[i]));
+/// At each place that a wall shares with others, adds its crossing with the first of them; unless
+/// it is the first. Places no farther apart than `rounding` are one.
+static sl_status add_crossings(sli_fault_search *search, uint32_t number, double rounding,
+                               const crossing_list *list) {
+    for (size_t i = 0, end; i < list->count; i = end) {
+        uint32_t first = number;
+        for (end = i; end < list->count; end++) {
+            if (end > i && list->items[end].along - list->items[end - 1].along > rounding) break;
+            if (list->items[end].wall < first) first = list->items[end].wall;
+        }
+        if (first == number) continue;
+        const sl_wall *walls = search->map->walls;
+        sl_fault fault = {.kind = SL_FAULT_CROSSING, .walls = {first, number}, .cell = SL_NO_CELL};
+        fault.at.a = fault.at.b = crossing_point(&walls[first], &walls[number]);
+        SL_TRY(sli_add_fault(search, fault));
     }
     return SL_OK;
+}
+
+static sl_status compare_near(sli_fault_search *search, const lined_walls *walls,
+                              sli_wall_index *index) {
+    const sl_box box = sl_map_bounds(search->map);
+    const double rounding = sli_planar_tolerance(&box);
+    crossing_list list = {0};
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < walls->count && status == SL_OK; i++) {
+        if (i % 256 == 0) status = sl_check_cancelled(search->context);
+        if (status == SL_OK) status = list_crossings(search, walls, index, i, &list);
+        if (status == SL_OK) status = add_crossings(search, walls->items[i].wall, rounding, &list);
+    }
+    sl_free(search->context, list.items);
+    return status;
+}
+
+static sl_status find_crossings(sli_fault_search *search, const lined_walls *walls) {
+    sl_map sorted = {.wall_count = walls->count};
+    sli_wall_index index = {0};
+    sorted.walls = sl_alloc_array(search->context, walls->count, sizeof *sorted.walls);
+    if (!sorted.walls) return SL_NO_MEMORY;
+    for (size_t i = 0; i < walls->count; i++)
+        sorted.walls[i] = search->map->walls[walls->items[i].wall];
+    sl_status status = sli_wall_index_create(search->context, &sorted, &index);
+    if (status == SL_OK) status = compare_near(search, walls, &index);
+    sli_wall_index_destroy(search->context, &index);
+    sl_free(search->context, sorted.walls);
+    return status;
+}
+
+static sl_status find_pairs(sli_fault_search *search) {
+    lined_walls walls = {0};
+    sl_status status = sort_by_line(search->context, search->map, &walls);
+    if (status == SL_OK) status = find_overlaps(search, &walls);
+    if (status == SL_OK) status = find_crossings(search, &walls);
+    sl_free(search->context, walls.items);
+    return status;
 }
 
 sl_status sli_find_wall_faults(sli_fault_search *search) {
     if (!search->trial) {
-        SL_TRY(compare_all(search));
+        SL_TRY(find_pairs(search));
         SL_TRY(count_welded(search));
     }
     return find_gaps(search);
@@ -348,8 +498,10 @@ static double tolerance_at_step(const widths *w) {
 
 static sl_status suggest(sl_context *context, const sl_map *map, widths *w, sl_map *copy,
                          double *weld) {
+    // A wider gap than half of the walls are long is not one of rounding.
     const sl_box box = sl_map_bounds(map);
-    SL_TRY(find_widths(context, map, sli_apart(box.min, box.max) / 1000, w));
+    const double widest = fmin(sli_apart(box.min, box.max) / 1000, 2 * sl_usual_gap(map));
+    SL_TRY(find_widths(context, map, widest, w));
     SL_TRY(find_lengths(context, map, w));
     const double tolerance = tolerance_at_step(w);
     if (!(tolerance > 0)) return SL_OK;

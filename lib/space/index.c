@@ -1,14 +1,15 @@
 /// Three indexes, each for one question.
 ///
 /// Boxes in a tree: which of many boxes meet a box? A packed R-tree (Kamel & Faloutsos 1993, On
-/// packing R-trees). The boxes are sorted along the Z-order curve by their middles, which keeps
-/// neighbours together. Then each level has one box around every 8 of the level below:
+/// packing R-trees). The boxes are sorted along the Z-order curve, which keeps neighbours together.
+/// It goes by the ranks of their middles, in x and in y: so one box far away, or many in one spot,
+/// do no harm. Then each level has one box around every 8 of the level below:
 ///
 ///     level 1        [--------- 0 .. 7 ---------][--------- 8 .. 15 ...
 ///     level 0        [0][1][2][3][4][5][6][7]     [8][9] ...
 ///
-/// Walls in a grid: which walls are within a reach of a point? A wall is in every square that is
-/// within the reach of it, so one square has the answer. There is about one square for each wall.
+/// Walls in a tree: which walls are within a reach of a point or segment? The tree has their boxes.
+/// An oblique wall fills little of its box, so walls whose line passes at a distance are left out.
 ///
 /// Cells in a grid: which cell of a mesh holds a point? Each cell is entered row by row. The sides
 /// of the cell give the columns that it spans in a row:
@@ -51,43 +52,61 @@ sl_box sli_box_with(sl_box box, sl_point point) {
 // --- the order
 
 typedef struct place {
-    uint32_t key, item;
+    double at;
+    uint64_t key;
+    uint32_t item;
 } place;
 
-/// Puts a 0 before each of the 16 bits of a value.
-static uint32_t spread_bits(uint32_t value) {
-    value = (value | value << 8) & 0x00ff00ff;
-    value = (value | value << 4) & 0x0f0f0f0f;
-    value = (value | value << 2) & 0x33333333;
-    return (value | value << 1) & 0x55555555;
-}
-
-/// The step, of 65,536, of a place between two limits. Rounding only changes the order of boxes.
-static uint32_t step_at(double at, double low, double high) {
-    const double share = (at / 2 - low / 2) / (high / 2 - low / 2);
-    return share > 0 ? (uint32_t)sli_lesser(share * 65536, 65535) : 0;
+/// Puts a 0 before each of the 32 bits of a value.
+static uint64_t spread_bits(uint64_t value) {
+    value = (value | value << 16) & 0x0000ffff0000ffff;
+    value = (value | value << 8) & 0x00ff00ff00ff00ff;
+    value = (value | value << 4) & 0x0f0f0f0f0f0f0f0f;
+    value = (value | value << 2) & 0x3333333333333333;
+    return (value | value << 1) & 0x5555555555555555;
 }
 
 static int compare_places(const void *left, const void *right) {
+    const place *a = left, *b = right;
+    return (a->at > b->at) - (a->at < b->at);
+}
+
+static int compare_keys(const void *left, const void *right) {
     const place *a = left, *b = right;
     if (a->key != b->key) return a->key < b->key ? -1 : 1;
     return (a->item > b->item) - (a->item < b->item);
 }
 
-/// The numbers of the boxes, sorted along the curve by their middles.
+/// The middle of a side; 0 for one without ends.
+static double middle(double low, double high) {
+    const double at = low / 2 + high / 2;
+    return at == at ? at : 0;
+}
+
+/// Enters the ranks of the places into every other bit of their keys. Equal places have one rank.
+static void add_ranks(place *places, size_t count, int axis) {
+    uint64_t rank = 0;
+    qsort(places, count, sizeof *places, compare_places);
+    for (size_t i = 0; i < count; i++) {
+        rank += i && places[i].at != places[i - 1].at;
+        places[i].key |= spread_bits(rank) << axis;
+    }
+}
+
+/// The numbers of the boxes, sorted along the curve by the ranks of their middles.
 static sl_status sort_items(sl_context *context, const sl_box *boxes, size_t count,
                             uint32_t *items) {
     place *places = sl_alloc_array(context, count, sizeof *places);
     if (!places) return SL_NO_MEMORY;
-    sl_box all = boxes[0];
-    for (size_t i = 1; i < count; i++) all = joined(all, boxes[i]);
+    for (size_t i = 0; i < count; i++)
+        places[i] = (place){middle(boxes[i].min.x, boxes[i].max.x), 0, (uint32_t)i};
+    add_ranks(places, count, 0);
     for (size_t i = 0; i < count; i++) {
-        const sl_box *b = &boxes[i];
-        const uint32_t x = step_at(b->min.x / 2 + b->max.x / 2, all.min.x, all.max.x);
-        const uint32_t y = step_at(b->min.y / 2 + b->max.y / 2, all.min.y, all.max.y);
-        places[i] = (place){spread_bits(x) | spread_bits(y) << 1, (uint32_t)i};
+        const sl_box *box = &boxes[places[i].item];
+        places[i].at = middle(box->min.y, box->max.y);
     }
-    qsort(places, count, sizeof *places, compare_places);
+    add_ranks(places, count, 1);
+    qsort(places, count, sizeof *places, compare_keys);
     for (size_t i = 0; i < count; i++) items[i] = places[i].item;
     sl_free(context, places);
     return SL_OK;
@@ -184,87 +203,55 @@ sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const
     return SL_OK;
 }
 
-// --- walls in a grid
+// --- walls in a tree
 
-/// A bound for the rounding of a computed place, as a share of the map's size.
-#define WALL_SLACK 0x1p-40
-
-void sli_wall_grid_destroy(sl_context *context, sli_wall_grid *grid) {
-    sl_free(context, grid->offsets);
-    sl_free(context, grid->walls);
-    *grid = (sli_wall_grid){0};
-}
-
-/// About one square for each wall; a square is never smaller than the reach.
-static void choose_step(const sl_map *map, double reach, sli_wall_grid *grid) {
-    const double width = grid->bounds.max.x - grid->bounds.min.x;
-    const double height = grid->bounds.max.y - grid->bounds.min.y;
-    const double longer = fmax(width, height);
-    const double wanted = sqrt((double)map->wall_count) + 1;
-    grid->step = fmax(fmax(longer / fmin(wanted, 2048), 2 * reach), longer * 0x1p-11);
-    if (!(grid->step > 0)) grid->step = 1;
-    grid->columns = (uint32_t)(width / grid->step) + 1;
-    grid->rows = (uint32_t)(height / grid->step) + 1;
-}
-
-static uint32_t index_of(double offset, double step, uint32_t count) {
-    const double at = floor(offset / step);
-    return at <= 0 ? 0 : at >= count - 1 ? count - 1 : (uint32_t)at;
-}
-
-/// Puts a wall into its squares, column by column; without lists it only counts.
-static void put_wall(sli_wall_grid *grid, const sl_wall *wall, uint32_t number, double reach) {
-    const sl_point base = grid->bounds.min;
-    const bool right = wall->b.x >= wall->a.x;
-    const sl_point a = right ? wall->a : wall->b, b = right ? wall->b : wall->a;
-    const uint32_t first = index_of(a.x - reach - base.x, grid->step, grid->columns);
-    const uint32_t last = index_of(b.x + reach - base.x, grid->step, grid->columns);
-    const double slope = b.x > a.x ? (b.y - a.y) / (b.x - a.x) : 0;
-    for (uint32_t column = first; column <= last; column++) {
-        const double from = fmax(a.x, base.x + column * grid->step - reach);
-        const double to = fmin(b.x, base.x + (column + 1) * grid->step + reach);
-        double low = fmin(a.y, b.y), high = fmax(a.y, b.y);
-        if (slope != 0) {
-            const double y0 = a.y + (from - a.x) * slope, y1 = a.y + (to - a.x) * slope;
-            low = fmax(low, fmin(y0, y1));
-            high = fmin(high, fmax(y0, y1));
-        }
-        const uint32_t bottom = index_of(low - reach - base.y, grid->step, grid->rows);
-        const uint32_t top = index_of(high + reach - base.y, grid->step, grid->rows);
-        for (uint32_t row = bottom; row <= top; row++) {
-            uint32_t *end = &grid->offsets[(size_t)row * grid->columns + column + 1];
-            if (grid->walls) grid->walls[*end] = number;
-            ++*end;
-        }
-    }
-}
-
-sl_status sli_wall_grid_create(sl_context *context, const sl_map *map, double reach,
-                               sli_wall_grid *out) {
-    sli_wall_grid grid = {.bounds = sl_map_bounds(map)};
-    choose_step(map, reach, &grid);
-    const size_t squares = (size_t)grid.columns * grid.rows;
-    const sl_point min = grid.bounds.min, max = grid.bounds.max;
-    reach += WALL_SLACK * (fabs(min.x) + fabs(min.y) + fabs(max.x) + fabs(max.y));
-    grid.offsets = sl_alloc_array(context, squares + 1, sizeof *grid.offsets);
-    if (!grid.offsets) return SL_NO_MEMORY;
+sl_status sli_wall_index_create(sl_context *context, const sl_map *map, sli_wall_index *out) {
+    *out = (sli_wall_index){.walls = map->walls};
+    sl_box *boxes = sl_alloc_array(context, map->wall_count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
     for (size_t i = 0; i < map->wall_count; i++)
-        put_wall(&grid, &map->walls[i], (uint32_t)i, reach);
-    uint64_t sum = 0;
-    for (size_t i = 0; i < squares; i++) {
-        const uint32_t count = grid.offsets[i + 1];
-        grid.offsets[i + 1] = (uint32_t)sum;
-        sum += count;
+        boxes[i] = sli_box_around(map->walls[i].a, map->walls[i].b);
+    const sl_status status = sli_box_tree_create(context, boxes, map->wall_count, &out->tree);
+    sl_free(context, boxes);
+    return status;
+}
+
+void sli_wall_index_destroy(sl_context *context, sli_wall_index *index) {
+    sli_box_tree_destroy(context, &index->tree);
+    sl_free(context, index->near.items);
+    *index = (sli_wall_index){0};
+}
+
+/// Whether a segment lies farther than `reach` on one side of the line through another one. Not
+/// where rounding might have decided it.
+static bool passes(sl_point a, sl_point b, sl_point p, sl_point q, double reach) {
+    const sl_point d = {b.x - a.x, b.y - a.y};
+    const double from_p = d.x * (p.y - a.y) - d.y * (p.x - a.x);
+    const double from_q = d.x * (q.y - a.y) - d.y * (q.x - a.x);
+    const double size = fabs(a.x) + fabs(a.y) + fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y);
+    const double limit = (reach + 0x1p-40 * (size + reach)) * (fabs(d.x) + fabs(d.y));
+    return (from_p > limit && from_q > limit) || (from_p < -limit && from_q < -limit);
+}
+
+sl_status sli_walls_near(sl_context *context, sli_wall_index *index, sl_segment at, double reach) {
+    sli_box_list *near = &index->near;
+    sl_box box = sli_box_around(at.a, at.b);
+    const double most =
+        fmax(fmax(fabs(box.min.x), fabs(box.max.x)), fmax(fabs(box.min.y), fabs(box.max.y)));
+    const double wider = reach > 0 ? reach + 0x1p-50 * (most + reach) : 0;
+    box.min = (sl_point){box.min.x - wider, box.min.y - wider};
+    box.max = (sl_point){box.max.x + wider, box.max.y + wider};
+    near->count = 0;
+    if (!index->tree.levels) return SL_OK;
+    SL_TRY(find_below(context, &index->tree, index->tree.levels - 1, 0, &box, near));
+    size_t kept = 0;
+    for (size_t i = 0; i < near->count; i++) {
+        const sl_wall *wall = &index->walls[near->items[i]];
+        if (!passes(wall->a, wall->b, at.a, at.b, reach) &&
+            !passes(at.a, at.b, wall->a, wall->b, reach))
+            near->items[kept++] = near->items[i];
     }
-    grid.walls =
-        sum <= UINT32_MAX ? sl_alloc_array(context, sli_size(sum), sizeof *grid.walls) : NULL;
-    if (!grid.walls) {
-        sl_free(context, grid.offsets);
-        return sl_fail_memory(context);
-    }
-    for (size_t i = 0; i < map->wall_count; i++)
-        put_wall(&grid, &map->walls[i], (uint32_t)i, reach);
-    *out = grid;
+    near->count = kept;
     return SL_OK;
 }
 

@@ -43,33 +43,23 @@ void sli_box_tree_destroy(sl_context *context, sli_box_tree *tree); ///< and zer
 sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const sl_box *box,
                             sli_box_list *found);
 
-// --- walls in a grid
+// --- walls in a tree
 
-typedef struct sli_wall_grid {
-    sl_box bounds;
-    double step;
-    uint32_t columns, rows;
-    uint32_t *offsets; ///< by square, row after row, one more at the end
-    uint32_t *walls;   ///< a wall is in each square that is within `reach` of it
-} sli_wall_grid;
+/// Zeroed, it is empty.
+typedef struct sli_wall_index {
+    const sl_wall *walls; ///< the map's
+    sli_box_tree tree;
+    sli_box_list near; ///< what was found last
+} sli_wall_index;
 
-sl_status sli_wall_grid_create(sl_context *context, const sl_map *map, double reach,
-                               sli_wall_grid *out);
-void sli_wall_grid_destroy(sl_context *context, sli_wall_grid *grid);
+/// Keeps the map's walls, which must stay where they are in memory. A wall that moves is found
+/// as long as `reach` is larger by its way. Destroy `out` also on failure.
+sl_status sli_wall_index_create(sl_context *context, const sl_map *map, sli_wall_index *out);
+void sli_wall_index_destroy(sl_context *context, sli_wall_index *index); ///< and zeroes it
 
-/// The walls in the square of a point within the bounds: among them all within `reach` of it.
-static inline const uint32_t *sli_wall_grid_at(const sli_wall_grid *grid, sl_point point,
-                                               uint32_t *count) {
-    double x = (point.x - grid->bounds.min.x) / grid->step;
-    double y = (point.y - grid->bounds.min.y) / grid->step;
-    if (!(x >= 0)) x = 0;
-    if (!(y >= 0)) y = 0;
-    const uint32_t column = x < grid->columns - 1 ? (uint32_t)x : grid->columns - 1;
-    const uint32_t row = y < grid->rows - 1 ? (uint32_t)y : grid->rows - 1;
-    const uint32_t square = row * grid->columns + column;
-    *count = grid->offsets[square + 1] - grid->offsets[square];
-    return grid->walls + grid->offsets[square];
-}
+/// Puts the walls within `reach` of a segment, or of a point, into index->near, in any order. A few
+/// that are a little farther may be among them.
+sl_status sli_walls_near(sl_context *context, sli_wall_index *index, sl_segment at, double reach);
 
 // --- cells in a grid
 

@@ -169,15 +169,30 @@ static void say_all(inside *m) {
 
 // --- solid ground
 
-/// Gives all cells that portals connect with those on the stack a value that is not 0.
-static void flood(const inside *m, uint32_t *values, size_t count) {
+/// Whether a portal lies on a door, or on another seam that may end what is inside.
+static bool is_entrance(const inside *m, uint32_t portal) {
+    size_t count;
+    const sl_seam_portal *at = sl_space_seams_of(m->space, portal, &count);
+    for (size_t i = 0; i < count; i++) {
+        const sl_seam *seam = &m->space->seams[at[i].seam];
+        if (seam->kind == SL_SEAM_DOOR ||
+            (seam->kind == SL_SEAM_PLAIN && m->map->seams[seam->number].entrance))
+            return true;
+    }
+    return false;
+}
+
+/// Gives all cells that portals connect with those on the stack a value that is not 0. `indoors`:
+/// but not through entrances.
+static void flood(const inside *m, uint32_t *values, size_t count, bool indoors) {
     const sl_space *s = m->space;
     while (count) {
         const uint32_t at = m->stack[--count];
         const sl_cell *cell = &s->cells[at];
         for (uint32_t i = 0; i < cell->directed_count; i++) {
-            const uint32_t next = s->directed[cell->first_directed + i].cell;
-            if (values[next]) continue;
+            const sl_directed_portal *way = &s->directed[cell->first_directed + i];
+            const uint32_t next = way->cell;
+            if (values[next] || (indoors && is_entrance(m, way->portal))) continue;
             values[next] = values[at];
             m->stack[count++] = next;
         }
@@ -453,25 +468,32 @@ static sl_status mark(inside *m, bool marked, uint32_t *reached) {
     size_t count = 0, reopened = 0;
     if (marked) {
         say_all(m);
-        flood(m, m->solid_by, take(m, m->solid_by));
-        flood(m, m->open_by, take(m, m->open_by));
+        flood(m, m->solid_by, take(m, m->solid_by), false);
+        flood(m, m->open_by, take(m, m->open_by), false);
         SL_TRY(add_covered(m));
         SL_TRY(settle_open(m, &reopened));
         SL_TRY(settle_doors(m, &reopened));
     }
     SL_TRY(take_starts(m, reached, &count, &reopened));
-    const bool from_starts = count > 0;
-    for (uint32_t i = 0; i < s->cell_count && !from_starts; i++) {
+    const sl_interior *found = &m->map->interior;
+    const bool from_starts = count > 0, indoors = !from_starts && found->by != SL_ENTRANCE_NONE;
+    for (size_t i = 0; i < found->place_count && indoors; i++) {
+        const uint32_t cell = sl_space_locate(s, found->places[i]);
+        if (cell == SL_NO_CELL || m->solid_by[cell] || reached[cell]) continue;
+        reached[cell] = 1;
+        m->stack[count++] = cell;
+    }
+    for (uint32_t i = 0; i < s->cell_count && !from_starts && !indoors; i++) {
         if (!open_to_border(m, &s->cells[i])) continue;
         reached[i] = 1;
         m->stack[count++] = i;
     }
-    flood(m, reached, count);
+    flood(m, reached, count, indoors);
     uint32_t solid = 0;
     s->inside_count = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         s->cells[i].solid = m->solid_by[i] != 0;
-        s->cells[i].inside = !s->cells[i].solid && (reached[i] != 0) == from_starts;
+        s->cells[i].inside = !s->cells[i].solid && (reached[i] != 0) == (from_starts || indoors);
         s->inside_count += s->cells[i].inside;
         solid += s->cells[i].solid;
     }

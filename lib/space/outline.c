@@ -8,7 +8,7 @@
 /// Glass that is dark from one side has a directed portal at the one side and a wall at the other.
 /// While cells are joined, both sides are that wall, which keeps them; then they are linked.
 ///
-/// A mesh knows what each side is. In a kd-tree's space, a grid over the walls finds those near a
+/// A mesh knows what each side is. In a kd-tree's space, an index of the walls finds those near a
 /// gap, and an exact sign decides whether a wall lies on it. Then cells are joined to rooms
 /// (rooms.c). No coordinate is computed. Time O(n log n).
 #include "sightline/outline.h"
@@ -30,8 +30,7 @@ typedef struct cover {
 
 typedef struct outliner {
     const sl_space *space;
-    sli_wall_grid grid;
-    double reach; ///< of the grid: it finds walls within it
+    sli_wall_index index;
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
     uint32_t *of_portal; ///< the side of each directed portal
@@ -66,18 +65,13 @@ static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_p
     return SL_OK;
 }
 
-/// Finds the walls on a piece of boundary. Points are taken along it, less than two reaches apart:
-/// so each wall is within reach of one. A wall may come several times.
+/// Finds the walls on a piece of boundary.
 static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, sl_point to) {
-    const sl_point d = {to.x - from.x, to.y - from.y};
-    const double steps = ceil((fabs(d.x) + fabs(d.y)) / (1.9 * o->reach));
+    const sli_box_list *near = &o->index.near;
     o->covers.count = 0;
-    for (double i = 0; i <= steps; i++) {
-        const sl_point at = {from.x + d.x * (i / steps), from.y + d.y * (i / steps)};
-        uint32_t count;
-        const uint32_t *walls = sli_wall_grid_at(&o->grid, at, &count);
-        for (uint32_t k = 0; k < count; k++) SL_TRY(add_cover(context, o, walls[k], from, to));
-    }
+    SL_TRY(sli_walls_near(context, &o->index, (sl_segment){from, to}, 0));
+    for (size_t i = 0; i < near->count; i++)
+        SL_TRY(add_cover(context, o, near->items[i], from, to));
     if (o->covers.count > 1)
         qsort(o->covers.items, o->covers.count, sizeof *o->covers.items, compare_covers);
     return SL_OK;
@@ -239,17 +233,15 @@ static sl_status link_glass(sl_context *context, uint32_t count, sl_outline *out
     return done ? SL_OK : SL_NO_MEMORY;
 }
 
-static sl_status make_grid(sl_context *context, outliner *o) {
+static sl_status make_index(sl_context *context, outliner *o) {
     const sl_space *s = o->space;
     const sl_map map = {.walls = s->walls, .wall_count = s->wall_count};
-    const double size = fmax(s->bounds.max.x - s->bounds.min.x, s->bounds.max.y - s->bounds.min.y);
-    o->reach = size / (4 * sqrt((double)s->wall_count) + 4);
-    return sli_wall_grid_create(context, &map, o->reach, &o->grid);
+    return sli_wall_index_create(context, &map, &o->index);
 }
 
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
-    if (!s->neighbour) SL_TRY(make_grid(context, o));
+    if (!s->neighbour) SL_TRY(make_index(context, o));
     o->of_portal = sl_alloc_array(context, s->directed_count, sizeof *o->of_portal);
     if (!o->of_portal) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->cell_count; i++) {
@@ -294,7 +286,7 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
         *out = made;
     else
         sl_outline_destroy(context, &made);
-    sli_wall_grid_destroy(context, &o.grid);
+    sli_wall_index_destroy(context, &o.index);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_portal);
     return status;

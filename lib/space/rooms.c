@@ -113,23 +113,19 @@ static sl_status add_corner(cutter *c, uint32_t i) {
     return SL_OK;
 }
 
-/// Whether a corner is an ear: it turns left, and no other corner is in the way.
-static bool is_ear(const cutter *c, uint32_t at, bool convex) {
+/// Whether a corner is an ear: it turns left, and no other corner is in the way. A ring that is not
+/// convex sees all its corners from a centre. So none is in the way if the ear does not hold the
+/// centre, and the rest is such a ring again (Devillers 2002, On deletion in Delaunay
+/// triangulations).
+static bool is_ear(const cutter *c, uint32_t at, const sl_point *centre) {
     const corner *ring = c->ring.items;
-    const uint32_t before = ring[at].previous, after = ring[at].next;
-    const sl_point p = ring[before].at, q = ring[at].at, r = ring[after].at;
-    if (sli_orient(p, q, r) <= 0) return false;
-    for (uint32_t i = ring[after].next; !convex && i != before; i = ring[i].next) {
-        const sl_point s = ring[i].at;
-        if (!sli_same_point(s, p) && !sli_same_point(s, q) && !sli_same_point(s, r) &&
-            sli_orient(p, q, s) >= 0 && sli_orient(q, r, s) >= 0 && sli_orient(r, p, s) >= 0)
-            return false;
-    }
-    return true;
+    const sl_point p = ring[ring[at].previous].at, r = ring[ring[at].next].at;
+    return sli_orient(p, ring[at].at, r) > 0 && (!centre || sli_orient(p, r, *centre) >= 0);
 }
 
-/// Finds the ears of the ring, in order. False if it cannot be cut.
-static bool find_ears(cutter *c, bool convex) {
+/// Finds the ears of the ring, in order. `centre` is NULL for a convex ring. False if it cannot be
+/// cut.
+static bool find_ears(cutter *c, const sl_point *centre) {
     corner *ring = c->ring.items;
     const uint32_t count = (uint32_t)c->ring.count;
     for (uint32_t i = 0; i < count; i++) {
@@ -140,7 +136,7 @@ static bool find_ears(cutter *c, bool convex) {
     uint32_t left = count, tries = 0, at = 0;
     for (; left > 3 && tries < left; at = ring[at].next) {
         tries++;
-        if (!is_ear(c, at, convex)) continue;
+        if (!is_ear(c, at, centre)) continue;
         c->ears.items[c->ears.count++] = at;
         ring[ring[at].next].previous = ring[at].previous;
         ring[ring[at].previous].next = ring[at].next;
@@ -148,7 +144,7 @@ static bool find_ears(cutter *c, bool convex) {
         tries = 0;
         at = ring[at].next;
     }
-    return left == 3 && is_ear(c, at, true);
+    return left == 3 && is_ear(c, at, NULL);
 }
 
 /// Cuts the ears that find_ears found off the face.
@@ -177,7 +173,7 @@ static sl_status cut_cell(cutter *c, uint32_t first) {
         i = side(c->mesh, i)->next;
     } while (i != first);
     SL_TRY(SL_ARRAY_ROOM(c->context, &c->ears, c->ring.count));
-    return find_ears(c, true) ? cut_ears(c) : SL_OK;
+    return find_ears(c, NULL) ? cut_ears(c) : SL_OK;
 }
 
 /// Cuts all faces of more than three corners.
@@ -237,10 +233,11 @@ static bool goes_on(const faces *m, uint32_t before, uint32_t after) {
 static sl_status drop_corner(cutter *c, uint32_t at) {
     faces *m = c->mesh;
     const uint32_t first = first_spoke(m, at);
+    const sl_point centre = side(m, at)->start;
     uint32_t last;
     SL_TRY(gather_star(c, first, &last));
     if (last != GONE && !goes_on(m, last, first)) return SL_OK;
-    if (c->ring.count < 3 || !find_ears(c, false)) return SL_OK;
+    if (c->ring.count < 3 || !find_ears(c, &centre)) return SL_OK;
     for (size_t i = 0; i < c->spokes.count; i++)
         SL_TRY(drop_portal(c->context, m, c->spokes.items[i]));
     if (last != GONE) {

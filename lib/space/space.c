@@ -259,3 +259,54 @@ const sl_subdivision *sl_subdivisions(size_t *count) {
 const sl_subdivision *sl_subdivision_for(const sl_map *map) {
     return &subdivisions[map->cell_count ? GIVEN : sl_map_is_axial(map) ? KD : MESH];
 }
+
+// --- places that are inside
+
+bool sl_space_is_inside(const sl_space *space, sl_point point) {
+    const uint32_t cell = sl_space_locate(space, point);
+    return cell != SL_NO_CELL && space->cells[cell].inside;
+}
+
+/// The point of a segment that is nearest to another point, rounded.
+static sl_point nearest_on(sl_point a, sl_point b, sl_point p) {
+    const sl_point d = {b.x - a.x, b.y - a.y};
+    const double length = sli_length(d.x, d.y);
+    if (!(length > 0)) return a;
+    const sl_point unit = {d.x / length, d.y / length};
+    const double along = sli_dot((sl_point){p.x - a.x, p.y - a.y}, unit);
+    if (!(along > 0)) return a;
+    return along >= length ? b : (sl_point){a.x + along * unit.x, a.y + along * unit.y};
+}
+
+bool sl_space_nearest_inside(const sl_space *space, sl_point point, sl_point *out) {
+    double least = INFINITY;
+    uint32_t best = SL_NO_CELL;
+    sl_point at = point;
+    if (sl_space_is_inside(space, point)) {
+        *out = point;
+        return true;
+    }
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        const sl_point *corners = space->vertices + cell->first_vertex;
+        for (uint32_t k = 0; k < cell->vertex_count && cell->inside; k++) {
+            const sl_point p = nearest_on(corners[k], corners[(k + 1) % cell->vertex_count], point);
+            const double distance = sli_length(p.x - point.x, p.y - point.y);
+            if (!(distance < least)) continue;
+            least = distance;
+            best = i;
+            at = p;
+        }
+    }
+    if (best == SL_NO_CELL) return false;
+    // Off the wall, into the cell.
+    const sl_point middle = sl_space_middle(space, best);
+    *out = middle;
+    for (double share = 0x1p-10; share < 1; share *= 8) {
+        const sl_point p = {at.x + share * (middle.x - at.x), at.y + share * (middle.y - at.y)};
+        if (sl_space_locate(space, p) != best) continue;
+        *out = p;
+        break;
+    }
+    return true;
+}

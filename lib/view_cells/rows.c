@@ -12,6 +12,7 @@
 ///
 /// Cost: O(rows x words) to make; O(depth) rows for a lookup.
 #include "cell_to_cell/pvs_rows.h"
+#include "map/scan.h"
 #include "sightline/support.h"
 #include "view_cells/tree.h"
 
@@ -86,11 +87,11 @@ sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
     SL_TRY(sl_view_borders(context, tree, view_cells, &borders, &count));
     sl_status status = SL_OK;
     for (size_t i = 0; i < count && status == SL_OK; i++)
-        status = sl_map_add_seam(context, map, borders[i], 0);
+        status = sli_map_add_border(context, map, borders[i]);
     sl_free(context, borders);
     for (uint32_t i = 0; objects && i < objects->portal_count && status == SL_OK; i++) {
         const sl_segment portal = {objects->portals[i].right, objects->portals[i].left};
-        status = sl_map_add_seam(context, map, portal, 0);
+        status = sli_map_add_border(context, map, portal);
     }
     return status == SL_OK ? sl_map_clean(context, map, NULL, NULL) : status;
 }

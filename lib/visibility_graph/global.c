@@ -20,6 +20,7 @@
 /// Cost: for a group, the tiles of all bundles, a few rows of some, and the rows of points whose
 /// masks are not full. Most bundles are a group, so that is about a 64th of a search from each
 /// point. Memory: a word for each point and thread.
+#include "visibility_graph/integration.h"
 #include "visibility_graph/measures.h"
 #include "visibility_graph/tiles.h"
 
@@ -190,14 +191,7 @@ static void search(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t 
 
 // --- measures
 
-/// Hillier and Hanson's relative asymmetry of the root of a diamond.
-static double diamond_value(double n) {
-    return 2 * (n * (log2((n + 2) / 3) - 1) + 1) / ((n - 1) * (n - 2));
-}
-
-static double pyramid_value(double n) {
-    return 2 * (n - log2(n) - 1) / ((n - 1) * (n - 2));
-}
+#define LOG2_E 1.4426950408889634
 
 /// Of numbers of points by depth, up to the deepest.
 static void measure_depths(const int64_t *points, uint32_t deepest, sl_vga_measures *out) {
@@ -210,20 +204,19 @@ static void measure_depths(const int64_t *points, uint32_t deepest, sl_vga_measu
     if (nodes < 2) return;
     const double mean = total / (nodes - 1);
     out->visual_mean_depth = mean;
-    if (nodes > 2 && mean > 1) {
-        const double ra = 2 * (mean - 1) / (nodes - 2);
-        out->visual_integration_hh = diamond_value(nodes) / ra;
-        out->visual_integration_pvalue = pyramid_value(nodes) / ra;
-        out->visual_integration_tekl = log(0.5 * (nodes - 2)) / log(total - nodes + 1);
-    }
-    double entropy = 0, relative = 0, factorial = 1;
+    const sli_integration integration = sli_integration_of(nodes, total);
+    out->visual_integration_hh = integration.hh;
+    out->visual_integration_pvalue = integration.pvalue;
+    out->visual_integration_tekl = integration.tekl;
+    // Poisson's share at the depth k is mean^k / (k + 1)! e^-mean. As a logarithm, because powers
+    // and factorials overflow where points are 170 steps deep.
+    double entropy = 0, relative = 0, expected = -mean * LOG2_E;
     for (uint32_t k = 1; k <= deepest; k++) {
         if (!points[k]) continue;
         const double share = (double)points[k] / (nodes - 1);
         entropy -= share * log2(share);
-        factorial *= (double)(k + 1);
-        const double expected = pow(mean, k) / factorial * exp(-mean);
-        relative += share * log2(share / expected);
+        expected += log2(mean / (double)(k + 1));
+        relative += share * (log2(share) - expected);
     }
     out->visual_entropy = entropy;
     out->visual_relativised_entropy = relative;

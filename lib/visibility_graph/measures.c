@@ -76,17 +76,17 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
                 sli_length(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
             out->point_first_moment += distance;
             out->point_second_moment += distance * distance;
-            out->visual_control += 1.0 / j->degree[q];
+            // Behind one-way glass a neighbour may see nothing.
+            out->visual_control += j->degree[q] ? 1.0 / j->degree[q] : NAN;
         }
     }
     if (degree > 1)
         out->visual_clustering_coefficient =
             (double)count_triangles(t, s->level) / (degree * (degree - 1));
     sli_vga_tiles_step(t, s->level, s->seen, s->next);
-    if (degree > 0)
-        out->visual_controllability = degree / (double)count_set(s->next, t->bundles);
-    else
-        out->visual_control = NAN;
+    const uint64_t together = count_set(s->next, t->bundles);
+    if (together) out->visual_controllability = degree / (double)together;
+    if (!(degree > 0)) out->visual_control = NAN;
 }
 
 // --- all points

@@ -112,6 +112,21 @@ static uint32_t ask_look_60(const bench *b, uint32_t i) {
     return sl_runtime_look(&b->runtime, &view, b->scratch, b->cells, b->runtime.cell_count);
 }
 
+/// From one place to any other, and to one in a cell that the eye sees.
+static uint32_t ask_sees(const bench *b, uint32_t i) {
+    const uint32_t to = (i + ASKED / 2) % ASKED;
+    return sl_runtime_sees(&b->runtime, b->x[i], b->y[i], b->x[to], b->y[to], NULL, 0, b->scratch);
+}
+
+static uint32_t ask_sees_near(const bench *b, uint32_t i) {
+    const sl_runtime_cell c = sl_runtime_get_cell(&b->runtime, b->seen[i]);
+    double ax, ay, bx, by;
+    sl_runtime_get_vertex(&b->runtime, c.first_vertex, &ax, &ay);
+    sl_runtime_get_vertex(&b->runtime, c.first_vertex + c.vertex_count / 2, &bx, &by);
+    return sl_runtime_sees(&b->runtime, b->x[i], b->y[i], (ax + bx) / 2, (ay + by) / 2, NULL, 0,
+                           b->scratch);
+}
+
 static uint32_t ask_polygon(const bench *b, uint32_t i) {
     const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
     return sl_runtime_visible_polygon(&b->runtime, &view, NULL, 0, b->scratch, b->points, POINTS);
@@ -219,6 +234,8 @@ static void print_table(const bench *b, const char *name) {
         {"unpack a row", ask_row_bits, ASKED, rows},
         {"look all round", ask_look, LOOKS, b->size},
         {"look in a cone of 60", ask_look_60, LOOKS, b->size},
+        {"one place sees another", ask_sees, LOOKS, b->size},
+        {"one place sees one in a cell in view", ask_sees_near, LOOKS, b->size},
         {"visible polygon all round", ask_polygon, LOOKS, b->size},
         {"visible polygon in a cone of 60", ask_polygon_60, LOOKS, b->size},
         {"open the file", ask_open, 1, b->size},

@@ -6,6 +6,7 @@ import csv
 import heapq
 import io
 import itertools
+import json
 import math
 import random
 import re
@@ -47,6 +48,18 @@ def touch(s, t):
 
 def map_of(lines):
     return "sightline 1\n" + "".join("wall " + " ".join(map(str, line)) + "\n" for line in lines)
+
+
+class NoValue(unittest.TestCase):
+    def test_geojson_has_null(self):
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("row.csv").write_text("x1,y1,x2,y2\n0,0,4,0\n4,0,4,4\n4,4,8,4\n")
+            result = box.run(["axial", "row.csv", "--quiet", "-o", "row.geojson"])
+            self.assertEqual(result.status, 0, result.text())
+            found = json.loads(box.path("row.geojson").read_text(), parse_constant=self.fail)
+        rows = [feature["properties"] for feature in found["features"]]
+        self.assertEqual([row["integration_tekl"] for row in rows], [None] * 3)
+        self.assertEqual([row["integration_hh"] is None for row in rows], [False, True, False])
 
 
 class Drawn(unittest.TestCase):

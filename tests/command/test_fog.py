@@ -155,7 +155,8 @@ class Fog(unittest.TestCase):
                 self.assertEqual(answer.seen, of_c.seen, where)
             self.assertEqual(eye in answer.points, eye in of_c.points, where)
             self.assertTrue(same_corners(of_c.points, answer.points, limit), where)
-            self.assertLessEqual(set(answer.seen), set(answer.row), where)
+            if not touching: # where cells meet, an eye stands in several, and sees by all their rows
+                self.assertLessEqual(set(answer.seen), set(answer.row), where)
         return of_c
 
     def eyes(self, text, places):

@@ -109,13 +109,24 @@ class Closed(Plans):
 
 
 class Inside(Plans):
+    def setUp(self):
+        super().setUp()
+        self.write("open.dxf", Drawing().line("A-WALL", 0, 0, 12000, 0).line("A-WALL", 12000, 0, 12000, 8000)
+                   .line("A-WALL", 0, 8000, 0, 4).box("A-WALL", 5000, 0, 5120, 3000))
+
     def test_a_grid_of_wall_cores_is_refused(self):
         for command in (["vga", "--grid", "60"], ["isovist", "--grid", "60"], ["isovist", "--squares", "99"],
                         ["axial"]):
-            told = self.refused(command[0], "flat.dxf", *LAYERS, *command[1:])
+            told = self.refused(command[0], "open.dxf", *LAYERS, *command[1:])
             self.assertIn("walls enclose only 0.38 % of the area; say where a room is with --start X,Y", told)
-        self.run_well("vga", "flat.dxf", *LAYERS, "--grid", "500", "--at", "1000,1000", "-o", "a.csv")
-        self.run_well("isovist", "flat.dxf", *LAYERS, "--at", "1000,1000", "-o", "a.csv")
+        self.run_well("vga", "open.dxf", *LAYERS, "--grid", "500", "--at", "1000,1000", "-o", "a.csv")
+        self.run_well("isovist", "open.dxf", *LAYERS, "--at", "1000,1000", "-o", "a.csv")
+
+    def test_a_start_is_proposed_in_the_room(self):
+        """Not in the core of its wall."""
+        report = self.printed("check", "open.dxf", *LAYERS).splitlines()[-1]
+        x, y = map(float, re.search(r"--start (.*),(.*)$", report).groups())
+        self.assertTrue(0 < x < 12000 and 0 < y < 8000 and not (4900 < x < 5220 and y < 3100), report)
 
     def test_notes_repeat_the_options_that_count(self):
         self.write("my flat.dxf", flat())
@@ -142,7 +153,7 @@ class Drawings(Plans):
         self.write("a.dxf", flat(layers=self.LAYERS).line("A-DIMS", 0, -900, 9, -900))
         text = self.printed("info", "a.dxf")
         self.assertRegex(text, r"\n  unit      mm\n")
-        self.assertRegex(text, r"\n +6  A-WALL\n +1  A-DIMS \(off: read only by --layers\)\n +0  A-EMPTY\n +1  A-GRID\n")
+        self.assertRegex(text, r"\n +6  A-WALL\n +1  A-DIMS \(off: read only by --layers\)\n +1  A-GRID\n +1  empty layer \(--json lists all\)\n")
         report = json.loads(self.printed("info", "a.dxf", "--layers", "A-DIMS", "--json"))
         self.assertEqual(report["unit"], "mm")
         self.assertEqual([tuple(layer.values()) for layer in report["layers"]],

@@ -7,6 +7,7 @@ import csv
 import gzip
 import heapq
 import itertools
+import json
 import math
 import pathlib
 import sys
@@ -14,6 +15,7 @@ import tempfile
 import unittest
 
 import sandbox
+from case import MAPS
 
 PROGRAM = REFERENCE = PLAN = None
 
@@ -131,6 +133,31 @@ def lengths(points, graph, place, turns, start):
             for q in graph[p]:
                 heapq.heappush(heap, (length + math.dist(points[p], points[q]), q))
     return found
+
+
+class NoValue(unittest.TestCase):
+    """What a formula does not define is a blank in CSV and null in GeoJSON."""
+
+    def properties(self, *arguments):
+        with tempfile.TemporaryDirectory() as folder, sandbox.Sandbox(PROGRAM) as box:
+            plan, out = (pathlib.Path(folder) / name for name in ("corner.map", "all.geojson"))
+            plan.write_text("sightline 1\nwalls 0.75 0.75 2.25 0.75 2.25 2.25 1.75 2.25 1.75 1.25 "
+                            "0.75 1.25 0.75 0.75\n")
+            result = box.run(["vga", str(plan), "--grid", "1", *arguments, "--quiet", "-o", str(out)])
+            self.assertEqual(result.status, 0, result.text())
+            found = json.loads(out.read_text(), parse_constant=self.fail)
+        return [feature["properties"] for feature in found["features"]]
+
+    def test_geojson_has_null(self):
+        rows = self.properties()
+        self.assertEqual([row["visual_integration_tekl"] for row in rows], [None] * 3)
+        self.assertEqual([row["visual_integration_hh"] is None for row in rows], [False, True, False])
+
+    def test_geojson_of_a_change_has_null(self):
+        for row in self.properties("--compare", str(MAPS / "office.map")):
+            for ending in ("", "_change"):
+                self.assertIsNone(row["visual_integration_tekl" + ending])
+            self.assertIn("visual_integration_hh_other", row)
 
 
 class BruteForce(unittest.TestCase):

@@ -62,16 +62,28 @@ static void check_mirrored(const sl_runtime *r, const sl_runtime_view *view, uin
         FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]] == (i < direct));
 }
 
+/// Whether a row of a cell that the eye stands in has a cell.
+static bool is_in_rows(const sl_runtime *r, const sl_runtime_view *view, uint32_t cell,
+                       const buffers *b) {
+    slrt_search s;
+    if (!slrt_start_search(&s, r, view, NULL, 0, b->scratch)) return false;
+    memset(s.marks, 0, r->cell_count);
+    slrt_follow(&s, NULL);
+    for (uint32_t i = 0; i < s.own_count; i++)
+        if (sl_runtime_can_see(r, s.path[i], cell)) return true;
+    return false;
+}
+
 static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, slrt_no_dust(view->x), slrt_no_dust(view->y));
     const uint32_t count = sl_runtime_look(r, view, b->scratch, b->cells, r->cell_count);
     const bool looks = cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(r, cell);
-    FUZZ_CHECK((count > 0) == looks && count <= r->cell_count);
-    FUZZ_CHECK(!count || b->cells[0] == cell);
+    FUZZ_CHECK((!count || looks) && count <= r->cell_count);
     memset(b->seen, 0, r->cell_count);
     for (uint32_t i = 0; i < count; i++) {
         FUZZ_CHECK(b->cells[i] < r->cell_count && !b->seen[b->cells[i]]++);
-        FUZZ_CHECK(!sl_runtime_has_row(r, cell) || sl_runtime_can_see(r, cell, b->cells[i]));
+        FUZZ_CHECK(!i || b->cells[i] != cell);
+        FUZZ_CHECK(!sl_runtime_has_row(r, cell) || is_in_rows(r, view, b->cells[i], b));
     }
     check_mirrored(r, view, count, b);
 }

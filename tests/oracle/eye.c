@@ -4,10 +4,14 @@
 // and for closed sight, where what is seen from between is touched by a border, the directions
 // themselves.
 //
-// Open sight: the eye may be on walls or in corners. It stands in its cell, so it is moved into
-// that by next to nothing, much less than anything that matters is apart: beside either of the two
-// borders that the cell has at the eye, so that a ray can pass the eye on either side. What is seen
-// from one of the two counts.
+// The eye stands in its cell and in those that portals at the eye join with it. What it sees from
+// any of them counts. It sees those of them that the view leads into: a direction that matters does
+// not cross a side of the cell that the eye is on, from within.
+//
+// Open sight: the eye may be on walls or in corners. So it is moved into each of its cells by next
+// to nothing, much less than anything that matters is apart: beside either of the two borders that
+// the cell has at the eye, so that a ray can pass the eye on either side. What is seen from one of
+// the two counts.
 //
 // Closed sight: of a ray that goes from cell to cell through portals that it meets, ends included,
 // and of portals along it, crosses all to the same side.
@@ -34,8 +38,8 @@ typedef struct ray {
 
 struct oracle_eye {
     const sl_space *space;
-    int exponent; ///< coordinates are integers times 2 ^ exponent
-    uint32_t source;
+    int exponent;  ///< coordinates are integers times 2 ^ exponent
+    bool *sources; ///< by cell: whether the eye stands in it
     vector eye;
     vector *corners; ///< as space.vertices
     struct oracle_ends {
@@ -193,10 +197,29 @@ static bool meets(const oracle_eye *o, const vector *to, const struct oracle_end
     return met;
 }
 
+/// Whether a direction enters a cell that the eye stands in, or runs along its border.
+static bool leads_into(const oracle_eye *o, uint32_t number, const vector *to) {
+    const sl_cell *cell = &o->space->cells[number];
+    const vector *corners = o->corners + cell->first_vertex;
+    vector side, eye;
+    bool into = true;
+    init(&side);
+    init(&eye);
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        subtract(&side, &corners[(i + 1) % cell->vertex_count], &corners[i]);
+        subtract(&eye, &o->eye, &corners[i]);
+        into = into && (turn(&side, &eye) != 0 || turn(&side, to) >= 0);
+    }
+    clear(&side);
+    clear(&eye);
+    return into;
+}
+
 static void go_on(walk *w, uint32_t cell, int side) {
     const sl_space *space = w->o->space;
     if (w->seen[3 * cell + (uint32_t)side]) return;
-    w->seen[3 * cell + (uint32_t)side] = w->cells[cell] = true;
+    w->seen[3 * cell + (uint32_t)side] = true;
+    w->cells[cell] = !w->o->sources[cell] || leads_into(w->o, cell, w->to);
     const sl_cell *c = &space->cells[cell];
     for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
         int crossed;
@@ -209,7 +232,8 @@ static void go_on(walk *w, uint32_t cell, int side) {
 static void walk_along(const oracle_eye *o, ray *r) {
     r->cells = must(calloc(o->space->cell_count, sizeof *r->cells));
     walk w = {o, &r->to, must(calloc(3 * (size_t)o->space->cell_count, sizeof(bool))), r->cells};
-    go_on(&w, o->source, 0);
+    for (uint32_t c = 0; c < o->space->cell_count; c++)
+        if (o->sources[c]) go_on(&w, c, 0);
     free(w.seen);
 }
 
@@ -311,8 +335,8 @@ enum { WAYS_MOST = 64 };
 
 /// Where to move the eye along its cell's border: towards the ends of the edges that it is on;
 /// where it is on none, anywhere. Returns how many ways, which are initialised.
-static size_t find_ways(const oracle_eye *o, vector ways[WAYS_MOST]) {
-    const sl_cell *cell = &o->space->cells[o->source];
+static size_t find_ways(const oracle_eye *o, uint32_t source, vector ways[WAYS_MOST]) {
+    const sl_cell *cell = &o->space->cells[source];
     const vector *corners = o->corners + cell->first_vertex;
     size_t count = 0;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
@@ -339,9 +363,9 @@ static size_t find_ways(const oracle_eye *o, vector ways[WAYS_MOST]) {
     return 1;
 }
 
-/// The eye, moved into its cell: along its border and, by far less, to its middle.
-static void move_eye(const oracle_eye *o, const vector *way, vector *moved) {
-    const sl_cell *cell = &o->space->cells[o->source];
+/// The eye, moved into a cell of its own: along its border and, by far less, to its middle.
+static void move_eye(const oracle_eye *o, uint32_t source, const vector *way, vector *moved) {
+    const sl_cell *cell = &o->space->cells[source];
     const vector *corners = o->corners + cell->first_vertex;
     vector by;
     init(&by);
@@ -369,20 +393,47 @@ static void look_between(const oracle_eye *o, const vector *from, ray *r) {
     mpz_clears(end.num, end.den, NULL);
 }
 
-static void look_all_round(oracle_eye *o) {
+static void look_from_within(oracle_eye *o, uint32_t source) {
     vector ways[WAYS_MOST], from;
-    const size_t way_count = find_ways(o, ways);
+    const size_t way_count = find_ways(o, source, ways);
     init(&from);
-    for (size_t i = 0; i < o->ray_count; i++) {
-        walk_along(o, &o->touching[i]);
-        o->between[i].cells = must(calloc(o->space->cell_count, sizeof(bool)));
-    }
     for (size_t k = 0; k < way_count; k++) {
-        move_eye(o, &ways[k], &from);
+        move_eye(o, source, &ways[k], &from);
         for (size_t i = 0; i < o->ray_count; i++) look_between(o, &from, &o->between[i]);
         clear(&ways[k]);
     }
     clear(&from);
+}
+
+static void look_all_round(oracle_eye *o) {
+    for (size_t i = 0; i < o->ray_count; i++) {
+        walk_along(o, &o->touching[i]);
+        o->between[i].cells = must(calloc(o->space->cell_count, sizeof(bool)));
+    }
+    for (uint32_t c = 0; c < o->space->cell_count; c++)
+        if (o->sources[c]) look_from_within(o, c);
+}
+
+// --- the eye's cells
+
+static bool touches_eye(const oracle_eye *o, const struct oracle_ends *directed) {
+    vector a, b;
+    init(&a);
+    init(&b);
+    subtract(&a, &directed->a, &o->eye);
+    subtract(&b, &directed->b, &o->eye);
+    const bool touches = turn(&a, &b) == 0 && forward(&a, &b) <= 0;
+    clear(&a);
+    clear(&b);
+    return touches;
+}
+
+static void stand_in(oracle_eye *o, uint32_t cell) {
+    const sl_cell *c = &o->space->cells[cell];
+    o->sources[cell] = true;
+    for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++)
+        if (!o->sources[o->space->directed[i].cell] && touches_eye(o, &o->directed[i]))
+            stand_in(o, o->space->directed[i].cell);
 }
 
 // --- all together
@@ -431,11 +482,13 @@ oracle_eye *oracle_eye_create(const sl_space *space, sl_point eye, const sl_poin
                               size_t border_count) {
     oracle_eye *o = must(calloc(1, sizeof *o));
     o->space = space;
-    o->source = sl_space_locate(space, eye);
-    assert(o->source != SL_NO_CELL);
+    const uint32_t cell = sl_space_locate(space, eye);
+    assert(cell != SL_NO_CELL);
+    o->sources = must(calloc(space->cell_count, sizeof *o->sources));
     o->exponent = lowest_exponent(space, eye, borders, border_count) - PLACES;
     init_point(&o->eye, eye, o->exponent);
     take_points(o);
+    stand_in(o, cell);
     const size_t most = space->vertex_count + 2 * (size_t)space->directed_count +
                         2 * (size_t)space->wall_count + border_count;
     o->touching = must(calloc(2 * most + 2, sizeof *o->touching));
@@ -476,6 +529,7 @@ void oracle_eye_destroy(oracle_eye *o) {
         free(o->between[i].cells);
     }
     clear(&o->eye);
+    free(o->sources);
     free(o->corners);
     free(o->walls);
     free(o->directed);
@@ -505,7 +559,6 @@ void oracle_eye_sees(const oracle_eye *o, const sl_view *view, bool *closed, boo
     subtract(&left, &left, &o->eye);
     memset(closed, 0, count * sizeof *closed);
     memset(open, 0, count * sizeof *open);
-    closed[o->source] = open[o->source] = true;
     for (size_t i = 0; i < o->ray_count; i++)
         for (uint32_t c = 0; c < count; c++) {
             if (o->touching[i].cells[c] && !closed[c])
@@ -513,6 +566,8 @@ void oracle_eye_sees(const oracle_eye *o, const sl_view *view, bool *closed, boo
             if (o->between[i].cells[c] && !open[c])
                 open[c] = view->full || within(&right, &left, &o->between[i].to);
         }
+    for (uint32_t c = 0; c < count; c++)
+        if (o->sources[c]) open[c] = closed[c];
     clear(&right);
     clear(&left);
 }

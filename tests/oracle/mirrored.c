@@ -27,7 +27,8 @@ typedef struct piece {
 typedef struct looker {
     const sl_space *space;
     const sl_map *map;
-    uint32_t depth, source;
+    uint32_t depth;
+    bool *sources; ///< by cell: whether the eye stands in it
     double range;
     int exponent;
     piece *ways; ///< portals and mirrors, by cell
@@ -273,12 +274,25 @@ static bool meets(looker *l, const vector *eye, const vector *to, const piece *w
     return forward(l, to, &l->s) >= 0 || forward(l, to, &l->t) >= 0;
 }
 
+/// Whether a direction enters a cell that the eye stands in, or runs along its border.
+static bool leads_into(looker *l, const beam *b, uint32_t number) {
+    const sl_cell *cell = &l->space->cells[number];
+    const vector *corners = l->corners + cell->first_vertex;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        subtract(&l->s, &corners[(i + 1) % cell->vertex_count], &corners[i]);
+        subtract(&l->t, &b->eye, &corners[i]);
+        if (turn(l, &l->s, &l->t) == 0 && turn(l, &l->s, &b->to) < 0) return false;
+    }
+    return true;
+}
+
 /// `cells`: those seen directly, and those seen by mirror.
 static void walk(looker *l, const beam *b, uint32_t cell, int side, uint32_t depth, uint32_t last,
                  bool *seen, bool *const cells[2]) {
     if (seen[3 * cell + (uint32_t)side]) return;
     seen[3 * cell + (uint32_t)side] = true;
-    cells[depth > 0][cell] = true;
+    cells[depth > 0][cell] =
+        depth > 0 || !l->sources[cell] || cells[0][cell] || leads_into(l, b, cell);
     for (size_t i = 0; i < l->way_count; i++) {
         const piece *way = &l->ways[i];
         const bool is_mirror = way->mirror != UINT32_MAX;
@@ -511,7 +525,8 @@ static bool in_view(looker *l, const sl_view *view, const vector *eye, const vec
 
 static void look_along(looker *l, const beam *b, bool *direct, bool *mirrored) {
     bool *seen = must(calloc(3 * (size_t)l->space->cell_count, sizeof *seen));
-    walk(l, b, l->source, 0, 0, UINT32_MAX, seen, (bool *const[]){direct, mirrored});
+    for (uint32_t c = 0; c < l->space->cell_count; c++)
+        if (l->sources[c]) walk(l, b, c, 0, 0, UINT32_MAX, seen, (bool *const[]){direct, mirrored});
     free(seen);
 }
 
@@ -550,6 +565,7 @@ static void look(looker *l, const sl_view *view, const vector *eye) {
         assert(l->range > 0 || l->out.on_wall || traced[c] == l->out.open[c]);
         l->out.closed[c] |= l->out.open[c];
         l->out.direct_closed[c] |= l->out.direct_open[c];
+        if (l->sources[c]) l->out.direct_open[c] = l->out.direct_closed[c];
     }
     free(traced);
 }
@@ -677,6 +693,16 @@ static bool touches(looker *l, const vector *eye, const vector *a, const vector 
     return turn(l, &l->s, &l->t) == 0 && forward(l, &l->s, &l->t) <= 0;
 }
 
+/// The eye stands in its cell, and in those that portals at the eye join with it.
+static void stand_in(looker *l, const vector *eye, uint32_t cell) {
+    l->sources[cell] = true;
+    for (size_t i = 0; i < l->way_count; i++) {
+        const piece *way = &l->ways[i];
+        if (way->cell == cell && !l->sources[way->to] && touches(l, eye, &way->left, &way->right))
+            stand_in(l, eye, way->to);
+    }
+}
+
 static void release(looker *l) {
     for (uint32_t i = 0; i < 2 * l->space->wall_count; i++) clear(&l->walls[i]);
     for (uint32_t i = 0; i < l->space->vertex_count; i++) clear(&l->corners[i]);
@@ -688,7 +714,8 @@ static void release(looker *l) {
     for (size_t i = 0; i < l->direction_count; i++) clear(&l->directions[i]);
     for (size_t i = 0; i < 2 * l->dark_count; i++) clear(&l->dark[i]);
     free(l->dark);
-    free(l->walls), free(l->corners), free(l->mirrors), free(l->ways), free(l->directions);
+    free(l->sources), free(l->walls), free(l->corners), free(l->mirrors), free(l->ways),
+        free(l->directions);
     clear(&l->s), clear(&l->t), clear(&l->u);
     mpz_clears(l->p, l->q, NULL);
 }
@@ -705,7 +732,7 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
     vector eye;
     init(&eye), init(&l.s), init(&l.t), init(&l.u);
     mpz_inits(l.p, l.q, NULL);
-    l.source = sl_space_locate(space, view->eye);
+    l.sources = must(calloc(space->cell_count, sizeof(bool)));
     l.out.closed = must(calloc(space->cell_count, sizeof(bool)));
     l.out.open = must(calloc(space->cell_count, sizeof(bool)));
     l.out.direct_closed = must(calloc(space->cell_count, sizeof(bool)));
@@ -713,8 +740,8 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
     l.out.areas = must(calloc(oracle_chains(map, depth), sizeof(double)));
     find_exponent(&l, view);
     set_point(&l, &eye, view->eye);
-    l.out.direct_closed[l.source] = l.out.direct_open[l.source] = true;
     gather(&l);
+    stand_in(&l, &eye, sl_space_locate(space, view->eye));
     gather_dark(&l);
     uint32_t chain[16];
     assert(depth < 16);

@@ -20,9 +20,11 @@ static inline char *map_text(const sl_map *map) {
     return text;
 }
 
-/// As map_text, with solid ground left out: all walls as walls.
+/// As map_text, with solid ground left out, all walls as walls, and no unit.
 static inline char *map_walls_text(const sl_map *map) {
     sl_map bare = *map;
+    bare.unit[0] = '\0';
+    bare.unit_line = 0;
     bare.walls = malloc((map->wall_count + 1) * sizeof *bare.walls);
     if (!bare.walls) abort();
     for (size_t i = 0; i < map->wall_count; i++) {

@@ -194,11 +194,33 @@ static void narrow_rooms_have_lines(void **state) {
     sl_context_destroy(context);
 }
 
+/// Of three lines in a row each end has one line alone two steps away: Teklenburg's divisor is
+/// log(1).
+static void a_divisor_of_log_1_gives_no_value(void **state) {
+    (void)state;
+    static const sl_segment lines[] = {{{0, 0}, {4, 0}}, {{4, 0}, {4, 4}}, {{4, 4}, {8, 4}}};
+    sl_context *context = testing_context(NULL);
+    const sl_axial_options options = {0};
+    sl_line_graph graph = {0};
+    sl_axial_measures m[3];
+    assert_ok(context, sl_line_graph_make(context, lines, 3, &graph));
+    assert_ok(context, sl_axial_measure(context, lines, &graph, &options, m));
+    for (size_t i = 0; i < 3; i++) {
+        const double *values = (const double *)&m[i];
+        for (size_t k = 0; k < sizeof m[i] / sizeof *values; k++) assert_false(isinf(values[k]));
+        assert_true(isnan(m[i].integration_tekl));
+        assert_int_equal(isnan(m[i].integration_hh), i == 1);
+    }
+    sl_line_graph_destroy(context, &graph);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(turned_offices_have_turned_lines),
         cmocka_unit_test(turned_random_maps_have_turned_lines),
         cmocka_unit_test(narrow_rooms_have_lines),
+        cmocka_unit_test(a_divisor_of_log_1_gives_no_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

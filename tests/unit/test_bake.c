@@ -234,6 +234,22 @@ static void the_tree_is_the_search(void **state) {
     free(text);
 }
 
+/// The two halves of a bake, without anybody who wants an account.
+static void halves_need_no_account(void **state) {
+    (void)state;
+    static const char text[] = "sightline 1\nwalls 0 0 4 0 4 4 0 4 0 0\nwall 2 0 2 3\n";
+    sl_context *context = testing_context(NULL);
+    sl_bake_options options = sl_bake_options_default();
+    sl_map map = {0};
+    sl_baked baked = {0};
+    assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), &map));
+    assert_ok(context, sl_bake_space(context, &map, &options, &baked, NULL));
+    assert_ok(context, sl_bake_see(context, &options, &baked, NULL));
+    assert_true(sl_pvs_pairs(&baked.visibility.pvs) > baked.space.cell_count);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 static void inside_only_looks_at_inside_cells_only(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -332,6 +348,7 @@ int main(void) {
         cmocka_unit_test(a_baked_file_reads_back_the_same),
         cmocka_unit_test(a_damaged_file_is_refused),
         cmocka_unit_test(the_tree_is_the_search),
+        cmocka_unit_test(halves_need_no_account),
         cmocka_unit_test(inside_only_looks_at_inside_cells_only),
         cmocka_unit_test(a_search_can_be_interrupted),
         cmocka_unit_test(memory_may_fail_at_any_call),

@@ -896,7 +896,7 @@ static void test_all_rock(void **state) {
 /// Corners that are no numbers or too far away are refused, and add nothing.
 static void test_unusable_corners(void **state) {
     (void)state;
-    const double values[] = {NAN, INFINITY, 1e300, -1e300, 1e-300};
+    const double values[] = {NAN, INFINITY, 1e300, -1e300};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         sl_context *context = testing_context(NULL);
         const sl_point corners[] = {{0, 0}, {4, 0}, {4, values[i]}};

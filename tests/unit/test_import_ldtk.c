@@ -61,7 +61,8 @@ static void test_layers(void **state) {
     assert_walls(LAYERS, NULL, "Walls,Collisions", TWO_TILES);
     assert_walls(LAYERS, NULL, "Water",
                  "wall 16 8 24 8\nwall 16 0 24 0\nwall 16 0 16 8\nwall 24 0 24 8\n");
-    assert_no_such(LAYERS, NULL, "Water,Walls_2", "f: there is no IntGrid layer 'Walls_2'");
+    assert_no_such(LAYERS, NULL, "Water,Walls_2",
+                   "f: there is no layer 'Walls_2' in the level; it has Water, Collisions, Walls");
     // A layer's offset moves it; what it does not cover is solid.
     assert_walls(PROJECT("", LEVEL("A", "0", "0",
                                    GRID("Any", "0,0,0,0,0,0",

@@ -57,8 +57,6 @@ static void test_uvtt_refused(void **state) {
                         "f: line_of_sight[0][0].y: expected a number, found '1'");
     assert_uvtt_refused(UVTT("\"line_of_sight\": [[" POINT("1e308", "0") "]]"),
                         "f: line_of_sight[0][0].x: 1e+308 is out of range");
-    assert_uvtt_refused(UVTT("\"line_of_sight\": [[" POINT("1e-300", "0") "]]"),
-                        "f: line_of_sight[0][0].x: 1e-300 is out of range");
     assert_uvtt_refused(UVTT("\"line_of_sight\": [[" POINT("NaN", "0") "]]"), "f:2: column ");
     assert_uvtt_refused(UVTT("\"line_of_sight\": [], \"portals\": [{}]"),
                         "f: portals[0].bounds: expected an array");

@@ -145,7 +145,7 @@ static void test_layers_asked_for(void **state) {
     assert_chosen("a:b:5+7", THREE, TWO_TILES);
     assert_chosen("walls:2, a:b:4-7", THREE, TWO_TILES);
     assert_chosen("a:b:9", THREE, FRAME);
-    assert_not_chosen("b", THREE, "f: there is no layer 'b'");
+    assert_not_chosen("b", THREE, "f: there is no layer 'b' in the map; it has a:b, walls");
     assert_not_chosen("a:b,walls2", THREE, "f: there is no layer 'walls2'");
     assert_not_chosen("walls:1-", THREE, "f: layer 'walls:1-': expected tile numbers");
     assert_not_chosen("walls:1;2", THREE, "f: layer 'walls:1;2': expected tile numbers");
@@ -276,7 +276,8 @@ static void test_chunks(void **state) {
     assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("1e10", "0", "1", "1", "0")))),
                    "f:3: layers[0].chunks[0].x: 1e+10 is out of range");
     assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("0", "0", "99999", "99999", "0")))),
-                   "f:3: layers[0].chunks[0]: 99999 x 99999 tiles are more than can be read");
+                   "f:2: layer 'walls', 99999 x 99999: 9999800001 squares, more than the limit of "
+                   "134217728; --max-squares raises it");
     assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("0", "0", "0", "1", "0")))),
                    "f:3: layers[0].chunks[0].width: 0 is out of range");
 }

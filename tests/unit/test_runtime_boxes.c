@@ -358,12 +358,15 @@ typedef struct scene {
     uint32_t memory[256], scratch[256];
 } scene;
 
+static void set_up_text(scene *s, const char *text, uint32_t room) {
+    *s = (scene){.context = testing_context(NULL)};
+    s->file = baked_file_of_text(s->context, text);
+    sl_runtime_boxes_start(&s->boxes, &s->file.runtime, s->list, 3, room, s->memory);
+}
+
 /// Two rooms, and a doorway between them from (10, 4) to (10, 6).
 static void set_up(scene *s, uint32_t room) {
-    *s = (scene){.context = testing_context(NULL)};
-    s->file = baked_file_of_text(s->context, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\n"
-                                             "wall 10 6 10 10\n");
-    sl_runtime_boxes_start(&s->boxes, &s->file.runtime, s->list, 3, room, s->memory);
+    set_up_text(s, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n", room);
 }
 
 static void take_down(scene *s) {
@@ -451,11 +454,37 @@ static void touching(void **state) {
     take_down(&s);
 }
 
+/// The eye is in the corner of two walls, and looks along one of them. A box under that wall
+/// touches it from behind; one beyond its end touches the line of sight. The library says the same.
+static void behind_a_corner(void **state) {
+    (void)state;
+    scene s;
+    sl_query *query;
+    const sl_moving_box boxes[2] = {{{{5, 1}, {6, 2}}, false}, {{{9, 1}, {10, 2}}, false}};
+    const sl_view view = sl_view_all_round((sl_point){4, 2});
+    bool by_library[2];
+    set_up_text(&s, "walls 0 0 20 0 20 10 0 10 0 0\nwalls 4 8 4 2 8 2\nwall 0 2 1 2\n", 20);
+    for (uint32_t i = 0; i < 2; i++)
+        assert_true(move(&s, i, boxes[i].box.min.x, boxes[i].box.min.y, boxes[i].box.max.x,
+                         boxes[i].box.max.y, false));
+    assert_string_equal(seen(&s, 4, 2, 0), ".s.");
+    assert_ok(s.context, sl_query_create(s.context, &s.file.baked, &query));
+    assert_ok(s.context, sl_query_set_boxes(s.context, query, boxes, 2));
+    assert_ok(s.context, sl_query_boxes_seen(s.context, query, &view, by_library, NULL));
+    assert_true(!by_library[0] && by_library[1]);
+    sl_query_destroy(s.context, query);
+    take_down(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_query_says), cmocka_unit_test(in_turned_maps),
-        cmocka_unit_test(one_hides_another), cmocka_unit_test(nowhere_and_everywhere),
-        cmocka_unit_test(touching),          cmocka_unit_test(signs),
+        cmocka_unit_test(as_the_query_says),
+        cmocka_unit_test(in_turned_maps),
+        cmocka_unit_test(one_hides_another),
+        cmocka_unit_test(nowhere_and_everywhere),
+        cmocka_unit_test(touching),
+        cmocka_unit_test(behind_a_corner),
+        cmocka_unit_test(signs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

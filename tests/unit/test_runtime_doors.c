@@ -149,12 +149,16 @@ static void numbers_are_read_to_the_last_bit(void **state) {
     char text[600];
     sl_random random = {17};
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) same_number(hard[i]);
-    for (int length = 500; length < 520; length++) {
+    for (int length = 490; length < 520; length++) {
+        double value;
         memset(text, '3', (size_t)length);
         memcpy(text + length, "e-505", 6);
-        same_number(text);
+        if (length + 5 < 512)
+            same_number(text);
+        else
+            assert_false(reads(text, &value));
         text[length] = '\0';
-        same_number(text);
+        assert_false(reads(text, &value));
     }
     for (int i = 0; i < 20000; i++) {
         const uint64_t bits = sl_random_next(&random);

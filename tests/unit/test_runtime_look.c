@@ -12,7 +12,7 @@
 typedef struct trial {
     const baked_file *f;
     uint32_t *scratch, *cells, *stack;
-    bool *reached, *is_seen, *said;
+    bool *reached, *is_seen, *is_own, *said;
     size_t lines_left; ///< what the oracle may still follow on this map
 } trial;
 
@@ -41,8 +41,19 @@ static unsigned crossing_along(sl_point eye, sl_point through, const sl_directed
     return (ray > 0) == (portal > 0) ? CROSSED_RIGHT : CROSSED_LEFT;
 }
 
-/// Adds what one line sees within the row of the eye's cell. A line that runs along portals crosses
-/// them all to its left, or all to its right: then a line beside it passes them strictly.
+/// Whether a line from the eye that touches a cell enters it or runs along its border: it crosses
+/// no side at the eye from within.
+static bool enters(const sl_space *s, const sl_cell *c, sl_point eye, sl_point through) {
+    const sl_point *v = s->vertices + c->first_vertex;
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        const sl_point a = v[i], b = v[(i + 1) % c->vertex_count];
+        if (sli_orient(a, b, eye) == 0 && sli_orient(a, b, through) < 0) return false;
+    }
+    return true;
+}
+
+/// Adds what one line sees within the row of one of the eye's cells. A line that runs along portals
+/// crosses them all to its left, or all to its right: then a line beside it passes them strictly.
 static void follow(trial *t, sl_point eye, uint32_t from, sl_point through) {
     const sl_space *s = &t->f->baked.space;
     memset(t->reached, 0, STATES * s->cell_count * sizeof *t->reached);
@@ -52,7 +63,7 @@ static void follow(trial *t, sl_point eye, uint32_t from, sl_point through) {
     while (count) {
         const uint32_t state = t->stack[--count];
         const sl_cell *c = &s->cells[state / STATES];
-        t->is_seen[c - s->cells] = true;
+        if (enters(s, c, eye, through)) t->is_seen[c - s->cells] = true;
         for (uint32_t i = 0; i < c->directed_count; i++) {
             const sl_directed_portal *directed = &s->directed[c->first_directed + i];
             if (!sl_runtime_can_see(&t->f->runtime, from, directed->cell) ||
@@ -67,10 +78,23 @@ static void follow(trial *t, sl_point eye, uint32_t from, sl_point through) {
     }
 }
 
-static void ask_oracle(trial *t, const sl_view *view, uint32_t cell) {
+static bool touches(sl_point eye, const sl_directed_portal *directed) {
+    const sl_point a = directed->left, b = directed->right;
+    return sli_orient(a, b, eye) == 0 && fmin(a.x, b.x) <= eye.x && eye.x <= fmax(a.x, b.x) &&
+           fmin(a.y, b.y) <= eye.y && eye.y <= fmax(a.y, b.y);
+}
+
+/// Adds what is seen from one of the eye's cells, and then from those that portals at the eye join
+/// with it.
+static void look_from_cell(trial *t, const sl_view *view, uint32_t cell) {
     const sl_space *s = &t->f->baked.space;
-    memset(t->is_seen, 0, s->cell_count * sizeof *t->is_seen);
-    t->is_seen[cell] = true;
+    const sl_cell *c = &s->cells[cell];
+    t->is_own[cell] = true;
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        const sl_point corner = s->vertices[c->first_vertex + i];
+        if (!testing_same_point(corner, view->eye) && sl_view_holds(view, corner))
+            t->is_seen[cell] = true;
+    }
     for (uint32_t i = 0; i < 2 * s->portal_count; i++) {
         const sl_point end = i % 2 ? s->portals[i / 2].left : s->portals[i / 2].right;
         if (!testing_same_point(end, view->eye) && sl_view_holds(view, end))
@@ -81,6 +105,15 @@ static void ask_oracle(trial *t, const sl_view *view, uint32_t cell) {
         follow(t, view->eye, cell, view->left);
     }
     t->lines_left -= t->lines_left < 2 * s->portal_count ? t->lines_left : 2 * s->portal_count;
+    for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++)
+        if (!t->is_own[s->directed[i].cell] && touches(view->eye, &s->directed[i]))
+            look_from_cell(t, view, s->directed[i].cell);
+}
+
+static void ask_oracle(trial *t, const sl_view *view, uint32_t cell) {
+    memset(t->is_seen, 0, t->f->baked.space.cell_count * sizeof *t->is_seen);
+    memset(t->is_own, 0, t->f->baked.space.cell_count * sizeof *t->is_own);
+    look_from_cell(t, view, cell);
 }
 
 static void compare(trial *t, const sl_view *view) {
@@ -99,14 +132,14 @@ static void compare(trial *t, const sl_view *view) {
         assert_int_equal(count, 0);
         return;
     }
-    assert_true(count >= 1 && count <= r->cell_count);
-    assert_int_equal(t->cells[0], cell);
+    assert_true(count <= r->cell_count);
     memset(t->said, 0, r->cell_count * sizeof *t->said);
     for (uint32_t i = 0; i < count; i++) {
         assert_false(t->said[t->cells[i]]);
         t->said[t->cells[i]] = true;
     }
     ask_oracle(t, view, cell);
+    if (t->is_seen[cell]) assert_int_equal(t->cells[0], cell);
     // The oracle knows neither ranges nor glass; test_runtime_query does.
     const bool less = r->range > 0 || t->f->baked.map.oneway_count;
     for (uint32_t i = 0; i < r->cell_count; i++) {
@@ -139,8 +172,9 @@ static void looks_are_exact(const baked_file *f) {
     t.stack = calloc(n, STATES * sizeof *t.stack);
     t.reached = calloc(n, STATES * sizeof *t.reached);
     t.is_seen = calloc(n, sizeof *t.is_seen);
+    t.is_own = calloc(n, sizeof *t.is_own);
     t.said = calloc(n, sizeof *t.said);
-    assert_true(t.scratch && t.cells && t.stack && t.reached && t.is_seen && t.said);
+    assert_true(t.scratch && t.cells && t.stack && t.reached && t.is_seen && t.is_own && t.said);
     for (int i = 0; i < 300 && t.lines_left; i++) {
         const sl_point *corner = &s->vertices[sl_random_below(&random, s->vertex_count)];
         const sl_point *other = &s->vertices[sl_random_below(&random, s->vertex_count)];
@@ -159,6 +193,7 @@ static void looks_are_exact(const baked_file *f) {
     free(t.stack);
     free(t.reached);
     free(t.is_seen);
+    free(t.is_own);
     free(t.said);
 }
 

@@ -582,6 +582,115 @@ static void borders_are_kept(void **state) {
     sl_context_destroy(context);
 }
 
+// --- measures that are not defined
+
+static void check_no_value_is_infinite(const sl_vga_measures *m, uint32_t count) {
+    const double *values = (const double *)m;
+    for (size_t i = 0; i < count * (sizeof *m / sizeof *values); i++)
+        assert_false(isinf(values[i]));
+}
+
+/// All visual measures of a plan's grid of step 1. One-way glass is as it stands.
+static sl_vga_measures *measure_text(sl_context *context, const char *text, fixture *f) {
+    sl_space plain = {0};
+    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    assert_ok(context, sl_map_read_text(context, "plan", text, strlen(text), &f->map));
+    assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &f->map, &plain));
+    assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f->space));
+    sl_space_destroy(context, &plain);
+    fill_and_connect(context, 1, f);
+    const sl_vga_options options = sl_vga_options_default();
+    sl_vga_measures *m = test_calloc(f->grid.count + 1, sizeof *m);
+    assert_ok(context, sl_vga_measure(context, &f->outline, &f->grid, &f->graph, &options, m));
+    check_no_value_is_infinite(m, f->grid.count);
+    return m;
+}
+
+/// One point alone is two steps away: Teklenburg's divisor is log(1).
+static void a_divisor_of_log_1_gives_no_value(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    sl_vga_measures *m = measure_text(
+        context,
+        "sightline 1\nwalls 0.75 0.75 2.25 0.75 2.25 2.25 1.75 2.25 1.75 1.25 0.75 1.25 "
+        "0.75 0.75\n",
+        &f);
+    assert_int_equal(f.grid.count, 3);
+    size_t undefined = 0;
+    for (uint32_t p = 0; p < 3; p++) {
+        const bool is_end = m[p].connectivity == 1;
+        assert_true(isnan(m[p].visual_integration_tekl));
+        assert_int_equal(isnan(m[p].visual_integration_hh), !is_end);
+        assert_int_equal(isnan(m[p].visual_integration_pvalue), !is_end);
+        undefined += is_end;
+    }
+    assert_int_equal(undefined, 2);
+    test_free(m);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+enum { STAIRS = 150 };
+
+/// Two points of a grid a stair, each of which sees the next one and the one before.
+static void write_stairs(char *text, size_t room) {
+    size_t n = (size_t)snprintf(text, room, "sightline 1\nwalls -0.25 -0.25");
+    for (int i = 1; i <= STAIRS; i++)
+        n += (size_t)snprintf(text + n, room - n, " %g %g %g %g", i + 0.25, i - 1.25, i + 0.25,
+                              i == STAIRS ? i + 0.25 : i - 0.25);
+    for (int i = STAIRS; i >= 1; i--)
+        n += (size_t)snprintf(text + n, room - n, " %g %g %g %g", i - 0.25, i + 0.25, i - 0.25,
+                              i - 0.75);
+    snprintf(text + n, room - n, " -0.25 0.25 -0.25 -0.25\n");
+}
+
+/// The factorial of 171 is no double.
+static void entropy_of_deep_points_is_a_number(void **state) {
+    (void)state;
+    static char text[STAIRS * 64];
+    sl_context *context = testing_context(NULL);
+    fixture f = {0};
+    write_stairs(text, sizeof text);
+    sl_vga_measures *m = measure_text(context, text, &f);
+    const double others = 2 * STAIRS, mean = (others + 1) / 2;
+    double relative = 0;
+    assert_int_equal(f.grid.count, 2 * STAIRS + 1);
+    for (int k = 1; k <= 2 * STAIRS; k++)
+        relative += (-log(others) - k * log(mean) + lgamma(k + 2) + mean) / others / log(2);
+    assert_true(fabs(m[0].visual_mean_depth - mean) < 1e-12 * mean);
+    assert_true(fabs(m[0].visual_relativised_entropy - relative) < 1e-9 * relative);
+    for (uint32_t p = 0; p < f.grid.count; p++)
+        assert_true(isfinite(m[p].visual_relativised_entropy));
+    test_free(m);
+    fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+/// The last point on the left sees nothing, and is seen through the glass.
+static void neighbours_that_see_nothing_control_nothing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (int count = 2; count <= 3; count++) {
+        char text[120];
+        fixture f = {0};
+        snprintf(text, sizeof text,
+                 "sightline 1\nwalls 0.75 0.75 %d.25 0.75 %d.25 1.25 0.75 1.25 0.75 0.75\n"
+                 "oneway 1.5 0.75 1.5 1.25\n",
+                 count, count);
+        sl_vga_measures *m = measure_text(context, text, &f);
+        assert_int_equal(f.grid.count, count);
+        assert_true(m[0].connectivity == 0 && m[1].connectivity == count - 1);
+        assert_true(isnan(m[0].visual_control) && isnan(m[0].visual_controllability));
+        assert_true(isnan(m[1].visual_control));
+        assert_int_equal(isnan(m[1].visual_controllability), count == 2);
+        test_free(m);
+        fixture_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
@@ -594,6 +703,9 @@ int main(void) {
         cmocka_unit_test(glass_is_seen_through_one_way),
         cmocka_unit_test(depths_add_up_to_measures),
         cmocka_unit_test(borders_are_kept),
+        cmocka_unit_test(a_divisor_of_log_1_gives_no_value),
+        cmocka_unit_test(entropy_of_deep_points_is_a_number),
+        cmocka_unit_test(neighbours_that_see_nothing_control_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,6 +20,11 @@ wall 10 6 10 10
 start 5 5 0
 # the end
 """
+# A room with an opening of 2, and no start: inside is known by the width of entrances.
+HOUSE = """sightline 1
+walls 5 0 10 0 10 8 0 8 0 0 3 0
+wall 12 0 12 8
+"""
 # Two layers of tiles, and nothing that says which is solid. Their tiles are all alike, so that the
 # reader cannot guess.
 TILES = """<map width='3' height='2' tilewidth='8' tileheight='8'>
@@ -53,10 +58,10 @@ class Cases:
         path.write_text(text)
         return path
 
-    def run(self, name, map_path, script):
+    def run(self, name, map_path, script, *options):
         """Runs a script in the folder; `name` is for the report."""
         path = self.write("script.txt", SIZE + script)
-        done = self.viewer.run(map_path, "--script", path, cwd=self.folder)
+        done = self.viewer.run(map_path, "--script", path, *options, cwd=self.folder)
         self.viewer.check(done.returncode == 0, f"{name}: {done.stderr.strip()}")
 
     def check(self, good, what):
@@ -243,6 +248,25 @@ class Cases:
                  "expect plan.map: \n")
         outside = options + "key Tab\nkey Tab\nkey Tab\ntype 300,5\nkey Return\n"
         self.run("start outside", path, outside + "expect outside the map\n")
+
+    def takes_the_width_of_entrances(self):
+        path = self.write("house.map", HOUSE)
+        saved = self.folder / "saved.map"
+        found, narrow = "expect inside ends at 1 opening up to 2 wide\n", "expect walls enclose nothing\n"
+        keep = f"key Ctrl+Shift+S\nkey Ctrl+U\ntype {saved}\nkey Return\nexpect saved\n"
+        field = "key Ctrl+I\n" + "key Tab\n" * 4
+        self.run("found", path, found)
+        self.run("by the option", path, narrow + keep, "--entrance", "1")
+        self.check(["entrance", "1"] in statements(saved.read_text()), "the width was not saved")
+        # It holds for files that are opened later, too.
+        other = self.write("other.map", HOUSE)
+        self.run("later", path, f"drop {other}\nexpect other.map\n" + narrow, "--entrance", "1")
+        # The dialog has it in its field; an empty one is what the file says.
+        self.run("in the field", path, field + "key Ctrl+U\nkey Return\n" + found, "--entrance", "1")
+        for wrong in ("wide", "0", "1e200"):
+            self.run(f"field {wrong}", path, field + f"type {wrong}\nkey Return\n"
+                     "expect Widest entrance: a number over 0 is needed\nkey Ctrl+U\ntype 1\n"
+                     "key Return\n" + narrow)
 
     def suggests_a_weld(self):
         # The walls along a hall miss each other by the rounding of a drawing: each gap gives cells.

@@ -45,6 +45,11 @@ def main():
         fails(2, "--start 3", office, "--start", "3")
         fails(2, "--start 1,2,3", office, "--start", "1,2,3")
         fails(2, "--threshold 2", office, "--threshold", "2")
+        for width in ("0", "-1", "wide", "nan"):
+            fails(2, f"--entrance {width}: a number over 0 is needed", office, "--entrance", width)
+        for width in ("1e-200", "1e200"):
+            fails(2, "a number from 1e-150 to 1e+150", office, "--entrance", width,
+                  "--screenshot", out)
         fails(2, "has no use for it", office, "--doors", "--screenshot", out)
         fails(2, "outside", office, "--start", "1e6,1e6", "--screenshot", out)
         fails(2, "ends in .png", office, "--screenshot", folder / "out.gif")

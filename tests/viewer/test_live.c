@@ -605,6 +605,25 @@ static void test_cursor_tip(void **state) {
     viewer_end(app);
 }
 
+/// A house with a doubtful entrance: the eye begins in its room, and what is in doubt is said.
+static void test_doubtful_house(void **state) {
+    (void)state;
+    FILE *file = fopen("house.map", "w");
+    assert_non_null(file);
+    fputs("sightline 1\nunit m\nwalls 4 0 10 0 10 6 0 6 0 0 2 0\n"
+          "walls 3.8 -0.2 10.2 -0.2 10.2 6.2 -0.2 6.2 -0.2 -0.2 2 -0.2\nwall 30 -20 31 -20\n",
+          file);
+    fclose(file);
+    app_state *app = viewer_start(true);
+    viewer_open(app, "house.map");
+    script_frame(app);
+    const sl_point eye = app->view.eye.at;
+    assert_true(eye.x > 0 && eye.x < 10 && eye.y > 0 && eye.y < 6);
+    assert_non_null(strstr(app->ui.message, "inside is doubtful"));
+    viewer_end(app);
+    remove("house.map");
+}
+
 static void test_message(void **state) {
     (void)state;
     app_state *app = viewer_start(true);
@@ -640,6 +659,7 @@ int main(void) {
         cmocka_unit_test(test_exported),
         cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_doubtful_house),
         cmocka_unit_test(test_message),
         cmocka_unit_test(test_cursor_tip),
     };

@@ -22,6 +22,8 @@ export interface MapObject {
   objects?: { name: string; box: number[] }[]
   cells?: Polygon[]
   range?: number
+  /** How wide openings to the outside are at most: it says what is inside if there is no start. */
+  entrance?: number
   snap?: number
 }
 
@@ -41,6 +43,8 @@ export interface BakeOptions {
   doorLimit?: number
   samples?: number
   seed?: number
+  /** How wide openings to the outside are at most; by default, and for 0, as the map says. */
+  entrance?: number
   /** The name of the map in messages; with the ending .txt it is an ASCII plan. */
   name?: string
   /** Return false to stop. */
@@ -124,7 +128,10 @@ export interface Fault {
 }
 
 export interface Faults {
-  doubt: 'sure' | 'leaks' | 'small' | 'few' | 'none'
+  /** Whether it is in doubt what is inside; 'opening': an opening is a little wider than entrances. */
+  doubt: 'sure' | 'leaks' | 'small' | 'few' | 'none' | 'opening'
+  /** The same for people; '' where it is plain. */
+  said: string
   /** Shares of the area. */
   inside: number
   outside: number
@@ -194,6 +201,8 @@ export class Scene {
   directed(number: number): DirectedPortal
   wall(number: number): { segment: Segment; line: number; item: string }
   setDoor(name: string, open: boolean): void
+  /** What is inside, for people, where that is not plain: what is in doubt, or which openings count as entrances. */
+  insideText(): string
   locate(x: number, y: number): number
   row(cell: number): Uint32Array
   mirroredRow(cell: number): Uint32Array

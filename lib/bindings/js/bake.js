@@ -6,36 +6,48 @@
  * Where a call fails, SightlineError tells the line. Where the module itself stops (a stack that
  * overflows), its scenes are lost: the instance is replaced, and calls about them say so.
  */
+import { flagOf, given, numberOf, optionsOf, pick, textOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 import { isBaked, mapText } from './maptext.js'
 import { Module, instantiable } from './module.js'
-import { Scene } from './scene.js'
+import { MOST_MIRRORS, Scene } from './scene.js'
 
 export { SightlineError, mapText }
 
+function sceneOf(scene) {
+  if (scene instanceof Scene) return scene
+  throw new SightlineError('scene: what open() gives is needed')
+}
+
 /** A loaded module. All calls are synchronous; scenes stay until they are closed. */
 export class Core extends Module {
-  #configure(options = {}) {
-    const known = ['method', 'subdivide', 'sight', 'insideOnly', 'stabTrees', 'check', 'weld', 'mirrorDepth',
-      'doorLimit', 'samples', 'seed', 'name', 'progress', 'timeLimit', 'version', 'misses', 'tests',
-      'gap', 'thin', 'heading', 'fov', 'range', 'tolerance', 'format']
-    for (const name of Object.keys(options))
-      if (!known.includes(name)) throw new SightlineError(`there is no option '${name}'`)
-    const { method = '', subdivide = '', sight = 'closed', insideOnly = false, stabTrees = false,
-      check = false, weld = -1, mirrorDepth = -1, doorLimit = -1, samples = -1, seed = -1 } = options
+  /** The options, checked; those of the bake are set. `more`: the options of the call beside these. */
+  #configure(asked, ...more) {
+    const options = optionsOf(asked, 'method', 'subdivide', 'sight', 'insideOnly', 'stabTrees', 'check', 'weld',
+      'mirrorDepth', 'doorLimit', 'samples', 'seed', 'entrance', 'name', 'progress', 'timeLimit', ...more)
+    const { method = '', subdivide = '', sight = 'closed', insideOnly = false, stabTrees = false, check = false } = options
     if (!['closed', 'open'].includes(sight)) throw new SightlineError("sight: 'closed' or 'open' is needed")
-    if (mirrorDepth > 16) throw new SightlineError('mirrorDepth: 0 to 16 is needed')
-    this.withBytes([method, subdivide], (a, b) =>
+    const flags = { insideOnly, stabTrees, check }
+    for (const [name, value] of Object.entries(flags)) flagOf(name, value)
+    const count = (name, most) => given(options[name], (value) => wholeOf(name, value, most))
+    const numbers = [given(options.weld, (value) => numberOf('weld', value, 0)), count('mirrorDepth', MOST_MIRRORS),
+      count('doorLimit', 65535), count('samples', 0xffffffff), count('seed', Number.MAX_SAFE_INTEGER),
+      numberOf('entrance', options.entrance ?? 0, 0)]
+    this.withBytes([textOf('method', method), textOf('subdivide', subdivide)], (a, b) =>
       this.ask((core) => core.options(a, b, +(sight === 'open'), +insideOnly, +stabTrees,
-        +check, weld, mirrorDepth, doorLimit, samples, seed)))
+        +check, ...numbers)))
+    return options
   }
 
   /** Bakes a map, or opens a baked file, and keeps it for questions. Close it. */
-  open(map, options = {}) {
-    this.#configure(options)
+  open(map, options) {
+    return this.#open(map, this.#configure(options))
+  }
+
+  #open(map, options) {
     if (isBaked(map)) {
       const bytes = bytesOf(map)
-      return this.withBytes([options.name ?? 'map.slv', bytes], (name, at) =>
+      return this.withBytes([textOf('name', options.name ?? 'map.slv'), bytes], (name, at) =>
         this.#scene(this.run((core) => core.scene_open(name, at, bytes.length))))
     }
     return this.withMap(map, options, (name, at, size, items) =>
@@ -48,10 +60,11 @@ export class Core extends Module {
     return new Scene(this, at, items)
   }
 
-  #withScene(map, options, call) {
-    const scene = this.open(map, options)
+  #withScene(map, asked, more, call) {
+    const options = this.#configure(asked, ...more)
+    const scene = this.#open(map, options)
     try {
-      return call(scene)
+      return call(scene, pick(options, ...more))
     } finally {
       scene.close()
     }
@@ -59,30 +72,34 @@ export class Core extends Module {
 
   /** The bytes of the baked file. */
   bake(map, options) {
-    return this.#withScene(map, options, (scene) => scene.slv())
+    return this.#withScene(map, options, [], (scene) => scene.slv())
   }
 
   /** The JSON export, version 2, as an object. */
   describe(map, options) {
-    return this.#withScene(map, options, (scene) => scene.describe())
+    return this.#withScene(map, options, [], (scene) => scene.describe())
   }
 
   /** Why one cell or point sees another or not, as an object. */
   explain(map, a, b, options) {
-    return this.#withScene(map, options, (scene) => scene.explain(a, b, options))
+    return this.#withScene(map, options, ['misses', 'tests', 'mirrorDepth'],
+      (scene, how) => scene.explain(a, b, how))
   }
 
   /** What one point sees, with its measures. */
   isovist(map, x, y, options) {
-    return this.#withScene(map, options, (scene) => scene.isovist(x, y, options))
+    return this.#withScene(map, options, ['heading', 'fov', 'range', 'tolerance'],
+      (scene, how) => scene.isovist(x, y, how))
   }
 
   /** Leaks, gaps, overlaps, crossings and thin cells of a map. */
-  check(map, options = {}) {
-    this.#configure(options)
+  check(map, asked) {
+    const { gap = 0, thin = 0, ...options } = this.#configure(asked, 'gap', 'thin')
+    numberOf('gap', gap, 0)
+    numberOf('thin', thin, 0)
     return this.withMap(map, options, (name, at, size, items) => {
       const status = this.watched(options, () =>
-        this.run((core) => core.map_check(name, at, size, options.gap ?? 0, options.thin ?? 0)))
+        this.run((core) => core.map_check(name, at, size, gap, thin)))
       if (status) throw this.failure(items)
       const found = JSON.parse(this.writtenText())
       if (items) for (const fault of found.faults) fault.items = fault.lines.map((line) => items[line] ?? '')
@@ -91,10 +108,10 @@ export class Core extends Module {
   }
 
   /** A map as map text ('text', the default) or as an ASCII plan ('plan'). */
-  writeMap(map, { format = 'text', ...options } = {}) {
-    this.#configure(options)
+  writeMap(map, asked) {
+    const { format = 'text', ...options } = this.#configure(asked, 'format')
     return this.withMap(map, options, (name, at, size, items) =>
-      this.withBytes([format], (formatAt) => {
+      this.withBytes([textOf('format', format)], (formatAt) => {
         if (this.run((core) => core.map_write(name, at, size, formatAt))) throw this.failure(items)
         return this.writtenText()
       }))
@@ -102,18 +119,19 @@ export class Core extends Module {
 
   /** The cells that an eye in an open scene sees. */
   eye(scene, x, y, options) {
-    return scene.look(x, y, options)
+    return sceneOf(scene).look(x, y, options)
   }
 
   /** The stab tree of a cell of an open scene. */
   stabTree(scene, cell, options) {
-    return scene.stabTree(cell, options)
+    return sceneOf(scene).stabTree(cell, options)
   }
 
   /** Places portals, each [left x, left y, right x, right y], for dual() and conflict(). */
   #withPortals(portals, call) {
-    const flat = Float64Array.from(portals.flat())
-    if (flat.length !== 4 * portals.length || !portals.length || flat.some((n) => !Number.isFinite(n)))
+    const list = Array.isArray(portals) ? portals.map((ends) => (Array.isArray(ends) ? ends : [])) : []
+    const flat = Float64Array.from(list.flat())
+    if (!list.length || list.some((ends) => ends.length !== 4 || !ends.every(Number.isFinite)))
       throw new SightlineError('portals: a list of [left x, left y, right x, right y] is needed')
     return this.withBytes([new Uint8Array(flat.buffer)], (at) => call(at))
   }
@@ -122,8 +140,10 @@ export class Core extends Module {
    * The lines through a portal sequence as a polygon of the dual plane: to be shown. Corners are
    * slope and height, in the frame that origin, along and scale give.
    */
-  dual(portals, { cutting = portals.length } = {}) {
+  dual(portals, options) {
     return this.#withPortals(portals, (at) => {
+      const { cutting = portals.length } = optionsOf(options, 'cutting')
+      wholeOf('cutting', cutting, portals.length)
       this.run((core) => core.dual(at, portals.length, cutting))
       const [ox, oy, ax, ay, scale, slope, height, margin] = this.givenNumbers(8)
       const [count, corners] = this.given(2)

@@ -36,6 +36,8 @@ export interface GraphOptions extends Progress {
   range?: number
   /** The most points, 20000 by default: n points take n * n / 8 bytes. */
   most?: number
+  /** How wide openings to the outside are at most; by default, and for 0, as the map says. */
+  entrance?: number
   /** The name of the map in messages. */
   name?: string
 }

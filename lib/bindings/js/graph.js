@@ -4,6 +4,7 @@
  *
  * A group of measures is computed when one of them is asked for, and kept.
  */
+import { flagOf, indexOf, listOf, numberOf, objectOf, optionsOf, textOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 import { isBaked } from './maptext.js'
 import { Module, instantiable } from './module.js'
@@ -30,7 +31,7 @@ export const measures = Object.freeze(GROUPS.flatMap(([, names]) => names))
 export const depths = Object.freeze(DEPTHS.map(([, name]) => name))
 
 const groupOf = (name) => {
-  const group = GROUPS.find(([, names]) => names.includes(name))
+  const group = GROUPS.find(([, names]) => names.includes(textOf('measure', name)))
   if (!group) throw new SightlineError(`there is no measure '${name}'`)
   return group
 }
@@ -66,14 +67,12 @@ export class Graph {
   /** A column of the table that the last call left: values that are not defined are NaN. */
   #column(width, k) {
     const table = new Float64Array(this.#core.memory.buffer, this.#core.given(1)[0], width * this.count)
-    return Float64Array.from({ length: this.count }, (_, p) => {
-      const value = table[width * p + k]
-      return Number.isFinite(value) ? value : NaN
-    })
+    return Float64Array.from({ length: this.count }, (_, p) => table[width * p + k])
   }
 
   /** A measure of all points; computes its group, where that is not done yet. */
-  values(name, options = {}) {
+  values(name, given) {
+    const options = optionsOf(given, 'progress', 'timeLimit')
     const [part, names] = groupOf(name), at = this.#place
     if (!this.#values.has(name)) {
       this.#core.watched(options, () => this.#core.ask((core) => core.graph_measure(at, part)))
@@ -84,12 +83,12 @@ export class Graph {
 
   /** The point in whose square a place lies, or -1. */
   find(x, y) {
-    return this.#core.core.graph_find(this.#place, x, y) | 0
+    return this.#core.core.graph_find(this.#place, numberOf('x', x), numberOf('y', y)) | 0
   }
 
   /** How far all points are from the point at a place: NaN where nothing leads; null without a point there. */
   depth(x, y, name = 'visual_step_depth') {
-    const k = depths.indexOf(name), from = this.find(x, y), at = this.#place
+    const k = depths.indexOf(textOf('depth', name)), from = this.find(x, y), at = this.#place
     if (k < 0) throw new SightlineError(`there is no depth '${name}'`)
     if (from < 0) return null
     this.#core.ask((core) => core.graph_depth(at, DEPTHS[k][0], from))
@@ -99,9 +98,7 @@ export class Graph {
   /** Whether one point sees another, by their numbers. */
   sees(a, b) {
     this.#place
-    for (const point of [a, b])
-      if (!Number.isInteger(point) || point < 0 || point >= this.count)
-        throw new SightlineError(`point ${point}: there are ${this.count} points`)
+    for (const point of [a, b]) indexOf('point', point, this.count)
     const row = new Uint32Array(this.#core.memory.buffer, this.#rows + 4 * this.#words * a, this.#words)
     return ((row[b >> 5] >>> (b & 31)) & 1) === 1
   }
@@ -118,13 +115,13 @@ class GraphCore extends Module {
   #open(map, options) {
     if (!isBaked(map))
       return this.withMap(map, options, (name, at, size, items) => {
-        const place = this.run((core) => core.graph_open(name, at, size, 0))
+        const place = this.run((core) => core.graph_open(name, at, size, 0, options.entrance ?? 0))
         if (!place) throw this.failure(items)
         return place
       })
     const bytes = bytesOf(map)
-    return this.withBytes([options.name ?? 'map.slv', bytes], (name, at) => {
-      const place = this.run((core) => core.graph_open(name, at, bytes.length, 1))
+    return this.withBytes([textOf('name', options.name ?? 'map.slv'), bytes], (name, at) => {
+      const place = this.run((core) => core.graph_open(name, at, bytes.length, 1, 0))
       if (!place) throw this.failure()
       return place
     })
@@ -140,14 +137,16 @@ class GraphCore extends Module {
   }
 
   /** Makes a graph and keeps it. Close it. */
-  graph(map, options = {}) {
-    const known = ['grid', 'measures', 'doors', 'range', 'most', 'name', 'progress', 'timeLimit']
-    for (const name of Object.keys(options))
-      if (!known.includes(name)) throw new SightlineError(`there is no option '${name}'`)
-    const { grid, range, most, measures: wanted = [] } = options
-    for (const [name, value] of Object.entries({ grid, range: range ?? 0, most: most ?? 1 }))
-      if (!Number.isFinite(value) || value < 0) throw new SightlineError(`${name}: a number is needed`)
-    for (const name of wanted) groupOf(name)
+  graph(map, given) {
+    const options = optionsOf(given, 'grid', 'measures', 'doors', 'range', 'most', 'entrance', 'name', 'progress',
+      'timeLimit')
+    const { grid, range = 0, entrance = 0, most = 1, measures: wanted = [], doors = {} } = options
+    numberOf('grid', grid, 0)
+    numberOf('range', range, 0)
+    numberOf('entrance', entrance, 0)
+    wholeOf('most', most, 0xffffffff)
+    for (const [name, open] of Object.entries(objectOf('doors', doors))) flagOf(`door '${name}'`, open)
+    for (const name of listOf('measures', wanted)) groupOf(name)
     return this.watched(options, () => {
       const at = this.#open(map, options)
       try {

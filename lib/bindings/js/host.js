@@ -78,38 +78,6 @@ export function bytesOf(bytes) {
 }
 
 /**
- * Options, if all of them are known.
- *
- * @param {object | null | undefined} options
- * @param {...string} known
- */
-export function optionsOf(options, ...known) {
-  for (const name of Object.keys(options ?? {}))
-    if (!known.includes(name)) throw new SightlineError(`there is no option '${name}'`)
-  return options ?? {}
-}
-
-/**
- * A view as heading and width in degrees; all round without a heading.
- *
- * @param {{heading?: number, fov?: number, range?: number} | null} [options]
- */
-export function viewOf(options) {
-  const { heading, range, fov = heading === undefined ? 360 : 90 } = options ?? {}
-  if (heading === undefined && fov < 360)
-    throw new SightlineError('fov: a heading is needed, too')
-  checkNumber('heading', heading ?? 0)
-  checkNumber('range', range ?? 0, 0)
-  checkNumber('fov', fov, 0)
-  return { heading: heading ?? 0, fov, range }
-}
-
-export function checkNumber(name, value, least = -Infinity) {
-  if (Number.isFinite(value) && value >= least) return
-  throw new SightlineError(`${name}: a number${least === 0 ? ', 0 or more,' : ''} is needed`)
-}
-
-/**
  * The unit vector of an angle in degrees; exact along the axes.
  *
  * @param {number} degrees

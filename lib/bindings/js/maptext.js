@@ -3,6 +3,7 @@
  * becomes map text, which reads back to the same doubles; each line remembers the item it is from,
  * so that messages name the item.
  */
+import { textOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 
 /** Whether these are the bytes of a baked file. */
@@ -21,6 +22,13 @@ function numbers(list, item, least, even = false) {
   return flat
 }
 
+/** A flag of one item, checked; a missing one is `otherwise`. */
+function flag(value, item, name, otherwise) {
+  if (value === undefined || value === null) return otherwise
+  if (typeof value === 'boolean') return value
+  throw new SightlineError(`${item}: ${name}: true or false is needed`, { item })
+}
+
 const segment = (thing, item) => numbers(thing.segment ?? thing, item, 4).join(' ')
 
 function name(thing, item) {
@@ -30,10 +38,10 @@ function name(thing, item) {
 
 /** The statement of one item, by the member that it is in. */
 const statements = {
-  walls: (wall, item) => `wall ${segment(wall, item)}${wall.solid ? ' solid' : ''}`,
+  walls: (wall, item) => `wall ${segment(wall, item)}${flag(wall.solid, item, 'solid', false) ? ' solid' : ''}`,
   doors: (door, item) =>
-    `door ${name(door, item)} ${segment(door, item)} ${door.open === false ? 'shut' : 'open'}`,
-  mirrors: (mirror, item) => `mirror ${segment(mirror, item)}${mirror.oneSided ? ' one' : ''}`,
+    `door ${name(door, item)} ${segment(door, item)} ${flag(door.open, item, 'open', true) ? 'open' : 'shut'}`,
+  mirrors: (mirror, item) => `mirror ${segment(mirror, item)}${flag(mirror.oneSided, item, 'oneSided', false) ? ' one' : ''}`,
   oneway: (glass, item) => `oneway ${segment(glass, item)}`,
   seams: (seam, item) => `seam ${segment(seam, item)}`,
   solid: (polygon, item) => `solid ${numbers(polygon, item, 6, true).join(' ')}`,
@@ -47,23 +55,33 @@ const statements = {
   cells: (cell, item) => `cell ${numbers(cell, item, 6, true).join(' ')}`,
 }
 
+/** Members of one number; 0: none. */
+const settings = ['range', 'entrance', 'snap']
+
 function fromObject(map) {
+  if (!map || typeof map !== 'object' || Array.isArray(map))
+    throw new SightlineError('map: a text, bytes or an object with walls is needed')
   const lines = ['sightline 1']
   const items = ['', '']
   for (const member of Object.keys(map))
-    if (!(member in statements) && member !== 'range' && member !== 'snap')
+    if (!(member in statements) && !settings.includes(member))
       throw new SightlineError(`map: there is no member '${member}'`, { item: member })
   for (const [member, statement] of Object.entries(statements)) {
     const list = map[member] ?? []
+    if (!Array.isArray(list)) throw new SightlineError(`${member}: a list is needed`, { item: member })
     for (let i = 0; i < list.length; i++) {
       const item = `${member}[${i}]`
+      if (typeof list[i] !== 'object' || !list[i])
+        throw new SightlineError(`${item}: an object or a list is needed`, { item })
       lines.push(statement(list[i], item))
       items.push(item)
     }
   }
-  for (const member of ['range', 'snap'])
-    if (map[member]) {
-      lines.push(`${member} ${numbers([map[member]], member, 1)[0]}`)
+  for (const member of settings)
+    if (map[member] !== undefined && map[member] !== null) {
+      const [value] = numbers([typeof map[member] === 'number' ? map[member] : NaN], member, 1)
+      if (!value) continue
+      lines.push(`${member} ${value}`)
       items.push(member)
     }
   return { text: lines.join('\n') + '\n', items }
@@ -75,7 +93,8 @@ export function mapText(map) {
 }
 
 /** The text of a map, its name in messages, and for an object the items by line. @internal */
-mapText.prepare = function (map, given) {
+mapText.prepare = function (map, given = undefined) {
+  if (given !== undefined) textOf('name', given)
   if (typeof map === 'string' || map instanceof ArrayBuffer || ArrayBuffer.isView(map)) {
     const text = typeof map === 'string' ? map : bytesOf(map)
     const bytes = typeof map === 'string' ? map : new TextDecoder().decode(text.slice(0, 4096))
@@ -84,8 +103,6 @@ mapText.prepare = function (map, given) {
       /^[#.+@ \t\r]+$/.test(lines[0])
     return { text, name: given ?? (isPlan ? 'map.txt' : 'map') }
   }
-  if (!map || typeof map !== 'object')
-    throw new SightlineError('map: a text, bytes or an object with walls is needed')
   return { ...fromObject(map), name: given ?? 'map' }
 }
 

@@ -2,6 +2,7 @@
  * What both modules that bake share: memory, progress, errors. Where a module itself stops (a stack
  * that overflows), the instance is replaced, and what was kept in it is lost.
  */
+import { numberOf, optionsOf, pick } from './arguments.js'
 import { SightlineError, compile } from './host.js'
 import { mapText, rename } from './maptext.js'
 
@@ -149,8 +150,11 @@ export class Module {
 
   /** Sets what hears of progress and stops long work. @internal */
   watched(options, call) {
-    const { progress, timeLimit } = options ?? {}
-    if (!progress && !(timeLimit > 0)) return call()
+    const { progress, timeLimit = 0 } = pick(options, 'progress', 'timeLimit')
+    if (progress !== undefined && typeof progress !== 'function')
+      throw new SightlineError('progress: a function is needed')
+    numberOf('timeLimit', timeLimit, 0)
+    if (!progress && !timeLimit) return call()
     const until = timeLimit > 0 ? performance.now() + 1000 * timeLimit : Infinity
     let stopped = false
     this.watch = {
@@ -186,7 +190,9 @@ export class Module {
  * @param {{memory?: number}} [options]
  * @returns {Promise<[WebAssembly.Module, number]>}
  */
-export async function instantiable(name, { memory = 65536 * PAGE } = {}) {
+export async function instantiable(name, options) {
+  const { memory = 65536 * PAGE } = optionsOf(options, 'memory')
+  numberOf('memory', memory, 0)
   const pages = Math.min(65536, Math.max(64, Math.floor(memory / PAGE)))
   return [await compile(name, new URL(`./${name}.wasm`, import.meta.url)), pages]
 }

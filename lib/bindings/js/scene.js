@@ -3,9 +3,11 @@
  * Scene are views of the module's memory, made anew at each access: they hold until the next call.
  * What functions return is a copy and stays.
  */
-import { SightlineError, viewOf } from './host.js'
+import { flagOf, given, indexOf, numberOf, optionsOf, pointOf, textOf, viewOf, wholeOf } from './arguments.js'
+import { SightlineError } from './host.js'
 
 const NONE = 0xffffffff
+export const MOST_MIRRORS = 16
 const GUARANTEES = ['exact', 'conservative', 'aggressive', 'rounded']
 const EDGES = ['wall', 'border', 'occluding', 'cone', 'mirror', 'arc']
 const MEASURES = ['area', 'perimeter', 'compactness', 'occlusivity', 'driftMagnitude', 'driftAngle',
@@ -125,6 +127,7 @@ export class Scene {
 
   /** One directed portal as an object. */
   directed(number) {
+    indexOf('directed portal', number, this.#table.directedCount)
     const [portal, cell] = this.directedCells.subarray(10 * number, 10 * number + 2)
     const [lx, ly, rx, ry] = this.directedEnds.subarray(5 * number + 1, 5 * number + 5)
     return { portal, cell, left: [lx, ly], right: [rx, ry] }
@@ -132,6 +135,7 @@ export class Scene {
 
   /** One wall: its ends, and the line of the map or the item of the object that it is from. */
   wall(number) {
+    indexOf('wall', number, this.wallCount)
     const line = this.wallLines[10 * number + 8]
     return { segment: Array.from(this.wallEnds.subarray(5 * number, 5 * number + 4)), line, item: this.items?.[line] ?? '' }
   }
@@ -190,6 +194,8 @@ export class Scene {
 
   /** Opens or shuts all doors of a name. */
   setDoor(name, open) {
+    textOf('name', name)
+    flagOf('open', open)
     this.#core.withBytes([name], (text) => this.#ask((core, at) => core.scene_set_door(at, text, +open)))
   }
 
@@ -207,18 +213,15 @@ export class Scene {
   // --- what sees what
 
   #checkCell(cell) {
-    if (!(Number.isInteger(cell) && cell >= 0 && cell < this.cellCount))
-      throw new SightlineError(`cell ${cell}: there are ${this.cellCount} cells`)
+    return indexOf('cell', cell, this.cellCount)
   }
 
   /** A cell, given as its number or as a point in it. */
   #cellOf(place) {
-    if (typeof place === 'number') {
-      this.#checkCell(place)
-      return place
-    }
-    const cell = this.locate(place.x, place.y)
-    if (cell < 0) throw new SightlineError(`(${place.x}, ${place.y}) is outside the map`)
+    if (typeof place === 'number') return this.#checkCell(place)
+    const [x, y] = pointOf('cell', place)
+    const cell = this.locate(x, y)
+    if (cell < 0) throw new SightlineError(`(${x}, ${y}) is outside the map`)
     return cell
   }
 
@@ -229,38 +232,43 @@ export class Scene {
 
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x, y) {
-    const cell = this.#core.core.scene_locate(this.#place, x, y) >>> 0
+    const cell = this.#core.core.scene_locate(this.#place, numberOf('x', x), numberOf('y', y)) >>> 0
     return cell === NONE ? -1 : cell
   }
 
   /** The visible set of a cell, with the doors as they stand. */
   row(cell) {
+    this.#checkCell(cell)
     this.#ask((core, at) => core.scene_row(at, 0, cell))
     return this.#cells()
   }
 
   /** The cells that a cell sees by mirror. */
   mirroredRow(cell) {
+    this.#checkCell(cell)
     this.#ask((core, at) => core.scene_row(at, 1, cell))
     return this.#cells()
   }
 
   /** Of two cells or two points, as Level.canSee(). */
-  canSee(a, b, { range = -1 } = {}) {
+  canSee(a, b, options) {
+    const { range } = viewOf(optionsOf(options, 'range'))
     if (typeof a === 'number' && typeof b === 'number')
-      this.#ask((core, at) => core.scene_cell_sees(at, a, b))
+      this.#ask((core, at) => core.scene_cell_sees(at, this.#checkCell(a), this.#checkCell(b)))
     else if (typeof a === 'object' && typeof b === 'object')
-      this.#ask((core, at) => core.scene_can_see(at, a.x, a.y, b.x, b.y, range))
+      this.#ask((core, at) => core.scene_can_see(at, ...pointOf('canSee', a), ...pointOf('canSee', b), range))
     else throw new SightlineError('canSee: two cells or two points are needed')
     return !!this.#given(1)[0]
   }
 
   /** The cells that an eye sees, ascending. `method`: a culling method; `mirrored`: by mirror. */
-  look(x, y, { method = '', mirrored = false, ...options } = {}) {
-    const view = viewOf(options)
-    this.#core.withBytes([method], (name) =>
-      this.#ask((core, at) =>
-        core.scene_look(at, x, y, view.heading, view.fov, view.range ?? -1, name, +mirrored)))
+  look(x, y, options) {
+    const { method = '', mirrored = false, ...view } =
+      optionsOf(options, 'heading', 'fov', 'range', 'method', 'mirrored')
+    const eye = this.#eyeOf(x, y, view)
+    flagOf('mirrored', mirrored)
+    this.#core.withBytes([textOf('method', method)], (name) =>
+      this.#ask((core, at) => core.scene_look(at, ...eye, name, +mirrored)))
     return this.#cells()
   }
 
@@ -277,26 +285,34 @@ export class Scene {
     }
   }
 
-  #tolerance(options) {
+  /** An eye and its view, as the module takes them. */
+  #eyeOf(x, y, options) {
+    const view = viewOf(options)
+    return [numberOf('x', x), numberOf('y', y), view.heading, view.fov, view.range]
+  }
+
+  /** 0: not given. */
+  #tolerance(tolerance) {
     const { minX, minY, maxX, maxY } = this.bounds
-    return options.tolerance > 0 ? options.tolerance : Math.max(maxX - minX, maxY - minY) / 5000
+    return numberOf('tolerance', tolerance, 0) || Math.max(maxX - minX, maxY - minY) / 5000
+  }
+
+  #askRegion(x, y, options) {
+    const { tolerance = 0, ...view } = optionsOf(options, 'heading', 'fov', 'range', 'tolerance')
+    const eye = this.#eyeOf(x, y, view), chord = this.#tolerance(tolerance)
+    this.#ask((core, at) => core.scene_region(at, ...eye, chord))
   }
 
   /** The polygon that an eye sees: x, y ... counter-clockwise; arcs as chords. */
-  visiblePolygon(x, y, options = {}) {
-    const { tolerance, ...rest } = options
-    const view = viewOf(rest)
-    this.#ask((core, at) => core.scene_region(at, x, y, view.heading, view.fov,
-      view.range ?? -1, this.#tolerance(options)))
+  visiblePolygon(x, y, options) {
+    this.#askRegion(x, y, options)
     const [, , , , count, points] = this.#given(6)
     return this.#floats(points, 2 * count).slice()
   }
 
   /** The visible region with what each edge lies on, and all measures (Benedikt 1979; depthmapX). */
-  isovist(x, y, options = {}) {
-    const view = viewOf(options)
-    this.#ask((core, at) => core.scene_region(at, x, y, view.heading, view.fov,
-      view.range ?? -1, this.#tolerance(options)))
+  isovist(x, y, options) {
+    this.#askRegion(x, y, options)
     const region = this.#region([...this.#given(6)])
     this.#core.core.scene_measures(this.#place)
     const numbers = this.#core.givenNumbers(MEASURES.length)
@@ -305,13 +321,15 @@ export class Scene {
   }
 
   /** What is seen by mirror: a part for each piece of a mirror, with its points where they seem to be. */
-  mirroredParts(x, y, { depth = 1, ...options } = {}) {
-    const view = viewOf(options)
-    this.#ask((core, at) => core.scene_mirrored_region(at, x, y, view.heading, view.fov,
-      view.range ?? -1, depth))
+  mirroredParts(x, y, options) {
+    const { depth = 1, tolerance = 0, ...view } =
+      optionsOf(options, 'heading', 'fov', 'range', 'depth', 'tolerance')
+    const eye = this.#eyeOf(x, y, view), chord = this.#tolerance(tolerance)
+    wholeOf('depth', depth, MOST_MIRRORS)
+    this.#ask((core, at) => core.scene_mirrored_region(at, ...eye, depth))
     const count = this.#given(1)[0]
     return Array.from({ length: count }, (_, i) => {
-      this.#ask((core, at) => core.scene_mirror_part(at, i, this.#tolerance(options)))
+      this.#ask((core, at) => core.scene_mirror_part(at, i, chord))
       const table = [...this.#given(10)]
       const [mirror, parent, reflections, image] = table.slice(6)
       return {
@@ -322,7 +340,11 @@ export class Scene {
   }
 
   /** Why cell a (or a point's cell) sees b or not, as `sightline explain --json` says it. */
-  explain(a, b, { misses = 3, tests = 0, mirrorDepth = 1 } = {}) {
+  explain(a, b, options) {
+    const { misses = 3, tests = 0, mirrorDepth = 1 } = optionsOf(options, 'misses', 'tests', 'mirrorDepth')
+    wholeOf('misses', misses, NONE)
+    wholeOf('tests', tests, Number.MAX_SAFE_INTEGER)
+    wholeOf('mirrorDepth', mirrorDepth, MOST_MIRRORS)
     const from = this.#cellOf(a)
     const to = this.#cellOf(b)
     this.#ask((core, at) => core.scene_explain(at, from, to, misses, tests, mirrorDepth))
@@ -330,7 +352,8 @@ export class Scene {
   }
 
   /** The depth-first search from a cell, step by step. */
-  steps(cell, { most = -1 } = {}) {
+  steps(cell, options) {
+    const most = given(optionsOf(options, 'most').most, (value) => wholeOf('most', value, NONE))
     this.#ask((core, at) => core.scene_steps(at, this.#cellOf(cell), most))
     const [count, at, complete] = this.#given(3)
     const kinds = ['enter', 'backwards', 'hidden', 'leave']
@@ -370,14 +393,22 @@ export class Scene {
     return this.#core.written()
   }
 
+  /** What is inside, for people, where that is not plain: what is in doubt, or which openings count as entrances. */
+  insideText() {
+    this.#ask((core, at) => core.scene_inside(at))
+    return this.#core.writtenText()
+  }
+
   /** The JSON export, version 2, as an object. */
   describe() {
     return JSON.parse(this.export('json'))
   }
 
   /** An export as text: 'json', 'geojson' or 'csv'. */
-  export(format, { version = 0 } = {}) {
-    this.#core.withBytes([format], (name) => this.#ask((core, at) => core.scene_export(at, name, version)))
+  export(format, options) {
+    const { version = 0 } = optionsOf(options, 'version')
+    wholeOf('version', version, NONE)
+    this.#core.withBytes([textOf('format', format)], (name) => this.#ask((core, at) => core.scene_export(at, name, version)))
     return this.#core.writtenText()
   }
 

@@ -94,15 +94,15 @@ export class Level {
   /** As they stand. */
   readonly doors: readonly Door[]
   setDoor(name: string, open: boolean): void
-  /** The cell that holds a point; -1 outside the bounds. */
+  /** The cell that holds a point; -1 outside the bounds, which other calls do not take for a cell. */
   locate(x: number, y: number): number
   /** Whether something in cell b can be seen from somewhere in cell a. */
   canSee(a: number, b: number, options?: Mirrors): boolean
   /**
-   * Whether an eye at a sees the point b: a line leads from the cell of a (locate) to a cell that
-   * touches b. So a point on a wall or a shut door is seen from both sides, but an eye there looks
-   * from one side only. If neither point is on a wall or a shut door, and no one-way glass is between
-   * them, each sees the other or none does. With `mirrors`: whether it may; false is sure.
+   * Whether an eye at a sees the point b. A point on a wall or a shut door is seen from both sides,
+   * but an eye there sees the side of its cell (locate) only, and all around at the wall's end. If
+   * neither point is on a wall or a shut door, and no one-way glass is between them, each sees the
+   * other or none does. With `mirrors`: whether it may; false is sure.
    */
   canSee(a: Place, b: Place, options?: Mirrors): boolean
   /**
@@ -111,7 +111,7 @@ export class Level {
    */
   canWalk(from: Place, to: Place): boolean
   /**
-   * The cells that an eye sees, its own first. With `mirrors`, the first `direct` of them are seen
+   * The cells that an eye sees; its own first, if it looks into it. With `mirrors`, the first `direct` of them are seen
    * directly. The others are seen by mirror: none is missed, some may be added.
    */
   look(x: number, y: number, view: View & { mirrors: true }): Uint32Array & { direct: number }
@@ -123,7 +123,7 @@ export class Level {
   visiblePolygon(eye: Eye): Float64Array
   /** The cells seen from anywhere in a cell. */
   row(cell: number, options?: Mirrors): Uint32Array
-  /** The cells seen from anywhere in some cells. */
+  /** The cells seen from anywhere in some cells; of none, none. */
   seenFrom(cells: ArrayLike<number>, options?: Mirrors): Uint32Array
   /** The cells that a box lies in or touches. */
   boxCells(minX: number, minY: number, maxX: number, maxY: number): Uint32Array

@@ -4,7 +4,8 @@
  * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
  * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
  */
-import { SightlineError, bytesOf, checkNumber, compile, direction, optionsOf, textAt, viewOf } from './host.js'
+import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, viewOf } from './arguments.js'
+import { SightlineError, bytesOf, compile, direction, textAt } from './host.js'
 
 export { SightlineError }
 
@@ -12,20 +13,17 @@ const NO_CELL = 0xffffffff
 const PAGE = 65536
 const MIRRORS = ['none', 'baked', 'not baked']
 
-/** A point as x and y: { x, y } or [x, y]. */
-function pointOf(call, point) {
-  const [x, y] = Array.isArray(point) ? point : [point?.x, point?.y]
-  if (typeof x === 'number' && typeof y === 'number' && !Number.isNaN(x + y)) return [x, y]
-  throw new SightlineError(`${call}: points { x, y } or [x, y] are needed`)
-}
-
 /** An eye's x, y and view. One object may hold all; there `dx` and `dy` may stand for the heading. */
-function eyeOf(x, y, options) {
-  if (typeof x !== 'object' || !x) return [x, y, options]
+function eyeOf(x, y, options, ...known) {
+  if (typeof x !== 'object' || !x) return [numberOf('x', x), numberOf('y', y), optionsOf(options, ...known)]
   if (y !== undefined || options !== undefined) throw new SightlineError('x: one object holds all, the view too')
-  const { x: left, y: up, dx, dy, ...view } = x
-  if (dx !== undefined || dy !== undefined) view.heading ??= (dx || dy ? Math.atan2(dy, dx) * 180 : NaN) / Math.PI
-  return [left, up, view]
+  const { x: left, y: up, dx, dy, ...view } = optionsOf(x, 'x', 'y', 'dx', 'dy', ...known)
+  if (dx !== undefined || dy !== undefined) {
+    if (!Number.isFinite(dx) || !Number.isFinite(dy) || !(dx || dy))
+      throw new SightlineError('heading: a number is needed, or dx and dy, not 0, 0, as a vector')
+    view.heading ??= (Math.atan2(dy, dx) * 180) / Math.PI
+  }
+  return [numberOf('x', left), numberOf('y', up), view]
 }
 
 export class Level {
@@ -190,14 +188,13 @@ export class Level {
    */
   setDoor(name, open) {
     this.#open
+    textOf('name', name)
+    flagOf('open', open)
     const shut = new Uint8Array(this.#memory.buffer, this.#shut, this.#doors.length)
-    let found = false
+    if (!this.#doors.some((door) => door.name === name)) throw new SightlineError(`there is no door '${name}'`)
     this.#doors.forEach((door, i) => {
-      if (door.name !== name) return
-      shut[i] = open ? 0 : 1
-      found = true
+      if (door.name === name) shut[i] = open ? 0 : 1
     })
-    if (!found) throw new SightlineError(`there is no door '${name}'`)
   }
 
   /** All cells: corners counter-clockwise, portals, inside, solid, and whether they have a row. */
@@ -229,7 +226,7 @@ export class Level {
 
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x, y) {
-    const cell = this.#open.locate(x, y) >>> 0
+    const cell = this.#open.locate(numberOf('x', x), numberOf('y', y)) >>> 0
     return cell === NO_CELL ? -1 : cell
   }
 
@@ -244,20 +241,30 @@ export class Level {
    */
   canSee(a, b, options) {
     const core = this.#open
-    const { mirrors = false } = optionsOf(options, 'mirrors')
-    if (Number.isInteger(a) && Number.isInteger(b)) return !!core.can_see(a, b, this.#shut, +mirrors)
+    const mirrors = this.#mirrorsOf(options)
+    if (typeof a === 'number' && typeof b === 'number')
+      return !!core.can_see(this.#cellOf(a), this.#cellOf(b), this.#shut, +mirrors)
     if (typeof a !== 'object' || typeof b !== 'object')
       throw new SightlineError('canSee: two cells or two points are needed')
     const from = pointOf('canSee', a), to = pointOf('canSee', b)
     return !!core.sees(...from, ...to, this.#shut, this.#scratch) || (mirrors && this.#mayMirror(from, to))
   }
 
+  #cellOf(cell) {
+    return indexOf('cell', cell, this.#cellCount)
+  }
+
+  #mirrorsOf(options) {
+    const { mirrors = false } = optionsOf(options, 'mirrors')
+    return flagOf('mirrors', mirrors)
+  }
+
   /** A cell that the eye sees directly in part can have the point where only a mirror shows it. */
   #mayMirror([x, y], [toX, toY]) {
     const core = this.#open
     if (this.#range > 0 && Math.hypot(toX - x, toY - y) > this.#range) return false
-    const own = core.locate(x, y)
-    return [...this.#cellsOfBox(toX, toY, toX, toY)].some((cell) => !!core.may_mirror(own, cell, this.#shut))
+    const cells = [...this.#cellsOfBox(toX, toY, toX, toY)]
+    return cells.some((cell) => !!core.may_mirror(x, y, cell, this.#shut, this.#scratch))
   }
 
   /**
@@ -269,12 +276,16 @@ export class Level {
    * @param {{x: number, y: number} | [number, number]} to
    */
   canWalk(from, to) {
-    return !!this.#open.can_walk(...pointOf('canWalk', from), ...pointOf('canWalk', to), this.#shut)
+    this.#open
+    return !!this.#core.can_walk(...pointOf('canWalk', from), ...pointOf('canWalk', to), this.#shut)
   }
 
   /** The cells that a box lies in or touches. */
   boxCells(minX, minY, maxX, maxY) {
     this.#open
+    for (const [name, value] of Object.entries({ minX, minY, maxX, maxY })) numberOf(name, value)
+    if (!(minX <= maxX && minY <= maxY))
+      throw new SightlineError('a box is needed: minX and minY no more than maxX and maxY')
     return this.#cellsOfBox(minX, minY, maxX, maxY)
   }
 
@@ -288,8 +299,6 @@ export class Level {
 
   /** Puts the view into memory, as an sl_runtime_view. */
   #setView(x, y, { heading, fov }) {
-    checkNumber('x', x)
-    checkNumber('y', y)
     const { buffer } = this.#memory
     if (this.#view.buffer !== buffer) {
       this.#view = new Float64Array(buffer, this.#core.view_place(), 7)
@@ -305,7 +314,7 @@ export class Level {
   }
 
   /**
-   * The cells that an eye sees: its own first. `heading` and `fov` are in degrees.
+   * The cells that an eye sees; its own first, if it looks into it. `heading` and `fov` are in degrees.
    * `mirrors`: after the `direct` cells that it sees directly, those that are seen by mirror alone.
    * No cell is missed there, but some may be added.
    *
@@ -315,15 +324,15 @@ export class Level {
    */
   look(x, y, options) {
     const core = this.#open
-    const [left, up, given] = eyeOf(x, y, options)
-    const view = viewOf(optionsOf(given, 'heading', 'fov', 'range', 'mirrors'))
+    const [left, up, { mirrors = false, ...given }] = eyeOf(x, y, options, 'heading', 'fov', 'range', 'mirrors')
+    const view = viewOf(given), range = Math.max(view.range, 0)
     this.#setView(left, up, view)
-    if (given?.mirrors) {
-      const count = core.look_mirrored(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0
+    if (flagOf('mirrors', mirrors)) {
+      const count = core.look_mirrored(this.#shut, range, this.#scratch, this.#list) >>> 0
       const [direct] = this.#ask(() => {}).integers
       return Object.assign(this.#listed(count), { direct })
     }
-    return this.#listed(core.look(this.#shut, view.range ?? 0, this.#scratch, this.#list) >>> 0)
+    return this.#listed(core.look(this.#shut, range, this.#scratch, this.#list) >>> 0)
   }
 
   /**
@@ -335,12 +344,12 @@ export class Level {
    */
   visiblePolygon(x, y, options) {
     const core = this.#open
-    const [left, up, given] = eyeOf(x, y, options)
-    const view = viewOf(optionsOf(given, 'heading', 'fov', 'range'))
+    const [left, up, given] = eyeOf(x, y, options, 'heading', 'fov', 'range')
+    const view = viewOf(given)
     this.#setView(left, up, view)
     for (;;) {
       const count =
-        core.polygon(this.#shut, view.range ?? 0, this.#scratch, this.#points, this.#room) >>> 0
+        core.polygon(this.#shut, Math.max(view.range, 0), this.#scratch, this.#points, this.#room) >>> 0
       if (count <= this.#room) {
         return new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice()
       }
@@ -362,8 +371,9 @@ export class Level {
    */
   seenFrom(cells, options) {
     const core = this.#open
-    const { mirrors = false } = optionsOf(options, 'mirrors')
-    const own = Array.from(cells).filter((cell) => cell >= 0 && cell < this.#cellCount)
+    const mirrors = this.#mirrorsOf(options)
+    // Each once: there is room for all cells.
+    const own = [...new Set(listOf('cells', cells).map((cell) => this.#cellOf(cell)))]
     new Uint32Array(this.#memory.buffer, this.#list, own.length).set(own)
     const bits = this.#scratch
     core.seen_from(this.#list, own.length, this.#shut, bits, +mirrors)
@@ -377,7 +387,7 @@ export class Level {
 
   /** The view cell of a cell; -1 for none. */
   viewCell(cell) {
-    const view = this.#open.view_cell(cell) >>> 0
+    const view = this.#open.view_cell(this.#cellOf(cell)) >>> 0
     return view === NO_CELL ? -1 : view
   }
 

@@ -8,6 +8,7 @@
 #define SLP_FACADE_H
 
 #include "sightline/explain.h"
+#include "sightline/faults.h"
 #include "sightline/query.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
@@ -44,7 +45,8 @@ typedef struct slp_level {
     slp_base base;
     sl_baked baked; ///< without visible sets where only the space was made
     bool has_sets;
-    bool *shut; ///< by door of the map
+    bool *shut;                       ///< by door of the map
+    char inside[SL_INSIDE_TEXT + 80]; ///< and advice
     double range;
     uint32_t mirror_depth;
     /// One query a thread, as a query serves one at a time. The first is always there.
@@ -85,7 +87,8 @@ SLP_API void slp_plan_free(slp_plan *plan);
 /// As sl_import_options; NAN for no slice, NULL for what is not given.
 typedef struct slp_import {
     const char *map, *layers, *start_names, *unit;
-    double slice, tolerance, threshold;
+    double slice, tolerance, entrance, threshold;
+    uint64_t max_squares, max_pixels, max_walls, max_entities, max_depth; ///< as sl_limits
     int doors, sectors, cells;
 } slp_import;
 SLP_API int slp_plan_read(slp_plan *plan, const char *path, const slp_import *options);
@@ -100,6 +103,10 @@ SLP_API int slp_plan_add(slp_plan *plan, const char *kind, const char *name, int
 SLP_API int slp_plan_add_ground(slp_plan *plan, int solid, const double *corners, size_t count);
 SLP_API int slp_plan_add_start(slp_plan *plan, double x, double y, double heading);
 SLP_API int slp_plan_set_range(slp_plan *plan, double range);
+SLP_API double slp_plan_entrance(const slp_plan *plan);
+SLP_API int slp_plan_set_entrance(slp_plan *plan, double width);
+/// Opens or shuts all doors of a name.
+SLP_API int slp_plan_set_door(slp_plan *plan, const char *name, int open);
 
 // --- what the map of a handle holds
 
@@ -108,6 +115,7 @@ SLP_API int slp_plan_set_range(slp_plan *plan, double range);
 SLP_API size_t slp_segments(const void *handle, int is_level, const char *kind, double *rows);
 /// The name of a door or object, NULL for others.
 SLP_API const char *slp_name(const void *handle, int is_level, const char *kind, size_t number);
+/// Whether a door is open: of a plan as the map begins, of a level as it stands.
 SLP_API int slp_door_open(const void *handle, int is_level, size_t number);
 SLP_API double slp_range(const void *handle, int is_level);
 SLP_API const char *slp_unit(const void *handle, int is_level);
@@ -129,7 +137,7 @@ SLP_API int slp_level_bake(slp_level *level, const slp_plan *plan, const slp_bak
 SLP_API int slp_level_open(slp_level *level, const char *path);
 SLP_API int slp_level_write(slp_level *level, const char *path);
 SLP_API int slp_level_export(slp_level *level, const char *path, const char *format);
-/// "sure", "leaks", "small", "few" or "none": sl_inside in words.
+/// What is inside, with what to do next, where that is not plain; "" elsewhere.
 SLP_API const char *slp_level_inside(slp_level *level);
 SLP_API const char *slp_level_word(const slp_level *level, const char *what);
 /// cells, vertices, portals, walls, seams, inside cells, loose, has sets.
@@ -142,7 +150,6 @@ SLP_API void slp_level_portals(const slp_level *level, int64_t *cells, double *e
 /// NULL.
 SLP_API int slp_level_sets(slp_level *level, int mirrored, int64_t *offsets, int64_t *columns);
 SLP_API int slp_level_set_door(slp_level *level, const char *name, int open);
-SLP_API int slp_level_is_open(const slp_level *level, size_t door);
 SLP_API int slp_level_set_range(slp_level *level, double range);
 SLP_API int slp_level_set_mirror_depth(slp_level *level, uint32_t depth);
 

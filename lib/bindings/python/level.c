@@ -1,6 +1,5 @@
 /// Levels for Python: bakes, their cells and portals, and the settings of their queries.
 #include "facade.h"
-#include "sightline/faults.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -164,11 +163,25 @@ int slp_level_export(slp_level *level, const char *path, const char *name) {
 // --- what it holds
 
 const char *slp_level_inside(slp_level *level) {
-    static const char *const words[] = {"sure", "leaks", "small", "few", "none"};
+    static const char *const next[] = {
+        [SL_INSIDE_SURE] = "; for another width, set plan.entrance",
+        [SL_INSIDE_LEAKS] = "",
+        [SL_INSIDE_SMALL] = ": add a start with plan.add_start((x, y))",
+        [SL_INSIDE_FEW] = ": add a start with plan.add_start((x, y))",
+        [SL_INSIDE_NONE] = "",
+        [SL_INSIDE_OPENING] = " (plan.entrance), else add a start with plan.add_start((x, y))",
+    };
+    const sl_baked *baked = &level->baked;
+    sl_context *context = level->base.context;
     sl_inside doubt;
-    const sl_status status =
-        sl_doubt_inside(level->base.context, &level->baked.map, &level->baked.space, &doubt);
-    return status == SL_OK ? words[doubt] : NULL;
+    sl_status status = sl_say_inside(context, &baked->map, &baked->space, level->inside);
+    if (status == SL_OK) status = sl_doubt_inside(context, &baked->map, &baked->space, &doubt);
+    if (status != SL_OK) return NULL;
+    const bool plain = doubt == SL_INSIDE_SURE && baked->map.interior.by == SL_ENTRANCE_UNIT;
+    if (plain || !level->inside[0]) return "";
+    const size_t used = strlen(level->inside);
+    snprintf(level->inside + used, sizeof level->inside - used, "%s", next[doubt]);
+    return level->inside;
 }
 
 const char *slp_level_word(const slp_level *level, const char *what) {
@@ -261,10 +274,6 @@ int slp_level_set_door(slp_level *level, const char *name, int open) {
     for (size_t i = 0; i < map->door_count; i++)
         if (strcmp(map->doors[i].name, name) == 0) level->shut[i] = !open;
     return SL_OK;
-}
-
-int slp_level_is_open(const slp_level *level, size_t door) {
-    return door < level->baked.map.door_count && !level->shut[door];
 }
 
 int slp_level_set_range(slp_level *level, double range) {

@@ -72,7 +72,13 @@ void slp_plan_free(slp_plan *plan) {
     free(plan);
 }
 
-static sl_import_options import_options(const slp_import *given) {
+/// Also sets the limits of reading.
+static sl_import_options import_options(sl_context *context, const slp_import *given) {
+    sl_context_set_limits(context, &(sl_limits){.squares = given->max_squares,
+                                                .pixels = given->max_pixels,
+                                                .walls = given->max_walls,
+                                                .entities = given->max_entities,
+                                                .depth = given->max_depth});
     sl_import_options options = sl_import_options_default();
     options.map = given->map;
     options.layers = given->layers;
@@ -81,6 +87,7 @@ static sl_import_options import_options(const slp_import *given) {
     options.has_slice = !isnan(given->slice);
     if (options.has_slice) options.slice = given->slice;
     options.tolerance = given->tolerance;
+    options.entrance = given->entrance;
     options.threshold = given->threshold;
     options.doors = given->doors;
     options.sectors = given->sectors;
@@ -89,13 +96,13 @@ static sl_import_options import_options(const slp_import *given) {
 }
 
 int slp_plan_read(slp_plan *plan, const char *path, const slp_import *given) {
-    const sl_import_options options = import_options(given);
+    const sl_import_options options = import_options(plan->base.context, given);
     return sl_map_read(plan->base.context, path, &options, &plan->map);
 }
 
 int slp_plan_parse(slp_plan *plan, const char *name, const char *text, size_t size,
                    const slp_import *given) {
-    const sl_import_options options = import_options(given);
+    const sl_import_options options = import_options(plan->base.context, given);
     return sl_map_parse(plan->base.context, name, text, size, &options, &plan->map);
 }
 
@@ -147,6 +154,31 @@ int slp_plan_set_range(slp_plan *plan, double range) {
                        "the range must be 0 or more, and finite; 0: no limit");
     plan->map.range = range;
     return SL_OK;
+}
+
+double slp_plan_entrance(const slp_plan *plan) {
+    return plan->map.entrance;
+}
+
+int slp_plan_set_entrance(slp_plan *plan, double width) {
+    if (width < 0 || !sl_coordinate_usable(width))
+        return sl_fail(
+            plan->base.context, SL_BAD_ARGUMENT,
+            "the entrance must be a number from %g to %g; 0: as the unit or the plan says",
+            SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+    plan->map.entrance = width;
+    return SL_OK;
+}
+
+int slp_plan_set_door(slp_plan *plan, const char *name, int open) {
+    bool found = false;
+    for (size_t i = 0; i < plan->map.door_count; i++) {
+        if (strcmp(plan->map.doors[i].name, name) != 0) continue;
+        plan->map.doors[i].open = open != 0;
+        found = true;
+    }
+    if (found) return SL_OK;
+    return sl_fail(plan->base.context, SL_BAD_ARGUMENT, "there is no door '%.64s'", name);
 }
 
 // --- what a map holds
@@ -205,7 +237,8 @@ const char *slp_name(const void *handle, int is_level, const char *kind, size_t 
 
 int slp_door_open(const void *handle, int is_level, size_t number) {
     const sl_map *map = map_of(handle, is_level);
-    return number < map->door_count && map->doors[number].open;
+    if (number >= map->door_count) return 0;
+    return is_level ? !((const slp_level *)handle)->shut[number] : map->doors[number].open;
 }
 
 double slp_range(const void *handle, int is_level) {

@@ -82,7 +82,8 @@ typedef struct sl_axial_measures {
     double mean_depth;
     double integration_hh;     ///< Hillier and Hanson 1984: 1 / real relative asymmetry
     double integration_pvalue; ///< likewise, relative to a pyramid
-    double integration_tekl;   ///< Teklenburg, Timmermans and van Wagenberg 1993
+    double integration_tekl;   ///< Teklenburg, Timmermans and van Wagenberg 1993; not defined where
+                               ///< one line alone is two steps away
     double entropy;            ///< of the numbers of lines by depth, in bits
 } sl_axial_measures;
 

@@ -69,7 +69,7 @@ SL_API sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options
 
 /// The two halves of sl_bake(), for those who show the space first or do the second half in parts.
 /// The first half cleans and subdivides. It also chooses: where `options` names no method or
-/// solver, it gets them. `account` is set.
+/// solver, it gets them. `account` may be NULL.
 SL_API sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options,
                                sl_baked *out, sl_bake_account *account);
 

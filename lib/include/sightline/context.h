@@ -74,6 +74,20 @@ SL_API void sl_context_destroy(sl_context *context);
 /// The hooks it was made with: for a context beside it that passes them on.
 SL_API const sl_hooks *sl_context_hooks(const sl_context *context);
 
+/// How much readers of maps make of a file at most, so that a short file cannot ask for all memory.
+/// 0 stands for the usual limit. A file that gives more is refused (SL_BAD_INPUT) before it is
+/// unpacked or drawn; the table in lib/io/FORMATS.md says what each reader counts.
+typedef struct sl_limits {
+    uint64_t squares;  ///< tiles and cells of all layers, and squares of a grid; usual 2^27
+    uint64_t pixels;   ///< of a picture; usual 2^28
+    uint64_t walls;    ///< drawn by lines and curves; usual 2^24
+    uint64_t entities; ///< shapes of a drawing, as often as blocks and uses repeat them; usual 2^24
+    uint64_t depth;    ///< blocks in blocks, groups and uses in groups; usual 128
+} sl_limits;
+
+/// Sets the limits of all reading with this context; NULL for the usual ones.
+SL_API void sl_context_set_limits(sl_context *context, const sl_limits *limits);
+
 /// What the last failed call said: one line, no line end, "" when none failed.
 SL_API const char *sl_context_message(const sl_context *context);
 

@@ -2,22 +2,20 @@
 /// Séquin 1991, Eye to Cell Visibility). On every input, each method's cells are among those of the
 /// method before it in the table.
 ///
-/// The eye is in the cell that sl_space_locate gives, border included. A cell is seen through a
-/// portal sequence from the eye's cell if a line through the eye, in a direction within the cone,
-/// crosses the sequence. As everywhere, some direction must cross all portals strictly forwards.
-/// Closed sight takes lines that touch portal ends or run along portals. A line may cross portals
-/// that it runs along to its left or to its right, but not some to the left and others to the
-/// right. The runtime header keeps the same rule. So:
+/// The eye stands in one or more cells: view.h says in which. A cell is seen through a portal
+/// sequence from one of these if a line through the eye, in a direction within the cone, crosses
+/// the sequence. As everywhere, some direction must cross all portals strictly forwards. Closed
+/// sight takes lines that touch portal ends or run along portals. A line may cross portals that it
+/// runs along to its left or to its right, but not some to the left and others to the right. The
+/// runtime header keeps the same rule.
 ///
-/// - An eye on a portal, or where portals meet, sees to all sides, whichever cell it is in. Cells
-///   that a line passes at the eye itself count.
-/// - An eye on a wall, or on a wall's end, sees what its cell sees there: not through the wall, and
-///   not around its end against the direction of sight.
-/// - An eye outside the bounds or in solid ground sees nothing: no method keeps a cell.
-/// - The eye's own cell is always seen, unless its visible set is empty.
+/// Of the cells that the eye stands in, the exact method sees those that the cone leads into, with
+/// open sight, too, and within any range. The others keep all. But nothing is seen if the visible
+/// set of the first one is empty. The visible sets of all of them count: that of one cell has what
+/// is seen through its own portals, and not what is seen from its corner around the end of a wall.
 ///
-/// Open sight needs an open set of directions: with it, a cone of 0 degrees sees only the eye's own
-/// cell.
+/// Open sight needs an open set of directions: with it, a cone of 0 degrees sees only cells that
+/// the eye stands in.
 #ifndef SIGHTLINE_EYE_TO_CELL_H
 #define SIGHTLINE_EYE_TO_CELL_H
 
@@ -72,16 +70,21 @@ SL_API void sl_eye_search_set_range(sl_eye_search *search, double range);
 /// The number of words in a set of the space's cells.
 SL_API size_t sl_eye_words(const sl_space *space);
 
+/// The cells that an eye stands in (view.h), that of sl_space_locate first. Returns how many there
+/// are: 0 outside the bounds and in solid ground. `cells` has room for all cells of the space, and
+/// `marks` for sl_eye_words() words, which are 0 before and after.
+SL_API uint32_t sl_eye_cells(const sl_space *space, sl_point eye, uint32_t *cells, uint64_t *marks);
+
 /// Whether a set holds a cell.
 static inline bool sl_eye_sees(const uint64_t *cells, uint32_t cell) {
     return cells[cell / 64] >> (cell % 64) & 1;
 }
 
 /// A culling method. `cull` fills the caller's `cells`, sl_eye_words() words: bit c % 64 of word
-/// c / 64 is cell c. `account` is set, not added to. No memory is allocated. Errors:
-/// SL_BAD_ARGUMENT for a view that is not usable or missing visible sets, SL_BAD_INPUT for a space
-/// that no map can have, SL_CANCELLED; `cells` is then undefined. The guarantee holds with exact
-/// visible sets. What rounded ones (SL_ROUNDED) miss is missed here too.
+/// c / 64 is cell c. `account`, which may be NULL, is set, not added to. No memory is allocated.
+/// Errors: SL_BAD_ARGUMENT for a view that is not usable or missing visible sets, SL_BAD_INPUT for
+/// a space that no map can have, SL_CANCELLED; `cells` is then undefined. The guarantee holds with
+/// exact visible sets. What rounded ones (SL_ROUNDED) miss is missed here too.
 typedef struct sl_eye_method {
     const char *name, *what;
     sl_guarantee guarantee;

@@ -1,5 +1,5 @@
 /// Faults of a map, or what looks like one: leaks to the outside, gaps between walls, overlaps,
-/// crossings, thin cells, rooms that no start reaches.
+/// crossings, thin cells, rooms that no start reaches, and what lies far away from the rest.
 #ifndef SIGHTLINE_FAULTS_H
 #define SIGHTLINE_FAULTS_H
 
@@ -75,13 +75,39 @@ SL_API double sl_usual_gap(const sl_map *map);
 /// Finds all faults. `map` is as read, not cleaned, so that walls keep their lines; `space` was
 /// made from it. Gaps and leaks are those of the clean map, overlaps and crossings those of the map
 /// as read. Whether walls touch, cross or overlap is exact; widths are rounded. Reports stage
-/// "check". Time about O(n log n) for maps whose walls are short against the map.
+/// "check". Time about O(n log n) for maps whose walls are short against the map, wherever they
+/// lie.
+///
+/// Where more than two walls share a piece or cross at one place, not all pairs are listed, but
+/// each wall with one that it shares most with, or with the first that crosses there.
 ///
 /// The leaks of a room with a start are openings that would part it from the outside if all of them
 /// were closed: each is the narrowest place of a way out. Holes in walls along the border are leaks
 /// as well, wherever the start leads to them. The first start of a room counts.
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
+
+/// A wall, or another thing of a map, that lies far away from the rest of it.
+typedef struct sl_stray {
+    sl_point at;     ///< the point of it that is farthest away
+    double distance; ///< from there to the rest
+    uint32_t line;   ///< its line; 0 for none
+    uint32_t wall;   ///< UINT32_MAX for what is no wall
+} sl_stray;
+
+/// Zeroed, it is empty.
+typedef struct sl_strays {
+    sl_stray *items; ///< walls first, in the order of the map
+    uint32_t count;
+    sl_box rest; ///< the box around all that is not stray
+} sl_strays;
+
+SL_API void sl_strays_destroy(sl_context *context, sl_strays *strays); ///< and zeroes it
+
+/// Finds what lies farther from the rest than 20 times the size of the rest, if that is at most a
+/// quarter of the map's points. It is often a slip, and pictures show the rest as a dot. `map` is
+/// as read. Time O(n log n).
+SL_API sl_status sl_find_strays(sl_context *context, const sl_map *map, sl_strays *out);
 
 /// Finds a tolerance for sl_map_clean that closes the gaps of rounding in a map and no others.
 /// `map` is as read. *weld is 0 if there is none: no gaps, or no clear step between their widths
@@ -103,12 +129,24 @@ typedef enum sl_inside {
     SL_INSIDE_SMALL, ///< there is no start, and less than half of what is not solid is inside
     SL_INSIDE_FEW,   ///< rooms that no start reaches have more area than those that one reaches
     SL_INSIDE_NONE,  ///< all is solid ground
+    /// There is no start, and an opening is a little wider than entrances (sl_interior.doubtful):
+    /// what is behind it is not inside.
+    SL_INSIDE_OPENING,
 } sl_inside;
 
 /// Looks at the cells alone, in a time of about O(n): sl_find_faults finds the places. `space` was
 /// made from `map`.
 SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                  sl_inside *out);
+
+/// Room for what sl_say_inside writes.
+#define SL_INSIDE_TEXT 320
+
+/// Writes what is inside, for people, where that is not plain: what is in doubt, or which openings
+/// count as entrances. A sentence without its capital and full stop; "" where walls or starts say
+/// it. As sl_doubt_inside.
+SL_API sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *space,
+                               char text[SL_INSIDE_TEXT]);
 
 /// What sl_map_snap did.
 typedef struct sl_snap_account {

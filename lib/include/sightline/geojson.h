@@ -45,8 +45,8 @@ SL_API void sl_geojson_put_shape(sl_geojson_writer *out, const char *kind, const
 /// Ends the feature.
 SL_API void sl_geojson_end_feature(sl_geojson_writer *out);
 
-/// Properties of the feature that is open.
-SL_API void sl_geojson_add_real(sl_geojson_writer *out, const char *key, double finite);
+/// Properties of the feature that is open. NAN stands for no value, and becomes null.
+SL_API void sl_geojson_add_real(sl_geojson_writer *out, const char *key, double value);
 /// As sl_geojson_add_real, a whole number.
 SL_API void sl_geojson_add_count(sl_geojson_writer *out, const char *key, uint64_t count);
 /// As sl_geojson_add_real, true or false.

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /// A usable coordinate is 0, or its magnitude is in this range. Then no later stage can overflow,
-/// or lose bits to underflow. Readers refuse other coordinates.
+/// or lose bits to underflow. Readers take a smaller magnitude as 0, and refuse a larger one.
 #define SL_COORDINATE_MIN 1e-150
 /// The largest magnitude of a coordinate.
 #define SL_COORDINATE_MAX 1e150

@@ -29,6 +29,8 @@ typedef struct sl_import_options {
     /// Coordinates are to be in this unit: mm, cm, m, km, in, ft or yd; NULL: in the file's own.
     /// "mm=m": the file is in mm, whatever it says, and is to be in m.
     const char *unit;
+    double entrance;  ///< how wide openings to the outside are at most (sl_map.entrance); 0: as
+                      ///< the file says
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
     /// them at a touch (Doom) are seen through. Those of Tiled and LDtk are doors in any case.
@@ -82,7 +84,9 @@ typedef enum sl_map_keeps {
     SL_KEEPS_CELLS = 512, ///< cells of the map's own, and their snap
     SL_KEEPS_NOTES = 1024,
     SL_KEEPS_COMMENTS = 2048,
-    SL_KEEPS_ALL = 4095,
+    SL_KEEPS_UNIT = 4096,     ///< what a map's lengths are in
+    SL_KEEPS_ENTRANCE = 8192, ///< how wide entrances are
+    SL_KEEPS_ALL = 16383,
 } sl_map_keeps;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read

@@ -54,6 +54,7 @@ typedef struct sl_glass {
     sl_segment segment;
     uint32_t line;
     bool one_sided; ///< for a mirror: it reflects on its left only, going from a to b
+    bool entrance;  ///< for a seam: what is inside ends there (sl_map_find_inside)
 } sl_glass;
 
 /// A viewpoint. The heading is in degrees, counter-clockwise from +x.
@@ -99,6 +100,31 @@ typedef struct sl_comment {
     bool behind; ///< on the same line as the statement; else on a line of its own before it
 } sl_comment;
 
+/// How it is known how wide entrances are.
+typedef enum sl_entrance {
+    SL_ENTRANCE_NONE,  ///< it is not
+    SL_ENTRANCE_GIVEN, ///< the map says it (sl_map.entrance)
+    SL_ENTRANCE_UNIT,  ///< usual entrances, in the map's unit
+    SL_ENTRANCE_FOUND, ///< by the openings of the map itself
+} sl_entrance;
+
+/// What is inside of a map without starts, as sl_map_find_inside has found it. Zeroed: not found.
+typedef struct sl_interior {
+    sl_entrance by;
+    double width;     ///< of entrances: what a disc that wide cannot enter is inside; 0 for none
+    sl_point *places; ///< one in each part that is inside, the roomiest part first
+    size_t place_count;
+    size_t entrances;      ///< openings where what is inside ends
+    bool building;         ///< a third of the walls or more have what is inside on one side
+    double doubtful_width; ///< of an opening that may be an entrance, too, with three digits,
+                           ///< rounded up; 0 for none
+    sl_segment doubtful;   ///< where it is
+    sl_point roomiest;     ///< a place far from walls: one that is inside, else behind the doubtful
+                           ///< opening, else one with an opening that is narrow for the map, else
+                           ///< any. NAN where none was looked for: the map has starts or solid
+                           ///< ground
+} sl_interior;
+
 /// All arrays belong to the map. A zeroed map is empty.
 typedef struct sl_map {
     char *source; ///< the name of its file, for messages; NULL for none
@@ -134,9 +160,14 @@ typedef struct sl_map {
     double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
     int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
     /// What the file says its coordinates are in: "m", "mm", "ft", "px" ...; "" where it does not
-    /// say. For people: nothing depends on it. Map text and .slv files do not keep it.
+    /// say. Entrances are as wide as is usual in it (sl_map_find_inside). Map text and .slv files
+    /// keep units of a known length, and what a map text says itself.
     char unit[16];
-    double range; ///< the view range; 0 for no limit
+    uint32_t unit_line;
+    double entrance; ///< how wide openings to the outside are at most; 0 where nobody says it
+    uint32_t entrance_line;
+    sl_interior interior; ///< map text and .slv files do not keep it
+    double range;         ///< the view range; 0 for no limit
     uint32_t range_line;
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
     /// files do not keep them. Equal texts that follow each other stand in label_text once.
@@ -155,8 +186,8 @@ SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
 /// A deep copy into an empty map, which stays empty on failure.
 SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to);
 
-/// Each adds one thing, and copies its arguments. SL_BAD_ARGUMENT if a coordinate is not usable
-/// (sl_coordinate_usable).
+/// Each adds one thing, and copies its arguments. A coordinate of a magnitude below
+/// SL_COORDINATE_MIN becomes 0. SL_BAD_ARGUMENT if one is above SL_COORDINATE_MAX, or no number.
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
 /// Adds copies of walls, with their lines and their ground. As sl_map_add_wall.
@@ -227,8 +258,15 @@ SL_API bool sl_coordinate_usable(double value);
 /// The smallest box around all things of the map; {{0,0},{0,0}} for an empty map.
 SL_API sl_box sl_map_bounds(const sl_map *map);
 
+/// How many significant digits tell places apart that are a millionth of the map's size apart: 6 to
+/// 17.
+SL_API int sl_map_digits(const sl_map *map);
+
 /// The number of walls that are parallel to neither axis.
 SL_API size_t sl_map_count_oblique(const sl_map *map);
+
+/// The length of a unit (sl_map.unit) in metres; 0 where it is none that is known.
+SL_API double sl_unit_metres(const char *unit);
 
 /// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.
 SL_API bool sl_map_is_axial(const sl_map *map);
@@ -276,6 +314,9 @@ SL_API sl_clean_options sl_clean_options_default(void);
 ///
 /// Sides of the map's own cells take part, as seams do. The tolerance is then at least twice the
 /// map's `snap`. Cells of which nothing is left are dropped.
+///
+/// Doors, mirrors, one-way glass and seams whose ends are one place, as read or by welding, are
+/// left out; a note names each by its line. The other doors keep their order.
 ///
 /// Cleaning a clean map again moves nothing. It may join walls in one line that welding left apart.
 ///

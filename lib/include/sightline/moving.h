@@ -68,7 +68,8 @@ SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const
 /// also if it touches a side or runs along it. A side that a wall covers is not seen. A box that is
 /// one point is seen where sl_sees says so. Boxes that block also hide each other.
 ///
-/// `account` is set, in cells of the space with boxes. Errors are those of the method "exact".
+/// `account`, which may be NULL, is set, in cells of the space with boxes. Errors are those of the
+/// method "exact".
 SL_API sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
                                 uint64_t *cells, bool *seen, sl_eye_account *account);
 

@@ -57,12 +57,9 @@ SL_API void sl_region_destroy(sl_context *context, sl_region *region); ///< and 
 /// et al. 2014, Efficient Computation of Visibility Polygons, on triangles). `range` limits how far
 /// is seen; 0 for no limit.
 ///
-/// An eye on a portal or a free corner of cells sees all around. An eye on a wall sees from the
-/// cell that sl_space_locate gives, and from every cell that touches the eye and is joined to that
-/// cell by portals that touch the eye. That is the side right of or over the wall, or the inner
-/// side where the wall bounds the map. Where a wall ends at the eye, it sees all around, but for
-/// the wall. Such an eye is a point of its region; so is the eye of a cone. An eye outside the
-/// bounds, an eye in solid ground and a cone of 0 degrees see nothing: the region is empty.
+/// What an eye sees that is on a wall, on its end or on a portal, view.h says. Where a wall parts
+/// what is around the eye, the eye is a point of its region; so is the eye of a cone. An eye that
+/// sees nothing, and a cone of 0 degrees, have an empty region.
 ///
 /// SL_BAD_ARGUMENT for a range that is negative or not finite, and for a cone's border that is the
 /// eye itself or not finite. On failure the region is empty.

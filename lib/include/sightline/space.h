@@ -92,8 +92,10 @@ typedef struct sl_seam_portal {
 /// 1. Solid ground is not inside. It is what the ground beside walls says (sl_wall.ground), what
 ///    solid polygons cover, and all that portals connect with it.
 /// 2. With starts, cells that portals connect with a start are inside.
-/// 3. Without starts, cells that portals do not connect with the border of the bounds are inside.
-/// 4. If that leaves none, all cells that are not solid are inside.
+/// 3. Without starts, and if sl_map_find_inside was called, cells are inside that portals connect
+///    with one of its places, but not through an entrance.
+/// 4. Else, cells that portals do not connect with the border of the bounds are inside.
+/// 5. If that leaves none, all cells that are not solid are inside.
 ///
 /// Cells do not run over seams: a portal lies on a seam as a whole, or not at all. There is no
 /// portal where a wall covers a seam.
@@ -120,6 +122,28 @@ typedef struct sl_space {
     sl_seam *seams;      ///< the map's doors, one-way glass and seams; NULL for none
     sl_seam_portal *seam_portals; ///< by portal, then seam; NULL for none
 } sl_space;
+
+/// Finds what is inside of a clean map (sl_map_clean) that has no starts: what a disc as wide as an
+/// entrance cannot enter from outside. The width is that of channels between ends of walls and
+/// walls, compared exactly, up to what cleaning takes for one place. Doors, open or shut, stop the
+/// disc.
+///
+/// How wide entrances are, the map says (sl_map.entrance). Else it is 1.2 m if the map's unit is
+/// known, or it is found: the widest openings of rooms before the greatest step in their widths.
+/// Then a third of the walls that can be reached must be inside, else nothing is found.
+///
+/// What the disc cannot enter is inside if a disc of half the width fits in it, and, if it has an
+/// opening, one that is 4/3 as wide as that. So cores of walls, niches and alleys are not. Where
+/// the map says what is solid, all open ground that walls enclose is inside. If an opening of up
+/// to 2.5 times the width leads to such a place, `doubtful_width` is that width. Rooms behind it
+/// are inside only if the map says the width.
+///
+/// The map gets `interior`, and a seam (sl_glass.entrance) across each entrance, which cuts cells
+/// there. Where their ends are rounded, the map is cleaned again by `clean` (NULL: the default),
+/// which the account (NULL for none) takes up. A map with starts only loses what was found before.
+/// Time O(n log n) for maps whose entrances are short against the map.
+SL_API sl_status sl_map_find_inside(sl_context *context, sl_map *map, const sl_clean_options *clean,
+                                    sl_clean_account *account);
 
 /// The rules of the kd-tree (Teller & Séquin 1991, Spatial Subdivision). They choose a split among
 /// the lines with a wall inside the region, one after the other. Start from
@@ -201,6 +225,13 @@ SL_API sl_status sl_map_settle_ground(sl_context *context, sl_map *map);
 /// are asked in turn: the cell right of the point and over it, left and over, right and under, left
 /// and under. In a mesh, the lowest number that is not solid counts.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
+
+/// Whether a point is inside: in a cell that is (sl_space_locate).
+SL_API bool sl_space_is_inside(const sl_space *space, sl_point point);
+
+/// A place in a cell that is inside, as near to a point as such places are, but for a thousandth of
+/// the way to the middle of the cell. False where nothing is inside. Time O(cells).
+SL_API bool sl_space_nearest_inside(const sl_space *space, sl_point point, sl_point *out);
 
 /// A box that is put into a space for a while (sightline/moving.h). It may have no width or height.
 /// Boxes may overlap; they may touch walls, each other and the eye; and they may lie outside the

@@ -163,7 +163,8 @@ SL_API void sl_number_write(double value, char text[SL_NUMBER_TEXT]);
 SL_API size_t sl_number_length(const char *text, size_t length);
 
 /// Reads a decimal number that is all of text[0 .. length): sign, digits, point, exponent. False
-/// for anything else: "nan", "inf", "0x1", "1e", "". A magnitude too large reads as an infinity.
+/// for anything else: "nan", "inf", "0x1", "1e", "", more than 2048 characters. A magnitude too
+/// large reads as an infinity, one too small as the nearest double, which may be 0.
 SL_API bool sl_number_read(const char *text, size_t length, double *value);
 
 // --- whole files: a file is written beside its target and renamed, so that a failure leaves the

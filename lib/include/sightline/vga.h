@@ -90,8 +90,10 @@ typedef struct sl_vga_options {
 /// The default options.
 SL_API sl_vga_options sl_vga_options_default(void);
 
-/// What depthmapX gives a point. NAN for a measure that is not defined (no neighbour, one point),
-/// or of a part that was not asked for.
+/// What depthmapX gives a point. NAN for a measure that is not defined, because its formula divides
+/// by 0 or takes the logarithm of 0 (no neighbour, one point, no point deeper than a step, a
+/// neighbour that sees nothing through one-way glass), or of a part that was not asked for.
+/// Values are never infinite.
 typedef struct sl_vga_measures {
     double connectivity;                  ///< number of points seen; of global measures too
     double point_first_moment;            ///< sum of their distances
@@ -106,7 +108,8 @@ typedef struct sl_vga_measures {
     double visual_relativised_entropy; ///< against a Poisson distribution of the same mean
     double visual_integration_hh;      ///< Hillier and Hanson 1984: 1 / real relative asymmetry
     double visual_integration_pvalue;  ///< likewise, relative to a pyramid
-    double visual_integration_tekl;    ///< Teklenburg, Timmermans and van Wagenberg 1993
+    double visual_integration_tekl;    ///< Teklenburg, Timmermans and van Wagenberg 1993; not
+                                       ///< defined where one point alone is two steps away
 
     double through_vision; ///< lines between two points that see each other, both ways, through it
 
@@ -121,8 +124,9 @@ typedef struct sl_vga_measures {
 } sl_vga_measures;
 
 /// Measures all points; `measures` has an entry for each. Paths go from point to point along the
-/// graph. They turn at points beside walls, as those of depthmapX do: where a wall touches one of
-/// the nine squares about the point.
+/// graph. They turn only at points beside walls, as those of depthmapX do: where a wall touches one
+/// of the nine squares about the point. Their lengths and turns are added up in single precision,
+/// likewise.
 SL_API sl_status sl_vga_measure(sl_context *context, const sl_outline *outline,
                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
                                 const sl_vga_options *options, sl_vga_measures *measures);
@@ -151,13 +155,17 @@ SL_API sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *ou
                                        const sl_vga_options *options, sl_vga_measures *measures);
 
 /// How far a point is from chosen points, under depthmapX' names. NAN where nothing leads to it, or
-/// for a part that was not asked for.
+/// for a part that was not asked for. The paths are those of sl_vga_measure: "shortest" is the
+/// shortest among those that turn only at points beside walls. It may be longer than the shortest
+/// path of the plan, which turns at corners. Lengths and turns are added up in single precision, as
+/// in depthmapX.
 typedef struct sl_vga_depths {
-    double visual_step_depth;                ///< steps along the graph
-    double metric_step_shortest_path_length; ///< length of the shortest path
-    double metric_step_shortest_path_angle;  ///< turn along it, in right angles
-    double metric_straight_line_distance;    ///< distance, through walls
-    double angular_step_depth;               ///< turn along the path that turns least
+    double visual_step_depth; ///< steps along the graph
+    double
+        metric_step_shortest_path_length;   ///< length of the shortest path that turns beside walls
+    double metric_step_shortest_path_angle; ///< turn along it, in right angles
+    double metric_straight_line_distance;   ///< distance, through walls
+    double angular_step_depth;              ///< turn along the path that turns least
 } sl_vga_depths;
 
 /// The depths of all points from the nearest of some points. `parts`: SL_VGA_GLOBAL for steps,

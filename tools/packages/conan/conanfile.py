@@ -8,7 +8,7 @@ from conan.tools.files import copy
 
 class Sightline(ConanFile):
     name = "sightline"
-    version = "1.0.0"
+    version = "2.0.0"
     license = "MIT"
     description = "2D cell-and-portal visibility toolkit: the core library and the header for games"
     settings = "os", "compiler", "build_type", "arch"

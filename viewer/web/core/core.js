@@ -60,7 +60,7 @@ export class Core {
         this.scene?.close();
         this.scene = null;
         this.scene = this.module.open(text, options);
-        return planOf(this.scene);
+        return { ...planOf(this.scene), inside: this.scene.insideText() };
     }
 
     /** The .slv file of the last map. @returns {Uint8Array} */

@@ -47,6 +47,8 @@ export class Sight {
         /** The last baked map; null where there is none. @type {import('../core/core.js').Plan | null} */
         this.plan = null;
         this.bakeTime = 0;
+        /** What was said about what is inside. */
+        this.inside = '';
         /** Bakes that take less than this, in milliseconds, are waited for: a step of a drag is drawn once. */
         this.patience = 50;
         /** Until when drawing waits for the bake that runs. */
@@ -91,7 +93,8 @@ export class Sight {
         this.bakeTime = bakeTime;
         this.shut = new Set(plan.doors.filter((door) => !door.open).map((door) => door.name));
         panel.showDoors([...new Set(plan.doors.map((door) => door.name))], this.shut, (name, open) => this.setDoor(name, open));
-        if (this.hasError) panel.showMessage('');
+        if (this.hasError || plan.inside !== this.inside) panel.showMessage(plan.inside && `${plan.inside}.`.replace(/^./, (c) => c.toUpperCase()));
+        this.inside = plan.inside;
         this.hasError = false;
         this.eye ??= this.startPlace();
         if (this.eye) this.useSeen(seen);

@@ -147,6 +147,11 @@ for (const name of wanted)
                     return answer;
                 };
                 playground.patience = 10000;
+                // What opening the page has left to draw is drawn before.
+                for (let still = 0; still < 5; still = count ? 0 : still + 1) {
+                    count = 0;
+                    await frame();
+                }
                 for (let i = 1; i <= 3; i++) {
                     await frame();
                     count = 0;

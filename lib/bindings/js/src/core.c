@@ -29,6 +29,8 @@ typedef struct scene {
 
 /// Of the next bake.
 static sl_bake_options bake_options;
+/// Of the next map; 0: as it says.
+static double entrance;
 
 // --- options
 
@@ -53,10 +55,11 @@ static sl_status find_subdivision(const char *name, const sl_subdivision **out) 
     return sl_fail(sli_module.context, SL_BAD_ARGUMENT, "subdivide: there is no way '%s'", name);
 }
 
-/// Options of the next bake. An empty name, and a number below 0, stand for the default.
+/// Options of the next bake. An empty name, and a number below 0, stand for the default. `width` is
+/// that of entrances.
 SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sight, int inside,
            int trees, int check, double weld, double mirror_depth, double door_limit,
-           double samples, double seed) {
+           double samples, double seed, double width) {
     sl_bake_options *o = &bake_options;
     *o = sl_bake_options_default();
     o->see.threads = 1;
@@ -71,6 +74,7 @@ SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sig
     if (door_limit >= 0) o->door_limit = (uint32_t)door_limit;
     if (samples >= 0) o->see.samples = (uint32_t)samples;
     if (seed >= 0) o->see.seed = (uint64_t)seed;
+    entrance = width;
     return SL_OK;
 }
 
@@ -79,7 +83,7 @@ SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sig
 /// `name` is for messages, and its ending says what the text is.
 static sl_status read_map(const char *name, const char *text, size_t size, sl_map *map) {
     const sl_subdivision *way = bake_options.subdivision;
-    const sl_import_options import = {.cells = way && way->takes_cells};
+    const sl_import_options import = {.cells = way && way->takes_cells, .entrance = entrance};
     SL_TRY(sl_map_parse(sli_module.context, name, text, size, &import, map));
     if (way && !way->takes_cells) sl_map_drop_cells(sli_module.context, map);
     return SL_OK;
@@ -144,8 +148,8 @@ static void put_fault(sl_json_writer *json, const sl_map *map, const sl_faults *
 }
 
 static sl_status print_faults(const sl_map *map, const sl_space *space, const sl_faults *faults,
-                              sl_inside inside) {
-    static const char *const doubts[] = {"sure", "leaks", "small", "few", "none"};
+                              sl_inside inside, const char *said) {
+    static const char *const doubts[] = {"sure", "leaks", "small", "few", "none", "opening"};
     const sl_ground_shares shares = sl_space_ground(space);
     const double parts[] = {shares.inside, shares.outside, shares.solid};
     static const char *const names[] = {"inside", "outside", "solid"};
@@ -155,6 +159,8 @@ static sl_status print_faults(const sl_map *map, const sl_space *space, const sl
     sl_json_put_object(&json);
     sl_json_put_key(&json, "doubt");
     sl_json_put_text(&json, doubts[inside]);
+    sl_json_put_key(&json, "said");
+    sl_json_put_text(&json, said);
     for (int i = 0; i < 3; i++) {
         sl_json_put_key(&json, names[i]);
         sl_json_put_real(&json, parts[i]);
@@ -174,11 +180,13 @@ static sl_status check_map(const sl_map *map, sl_baked *baked, sl_map *copy, sl_
     const sl_faults_options options = {.gap = gap, .thin = thin, .clean = &bake_options.clean};
     sl_bake_account account = {0};
     sl_inside inside;
+    char said[SL_INSIDE_TEXT];
     SL_TRY(sl_map_copy(sli_module.context, map, copy));
     SL_TRY(sl_bake_space(sli_module.context, copy, &bake_options, baked, &account));
     SL_TRY(sl_find_faults(sli_module.context, map, &baked->space, &options, faults));
-    SL_TRY(sl_doubt_inside(sli_module.context, map, &baked->space, &inside));
-    return print_faults(map, &baked->space, faults, inside);
+    SL_TRY(sl_doubt_inside(sli_module.context, &baked->map, &baked->space, &inside));
+    SL_TRY(sl_say_inside(sli_module.context, &baked->map, &baked->space, said));
+    return print_faults(map, &baked->space, faults, inside, said);
 }
 
 /// Faults of a map as JSON: see written().
@@ -258,6 +266,19 @@ SLI_EXPORT(scene *, scene_open, const char *name, const char *bytes, size_t size
 /// The baked file: see written().
 SLI_EXPORT(int, scene_write, scene *s) {
     return (int)(sli_module.status = sl_baked_write(sli_module.context, &s->baked, ""));
+}
+
+/// What is inside, for people, where that is not plain: see written().
+SLI_EXPORT(int, scene_inside, scene *s) {
+    char said[SL_INSIDE_TEXT];
+    sl_output output;
+    sl_status status = sl_say_inside(sli_module.context, &s->baked.map, &s->baked.space, said);
+    if (status == SL_OK) status = sl_output_open(sli_module.context, "", &output);
+    if (status == SL_OK) {
+        fputs(said, output.stream);
+        status = sl_output_close(sli_module.context, &output, SL_OK);
+    }
+    return (int)(sli_module.status = status);
 }
 
 /// An export by its name: see written(). The table of all exports is not asked: it would bring the
@@ -572,16 +593,6 @@ SLI_EXPORT(int, scene_steps, scene *s, uint32_t cell, double most) {
     sli_module.integers[1] = (uint32_t)(uintptr_t)s->steps.steps;
     sli_module.integers[2] = s->steps.complete;
     return (int)sli_module.status;
-}
-
-/// The kept stab tree of a cell. integers: number of nodes and their place.
-SLI_EXPORT(int, scene_kept_tree, const scene *s, uint32_t cell) {
-    const sl_stab_trees *trees = &s->baked.visibility.trees;
-    if (!sli_done(check_cell(s, cell))) return (int)sli_module.status;
-    const uint64_t first = trees->cell_count ? trees->offsets[cell] : 0;
-    sli_module.integers[0] = trees->cell_count ? (uint32_t)(trees->offsets[cell + 1] - first) : 0;
-    sli_module.integers[1] = (uint32_t)(uintptr_t)(trees->nodes + first);
-    return SL_OK;
 }
 
 // --- portal sequences on their own, for lessons

@@ -49,6 +49,7 @@ static sl_status subdivide(graph *g, sl_map *map) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
     sl_clean_account account = {0};
     SL_TRY(sl_map_clean(context(), map, &clean, &account));
+    SL_TRY(sl_map_find_inside(context(), map, &clean, &account));
     SL_TRY(sl_subdivision_for(map)->subdivide(context(), map, &rules, &g->baked.space));
     if (g->baked.space.neighbour) SL_TRY(sl_space_check(context(), &g->baked.space));
     g->baked.map = *map;
@@ -56,8 +57,9 @@ static sl_status subdivide(graph *g, sl_map *map) {
     return SL_OK;
 }
 
-static sl_status make_space(graph *g, const char *name, const char *text, size_t size) {
-    const sl_import_options import = {0};
+static sl_status make_space(graph *g, const char *name, const char *text, size_t size,
+                            double entrance) {
+    const sl_import_options import = {.entrance = entrance};
     sl_map map = {0};
     sl_status status = sl_map_parse(context(), name, text, size, &import, &map);
     if (status == SL_OK) status = subdivide(g, &map);
@@ -65,9 +67,10 @@ static sl_status make_space(graph *g, const char *name, const char *text, size_t
     return status;
 }
 
-static sl_status open_map(graph *g, const char *name, const char *bytes, size_t size, int baked) {
+static sl_status open_map(graph *g, const char *name, const char *bytes, size_t size, int baked,
+                          double entrance) {
     SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &g->baked)
-                 : make_space(g, name, bytes, size));
+                 : make_space(g, name, bytes, size, entrance));
     const sl_map *map = &g->baked.map;
     SL_TRY(
         sl_effects_check_because(context(), map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
@@ -78,10 +81,12 @@ static sl_status open_map(graph *g, const char *name, const char *bytes, size_t 
     return SL_OK;
 }
 
-/// Reads a map, or with `baked` a baked file.
-SLI_EXPORT(graph *, graph_open, const char *name, const char *bytes, size_t size, int baked) {
+/// Reads a map, or with `baked` a baked file. `entrance` is the width of entrances; 0: as the map
+/// says.
+SLI_EXPORT(graph *, graph_open, const char *name, const char *bytes, size_t size, int baked,
+           double entrance) {
     graph *g = sl_alloc_array(context(), 1, sizeof *g);
-    if (sli_done(g ? open_map(g, name, bytes, size, baked) : SL_NO_MEMORY)) return g;
+    if (sli_done(g ? open_map(g, name, bytes, size, baked, entrance) : SL_NO_MEMORY)) return g;
     graph_close(g);
     return NULL;
 }

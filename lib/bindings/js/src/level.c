@@ -68,18 +68,21 @@ EXPORT(int, can_see, uint32_t from, uint32_t to, const unsigned char *shut, int 
                                                                               shut);
 }
 
-/// Whether something in cell `to` may be seen by mirror from a point in cell `from`.
-EXPORT(int, may_mirror, uint32_t from, uint32_t to, const unsigned char *shut) {
+/// Whether something in cell `to` may be seen by mirror from a point.
+EXPORT(int, may_mirror, double x, double y, uint32_t to, const unsigned char *shut,
+       uint32_t *scratch) {
     const sl_runtime rows = slrt_mirrored(&level);
-    if (!level.mirrors || from >= level.cell_count) return false;
-    if (sl_runtime_is_solid(&level, from) || sl_runtime_is_solid(&level, to)) return false;
-    if (level.mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED || !sl_runtime_has_row(&level, from))
+    const sl_runtime_view eye = sl_runtime_view_all_round(x, y);
+    slrt_search s;
+    if (!level.mirrors || sl_runtime_is_solid(&level, to)) return false;
+    if (!slrt_start_search(&s, &level, &eye, shut, 0, scratch)) return false;
+    if (level.mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED || !sl_runtime_has_row(&level, s.eye_cell))
         return true;
-    return slrt_sees(&rows, from, to, shut);
-}
-
-EXPORT(void, row_bits, uint32_t cell, unsigned char *bits) {
-    sl_runtime_row_bits(&level, cell, bits);
+    memset(s.marks, 0, level.cell_count);
+    slrt_follow(&s, NULL);
+    for (uint32_t i = 0; i < s.own_count; i++)
+        if (slrt_sees(&rows, s.path[i], to, shut)) return true;
+    return false;
 }
 
 EXPORT(void, seen_from, const uint32_t *cells, uint32_t count, const unsigned char *shut,

@@ -3,6 +3,7 @@
 ///
 /// One file is written at a time. sl_output_commit() keeps its bytes until the next one is written;
 /// `path` is not looked at. bindings.h says how to take them.
+#include "base/base.h"
 #include "base/file_system.h"
 #include "bindings/js/src/bindings.h"
 
@@ -52,6 +53,16 @@ sl_status sl_output_close(sl_context *context, sl_output *output, sl_status stat
     fclose(output->stream);
     output->stream = NULL;
     return status;
+}
+
+sl_status sli_file_write(sl_context *context, const char *path, const sli_to_write *file) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    sl_status status = file->print(context, file->user, output.stream);
+    if (status == SL_OK && fflush(output.stream) == 0 && !ferror(output.stream))
+        status = sli_read_back(context, "the map", file,
+                               (sli_again){.at = written, .left = written_size});
+    return sl_output_close(context, &output, status);
 }
 
 sl_path_kind sl_path_look(const char *path) {

@@ -1,9 +1,9 @@
 /** Bakes and exports are those of the native command, byte for byte. */
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
+import { readFileSync, writeFileSync } from 'node:fs'
 import { basename } from 'node:path'
 import test from 'node:test'
-import { command, load, maps, nativeBake, place } from './help.js'
+import { command, house, load, maps, nativeBake, place } from './help.js'
 
 const { bake, check, describe, explain, isovist, query, load: loadCore, mapText } = await load('bake.js')
 const core = await loadCore()
@@ -70,6 +70,24 @@ test('an object is its map text', async () => {
   assert.ok(scene.mirroredParts(15, 5).length > 0)
   assert.equal(scene.wall(0).item.startsWith('walls['), true)
   scene.close()
+})
+
+test('the width of entrances says what is inside', () => {
+  const path = place('house.map')
+  writeFileSync(path, house)
+  for (const [width, area] of [[1, 96], [1.5, 96], [2, 80], [3, 80]]) {
+    const got = core.bake(house, { entrance: width })
+    assert.ok(nativeBake(path, '--entrance', String(width)).bytes.equals(got), `${width}`)
+    assert.deepEqual(core.bake(`${house}entrance 0.5\n`, { entrance: width }), got)
+    assert.equal(core.check(house, { entrance: width }).inside, area / 96)
+    const object = { walls: [[5, 0, 10, 0], [10, 0, 10, 8], [10, 8, 0, 8], [0, 8, 0, 0], [0, 0, 3, 0], [12, 0, 12, 8]] }
+    assert.equal(core.check({ ...object, entrance: width }).inside, area / 96)
+  }
+  // One bake does not change the next.
+  assert.ok(nativeBake(path).bytes.equals(core.bake(house)))
+  assert.deepEqual(core.bake(house, { entrance: 0 }), core.bake(house))
+  assert.match(core.writeMap(house, { entrance: 2.5 }), /^entrance 2.5$/m)
+  assert.equal(mapText({ walls: [], entrance: 2.5 }), 'sightline 1\nentrance 2.5\n')
 })
 
 test('check() finds a leak and names its walls', async () => {

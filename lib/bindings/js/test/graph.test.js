@@ -3,7 +3,7 @@ import assert from 'node:assert/strict'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { basename } from 'node:path'
 import test from 'node:test'
-import { command, load, maps, place } from './help.js'
+import { command, house, load, maps, place } from './help.js'
 
 const { graph, load: loadCore, measures, SightlineError } = await load('graph.js')
 const core = await loadCore()
@@ -94,6 +94,30 @@ function place2(text) {
   return path
 }
 
+test('the width of entrances says where points are', () => {
+  const path = place('house.map')
+  writeFileSync(path, house)
+  const counts = [1, 2].map((width) => {
+    const made = core.graph(house, { grid: 1, entrance: width })
+    const count = made.count
+    made.close()
+    return count
+  })
+  assert.ok(counts[0] > counts[1])
+  compare(core.graph(house, { grid: 1, entrance: 2 }), native(path, 1, '--entrance', '2'), 'house')
+})
+
+test('a measure that is not defined is NaN, as it is empty in the table', () => {
+  const text = 'sightline 1\nwalls 0.75 0.75 2.25 0.75 2.25 2.25 1.75 2.25 1.75 1.25 0.75 1.25 0.75 0.75\n'
+  const path = place('corner.map')
+  writeFileSync(path, text)
+  const made = core.graph(text, { grid: 1 })
+  compare(made, native(path, 1), 'corner')
+  assert.deepEqual([...made.values('visual_integration_tekl')], [NaN, NaN, NaN])
+  for (const name of measures) assert.ok([...made.values(name)].every((value) => Math.abs(value) !== Infinity), name)
+  made.close()
+})
+
 test('what cannot be is refused with its reason, and the module goes on', async () => {
   const room = { walls: [[0, 0, 9, 0], [9, 0, 9, 9], [9, 9, 0, 9], [0, 9, 0, 0]] }
   for (const [options, message] of [
@@ -106,6 +130,6 @@ test('what cannot be is refused with its reason, and the module goes on', async 
   assert.equal(made.count, 64)
   assert.ok(made.values('connectivity').every((value) => value === 63))
   assert.ok(made.depth(4, 4).every((value) => value <= 1))
-  assert.throws(() => made.sees(0, 64), /64 points/)
+  assert.throws(() => made.sees(0, 64), /point: a whole number, 0 to 63, is needed, not 64/)
   made.close()
 })

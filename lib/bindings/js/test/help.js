@@ -37,6 +37,9 @@ export const answers = (path, questions) =>
 export const maps = ['maps', 'maps/effects', 'maps/oblique'].flatMap((name) =>
   readdirSync(join(root, name)).filter((file) => /\.(map|txt)$/.test(file)).map((file) => join(root, name, file)))
 
+/** A room of 10 by 8 with an opening of 2, and a wall beside it: what is inside depends on the width of entrances. */
+export const house = 'sightline 1\nwalls 5 0 10 0 10 8 0 8 0 0 3 0\nwall 12 0 12 8\n'
+
 /** Random numbers from 0 to 1, the same each time. */
 export function random(seed) {
   let state = seed >>> 0

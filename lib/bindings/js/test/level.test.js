@@ -142,8 +142,8 @@ test('arguments that are wrong say so', async () => {
   const level = await hall()
   const cell = level.locate(1, 1)
   for (const [call, message] of [
-    [() => level.canSee([1], [2, 2]), /canSee: points/], [() => level.canSee(cell, [2, 2]), /two cells or two points/],
-    [() => level.canSee(null, null), /canSee: points/], [() => level.canSee(0.5, 1), /two cells/],
+    [() => level.canSee([1], [2, 2]), /canSee: a point/], [() => level.canSee(cell, [2, 2]), /two cells or two points/],
+    [() => level.canSee(null, null), /canSee: a point/], [() => level.canSee(0.5, 1), /cell: a whole number, 0 to \d+, is needed, not 0.5/],
     [() => level.canSee(cell, cell, { mirror: true }), /no option 'mirror'/],
     [() => level.look(1, 1, { direction: 90 }), /no option 'direction'/], [() => level.visiblePolygon(1, 1, { angle: 60 }), /no option 'angle'/],
     [() => level.look(undefined, 3), /x: a number/], [() => level.visiblePolygon(3, NaN), /y: a number/],

@@ -14,12 +14,13 @@ False
 """
 from __future__ import annotations
 
+from ._library import Doors
 from ._library import call as _call
 from ._library import said as _said
 from .drawing import heat_map
 from .errors import (BadArgument, BadInput, Cancelled, Closed, FileError, OutOfMemory,
                      SightlineError, SightlineWarning, Unsupported)
-from .level import Doors, Explanation, Level, PortalSequence
+from .level import Explanation, Level, PortalSequence
 from .plan import Plan
 
 __version__: str = _said(_call.version())

@@ -7,10 +7,15 @@ written into new arrays, and never point into the library's memory.
 from __future__ import annotations
 
 import ctypes
+import math
+import numbers
+import operator
 import pathlib
 import sys
 import threading
 import weakref
+from collections.abc import Iterator, Mapping, MutableMapping
+from types import MappingProxyType
 from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
@@ -21,7 +26,8 @@ from .errors import BY_STATUS, Closed, SightlineError
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_int, _uint32, _size, _double = ctypes.c_int, ctypes.c_uint32, ctypes.c_size_t, ctypes.c_double
+_int, _uint32, _uint64 = ctypes.c_int, ctypes.c_uint32, ctypes.c_uint64
+_size, _double = ctypes.c_size_t, ctypes.c_double
 _text, _handle = ctypes.c_char_p, ctypes.c_void_p
 _doubles = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
 _integers = np.ctypeslib.ndpointer(np.int64, flags="C_CONTIGUOUS")
@@ -34,7 +40,9 @@ _any = ctypes.c_void_p
 class Import(ctypes.Structure):
     """As slp_import of facade.h."""
     _fields_ = [("map", _text), ("layers", _text), ("start_names", _text), ("unit", _text),
-                ("slice", _double), ("tolerance", _double), ("threshold", _double),
+                ("slice", _double), ("tolerance", _double), ("entrance", _double),
+                ("threshold", _double), ("max_squares", _uint64), ("max_pixels", _uint64),
+                ("max_walls", _uint64), ("max_entities", _uint64), ("max_depth", _uint64),
                 ("doors", _int), ("sectors", _int), ("cells", _int)]
 
 
@@ -69,6 +77,9 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "plan_add_ground": (_int, [_handle, _int, _doubles, _size]),
     "plan_add_start": (_int, [_handle, _double, _double, _double]),
     "plan_set_range": (_int, [_handle, _double]),
+    "plan_entrance": (_double, [_handle]),
+    "plan_set_entrance": (_int, [_handle, _double]),
+    "plan_set_door": (_int, [_handle, _text, _int]),
     "segments": (_size, [_handle, _int, _text, _any]),
     "name": (_text, [_handle, _int, _text, _size]),
     "door_open": (_int, [_handle, _int, _size]),
@@ -88,7 +99,6 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_portals": (None, [_handle, _integers, _doubles, _integers]),
     "level_sets": (_int, [_handle, _int, _integers, _any]),
     "level_set_door": (_int, [_handle, _text, _int]),
-    "level_is_open": (_int, [_handle, _size]),
     "level_set_range": (_int, [_handle, _double]),
     "level_set_mirror_depth": (_int, [_handle, _uint32]),
     "level_locate": (_int, [_handle, _doubles, _size, _integers]),
@@ -181,16 +191,68 @@ def address(array: NDArray[Any]) -> int:
     return int(array.ctypes.data)
 
 
+# --- arguments: one conversion for each kind, used by all calls
+
+
+def as_flag(value: Any, what: str) -> bool:
+    """True or False; nothing else stands for one of them."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise TypeError(f"{what} must be True or False, not {value!r:.40}")
+
+
+def as_number(value: Any, what: str, *, least: float = -math.inf, over: float = -math.inf) -> float:
+    """A finite number that is `least` or more, and more than `over`."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (numbers.Real, np.number)):
+        raise TypeError(f"{what} must be a number, not {value!r:.40}")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if math.isfinite(number) and number >= least and number > over:
+        return number
+    limit = f" over {over:g}" if over > -math.inf else f", {least:g} or more," if least > -math.inf else ""
+    raise ValueError(f"{what} must be a number{limit} and finite")
+
+
+def as_count(value: Any, what: str, most: int) -> int:
+    """A whole number that the library takes."""
+    if isinstance(value, (bool, np.bool_)) or not hasattr(type(value), "__index__"):
+        raise TypeError(f"{what} must be a whole number, not {value!r:.40}")
+    number = operator.index(value)
+    if not 0 <= number <= most:
+        raise ValueError(f"{what} must be a whole number from 0 to {most}")
+    return number
+
+
+def as_reals(value: ArrayLike, what: str) -> Floats:
+    """An array of doubles in C order."""
+    try:
+        given = np.asarray(value)
+    except ValueError as fault:
+        raise ValueError(f"{what} must be an array: {fault}") from fault
+    if np.ma.is_masked(value):
+        raise ValueError(f"{what} has values that are masked")
+    if given.dtype.kind not in "fiu" and given.size:
+        raise TypeError(f"{what} must hold real numbers, not {given.dtype}")
+    return np.ascontiguousarray(given, dtype=np.float64).reshape(given.shape)
+
+
+def as_point(value: ArrayLike, what: str) -> Floats:
+    """A point of finite coordinates, as an array (2,)."""
+    point = as_points(value, what)
+    if point.ndim != 1:
+        raise ValueError(f"{what} must be one point (x, y), not an array of shape {point.shape}")
+    return point
+
+
 def as_points(value: ArrayLike, what: str, finite: bool = True) -> Floats:
     """An array (..., 2) of doubles in C order. Shapely points and series of them are taken too."""
     xy = getattr(value, "x", None), getattr(value, "y", None)
     if xy[0] is not None and xy[1] is not None:
         value = np.stack([np.asarray(xy[0], dtype=np.float64),
                           np.asarray(xy[1], dtype=np.float64)], axis=-1)
-    given = np.asarray(value)
-    if given.dtype.kind not in "fiub" and given.size:
-        raise TypeError(f"{what} must hold real numbers, not {given.dtype}")
-    points = np.ascontiguousarray(given, dtype=np.float64)
+    points = given = as_reals(value, what)
     if points.size == 0 and points.ndim <= 1:
         points = points.reshape(0, 2)
     if points.ndim < 1 or points.shape[-1] != 2:
@@ -203,10 +265,7 @@ def as_points(value: ArrayLike, what: str, finite: bool = True) -> Floats:
 
 def as_segments(value: ArrayLike, what: str) -> Floats:
     """An array (n, 4) of doubles: x0, y0, x1, y1. Shapes (n, 2, 2) and (4,) are taken too."""
-    given = np.asarray(value)
-    if given.dtype.kind not in "fiub" and given.size:
-        raise TypeError(f"{what} must hold real numbers, not {given.dtype}")
-    segments = np.ascontiguousarray(given, dtype=np.float64)
+    segments = given = as_reals(value, what)
     if segments.ndim == 3 and segments.shape[1:] == (2, 2):
         segments = segments.reshape(-1, 4)
     if segments.shape == (4,) or segments.shape == (2, 2):
@@ -220,12 +279,37 @@ def as_segments(value: ArrayLike, what: str) -> Floats:
     return segments
 
 
-def as_count(value: int, what: str, most: int) -> int:
-    """A whole number that the library takes."""
-    number = int(value)
-    if number != value or not 0 <= number <= most:
-        raise ValueError(f"{what} must be a whole number from 0 to {most}")
-    return number
+class Doors(MutableMapping[str, bool]):
+    """The doors of a plan or a level: whether each is open. `doors["front"] = False` shuts one."""
+
+    def __init__(self, of: "Handle") -> None:
+        self._of = of
+
+    def __getitem__(self, name: str) -> bool:
+        with self._of._lock:
+            number = self._of._door_numbers()[name]
+            return bool(call.door_open(self._of._open_pointer(), self._of._is_level, number))
+
+    def __setitem__(self, name: str, is_open: bool) -> None:
+        self._of._set_door(text(name, "the name of a door"), as_flag(is_open, f"door {name!r}"))
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("doors cannot be removed")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._of._door_numbers())
+
+    def __len__(self) -> int:
+        return len(self._of._door_numbers())
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
+
+
+def _fixed(array: NDArray[Any]) -> NDArray[Any]:
+    """Read-only: writing into a copy of what the library holds would change nothing there."""
+    array.flags.writeable = False
+    return array
 
 
 class Handle:
@@ -246,6 +330,11 @@ class Handle:
         with self._lock:
             self._pointer = None
             self._finalizer()
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """Refuses copy, deepcopy and pickle: two objects would hold one piece of memory."""
+        kind = type(self).__name__.lower()
+        raise TypeError(f"a {kind} cannot be copied or pickled: save it to a file, and read that")
 
     @property
     def closed(self) -> bool:
@@ -314,12 +403,25 @@ class Handle:
             pointer = self._open_pointer()
             rows = np.empty((call.segments(pointer, self._is_level, kind.encode(), None), 4))
             call.segments(pointer, self._is_level, kind.encode(), address(rows))
-        return rows
+        return _fixed(rows)
 
     def _name(self, kind: str, number: int) -> str:
         return said(call.name(self._open_pointer(), self._is_level, kind.encode(), number))
 
-    # --- what both hold
+    def _door_numbers(self) -> dict[str, int]:
+        with self._lock:
+            count = call.segments(self._open_pointer(), self._is_level, b"door", None)
+            return {self._name("door", i): i for i in range(count)}
+
+    def _set_door(self, name: Optional[bytes], is_open: bool) -> None:
+        raise NotImplementedError
+
+    # --- what both hold. Arrays are copies, which cannot be written.
+
+    @property
+    def doors(self) -> Doors:
+        """The doors, as a mapping from names to whether they are open. It can be changed."""
+        return Doors(self)
 
     @property
     def walls(self) -> Floats:
@@ -344,23 +446,24 @@ class Handle:
     @property
     def starts(self) -> Floats:
         """The viewpoints of the map, as rows x, y, heading in degrees."""
-        return self._segments("start")[:, :3].copy()
+        return _fixed(self._segments("start")[:, :3].copy())
 
     @property
-    def objects(self) -> dict[str, Floats]:
+    def objects(self) -> Mapping[str, Floats]:
         """The boxes of the map by name: x0, y0, x1, y1."""
         with self._lock:
             rows = self._segments("object")
-            return {self._name("object", i): rows[i] for i in range(len(rows))}
+            return MappingProxyType({self._name("object", i): rows[i] for i in range(len(rows))})
 
     @property
-    def door_segments(self) -> dict[str, Floats]:
+    def door_segments(self) -> Mapping[str, Floats]:
         """The doors by name, each as rows x0, y0, x1, y1."""
         with self._lock:
             rows = self._segments("door")
             names = [self._name("door", i) for i in range(len(rows))]
-        return {name: rows[[i for i, other in enumerate(names) if other == name]]
-                for name in dict.fromkeys(names)}
+        return MappingProxyType({
+            name: _fixed(rows[[i for i, other in enumerate(names) if other == name]])
+            for name in dict.fromkeys(names)})
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:

@@ -2,9 +2,7 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import os
-from collections.abc import Iterator, MutableMapping
 from dataclasses import dataclass, field
 from typing import Any, Optional, Sequence, Union
 
@@ -12,46 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import drawing, tables
-from ._library import (Floats, Handle, Integers, Vga, address, as_count, as_points, call, existing,
-                       path_text, said, text)
+from ._library import (Floats, Handle, Integers, Vga, address, as_count, as_flag, as_number,
+                       as_point, as_points, as_reals, call, existing, path_text, said, text)
 
 VGA_PARTS = {"visual": 1 | 2, "through": 4, "metric": 8, "angular": 16, "isovist": 0}
 # Questions up to this number are answered at once; Ctrl-C waits for them.
 FEW = 16
 _NO_POINTS = np.empty((0, 2))
-
-
-class Doors(MutableMapping[str, bool]):
-    """The doors of a level: whether each is open. `level.doors["front"] = False` shuts one."""
-
-    def __init__(self, level: "Level") -> None:
-        self._level = level
-
-    def _numbers(self) -> dict[str, int]:
-        level = self._level
-        with level._lock:
-            count = call.segments(level._open_pointer(), 1, b"door", None)
-            return {level._name("door", i): i for i in range(count)}
-
-    def __getitem__(self, name: str) -> bool:
-        level = self._level
-        with level._lock:
-            return bool(call.level_is_open(level._open_pointer(), self._numbers()[name]))
-
-    def __setitem__(self, name: str, is_open: bool) -> None:
-        self._level._ask(call.level_set_door, text(name, "the name of a door"), bool(is_open))
-
-    def __delitem__(self, name: str) -> None:
-        raise TypeError("a level's doors cannot be removed")
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._numbers())
-
-    def __len__(self) -> int:
-        return len(self._numbers())
-
-    def __repr__(self) -> str:
-        return repr(dict(self))
 
 
 @dataclass(frozen=True)
@@ -133,8 +98,8 @@ class Level(drawing.InNotebooks, Handle):
     _is_level = 1
     _mirror_depth = 1
 
-    def __init__(self, pointer: Optional[int] = None) -> None:
-        super().__init__(call.level_new() if pointer is None else pointer, call.level_free)
+    def __init__(self) -> None:
+        super().__init__(call.level_new(), call.level_free)
         self.crs: Any = None
 
     @classmethod
@@ -163,10 +128,8 @@ class Level(drawing.InNotebooks, Handle):
 
     # --- settings
 
-    @property
-    def doors(self) -> Doors:
-        """The doors, as a mapping from names to whether they are open. It can be changed."""
-        return Doors(self)
+    def _set_door(self, name: Optional[bytes], is_open: bool) -> None:
+        self._ask(call.level_set_door, name, is_open)
 
     @property
     def range(self) -> float:
@@ -176,7 +139,7 @@ class Level(drawing.InNotebooks, Handle):
 
     @range.setter
     def range(self, value: float) -> None:
-        self._ask(call.level_set_range, value)
+        self._ask(call.level_set_range, as_number(value, "range", least=0))
 
     @property
     def mirror_depth(self) -> int:
@@ -274,6 +237,7 @@ class Level(drawing.InNotebooks, Handle):
 
         Doors count as they are. `mirrored`: what is seen by mirror in place of directly.
         """
+        mirrored = as_flag(mirrored, "mirrored")
         with self._lock:
             offsets = np.empty(self._counts()[0] + 1, np.int64)
             self._ask(call.level_sets, mirrored, offsets, None)
@@ -319,7 +283,7 @@ class Level(drawing.InNotebooks, Handle):
         >>> level.can_see((1, 1), (8, 8)), level.can_see(0, 0)
         (True, True)
         """
-        if np.ndim(a) == 0 and np.ndim(b) == 0 and not hasattr(a, "x"):
+        if isinstance(a, (int, float, np.generic)) and isinstance(b, (int, float, np.generic)):
             return bool(self.cell_sees(a, b))
         eyes, places = np.broadcast_arrays(as_points(a, "a"), as_points(b, "b"))
         eyes, places = np.ascontiguousarray(eyes), np.ascontiguousarray(places)
@@ -361,8 +325,8 @@ class Level(drawing.InNotebooks, Handle):
         eyes = as_points(eye, "eye")
         if eyes.ndim > 2:
             raise ValueError("eye must be a point or an array of shape (n, 2)")
-        if not (math.isfinite(heading) and math.isfinite(fov) and fov >= 0):
-            raise ValueError("heading and fov must be finite, and fov not below 0")
+        heading, fov = as_number(heading, "heading"), as_number(fov, "fov", least=0)
+        mirrored = as_flag(mirrored, "mirrored")
         single, eyes = eyes.ndim == 1, eyes.reshape(-1, 2)
         cells = np.zeros((len(eyes), len(self)), np.uint8)
         ask = self._ask_long if len(eyes) > FEW else self._ask
@@ -376,12 +340,12 @@ class Level(drawing.InNotebooks, Handle):
                   tolerance: Optional[float]) -> tuple[Floats, list[tuple[int, int, Floats]]]:
         """Measures; and polygons as (eye, reflections, points)."""
         headings, fovs = (
-            np.ascontiguousarray(np.broadcast_to(np.asarray(value, np.float64), (len(eyes),)))
-            for value in (heading, fov))
+            np.ascontiguousarray(np.broadcast_to(as_reals(value, what), (len(eyes),)))
+            for value, what in ((heading, "heading"), (fov, "fov")))
         if not (np.isfinite(headings).all() and np.isfinite(fovs).all() and (fovs >= 0).all()):
             raise ValueError("heading and fov must be finite, and fov not below 0")
-        if tolerance is not None and not tolerance > 0:
-            raise ValueError("tolerance must be over 0")
+        if tolerance is not None:
+            tolerance = as_number(tolerance, "tolerance", over=0)
         with self._lock:
             chord = tolerance or (self.range or 1) / 1000
             measures = np.empty((len(eyes), len(self._names("isovist"))))
@@ -424,9 +388,8 @@ class Level(drawing.InNotebooks, Handle):
         >>> len(room.region((1, 0.5), as_array=True))
         4
         """
-        eyes = as_points(eye, "eye")
-        if eyes.ndim != 1:
-            raise ValueError("eye must be one point (x, y); for many points use isovists")
+        eyes = as_point(eye, "eye")
+        mirrors, as_array = as_flag(mirrors, "mirrors"), as_flag(as_array, "as_array")
         found = self._isovists(eyes.reshape(1, 2), heading, fov, 1, True, tolerance)[1]
         shapes = [points if as_array else tables.polygon(points) for _, _, points in found]
         return shapes if mirrors else shapes[0]
@@ -457,6 +420,7 @@ class Level(drawing.InNotebooks, Handle):
             mirrored_area and parts where the map has mirrors.
         """
         eyes = as_points(points, "points").reshape(-1, 2)
+        polygons, arrays = as_flag(polygons, "polygons"), as_flag(arrays, "arrays")
         with self._lock:
             before = self.range
             self.range = before if range is None else range
@@ -478,15 +442,11 @@ class Level(drawing.InNotebooks, Handle):
              metric_radius: float, angular_radius: float, threads: int,
              depth_from: Optional[ArrayLike],
              seen_from: bool) -> tuple[Floats, Floats, Integers]:
-        options = Vga(step, limit, metric_radius, angular_radius, parts,
+        options = Vga(as_number(step, "the grid's step", over=0), as_number(limit, "range", least=0),
+                      as_number(metric_radius, "metric_radius", least=0),
+                      as_number(angular_radius, "angular_radius", least=0), parts,
                       as_count(radius, "radius", 2**32 - 1), as_count(threads, "threads", 1024),
-                      bool(seen_from))
-        if not (math.isfinite(step) and step > 0):
-            raise ValueError("the grid's step must be over 0")
-        for value, what in ((limit, "range"), (metric_radius, "metric_radius"),
-                            (angular_radius, "angular_radius")):
-            if not (math.isfinite(value) and value >= 0):
-                raise ValueError(f"{what} must be 0 or more, and finite")
+                      as_flag(seen_from, "seen_from"))
         at = _NO_POINTS if seeds is None else as_points(seeds, "seeds").reshape(-1, 2)
         start = _NO_POINTS if depth_from is None else as_points(depth_from, "depth_from")
         start = start.reshape(-1, 2)
@@ -514,7 +474,9 @@ class Level(drawing.InNotebooks, Handle):
         """Visibility graph analysis of a grid of points, under the names of depthmapX.
 
         Which points see each other is exact. Doors count as they are. With one-way glass, values
-        are of what a point sees. Maps with mirrors are refused.
+        are of what a point sees. Maps with mirrors are refused. Metric and angular paths turn only
+        at points beside walls, and add up in single precision, as those of depthmapX. NaN: not
+        defined.
 
         Parameters
         ----------
@@ -538,8 +500,9 @@ class Level(drawing.InNotebooks, Handle):
             A dict of arrays in place of a DataFrame.
         """
         chosen = (measures,) if isinstance(measures, str) else tuple(measures)
+        geometry, arrays = as_flag(geometry, "geometry"), as_flag(arrays, "arrays")
         for part in chosen:
-            if part not in VGA_PARTS:
+            if not isinstance(part, str) or part not in VGA_PARTS:
                 raise ValueError(f"there is no group {part!r}; groups: {', '.join(VGA_PARTS)}")
         bits = sum({VGA_PARTS[part]: VGA_PARTS[part] for part in chosen})
         limit = self.range if range is None else range
@@ -589,11 +552,9 @@ class Level(drawing.InNotebooks, Handle):
                            failed, effects, bool(by_mirror))
 
     def _cell(self, value: Any, what: str) -> int:
-        if np.ndim(value) == 0 and not hasattr(value, "x"):
-            if int(value) != value:
-                raise ValueError(f"{what} must be the number of a cell, or a point")
-            return int(value)
-        cell = self.locate(as_points(value, what).reshape(2))
+        if isinstance(value, (int, float, np.generic)):
+            return as_count(value, f"{what}, the number of a cell,", len(self) - 1)
+        cell = self.locate(as_point(value, what))
         if cell < 0:
             raise ValueError(f"{what} is outside the map")
         return int(cell)

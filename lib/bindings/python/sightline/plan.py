@@ -11,22 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import drawing
-from ._library import (Bake, Floats, Handle, Import, as_count, as_points, as_segments, call,
-                       existing, names_text, path_text, said, text)
+from ._library import (Bake, Floats, Handle, Import, as_count, as_flag, as_number, as_point,
+                       as_points, as_reals, as_segments, call, existing, names_text, path_text, said,
+                       text)
 from .errors import SightlineWarning
 from .level import Level
 
 EFFECTS = ("door", "mirror", "oneway", "range")
-
-_DOUBTS = {
-    "leaks": "a start leads out of the map, so the outside counts as inside, too",
-    "small": "the map has no start, and walls enclose less than half of it: add one with "
-             "plan.add_start((x, y))",
-    "few": "rooms that no start reaches have more area than those that one reaches; they count as "
-           "outside",
-    "none": "all of the map is solid ground, so nothing is inside",
-}
-
 
 class Plan(drawing.InNotebooks, Handle):
     """A plan: walls, solid ground, doors, mirrors, one-way glass, starts and a view range.
@@ -56,8 +47,10 @@ class Plan(drawing.InNotebooks, Handle):
                   layers: Union[str, Sequence[str], None] = None,
                   start_names: Union[str, Sequence[str], None] = None,
                   unit: Optional[str] = None, slice: Optional[float] = None,
-                  tolerance: float = 0, threshold: float = 0, doors: bool = False,
-                  sectors: bool = False, cells: bool = False) -> "Plan":
+                  tolerance: float = 0, entrance: float = 0, threshold: float = 0,
+                  doors: bool = False, sectors: bool = False, cells: bool = False,
+                  max_squares: int = 0, max_pixels: int = 0, max_walls: int = 0,
+                  max_entities: int = 0, max_depth: int = 0) -> "Plan":
         """Read a map: map text, Tiled, LDtk, Universal VTT, Foundry, Doom, DXF, SVG, images, ROS.
 
         Parameters
@@ -77,23 +70,36 @@ class Plan(drawing.InNotebooks, Handle):
             Height of the cut through a 3D model.
         tolerance
             How far a curve may be from its walls; 0 for the usual.
+        entrance
+            How wide openings to the outside are at most (`Plan.entrance`); 0: as the file says.
         threshold
             Darkness from which a pixel of an image is solid, 0 to 1; 0 for the usual.
         doors, sectors, cells
             Take doors as doors (Doom), make seams between sectors (Doom), take the file's cells.
+        max_squares, max_pixels, max_walls, max_entities, max_depth
+            Limits: a file that has more tiles, pixels, walls, entities or blocks within blocks is
+            refused. They are the `--max-...` of the command line; 0 for the usual.
 
         Raises
         ------
         BadInput
-            The file is broken; the text names the line.
+            The file is broken, and the text names the line; or it has more than a limit.
         OSError
             The file cannot be read.
         """
         plan = cls()
         options = Import(text(map, "map"), names_text(layers, "layers"),
                          names_text(start_names, "start_names"), text(unit, "unit"),
-                         math.nan if slice is None else slice, tolerance, threshold, doors, sectors,
-                         cells)
+                         math.nan if slice is None else as_number(slice, "slice"),
+                         as_number(tolerance, "tolerance", least=0),
+                         as_number(entrance, "entrance", least=0),
+                         as_number(threshold, "threshold", least=0),
+                         as_count(max_squares, "max_squares", 2**64 - 1),
+                         as_count(max_pixels, "max_pixels", 2**64 - 1),
+                         as_count(max_walls, "max_walls", 2**64 - 1),
+                         as_count(max_entities, "max_entities", 2**64 - 1),
+                         as_count(max_depth, "max_depth", 1000), as_flag(doors, "doors"),
+                         as_flag(sectors, "sectors"), as_flag(cells, "cells"))
         plan._ask(call.plan_read, existing(path), ctypes.byref(options))
         return plan
 
@@ -108,7 +114,7 @@ class Plan(drawing.InNotebooks, Handle):
         <Plan: 4 walls>
         """
         plan = cls()
-        coded = map_text.encode("utf-8")
+        coded = text(map_text, "map_text") or b""
         plan._ask(call.plan_parse, text(name, "name"), coded, len(coded),
                   ctypes.byref(Import(slice=math.nan)))
         return plan
@@ -182,11 +188,14 @@ class Plan(drawing.InNotebooks, Handle):
         def column(name: str) -> Sequence[Any]:
             return list(frame[name]) if name in columns else [None] * len(shapes)
 
-        opened = [True if value is None else value for value in column("open")]
-        for shape, what, name, is_open in zip(shapes, column(kind), column("name"), opened):
-            if shape is None or shape.is_empty:
+        for shape, what, name, is_open in zip(shapes, column(kind), column("name"), column("open")):
+            if shape is None:
                 continue
-            plan._add_shape(shape, _is_text(what), _is_text(name) or "door", bool(is_open), solid)
+            if not hasattr(shape, "geom_type"):
+                raise TypeError(f"frame must have shapes, not {shape!r:.40}")
+            if not shape.is_empty:
+                plan._add_shape(shape, _text_of(what, kind), _text_of(name, "name") or "door",
+                                _flag_of(is_open, "open"), as_flag(solid, "solid"))
         if boundary is not None:
             plan.add_box(boundary)
         return plan
@@ -212,9 +221,10 @@ class Plan(drawing.InNotebooks, Handle):
     # --- adding
 
     def _add(self, kind: str, segments: ArrayLike, name: str = "", is_open: bool = True) -> None:
-        rows = as_segments(segments, kind + "s")
+        rows = as_segments(segments, f"{kind}s")
+        words = text(kind, "kind"), text(name, "name"), as_flag(is_open, "is_open")
         self._changed()
-        self._ask(call.plan_add, text(kind, "kind"), text(name, "name"), is_open, rows, len(rows))
+        self._ask(call.plan_add, *words, rows, len(rows))
 
     def _changed(self) -> None:
         self._space = None
@@ -225,11 +235,15 @@ class Plan(drawing.InNotebooks, Handle):
 
     def add_box(self, box: ArrayLike) -> None:
         """Add the four sides of a box x0, y0, x1, y1 as walls."""
-        x0, y0, x1, y1 = as_segments(box, "box")[0].tolist()
+        sides = as_reals(box, "a box")
+        if sides.shape != (4,):
+            raise ValueError(f"a box must be x0, y0, x1, y1, not of shape {sides.shape}")
+        x0, y0, x1, y1 = sides.tolist()
         self.add_walls([(x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0)])
 
     def add_polygon(self, polygon: Any, *, solid: bool = True, is_open: bool = False) -> None:
         """Add solid ground, or outlines as walls (`solid=False`), or open ground within solid."""
+        solid, is_open = as_flag(solid, "solid"), as_flag(is_open, "is_open")
         if hasattr(polygon, "geoms"):
             for part in polygon.geoms:
                 self.add_polygon(part, solid=solid, is_open=is_open)
@@ -240,7 +254,9 @@ class Plan(drawing.InNotebooks, Handle):
         else:
             rings = [(polygon, True)]
         for ring, outer in rings:
-            corners = as_points(np.asarray(ring)[..., :2], "a polygon")
+            corners = as_reals(np.asarray(ring), "a polygon")
+            # Shapes may have heights.
+            corners = as_points(corners[:, :2] if corners.shape[1:] == (3,) else corners, "a polygon")
             if corners.ndim == 2 and len(corners) > 1 and (corners[0] == corners[-1]).all():
                 corners = np.ascontiguousarray(corners[:-1])
             if corners.ndim != 2 or len(corners) < 3:
@@ -269,9 +285,10 @@ class Plan(drawing.InNotebooks, Handle):
 
     def add_start(self, point: ArrayLike, heading: float = 0) -> None:
         """Add a viewpoint; the heading is in degrees, counter-clockwise from +x."""
-        x, y = as_points(point, "a start").reshape(2)
+        x, y = as_point(point, "a start")
+        degrees = as_number(heading, "heading")
         self._changed()
-        self._ask(call.plan_add_start, x, y, heading)
+        self._ask(call.plan_add_start, x, y, degrees)
 
     @property
     def range(self) -> float:
@@ -281,17 +298,39 @@ class Plan(drawing.InNotebooks, Handle):
 
     @range.setter
     def range(self, value: float) -> None:
+        limit = as_number(value, "range", least=0)
         self._changed()
-        self._ask(call.plan_set_range, value)
+        self._ask(call.plan_set_range, limit)
 
     @property
-    def doors(self) -> dict[str, bool]:
-        """Whether each door is open as the map begins."""
+    def entrance(self) -> float:
+        """How wide openings to the outside are at most. It can be set.
+
+        It counts where there is no start: inside is then what a disc of that width cannot enter from
+        outside. 0: 1.2 m if the unit is known, else a width found from the plan.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> plan = sightline.Plan.from_segments([(5, 0, 10, 0), (10, 0, 10, 8), (10, 8, 0, 8),
+        ...                                      (0, 8, 0, 0), (0, 0, 3, 0), (12, 0, 12, 8)])
+        >>> plan.entrance = 2
+        >>> cells = plan.space().cell_arrays()
+        >>> float(cells["area"][cells["inside"]].sum())
+        80.0
+        """
         with self._lock:
-            pointer = self._open_pointer()
-            count = call.segments(pointer, 0, b"door", None)
-            return {self._name("door", i): bool(call.door_open(pointer, 0, i))
-                    for i in range(count)}
+            return float(call.plan_entrance(self._open_pointer()))
+
+    @entrance.setter
+    def entrance(self, value: float) -> None:
+        width = as_number(value, "entrance", least=0)
+        self._changed()
+        self._ask(call.plan_set_entrance, width)
+
+    def _set_door(self, name: Optional[bytes], is_open: bool) -> None:
+        self._changed()
+        self._ask(call.plan_set_door, name, is_open)
 
     # --- what is made of it
 
@@ -357,20 +396,19 @@ class Plan(drawing.InNotebooks, Handle):
             bits |= 1 << EFFECTS.index(effect)
         x, y = math.nan, math.nan
         if start is not None:
-            x, y = as_points(start, "start").reshape(2).tolist()
-        if weld is not None and not math.isfinite(weld):
-            raise ValueError("weld must be finite")
+            x, y = as_point(start, "start").tolist()
         options = Bake(text(method, "method"), text(subdivide, "subdivide"),
-                       math.nan if weld is None else weld, x, y, sight == "open", inside_only, sets,
+                       math.nan if weld is None else as_number(weld, "weld", least=0), x, y,
+                       sight == "open", as_flag(inside_only, "inside_only"), sets,
                        as_count(threads, "threads", 1024), as_count(mirror_depth, "mirror_depth", 16),
                        as_count(door_limit, "door_limit", 2**32 - 1), bits)
-        level = Level(call.level_new())
+        level = Level()
         level.crs = self.crs
         with self._lock:
             level._ask_long(call.level_bake, self._open_pointer(), ctypes.byref(options))
         doubt = said(call.level_inside(level._open_pointer()))
-        if doubt in _DOUBTS:
-            warnings.warn(_DOUBTS[doubt], SightlineWarning, stacklevel=3)
+        if doubt:
+            warnings.warn(doubt, SightlineWarning, stacklevel=3)
         return level
 
     def _own_space(self) -> Level:
@@ -417,6 +455,22 @@ class Plan(drawing.InNotebooks, Handle):
         return f"<Plan: {drawing.describe(self)}>"
 
 
-def _is_text(value: Any) -> Optional[str]:
-    """A text of a table; None for the marks that tables have for no value."""
-    return value if isinstance(value, str) and value else None
+def _is_missing(value: Any) -> bool:
+    """Whether it is one of the marks that tables have for no value."""
+    return value is None or type(value).__name__ == "NAType" or bool(value != value)
+
+
+def _text_of(value: Any, column: str) -> Optional[str]:
+    """A text of a table; None for no value."""
+    if isinstance(value, str) or _is_missing(value):
+        return value if isinstance(value, str) and value else None
+    raise ValueError(f"column {column!r} must hold texts, not {value!r:.40}")
+
+
+def _flag_of(value: Any, column: str) -> bool:
+    """A truth of a table, also as 0 or 1; True for no value."""
+    if _is_missing(value):
+        return True
+    if isinstance(value, (bool, np.bool_, int, float, np.number)) and value in (0, 1):
+        return bool(value)
+    raise ValueError(f"column {column!r} must hold True and False, not {value!r:.40}")

@@ -13,6 +13,8 @@ MAPS = ROOT / "maps"
 # The program `sightline`; None: tests that compare with it are skipped.
 COMMAND = os.environ.get("SIGHTLINE_COMMAND")
 
+# A room of 10 by 8 with an opening of 2, and a wall beside it.
+HOUSE = "sightline 1\nwalls 5 0 10 0 10 8 0 8 0 0 3 0\nwall 12 0 12 8\n"
 TWO_ROOMS = [(0, 0, 8, 0), (8, 0, 8, 4), (8, 4, 0, 4), (0, 4, 0, 0), (4, 0, 4, 3)]
 
 

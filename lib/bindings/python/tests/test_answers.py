@@ -120,6 +120,36 @@ class Regions(unittest.TestCase):
         with self.assertWarnsRegex(sightline.SightlineWarning, "leads out"):
             plan.isovists([(1, 1)])
 
+    def test_the_width_of_entrances_says_what_is_inside(self):
+        def inside(plan):
+            found = plan.space().cell_arrays()
+            return found["area"][found["inside"]].sum()
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "house.map"
+            path.write_text(support.HOUSE)
+            found = sightline.Plan.from_file(path)
+            narrow = sightline.Plan.from_file(path, entrance=1)
+            self.assertEqual((found.entrance, narrow.entrance), (0, 1))
+            self.assertEqual((inside(found), inside(narrow)), (80, 96))
+            for width, area in ((1.5, 96), (2, 80), (1, 96), (0, 80)):
+                narrow.entrance = width
+                self.assertEqual((narrow.entrance, inside(narrow)), (width, area))
+            narrow.entrance = 2.5
+            narrow.save(path)
+            self.assertIn("entrance 2.5", path.read_text().splitlines())
+            self.assertEqual(sightline.Plan.from_file(path).entrance, 2.5)
+            self.assertEqual(sightline.Plan.from_file(path, entrance=3).entrance, 3)
+
+    def test_the_advice_about_entrances_can_be_followed(self):
+        plan = sightline.Plan.from_text(support.HOUSE)
+        with self.assertWarnsRegex(sightline.SightlineWarning, r"for another width, set plan\.entrance$"):
+            plan.space()
+        plan.entrance = 2
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", sightline.SightlineWarning)
+            plan.space()
+
     def test_mirrors_show_more(self):
         plan = sightline.Plan.from_segments(support.TWO_ROOMS)
         plan.add_mirrors([(1, 4, 3.9, 4)])
@@ -207,6 +237,11 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(ours.read_bytes(), theirs.read_bytes())
                 with sightline.Level.open(theirs) as level:
                     self.assertGreater(len(level), 0)
+        house = self.scratch / "house.map"
+        house.write_text(support.HOUSE)
+        support.command("bake", house, "--entrance", "1", "-o", theirs, "--quiet")
+        sightline.Plan.from_file(house, entrance=1).bake().save(ours)
+        self.assertEqual(ours.read_bytes(), theirs.read_bytes())
 
     def test_isovists_are_those_of_the_command(self):
         paths = [support.MAPS / "office.map", *sorted((support.MAPS / "effects").glob("*.map")),
@@ -241,6 +276,17 @@ class CommandLine(unittest.TestCase):
             2, measures=("visual", "through", "metric", "angular", "isovist"), arrays=True)
         for name in theirs:
             np.testing.assert_array_equal(ours[name], theirs[name], name)
+
+    def test_a_measure_that_is_not_defined_is_nan(self):
+        path = self.scratch / "corner.map"
+        path.write_text("sightline 1\nwalls 0.75 0.75 2.25 0.75 2.25 2.25 1.75 2.25 1.75 1.25 "
+                        "0.75 1.25 0.75 0.75\n")
+        theirs = support.table(support.command("vga", path, "--grid", "1"))
+        ours = sightline.Plan.from_file(path).vga(1, arrays=True)
+        for name in theirs:
+            np.testing.assert_array_equal(ours[name], theirs[name], name)
+        self.assertTrue(np.isnan(ours["visual_integration_tekl"]).all())
+        self.assertFalse(any(np.isinf(column).any() for column in ours.values()))
 
     def test_vga_through_one_way_glass_is_that_of_the_command(self):
         path = support.MAPS / "effects" / "oneway.map"

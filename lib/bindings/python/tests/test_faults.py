@@ -1,7 +1,9 @@
 """Bad input gives a clear exception, or a right answer; it never ends the process."""
+import copy
 import gc
 import os
 import pathlib
+import pickle
 import random
 import signal
 import tempfile
@@ -16,6 +18,9 @@ import sightline
 import support
 
 warnings.simplefilter("ignore", sightline.SightlineWarning)
+
+# What limits of reading are of.
+LIMITS = ("squares", "pixels", "walls", "entities", "depth")
 
 
 def level():
@@ -130,6 +135,174 @@ class Arguments(unittest.TestCase):
                 plan.bake()
 
 
+NO_NUMBERS = ["1", None, True, 1j, [1, 2, 3], (1,), {}, object(), np.nan, np.inf, -np.inf, 10**400]
+NO_COUNTS = NO_NUMBERS + [-1, 0.5, 1.0, 2**32, 2**64, 2**64 + 1, -2**63, np.float64(1), np.True_]
+NO_FLAGS = ["shut", "", 0, 1, 1.0, None, [], [True], np.nan]
+NO_TEXTS = [1, 0.5, True, b"x", ["x"], {}]
+NO_POINTS = ["ab", None, 5, True, (1,), (1, 2, 3), [[1, 2, 3]], [(1, 2), (3,)], (1, None), (True, False),
+             (1, 2j), (1, "2"), {"x": 1}, object(), (np.nan, 1), (np.inf, 1),
+             np.ma.array([1.0, 2.0], mask=[True, False])]
+
+
+def refused(call):
+    """How a call refuses: ValueError or TypeError with a sentence; a fault if it answers."""
+    try:
+        answer = call()
+    except (ValueError, TypeError) as fault:
+        return str(fault)
+    raise AssertionError(f"it answers {answer!r}")
+
+
+class EveryArgument(unittest.TestCase):
+    """Wrong values in place of each argument of each call."""
+
+    def check(self, wrong, calls, but=()):
+        for name, call in calls.items():
+            for value in wrong:
+                if any(value is each for each in but):
+                    continue
+                with self.subTest(call=name, value=repr(value)):
+                    self.assertGreater(len(refused(lambda: call(value))), 10)
+
+    def setUp(self):
+        self.level = level()
+        self.plan = sightline.Plan.from_segments(support.TWO_ROOMS)
+        self.plan.add_door("front", (4, 3, 4, 4))
+        self.hall = self.plan.bake()
+
+    def test_numbers(self):
+        at, plan = self.level, self.plan
+        for what in (at, plan):
+            self.check(NO_NUMBERS + [-1], {"range": lambda v, what=what: setattr(what, "range", v)})
+        self.check(NO_NUMBERS, {
+            "look heading": lambda v: at.look((1, 1), v), "look fov": lambda v: at.look((1, 1), 0, v),
+            "vga": lambda v: at.vga(v), "grid": lambda v: at.grid(v),
+            "vga metric_radius": lambda v: at.vga(1, metric_radius=v),
+            "vga angular_radius": lambda v: at.vga(1, angular_radius=v),
+            "add_start": lambda v: plan.add_start((1, 1), v)})
+        self.check(NO_NUMBERS, {
+            "region tolerance": lambda v: at.region((1, 1), tolerance=v),
+            "isovists range": lambda v: at.isovists([(1, 1)], range=v),
+            "vga range": lambda v: at.vga(1, range=v), "weld": lambda v: plan.bake(weld=v),
+            "slice": lambda v: sightline.Plan.from_file(support.MAPS / "office.map", slice=v)}, [None])
+        self.check(NO_NUMBERS, {
+            "tolerance": lambda v: sightline.Plan.from_file(support.MAPS / "office.map", tolerance=v),
+            "threshold": lambda v: sightline.Plan.from_file(support.MAPS / "office.map", threshold=v)})
+        arrays = ["1", None, True, 1j, [1, 2, 3], {}, object(), np.nan, np.inf]
+        self.check(arrays, {
+            "region heading": lambda v: at.region((1, 1), v), "region fov": lambda v: at.region((1, 1), 0, v),
+            "isovists heading": lambda v: at.isovists([(1, 1), (2, 2)], v),
+            "isovists fov": lambda v: at.isovists([(1, 1), (2, 2)], 0, v)})
+        office = support.MAPS / "office.map"
+        self.check(NO_NUMBERS + [-1], {
+            "entrance": lambda v: setattr(plan, "entrance", v),
+            "from_file entrance": lambda v: sightline.Plan.from_file(office, entrance=v)})
+        for far in (1e200, 1e-200):
+            with self.assertRaisesRegex(sightline.BadArgument, "from 1e-150 to 1e.150"):
+                sightline.Plan.from_file(office, entrance=far)
+            with self.assertRaisesRegex(sightline.BadArgument, "entrance.*from 1e-150 to 1e.150"):
+                plan.entrance = far
+        self.assertTrue((at.range, plan.range, plan.entrance) == (0, 0, 0) and len(plan.starts) == 0)
+
+    def test_counts_and_cells(self):
+        at, plan = self.level, self.plan
+        self.check(NO_COUNTS, {
+            "threads": lambda v: at.can_see((1, 1), (2, 2), threads=v),
+            "look threads": lambda v: at.look((1, 1), threads=v),
+            "isovists threads": lambda v: at.isovists([(1, 1)], threads=v),
+            "vga threads": lambda v: at.vga(1, threads=v), "bake threads": lambda v: plan.bake(threads=v),
+            "vga radius": lambda v: at.vga(1, radius=v),
+            "mirror_depth": lambda v: setattr(at, "mirror_depth", v),
+            "bake mirror_depth": lambda v: plan.bake(mirror_depth=v),
+            "bake door_limit": lambda v: plan.bake(door_limit=v),
+            "misses": lambda v: at.explain(0, 1, misses=v),
+            "explain": lambda v: at.explain(v, 1), "explain to": lambda v: at.explain(0, v)})
+        self.check([*(each for each in NO_COUNTS if each != 2**32)], {
+            f"max_{what}": lambda v, what=what: sightline.Plan.from_file(
+                support.MAPS / "office.map", **{f"max_{what}": v}) for what in LIMITS})
+        cells = [each for each in NO_COUNTS if not isinstance(each, (list, tuple))]
+        self.check([*cells, 2, 99], {
+            "can_see": lambda v: at.can_see(v, 1), "can_see to": lambda v: at.can_see(0, v),
+            "cell_sees": lambda v: at.cell_sees(v, 1), "cell_sees to": lambda v: at.cell_sees([0, 1], v)})
+        self.check([[0.0], [True], [-1], [2], [2**64 - 1], ["0"], [None], [[0], [1, 2]]], {
+            "cells": lambda v: at.cell_sees(v, 1)})
+
+    def test_flags(self):
+        at, plan = self.level, self.plan
+        self.check(NO_FLAGS, {
+            "level door": lambda v: self.hall.doors.__setitem__("front", v),
+            "plan door": lambda v: plan.doors.__setitem__("front", v),
+            "add_door": lambda v: plan.add_door("back", (5, 1, 5, 2), is_open=v),
+            "look": lambda v: at.look((1, 1), mirrored=v), "sets": lambda v: at.sets(v),
+            "region": lambda v: at.region((1, 1), mirrors=v),
+            "as_array": lambda v: at.region((1, 1), as_array=v),
+            "isovists": lambda v: at.isovists([(1, 1)], polygons=v),
+            "arrays": lambda v: at.isovists([(1, 1)], arrays=v),
+            "vga": lambda v: at.vga(1, seen_from=v), "geometry": lambda v: at.vga(1, geometry=v),
+            "bake": lambda v: plan.bake(inside_only=v),
+            "solid": lambda v: plan.add_polygon([(0, 0), (1, 0), (1, 1)], solid=v),
+            "is_open": lambda v: plan.add_polygon([(0, 0), (1, 0), (1, 1)], is_open=v),
+            "doors": lambda v: sightline.Plan.from_file(support.MAPS / "office.map", doors=v)})
+        self.assertEqual((dict(plan.doors), dict(self.hall.doors)), ({"front": True}, {"front": True}))
+
+    def test_texts(self):
+        at, plan = self.level, self.plan
+        self.check(NO_TEXTS, {
+            "door": lambda v: self.hall.doors.__setitem__(v, True),
+            "add_door": lambda v: plan.add_door(v, (5, 1, 5, 2)), "method": lambda v: plan.bake(method=v),
+            "sight": lambda v: plan.bake(sight=v), "subdivide": lambda v: plan.bake(subdivide=v),
+            "without": lambda v: plan.bake(without=[v]), "look": lambda v: at.look((1, 1), method=v),
+            "measures": lambda v: at.vga(1, measures=[v]), "export": lambda v: at.export("a.json", v),
+            "save": lambda v: plan.save("a.map", v), "map": lambda v: sightline.Plan.from_text(v),
+            "name": lambda v: sightline.Plan.from_text("sightline 1\n", v),
+            "from_file": lambda v: sightline.Plan.from_file(support.MAPS / "office.map", map=v)})
+        for path in (None, 1, 0.5, [], "a\0b"):
+            for call in (sightline.Level.open, sightline.Plan.from_file, at.save, plan.save, at.export):
+                self.assertTrue(refused(lambda: call(path)))
+
+    def test_points(self):
+        at, plan = self.level, self.plan
+        self.check(NO_POINTS, {
+            "isovists": at.isovists, "look": at.look, "region": at.region, "can_see": lambda v: at.can_see(v, (1, 1)),
+            "can_see to": lambda v: at.can_see((1, 1), v), "add_start": plan.add_start,
+            "seeds": lambda v: at.vga(1, seeds=v), "depth_from": lambda v: at.vga(1, depth_from=v),
+            "start": lambda v: plan.bake(start=v), "explain": lambda v: at.explain(v, (1, 1)),
+            "starts": lambda v: sightline.Plan.from_segments(support.TWO_ROOMS, starts=v)}, [None])
+        self.check([None], {"region": at.region, "isovists": at.isovists, "look": at.look,
+                            "add_start": plan.add_start})
+        self.check(["ab", 5, True, (1, 2, 3), [[1, 2, 3]], [(1, 2), (3,)], (1, None), (True, False), object()],
+                   {"locate": at.locate})  # NaN is in no cell
+        self.check([(1, 2), (2, 1, 0)], {"region": lambda v: at.region([v, v])})
+        segments = ["abcd", None, 5, True, (1, 2, 3), [[1, 2, 3]], [(0, 0, 1, "x")], (0, 0, 1, np.nan),
+                    (0, 0, 1, None), np.zeros((2, 3, 2)), np.zeros((1, 4), bool), {}, object()]
+        self.check(segments, {
+            "from_segments": sightline.Plan.from_segments, "add_walls": plan.add_walls,
+            "add_box": plan.add_box, "add_door": lambda v: plan.add_door("d", v),
+            "add_mirrors": plan.add_mirrors, "add_oneways": plan.add_oneways, "add_seams": plan.add_seams})
+        self.check([np.zeros((2, 4))], {"add_box": plan.add_box})
+        self.check([*segments, [(0, 0), (1, 1)], np.zeros((3, 4)), [(0, 0), (1, 0), (1, np.inf)]],
+                   {"add_polygon": plan.add_polygon})
+        self.assertEqual(len(plan.walls), len(support.TWO_ROOMS))
+
+    def test_tables(self):
+        class Shape:
+            geom_type, is_empty, coords = "LineString", False, [(0, 0), (1, 1)]
+
+        class Table(dict):
+            columns = ("kind", "name", "open")
+
+        def table(**columns):
+            found = Table({"kind": ["door"], "name": ["d"], "open": [True]}, **columns)
+            found.geometry = [Shape()]
+            return sightline.Plan.from_geodataframe(found)
+
+        self.assertEqual(dict(table(open=[0]).doors), {"d": False})
+        self.assertEqual(dict(table(open=[np.nan]).doors), {"d": True})
+        self.check(["shut", "False", 2, 0.5, [], {}], {"open": lambda v: table(open=[v])})
+        self.check([1, True, [], {}], {"kind": lambda v: table(kind=[v]), "name": lambda v: table(name=[v])})
+        self.check([5, "ab", [1], [(1, 2)]], {"frame": sightline.Plan.from_geodataframe})
+
+
 class Files(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -143,6 +316,27 @@ class Files(unittest.TestCase):
             sightline.Plan.from_file(path)
         with self.assertRaisesRegex(sightline.BadInput, "text.map:1"):
             sightline.Plan.from_text("nonsense\n")
+
+    def test_limits_of_reading(self):
+        lines = "".join(f" 0 LINE 8 0 10 0 20 {y} 11 9 21 {y}" for y in range(9))
+        blocks = ("0 SECTION 2 BLOCKS 0 BLOCK 2 A 10 0 20 0 0 LINE 8 0 10 0 20 20 11 9 21 20 0 ENDBLK "
+                  "0 BLOCK 2 B 10 0 20 0 0 INSERT 2 A 10 0 20 0 0 ENDBLK 0 ENDSEC")
+        (self.scratch / "many.dxf").write_text("\n".join(
+            f"{blocks} 0 SECTION 2 ENTITIES{lines} 0 INSERT 2 B 10 0 20 0 0 ENDSEC 0 EOF".split()) + "\n")
+        (self.scratch / "dark.pbm").write_text("P1\n8 8\n" + "1 " * 64)
+        (self.scratch / "tiles.tmx").write_text(
+            "<map width='4' height='4' tilewidth='8' tileheight='8'><tileset firstgid='1' tilewidth='8' "
+            "tileheight='8'/><layer name='solid' width='4' height='4'><data encoding='csv'>"
+            f"{','.join('1001100110011111')}</data></layer></map>")
+        for name, what, enough in (("many.dxf", "walls", 10), ("many.dxf", "entities", 14),
+                                   ("many.dxf", "depth", 2), ("dark.pbm", "pixels", 64),
+                                   ("tiles.tmx", "squares", 16)):
+            with self.subTest(what):
+                path = self.scratch / name
+                sightline.Plan.from_file(path, **{f"max_{what}": enough})
+                sightline.Plan.from_file(path, **{f"max_{what}": 0})  # the usual
+                with self.assertRaisesRegex(sightline.BadInput, f"limit of {enough - 1}; --max-{what}"):
+                    sightline.Plan.from_file(path, **{f"max_{what}": enough - 1})
 
     def test_missing_files_are_errors_of_the_system(self):
         for call in (lambda: sightline.Plan.from_file(self.scratch / "no.map"),
@@ -178,6 +372,66 @@ class Files(unittest.TestCase):
 
 
 class Lives(unittest.TestCase):
+    def test_plans_and_levels_have_one_owner(self):
+        at = level()
+        for owner in (at, sightline.Plan.from_segments(support.TWO_ROOMS)):
+            for call in (copy.copy, copy.deepcopy, pickle.dumps, lambda each: pickle.dumps(each, 0)):
+                with self.assertRaisesRegex(TypeError, "cannot be copied or pickled: save it"):
+                    call(owner)
+            with self.assertRaisesRegex(TypeError, "cannot be copied"):
+                copy.deepcopy(owner.doors)
+            copy.copy(owner.doors)
+            owner.walls, owner.bounds
+        with self.assertRaises(TypeError):
+            sightline.Level(4711)
+
+    def test_an_empty_level_answers(self):
+        at = sightline.Level()
+        for ask in (lambda: at.cells, lambda: at.pvs, lambda: at.locate((1, 1)), lambda: at.region((1, 1)),
+                    lambda: at.can_see((1, 1), (2, 2)), lambda: at.can_see(0, 0), lambda: at.look((1, 1)),
+                    lambda: at.vga(1), lambda: at.explain(0, 0), lambda: at.portals, lambda: at.bounds,
+                    lambda: at.save("never.slv"), lambda: dict(at.doors), lambda: repr(at)):
+            try:
+                ask()
+            except (ValueError, sightline.SightlineError):
+                pass
+        self.assertEqual(len(at), 0)
+
+    def test_doors_of_a_plan_can_be_set(self):
+        plan = sightline.Plan.from_segments(support.TWO_ROOMS)
+        plan.add_door("gap", (4, 3, 4, 4))
+        self.assertTrue(plan.can_see((1, 3.5), (7, 3.5)))
+        plan.doors["gap"] = False
+        self.assertEqual((plan.doors, plan.doors["gap"]), ({"gap": False}, False))
+        self.assertFalse(plan.can_see((1, 3.5), (7, 3.5)))
+        self.assertFalse(plan.bake().doors["gap"])
+        plan.doors.update(gap=True)
+        self.assertTrue(plan.can_see((1, 3.5), (7, 3.5)))
+        with self.assertRaisesRegex(sightline.BadArgument, "no door 'x'"):
+            plan.doors["x"] = True
+        with self.assertRaises(KeyError):
+            plan.doors["x"]
+        with self.assertRaises(TypeError):
+            del plan.doors["gap"]
+
+    def test_copies_cannot_be_written(self):
+        plan = sightline.Plan.from_text("sightline 1\nwalls 0 0 9 0 9 9 0 9 0 0\nstart 1 1 0\nmirror 1 9 2 9\n"
+                                        "oneway 5 1 5 2\nseam 3 0 3 9\nobject crate 6 6 7 7\n"
+                                        "door front 0 3 0 4 open\n")
+        for of in (plan, plan.bake()):
+            for rows in (of.walls, of.mirrors, of.oneways, of.seams, of.starts, *of.objects.values(),
+                         *of.door_segments.values()):
+                with self.assertRaisesRegex(ValueError, "read-only"):
+                    rows[...] = 5
+            for table in (of.objects, of.door_segments):
+                self.assertEqual(len(table), 1)
+                with self.assertRaises(TypeError):
+                    table["new"] = (1, 1, 2, 2)
+            for name in ("walls", "mirrors", "oneways", "seams", "starts", "objects", "door_segments",
+                         "doors", "bounds", "unit", "notes"):
+                with self.assertRaises(AttributeError):
+                    setattr(of, name, getattr(of, name))
+
     def test_closed_handles_are_refused(self):
         with level() as at:
             doors = at.doors

@@ -1,0 +1,20 @@
+/// Units of length.
+#ifndef SL_MAP_UNIT_H
+#define SL_MAP_UNIT_H
+
+#include "sightline/map.h"
+
+/// A unit, in the order of $INSUNITS of a DXF drawing.
+typedef struct sli_unit {
+    const char *name, *sign; ///< the sign for it
+    bool known;              ///< the sign asks for it
+    double metres;           ///< its length; 0: unknown
+} sli_unit;
+
+enum { SLI_UNITS = 15 };
+extern const sli_unit sli_units[SLI_UNITS];
+
+/// The number of the unit with this sign; 0 where there is none.
+int sli_unit_number(const char *sign);
+
+#endif

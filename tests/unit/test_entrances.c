@@ -1,0 +1,459 @@
+/// What is inside of a map without starts: what a disc of the width of an entrance cannot enter.
+#include "testing.h"
+
+#include "sightline/support.h"
+
+#include <math.h>
+
+// --- maps
+
+typedef struct plan {
+    testing_memory memory;
+    sl_context *context;
+    sl_map map; ///< with its interior
+    sl_space space;
+} plan;
+
+static void open_plan(sl_map *map, plan *p) {
+    p->map = *map;
+    *map = (sl_map){0};
+    assert_ok(p->context, sl_map_clean(p->context, &p->map, NULL, NULL));
+    assert_ok(p->context, sl_map_find_inside(p->context, &p->map, NULL, NULL));
+    assert_ok(p->context,
+              sl_subdivision_for(&p->map)->subdivide(p->context, &p->map, NULL, &p->space));
+    assert_ok(p->context, sl_space_check(p->context, &p->space));
+}
+
+static void read_plan(const char *text, plan *p) {
+    sl_map map = {0};
+    char all[8000];
+    snprintf(all, sizeof all, "sightline 1\n%s", text);
+    *p = (plan){0};
+    p->context = testing_context(&p->memory);
+    assert_ok(p->context, sl_map_read_text(p->context, "plan", all, strlen(all), &map));
+    open_plan(&map, p);
+}
+
+static void close_plan(plan *p) {
+    sl_map_destroy(p->context, &p->map);
+    sl_space_destroy(p->context, &p->space);
+    sl_context_destroy(p->context);
+    assert_int_equal(p->memory.live, 0);
+}
+
+static bool is_inside(const plan *p, sl_point at) {
+    const uint32_t cell = sl_space_locate(&p->space, at);
+    return cell != SL_NO_CELL && p->space.cells[cell].inside;
+}
+
+static sl_inside doubt_of(plan *p) {
+    sl_inside doubt = SL_INSIDE_NONE;
+    assert_ok(p->context, sl_doubt_inside(p->context, &p->map, &p->space, &doubt));
+    return doubt;
+}
+
+/// A turn and a scale of all that a map has, and a way to look places up in it.
+typedef struct turned {
+    double cos, sin, x, y;
+} turned;
+
+static sl_point turn(const turned *t, double x, double y) {
+    return (sl_point){t->cos * x - t->sin * y + t->x, t->sin * x + t->cos * y + t->y};
+}
+
+static turned turned_by(double degrees, double scale, double x, double y) {
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    if (degrees == 0) return (turned){scale, 0, x, y};
+    return (turned){scale * cos(angle), scale * sin(angle), x, y};
+}
+
+static void turn_plan(const char *text, const turned *t, plan *p) {
+    sl_map map = {0};
+    char all[8000];
+    snprintf(all, sizeof all, "sightline 1\n%s", text);
+    *p = (plan){0};
+    p->context = testing_context(&p->memory);
+    assert_ok(p->context, sl_map_read_text(p->context, "plan", all, strlen(all), &map));
+    for (size_t i = 0; i < map.wall_count; i++) {
+        sl_wall *w = &map.walls[i];
+        w->a = turn(t, w->a.x, w->a.y);
+        w->b = turn(t, w->b.x, w->b.y);
+    }
+    open_plan(&map, p);
+}
+
+// --- a house: thick walls, a hall, two rooms
+
+/// Outer walls 0.3 thick, 10 by 8; an entrance from x = 3 on; the hall below y = 4; rooms left and
+/// right of x = 5 above it. `doors` 0.9 wide lead from the hall to the left room, then to the right
+/// one; rooms without a door are closed. `unit` and other statements come first.
+static void say_house(const char *first, double entrance, int doors, char text[4000]) {
+    const double e = 3 + entrance;
+    int n = snprintf(text, 4000,
+                     "%s"
+                     "walls %.17g 0 10 0 10 8 0 8 0 0 3 0 3 0.3 0.3 0.3 0.3 4\n"
+                     "walls %.17g 0 %.17g 0.3 9.7 0.3 9.7 4\n",
+                     first, e, e, e);
+    n += snprintf(text + n, 4000 - (size_t)n, "walls 0.3 4 ");
+    if (doors > 0) n += snprintf(text + n, 4000 - (size_t)n, "2 4 2 4.3\nwalls 2.9 4.3 2.9 4 ");
+    if (doors > 1) n += snprintf(text + n, 4000 - (size_t)n, "7 4 7 4.3\nwalls 7.9 4.3 7.9 4 ");
+    n += snprintf(text + n, 4000 - (size_t)n, "9.7 4\n");
+    n += snprintf(text + n, 4000 - (size_t)n,
+                  doors > 0 ? "walls 2 4.3 0.3 4.3 0.3 7.7 4.85 7.7 4.85 4.3 2.9 4.3\n"
+                            : "walls 0.3 4.3 0.3 7.7 4.85 7.7 4.85 4.3 0.3 4.3\n");
+    snprintf(text + n, 4000 - (size_t)n,
+             doors > 1 ? "walls 7 4.3 5.15 4.3 5.15 7.7 9.7 7.7 9.7 4.3 7.9 4.3\n"
+                       : "walls 5.15 4.3 5.15 7.7 9.7 7.7 9.7 4.3 5.15 4.3\n");
+}
+
+static const sl_point hall = {7, 2}, rooms[2] = {{2.5, 6}, {7.5, 6}};
+static const sl_point cores[] = {{0.15, 3}, {5, 6}, {1, 4.15}, {9.85, 6}, {6, 0.15}, {4.3, 7.85}};
+
+static void test_house(void **state) {
+    (void)state;
+    static const double widths[] = {0.8, 0.9, 1.0, 1.1, 1.2}, angles[] = {0, 17.3, 45, 90};
+    static const char *const units[] = {"", "unit m\n", "entrance 1.2\n"};
+    for (int i = 0; i < 5 * 4 * 3 * 3; i++) {
+        const double width = widths[i % 5];
+        const turned t = turned_by(angles[i / 5 % 4], 1, i % 7 * 100, i % 3 * 1000);
+        const int doors = i / 20 % 3;
+        char text[4000];
+        plan p;
+        say_house(units[i / 60], width, doors, text);
+        turn_plan(text, &t, &p);
+        assert_true(is_inside(&p, turn(&t, hall.x, hall.y)));
+        for (int k = 0; k < 2; k++) assert_true(is_inside(&p, turn(&t, rooms[k].x, rooms[k].y)));
+        for (size_t k = 0; k < sizeof cores / sizeof *cores; k++)
+            assert_false(is_inside(&p, turn(&t, cores[k].x, cores[k].y)));
+        assert_true(is_inside(&p, turn(&t, 3 + width / 2, 0.15)));
+        assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+        assert_int_equal(p.map.interior.entrances, 1);
+        const double area = 9.4 * 3.7 + 2 * 4.55 * 3.4 + 0.3 * width + 0.3 * 0.9 * doors;
+        const sl_ground_shares shares = sl_space_ground(&p.space);
+        const sl_box b = p.space.bounds;
+        assert_float_equal(shares.inside * (b.max.x - b.min.x) * (b.max.y - b.min.y), area, 1e-9);
+        close_plan(&p);
+    }
+}
+
+/// An opening that is wider than entrances: the house is not inside by halves.
+static void test_wide_entrance(void **state) {
+    (void)state;
+    for (int i = 0; i < 9; i++) {
+        const turned t = turned_by(i % 3 * 17.3, 1, 0, 0);
+        const int doors = i / 3;
+        char text[4000];
+        plan p;
+        say_house("unit m\n", 2, doors, text);
+        turn_plan(text, &t, &p);
+        assert_int_equal(doubt_of(&p), SL_INSIDE_OPENING);
+        assert_float_equal(p.map.interior.doubtful_width, 2, 1e-9);
+        assert_int_equal(p.map.interior.place_count, 0);
+        assert_int_equal(p.space.inside_count, p.space.cell_count);
+        close_plan(&p);
+        say_house("unit m\nentrance 2\n", 2, doors, text);
+        turn_plan(text, &t, &p);
+        assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+        assert_true(is_inside(&p, turn(&t, hall.x, hall.y)));
+        assert_true(is_inside(&p, turn(&t, rooms[0].x, rooms[0].y)));
+        assert_false(is_inside(&p, turn(&t, cores[0].x, cores[0].y)));
+        close_plan(&p);
+    }
+}
+
+// --- the width of channels, exactly
+
+/// A room of 40 by 30 within a map of 60 by 50, whose walls end `gap` apart in one corner.
+static void test_exact(void **state) {
+    (void)state;
+    static const struct {
+        const char *walls;
+        double width;
+    } cases[] = {
+        // from an end to an end, 3-4-5
+        {"walls 14 10 50 10 50 40 10 40 10 13\nwall 0 0 1 0\nwall 59 50 60 50\n", 5},
+        // from an end to the foot on a wall
+        {"walls 10 0 10 40 50 40 50 10 13 10\nwall 0 0 1 0\nwall 59 50 60 50\n", 3},
+        // from an end to the foot on an oblique wall
+        {"walls 10 10 50 40 10 40 10 30 23 26\nwall 0 0 1 0\nwall 59 50 60 50\n", 5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int step = -1; step <= 1; step++) {
+            char text[400], number[SL_NUMBER_TEXT];
+            plan p;
+            // Widths in the last digits that cleaning does not take for one place.
+            const double width = cases[i].width + step * 1e-11;
+            sl_number_write(width, number);
+            snprintf(text, sizeof text, "entrance %s\n%s", number, cases[i].walls);
+            read_plan(text, &p);
+            assert_int_equal(p.map.interior.place_count, step >= 0);
+            if (step >= 0) {
+                assert_true(is_inside(&p, (sl_point){25, 33}));
+                assert_false(is_inside(&p, (sl_point){55, 45}));
+            }
+            close_plan(&p);
+        }
+}
+
+// --- against a disc that is pushed about
+
+enum { SIDE = 12, FINE = 8, LATTICE = (SIDE + 8) * FINE + 1 };
+
+typedef struct lattice {
+    float clearance[LATTICE][LATTICE];
+    bool reached[LATTICE][LATTICE];
+    uint32_t stack[LATTICE * LATTICE];
+} lattice;
+
+static sl_point point_at(int i, int k) {
+    return (sl_point){(double)i / FINE - 4, (double)k / FINE - 4};
+}
+
+static double to_wall(sl_point p, const sl_wall *w) {
+    const double dx = w->b.x - w->a.x, dy = w->b.y - w->a.y;
+    const double share = ((p.x - w->a.x) * dx + (p.y - w->a.y) * dy) / (dx * dx + dy * dy);
+    const double held = fmin(fmax(share, 0), 1);
+    return hypot(w->a.x + held * dx - p.x, w->a.y + held * dy - p.y);
+}
+
+static void measure(const sl_map *map, lattice *l) {
+    for (int i = 0; i < LATTICE; i++)
+        for (int k = 0; k < LATTICE; k++) {
+            double least = 100;
+            for (size_t w = 0; w < map->wall_count; w++)
+                least = fmin(least, to_wall(point_at(i, k), &map->walls[w]));
+            l->clearance[i][k] = (float)least;
+        }
+}
+
+/// Marks the places that a disc reaches from a corner of the lattice where its middle has at least
+/// this clearance.
+static void push_disc(lattice *l, double clearance) {
+    size_t count = 0;
+    memset(l->reached, 0, sizeof l->reached);
+    l->reached[0][0] = true;
+    l->stack[count++] = 0;
+    while (count) {
+        const uint32_t at = l->stack[--count];
+        const int i = (int)(at / LATTICE), k = (int)(at % LATTICE);
+        for (int way = 0; way < 4; way++) {
+            const int x = i + (way == 0) - (way == 1), y = k + (way == 2) - (way == 3);
+            if (x < 0 || y < 0 || x == LATTICE || y == LATTICE || l->reached[x][y] ||
+                !(l->clearance[x][y] >= clearance))
+                continue;
+            l->reached[x][y] = true;
+            l->stack[count++] = (uint32_t)(x * LATTICE + y);
+        }
+    }
+}
+
+static void make_walls(sl_random *random, bool oblique, double width, char text[4000]) {
+    int n = snprintf(text, 4000, "entrance %g\nwall 0 0 12 0\nwall 12 0 12 12\n", width);
+    const uint64_t count = 4 + sl_random_below(random, 20);
+    for (uint64_t i = 0; i < count; i++) {
+        const unsigned x = (unsigned)sl_random_below(random, 13),
+                       y = (unsigned)sl_random_below(random, 13);
+        unsigned to_x = (unsigned)sl_random_below(random, 13),
+                 to_y = (unsigned)sl_random_below(random, 13);
+        if (!oblique && sl_random_below(random, 2)) to_x = x;
+        if (!oblique && to_x != x) to_y = y;
+        if (to_x == x && to_y == y) continue;
+        n += snprintf(text + n, 4000 - (size_t)n, "wall %u %u %u %u\n", x, y, to_x, to_y);
+    }
+}
+
+/// Compares places where a disc surely gets to, or surely does not. Returns how many are enclosed.
+static size_t compare(const plan *p, lattice *l, double width) {
+    size_t enclosed = 0;
+    static bool surely[LATTICE][LATTICE];
+    push_disc(l, width / 2 + 0.75 / FINE);
+    memcpy(surely, l->reached, sizeof surely);
+    push_disc(l, width / 2 - 0.75 / FINE);
+    for (int i = 4 * FINE; i < LATTICE - 4 * FINE; i++)
+        for (int k = 4 * FINE; k < LATTICE - 4 * FINE; k++) {
+            // Seams of axial maps go around by up to half of that: 0.5 to the root of 2 times.
+            if (l->clearance[i][k] < 0.708 * width) continue;
+            const bool inside = is_inside(p, point_at(i, k));
+            if (!l->reached[i][k]) {
+                assert_true(inside);
+                enclosed++;
+            } else if (surely[i][k]) {
+                assert_true(!inside || !p->map.interior.place_count);
+            }
+        }
+    return enclosed;
+}
+
+static void test_disc(void **state) {
+    (void)state;
+    sl_random random = {41};
+    lattice *l = malloc(sizeof *l);
+    size_t enclosed = 0, maps = 0;
+    assert_non_null(l);
+    for (uint64_t round = 0; round < testing_seeds(120); round++) {
+        const double width = 0.7 + 0.37 * (double)sl_random_below(&random, 6);
+        char text[4000];
+        plan p;
+        make_walls(&random, round % 2, width, text);
+        read_plan(text, &p);
+        measure(&p.map, l);
+        const size_t found = compare(&p, l, width);
+        enclosed += found;
+        maps += found > 0;
+        close_plan(&p);
+    }
+    free(l);
+    print_message("%zu places are enclosed, on %zu maps\n", enclosed, maps);
+    assert_true(maps > 0);
+}
+
+// --- what is not inside
+
+static void test_outdoors(void **state) {
+    (void)state;
+    static const struct {
+        const char *map;
+        sl_point in, out; ///< a place that is inside, and one that is not
+    } cases[] = {
+        // an alley between two houses, and a recess in a wall
+        {"unit m\nwalls 0 0 6 0 6 8 0 8 0 0\nwalls 7 0 15 0 15 3 14 3 14 4 15 4 15 8 7 8 7 0\n",
+         {3, 4},
+         {6.5, 4}},
+        {"unit m\nwalls 0 0 6 0 6 8 0 8 0 0\nwalls 7 0 15 0 15 3 14 3 14 4 15 4 15 8 7 8 7 0\n",
+         {10, 4},
+         {14.5, 3.5}},
+        // a yard behind a wide gate is outdoors, a closed house in it is not
+        {"unit m\nwalls 0 0 20 0 20 20 12 20\nwalls 6 20 0 20 0 0\nwalls 5 5 9 5 9 9 5 9 5 5\n",
+         {7, 7},
+         {15, 15}},
+        // a door is an entrance, however wide
+        {"unit m\nwalls 0 0 4 0\nwalls 7 0 12 0 12 9 0 9 0 0\ndoor gate 4 0 7 0 open\n"
+         "wall -5 -5 -4 -5\n",
+         {6, 5},
+         {-2, 3}},
+        // a closet that is closed, of which the unit says that nobody fits in
+        {"unit m\nwalls 0 0 8 0 8 6 0 6 0 0\nwalls 3 3 3.5 3 3.5 3.5 3 3.5 3 3\n",
+         {1, 1},
+         {3.25, 3.25}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        plan p;
+        read_plan(cases[i].map, &p);
+        assert_true(is_inside(&p, cases[i].in));
+        assert_false(is_inside(&p, cases[i].out));
+        close_plan(&p);
+    }
+}
+
+/// A corridor with an open end, and rooms with doors to it: the rooms are not inside without it. A
+/// room with an entrance of its own belongs to the same building.
+static void test_corridor(void **state) {
+    (void)state;
+    static const char walls[] = "walls 0 0 12 0 12 10 0 10 0 6 3 6\nwalls 3.9 6 8 6\n"
+                                "walls 8.9 6 12 6\nwall 6 6 6 10\nwalls 0 0 0 4 1 4\n"
+                                "walls 1.9 4 8 4\nwalls 8.9 4 12 4\nwalls 6 0 6 1\n"
+                                "walls 6 1.9 6 4\n";
+    static const sl_point within[] = {{3, 8}, {9, 8}, {3, 2}, {9, 2}}, corridor = {5, 5};
+    char text[4000];
+    plan p;
+    snprintf(text, sizeof text, "unit m\n%s", walls);
+    read_plan(text, &p);
+    assert_int_equal(doubt_of(&p), SL_INSIDE_OPENING);
+    assert_float_equal(p.map.interior.doubtful_width, 2, 1e-9);
+    assert_int_equal(p.map.interior.place_count, 0);
+    close_plan(&p);
+    snprintf(text, sizeof text, "entrance 2\n%s", walls);
+    read_plan(text, &p);
+    assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+    assert_true(is_inside(&p, corridor));
+    for (int i = 0; i < 4; i++) assert_true(is_inside(&p, within[i]));
+    close_plan(&p);
+    // The room at the lower left also has a window to the street.
+    snprintf(text, sizeof text, "unit m\n%swall -1 -3 13 -3\n", walls);
+    memcpy(strstr(text, "0 0 12 0"), "2 0 12 0", 8);
+    strcat(text, "wall 0 0 1.1 0\n");
+    read_plan(text, &p);
+    assert_int_equal(doubt_of(&p), SL_INSIDE_OPENING);
+    assert_int_equal(p.map.interior.place_count, 0);
+    close_plan(&p);
+}
+
+/// Without an opening and a unit all is as walls enclose it, however small.
+static void test_closed(void **state) {
+    (void)state;
+    plan p;
+    read_plan("walls 0 0 8 0 8 6 0 6 0 0\nwalls 3 3 3.5 3 3.5 3.5 3 3.5 3 3\n", &p);
+    assert_true(is_inside(&p, (sl_point){1, 1}) && is_inside(&p, (sl_point){3.25, 3.25}));
+    assert_int_equal(p.map.interior.by, SL_ENTRANCE_NONE);
+    assert_int_equal(p.map.seam_count, 0);
+    close_plan(&p);
+}
+
+/// Starts go before it, and what was found is found again without doubling seams.
+static void test_again(void **state) {
+    (void)state;
+    char text[4000];
+    plan p;
+    say_house("unit m\nwall -5 -5 -4 -5\n", 1, 2, text);
+    read_plan(text, &p);
+    const size_t seams = p.map.seam_count;
+    assert_true(seams > 0);
+    assert_ok(p.context, sl_map_find_inside(p.context, &p.map, NULL, NULL));
+    assert_int_equal(p.map.seam_count, seams);
+    for (size_t i = 0; i < seams; i++) p.map.seams[i].entrance = false; // as a file has them
+    assert_ok(p.context, sl_map_find_inside(p.context, &p.map, NULL, NULL));
+    assert_int_equal(p.map.seam_count, seams);
+    assert_ok(p.context, sl_map_add_start(p.context, &p.map, (sl_point){5, 2}, 0, 0));
+    assert_ok(p.context, sl_map_find_inside(p.context, &p.map, NULL, NULL));
+    assert_int_equal(p.map.seam_count, 0);
+    assert_int_equal(p.map.interior.place_count, 0);
+    close_plan(&p);
+}
+
+/// What each lack of memory leaves behind can be destroyed.
+static void test_memory(void **state) {
+    (void)state;
+    char text[4000], all[4100];
+    const turned t = turned_by(17.3, 1, 0, 0);
+    say_house("", 1, 2, text);
+    snprintf(all, sizeof all, "sightline 1\n%s", text);
+    long failed = 0;
+    for (bool done = false; !done;) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        sl_map map = {0};
+        assert_ok(context, sl_map_read_text(context, "plan", all, strlen(all), &map));
+        for (size_t i = 0; i < map.wall_count; i++) {
+            map.walls[i].a = turn(&t, map.walls[i].a.x, map.walls[i].a.y);
+            map.walls[i].b = turn(&t, map.walls[i].b.x, map.walls[i].b.y);
+        }
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        memory.fail_at = memory.calls + 1 + failed;
+        const sl_status status = sl_map_find_inside(context, &map, NULL, NULL);
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        done = status == SL_OK;
+        failed += !done;
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+    }
+    assert_true(failed > 20);
+}
+
+static void test_units(void **state) {
+    (void)state;
+    assert_true(sl_unit_metres("m") == 1 && sl_unit_metres("mm") == 1e-3);
+    assert_true(sl_unit_metres("ft") == 0.3048 && sl_unit_metres("in") == 0.0254);
+    assert_true(sl_unit_metres("px") == 0 && sl_unit_metres("") == 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_house),    cmocka_unit_test(test_wide_entrance),
+        cmocka_unit_test(test_exact),    cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_outdoors), cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_again),    cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_units),    cmocka_unit_test(test_corridor),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
