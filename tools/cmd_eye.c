@@ -246,15 +246,14 @@ static sl_status tell(command_console *console, const eye_plan *plan, const sl_b
 }
 
 /// Shut doors are walls of `baked` by now.
-static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
-                     sl_query *query) {
+static sl_status ask(command_console *console, const eye_plan *plan, const sl_baked *baked,
+                     const sl_view *view, sl_query *query) {
     sl_context *context = console->context;
-    const sl_baked *baked = sl_query_baked(query);
     eye_run run;
     sl_query_set_doors(context, query, true);
     SL_TRY(sl_query_set_mirror_depth(context, query, plan->mirror_depth));
     if (plan->range_given) SL_TRY(sl_query_set_range(context, query, plan->range));
-    SL_TRY(eye_run_make(context, query, view, plan->mirror_depth, !plan->json, &run));
+    SL_TRY(eye_run_make(context, baked, query, view, plan->mirror_depth, !plan->json, &run));
     eye_objects objects = {0};
     sl_status status = eye_objects_read(context, &plan->objects, &baked->map, &objects);
     if (status == SL_OK) status = eye_objects_run(context, query, &run, !plan->json, &objects);
@@ -270,7 +269,7 @@ static sl_status look(command_console *console, const eye_plan *plan, sl_baked *
     SL_TRY(check_view(context, plan, &baked->space));
     SL_TRY(sl_query_create(context, baked, &query));
     const sl_view view = sl_query_view(query, plan->at, plan->look, plan->fov);
-    const sl_status status = ask(console, plan, &view, query);
+    const sl_status status = ask(console, plan, baked, &view, query);
     sl_query_destroy(context, query);
     return status;
 }

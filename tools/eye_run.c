@@ -82,21 +82,20 @@ static void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t
 /// The cells that a method sees by mirror, if it knows mirrors.
 static sl_status run_mirrored(sl_context *context, const sl_eye_method *method, sl_query *query,
                               eye_run *run, eye_result *result) {
-    const sl_baked *baked = sl_query_baked(query);
     sl_eye_account account;
     if (!run->has_mirrors || !method->mirrored) return SL_OK;
     result->mirrored =
-        sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *result->mirrored);
+        sl_alloc_array(context, sl_eye_words(sl_query_asked(query)), sizeof *result->mirrored);
     if (!result->mirrored) return SL_NO_MEMORY;
     SL_TRY(sl_query_look_mirrored(context, query, &run->view, method, result->mirrored, &account));
     result->rounded = account.rounded;
-    eye_measure(baked, run->cell, result->mirrored, &result->mirrored_count,
+    eye_measure(run->baked, run->cell, result->mirrored, &result->mirrored_count,
                 &result->mirrored_share);
     return SL_OK;
 }
 
 static sl_status run_methods(sl_context *context, sl_query *query, bool timed, eye_run *run) {
-    const sl_baked *baked = sl_query_baked(query);
+    const sl_baked *baked = run->baked;
     const sl_eye_method *methods = sl_eye_methods(&run->result_count);
     run->results = sl_alloc_array(context, run->result_count, sizeof *run->results);
     if (!run->results) return SL_NO_MEMORY;
@@ -115,17 +114,18 @@ static sl_status run_methods(sl_context *context, sl_query *query, bool timed, e
 static sl_status run_region(sl_context *context, sl_query *query, bool timed, eye_run *run) {
     const question q = {context, query, &run->view, .region = &run->region};
     SL_TRY(timed ? time_question(&q, &run->region_seconds) : ask(&q));
-    const double whole = area_of_side(sl_query_baked(query), run->cell);
+    const double whole = area_of_side(run->baked, run->cell);
     run->region_share = whole > 0 ? sl_region_area(&run->region) / whole : 0;
     if (!run->has_mirrors) return SL_OK;
     return sl_query_mirrored_region(context, query, &run->view, &run->mirrored);
 }
 
-sl_status eye_run_make(sl_context *context, sl_query *query, const sl_view *view,
-                       uint32_t mirror_depth, bool timed, eye_run *out) {
-    eye_run run = {.view = *view,
+sl_status eye_run_make(sl_context *context, const sl_baked *baked, sl_query *query,
+                       const sl_view *view, uint32_t mirror_depth, bool timed, eye_run *out) {
+    eye_run run = {.baked = baked,
+                   .view = *view,
                    .cell = sl_query_locate(query, view->eye),
-                   .has_mirrors = sl_query_baked(query)->map.mirror_count > 0,
+                   .has_mirrors = baked->map.mirror_count > 0,
                    .mirror_depth = mirror_depth};
     sl_status status = run_methods(context, query, timed, &run);
     if (status == SL_OK) status = run_region(context, query, timed, &run);
@@ -252,7 +252,7 @@ static sl_status find_cells(sl_context *context, const sl_baked *baked, const ey
 /// What mirrors show: objects stand before them, and are seen in them.
 static sl_status look_in_mirrors(sl_context *context, sl_query *query, const eye_run *run,
                                  eye_objects *o) {
-    const sl_baked *baked = sl_query_baked(query);
+    const sl_baked *baked = run->baked;
     o->has_mirrors = run->has_mirrors;
     if (!run->has_mirrors) return SL_OK;
     o->mirrored_cells =
@@ -278,7 +278,7 @@ static sl_status place(sl_context *context, sl_query *query, const eye_run *run,
 
 sl_status eye_objects_run(sl_context *context, sl_query *query, const eye_run *run, bool timed,
                           eye_objects *o) {
-    const sl_baked *baked = sl_query_baked(query);
+    const sl_baked *baked = run->baked;
     if (!o->count) return SL_OK;
     o->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *o->cells);
     if (!o->cells) return SL_NO_MEMORY;

@@ -26,6 +26,7 @@ typedef struct eye_result {
 /// Shares are of the area of the cells that count (sl_baked_counts). If the eye's cell does not
 /// count, they are of the other cells.
 typedef struct eye_run {
+    const sl_baked *baked; ///< the caller's
     sl_view view;
     uint32_t cell;       ///< the eye's
     eye_result *results; ///< one a method of sl_eye_methods()
@@ -41,10 +42,10 @@ typedef struct eye_run {
 /// A distance for sl_view_cone: as large as anything in the map.
 double eye_reach(const sl_space *space);
 
-/// The eye must be within the bounds. `mirror_depth` is that of the query. `timed`: repeats each
-/// question until its time is known.
-sl_status eye_run_make(sl_context *context, sl_query *query, const sl_view *view,
-                       uint32_t mirror_depth, bool timed, eye_run *out);
+/// The eye must be within the bounds, and the query over `baked`. `mirror_depth` is that of the
+/// query. `timed`: repeats each question until its time is known.
+sl_status eye_run_make(sl_context *context, const sl_baked *baked, sl_query *query,
+                       const sl_view *view, uint32_t mirror_depth, bool timed, eye_run *out);
 void eye_run_destroy(sl_context *context, eye_run *run);
 
 typedef struct eye_object {

@@ -11,9 +11,7 @@ static sl_status keep_row(sl_context *context, const sl_pvs *pvs, const sl_door_
                           uint32_t row, const bool *shut, sl_bits *set, sli_row_bytes *out) {
     const uint32_t count = pvs->cell_count;
     memset(set, 0, sl_bits_words(count) * sizeof *set);
-    sli_row_add_to(pvs, row, set);
-    for (sl_door_pairs p = sl_door_pairs_begin(doors, row); sl_door_pairs_next(&p, shut);)
-        if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
+    sli_row_add_open_to(pvs, doors, row, shut, set);
     return sli_row_append(context, out, set, count);
 }
 

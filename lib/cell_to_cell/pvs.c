@@ -137,6 +137,21 @@ void sli_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set) {
         for (uint32_t i = run.first; i < run.end; i++) sl_bits_add(set, i);
 }
 
+void sli_row_add_open_to(const sl_pvs *pvs, const sl_door_sets *doors, uint32_t cell,
+                         const bool *shut, sl_bits *set) {
+    if (!shut || !doors->cell_count) {
+        sli_row_add_to(pvs, cell, set);
+        return;
+    }
+    sl_door_pairs pair = sl_door_pairs_begin(doors, cell);
+    bool more = sl_door_pairs_next(&pair, shut);
+    for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
+        for (uint32_t i = run.first; i < run.end; i++) {
+            while (more && pair.cell < i) more = sl_door_pairs_next(&pair, shut);
+            if (!more || pair.cell != i || pair.open) sl_bits_add(set, i);
+        }
+}
+
 static sl_status join(sl_context *context, const sli_row_bytes *rows, uint32_t count, sl_pvs *out) {
     sl_pvs pvs = {.cell_count = count};
     pvs.offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *pvs.offsets);

@@ -21,6 +21,11 @@ sl_status sli_row_append_words(sl_context *context, sli_row_bytes *bytes, const 
 /// Sets the bits of a row's members.
 void sli_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set);
 
+/// Likewise, without the members that are hidden while doors are shut (`shut` by door of the map;
+/// NULL: all are open).
+void sli_row_add_open_to(const sl_pvs *pvs, const sl_door_sets *doors, uint32_t cell,
+                         const bool *shut, sl_bits *set);
+
 /// Joins rows[0 .. count) into one PVS and frees them, also on failure.
 sl_status sli_pvs_join(sl_context *context, sli_row_bytes *rows, uint32_t count, sl_pvs *out);
 

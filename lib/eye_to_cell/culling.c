@@ -40,10 +40,11 @@ static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *searc
                                        sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
-    const sl_pvs *mirrored = &search->visibility->mirrored;
-    if (query.fan_count && mirrored->cell_count) {
+    const sl_visibility *v = search->visibility;
+    if (query.fan_count && v->mirrored.cell_count) {
         for (uint32_t at = 0; at < query.fan_count; at++)
-            sli_row_add_to(mirrored, search->queue[at], cells);
+            sli_row_add_open_to(&v->mirrored, &v->mirrored_doors, search->queue[at], search->shut,
+                                cells);
         query.nodes += sli_bits_count(cells, sl_eye_words(search->space));
     }
     sli_eye_end(&query, account);

@@ -63,7 +63,8 @@ void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
 
 /// Adds a cell's visible set to the row; false where it has none, not even itself.
 static bool add_row(sl_eye_search *search, uint32_t cell) {
-    sli_row_add_to(&search->visibility->pvs, cell, search->row);
+    const sl_visibility *v = search->visibility;
+    sli_row_add_open_to(&v->pvs, &v->doors, cell, search->shut, search->row);
     return sl_bits_has(search->row, cell);
 }
 

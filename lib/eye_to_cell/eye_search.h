@@ -4,7 +4,7 @@
 
 #include "cell_to_cell/portal_search.h"
 #include "eye_to_cell/cone.h"
-#include "sightline/eye_to_cell.h"
+#include "sightline/moving.h"
 #include "sightline/support.h"
 #include "space/boxes.h"
 #include "space/index.h"
@@ -46,6 +46,7 @@ struct sl_eye_search {
     double range; ///< of the exact method; 0 for no limit
     const sl_space *space;
     const sl_visibility *visibility;
+    const bool *shut;             ///< by door of the map, for the visible sets; NULL: all are open
     const sli_boxed_space *boxed; ///< of which `space` is: maps its cells to those of the ground,
                                   ///< which rows and bits are of; NULL for a space without boxes
     sli_eye_targets targets;      ///< for the exact method, also by mirror; `first` NULL: none
@@ -128,6 +129,10 @@ bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_ste
 
 /// Marks the targets that are met in a cell just entered; `first` for a cell of the eye's own.
 void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool first);
+
+/// Makes the visible sets those with doors shut (`shut` by door of the map; it must stay, and NULL
+/// is for none). The space has walls there already.
+void sli_moving_set_shut(sl_moving *moving, const bool *shut);
 
 /// Checks boxes as sl_moving_set_boxes does.
 sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count);

@@ -211,13 +211,19 @@ static void destroy_targets(sl_context *context, box_targets *targets) {
     *targets = (box_targets){0};
 }
 
-struct sl_moving {
+/// What stays when boxes are placed again.
+typedef struct moving_settings {
     sli_box_ground ground;
     const sl_visibility *visibility;
+    const bool *shut; ///< by door, for the visible sets
     double range;
     const sl_map *mirrors; ///< the map that has them, NULL for none
     uint32_t depth;        ///< of reflections
     bool one_way;          ///< glass counts
+} moving_settings;
+
+struct sl_moving {
+    moving_settings set;
     sl_moving_box *boxes;
     size_t count;
     sli_boxed_space *boxed;
@@ -241,12 +247,7 @@ static void drop(sl_context *context, sl_moving *m) {
     destroy_targets(context, &m->targets);
     sl_free(context, m->met);
     sl_free(context, m->cells);
-    *m = (sl_moving){.ground = m->ground,
-                     .visibility = m->visibility,
-                     .range = m->range,
-                     .mirrors = m->mirrors,
-                     .depth = m->depth,
-                     .one_way = m->one_way};
+    *m = (sl_moving){.set = m->set};
 }
 
 /// Makes glass of the space with boxes one-way. Boxes are put in first: a box cuts both sides.
@@ -278,16 +279,19 @@ sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes
 static sl_status place(sl_context *context, sl_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
     if (!m->boxed) return SL_NO_MEMORY;
-    SL_TRY(sli_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
-    if (m->one_way) SL_TRY(darken(context, &m->boxed->space));
-    SL_TRY(find_targets(context, &m->ground, &m->boxed->space, m->boxes, m->count, &m->targets));
-    SL_TRY(sli_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
-                                     &m->search));
+    SL_TRY(sli_boxes_put(context, &m->set.ground, m->boxes, m->count, m->boxed));
+    if (m->set.one_way) SL_TRY(darken(context, &m->boxed->space));
+    SL_TRY(
+        find_targets(context, &m->set.ground, &m->boxed->space, m->boxes, m->count, &m->targets));
+    SL_TRY(sli_eye_search_create_cut(context, m->boxed, m->set.visibility,
+                                     m->set.ground.space->cell_count, &m->search));
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
-    sl_eye_search_set_range(m->search, m->range);
-    if (m->mirrors) SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->mirrors, m->depth));
+    sl_eye_search_set_range(m->search, m->set.range);
+    m->search->shut = m->set.shut;
+    if (m->set.mirrors)
+        SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->set.mirrors, m->set.depth));
     m->search->targets = (sli_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
@@ -295,13 +299,7 @@ static sl_status place(sl_context *context, sl_moving *m) {
 sl_status sl_moving_set_boxes(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
                               size_t count) {
     SL_TRY(sli_moving_boxes_check(context, boxes, count));
-    sl_moving made = {.ground = moving->ground,
-                      .visibility = moving->visibility,
-                      .range = moving->range,
-                      .mirrors = moving->mirrors,
-                      .depth = moving->depth,
-                      .one_way = moving->one_way,
-                      .count = count};
+    sl_moving made = {.set = moving->set, .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
     if (count) memcpy(made.boxes, boxes, count * sizeof *boxes);
@@ -315,8 +313,8 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
                            const sl_visibility *visibility, sl_moving **out) {
     sl_moving *moving = sl_alloc_array(context, 1, sizeof *moving);
     if (!moving) return SL_NO_MEMORY;
-    moving->visibility = visibility;
-    sl_status status = sli_box_ground_create(context, space, &moving->ground);
+    moving->set.visibility = visibility;
+    sl_status status = sli_box_ground_create(context, space, &moving->set.ground);
     if (status == SL_OK) status = sl_moving_set_boxes(context, moving, NULL, 0);
     if (status == SL_OK)
         *out = moving;
@@ -328,7 +326,7 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
 void sl_moving_destroy(sl_context *context, sl_moving *moving) {
     if (!moving) return;
     drop(context, moving);
-    sli_box_ground_destroy(context, &moving->ground);
+    sli_box_ground_destroy(context, &moving->set.ground);
     sl_free(context, moving);
 }
 
@@ -348,8 +346,12 @@ sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_out
 }
 
 void sl_moving_set_range(sl_moving *moving, double range) {
-    moving->range = range;
+    moving->set.range = range;
     sl_eye_search_set_range(moving->search, range);
+}
+
+void sli_moving_set_shut(sl_moving *moving, const bool *shut) {
+    moving->set.shut = moving->search->shut = shut;
 }
 
 static bool holds(sl_box box, sl_point p) {
@@ -362,16 +364,16 @@ static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view
     const sl_outline *outline;
     *seen = false;
     if (!sl_view_holds(view, point)) return SL_OK;
-    if (moving->range > 0 && sli_distance_compare(view->eye, point, moving->range) > 0)
+    if (moving->set.range > 0 && sli_distance_compare(view->eye, point, moving->set.range) > 0)
         return SL_OK;
     SL_TRY(sl_moving_outline(context, moving, &outline));
-    return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
+    return sl_sees(context, outline, view->eye, point, moving->set.visibility->sight, seen);
 }
 
 /// Maps the cells that are seen to the cells of the space without boxes.
 static void write_cells(const sl_moving *moving, uint64_t *cells) {
     const sli_boxed_space *boxed = moving->boxed;
-    memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
+    memset(cells, 0, sl_eye_words(moving->set.ground.space) * sizeof *cells);
     for (uint32_t c = 0; c < boxed->space.cell_count; c++)
         if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, boxed->parents[c]);
 }
@@ -395,22 +397,22 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
 sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
                                 uint32_t depth) {
     SL_TRY(sl_eye_search_add_mirrors(context, moving->search, map, depth));
-    moving->mirrors = map;
-    moving->depth = depth;
+    moving->set.mirrors = map;
+    moving->set.depth = depth;
     return SL_OK;
 }
 
 sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving) {
     sl_moving_box *boxes = moving->boxes;
-    const bool was = moving->one_way;
+    const bool was = moving->set.one_way;
     moving->boxes = NULL;
-    moving->one_way = true;
+    moving->set.one_way = true;
     const sl_status status = sl_moving_set_boxes(context, moving, boxes, moving->count);
     if (status == SL_OK) {
         sl_free(context, boxes);
     } else {
         moving->boxes = boxes;
-        moving->one_way = was;
+        moving->set.one_way = was;
     }
     return status;
 }

@@ -1,17 +1,21 @@
-/// A query puts what stands between a bake and an eye in layers, each made only where it is called
-/// for and kept until a setting below it changes:
+/// A query puts what stands between a space and an eye in layers:
 ///
-///     baked space and sets
-///       doors that are shut: walls in their place, sets without what is seen through them
-///         one-way glass: a wall on its dark side, a portal on the other
-///           what answers: the search of cells, the outline of rooms, mirrors
-///         moving boxes, which cut both sides of glass before it is one-way
+///     the space, its map and its visible sets
+///       doors and one-way glass: changed in place (sight_space.h)
+///         what answers: the search of cells, the outline of rooms, mirrors
+///       boxes that block: a copy of the space, cut; then its glass is one-way
 ///
-/// A layer that changes nothing is the one below it.
+/// Each is made where a question calls for it, and kept until a setting below it changes. A door
+/// changes the cells and sides that it touches, and of the visible sets nothing: which pairs are
+/// hidden is looked up with each row.
 #include "sightline/query.h"
 
+#include "cell_to_cell/pvs_rows.h"
 #include "eye_to_cell/eye_search.h"
 #include "geometry/crossing.h"
+#include "query/query.h"
+#include "query/sight_space.h"
+#include "sightline/effects.h"
 #include "sightline/moving.h"
 #include "sightline/sees.h"
 #include "sightline/support.h"
@@ -21,18 +25,14 @@
 
 enum { MIRROR_DEPTH_MOST = 16 };
 
-/// A space as sight finds it, and the visible sets that go with it.
-typedef struct layer {
-    const sl_space *space;
-    const sl_visibility *visibility;
-    sl_space own_space;           ///< where the layer makes one
-    sl_visibility own_visibility; ///< of the glass: borrowed rows
-} layer;
-
 struct sl_query {
-    const sl_baked *baked;
-    sl_baked own; ///< where the query has read the file
-    bool *shut;   ///< by door of the map
+    const sl_space *asked;
+    const sl_map *map;
+    const sl_visibility *visibility; ///< the caller's; NULL for none
+    sli_query_owner owner;
+    bool *shut; ///< by door of the map
+    size_t shut_count;
+    bool backwards;
     double range;
     uint32_t mirror_depth;
     sl_moving_box *boxes;
@@ -40,14 +40,16 @@ struct sl_query {
     bool any_blocks;   ///< some box hides what is behind it
     bool boxes_placed; ///< in `moving`
 
-    layer doors, glass;
-    bool has_doors, has_glass; ///< whether the layers are made
+    bool ready;            ///< `sight` and `rows` are made
+    sl_space turned;       ///< `asked` with its glass turned round; borrows the rest
+    sli_sight_space sight; ///< doors and glass as they are
+    sl_visibility rows;    ///< borrowed, without stab trees where the space has other portals
 
-    // What answers, of the upper layer; NULL where it is not made.
+    // What answers; NULL where it is not made.
     sl_eye_search *search;
-    sl_outline *outline;
     sli_box_lists lists; ///< of the boxes; `first` NULL if not made
     sl_moving *moving;
+    sl_space moving_ground;   ///< with walls in doors; empty where all are open
     sl_room_mirrors *mirrors; ///< of the outline that is looked at
 };
 
@@ -59,80 +61,71 @@ static void drop_mirrors(sl_context *context, sl_query *q) {
     q->mirrors = NULL;
 }
 
-static void drop_boxes(sl_context *context, sl_query *q) {
+/// Drops the space that boxes are cut into. Mirrors may be of its outline.
+static void drop_moving(sl_context *context, sl_query *q) {
+    if (!SLI_BOXES || !q->moving) return;
     drop_mirrors(context, q);
-    if (!SLI_BOXES) return;
-    if (q->moving) sl_moving_destroy(context, q->moving);
+    sl_moving_destroy(context, q->moving);
+    sl_space_destroy(context, &q->moving_ground);
     q->moving = NULL;
     q->boxes_placed = false;
-    sli_box_lists_destroy(context, &q->lists);
 }
 
-static void drop_answers(sl_context *context, sl_query *q) {
-    drop_boxes(context, q);
+static void drop_search(sl_context *context, sl_query *q) {
     if (q->search) sl_eye_search_destroy(context, q->search);
-    if (q->outline) sl_outline_destroy(context, q->outline);
-    sl_free(context, q->outline);
     q->search = NULL;
-    q->outline = NULL;
 }
 
-static void drop_glass(sl_context *context, sl_query *q) {
-    drop_answers(context, q);
-    sl_space_destroy(context, &q->glass.own_space);
-    q->has_glass = false;
-}
-
-static void drop_doors(sl_context *context, sl_query *q) {
-    drop_glass(context, q);
-    sl_space_destroy(context, &q->doors.own_space);
-    sl_visibility_destroy(context, &q->doors.own_visibility);
-    q->has_doors = false;
+static void drop_all(sl_context *context, sl_query *q) {
+    drop_moving(context, q);
+    drop_mirrors(context, q);
+    drop_search(context, q);
+    sli_sight_space_destroy(context, &q->sight);
+    sl_free(context, q->turned.seams);
+    sl_free(context, q->turned.seam_portals);
+    q->turned = (sl_space){0};
+    q->ready = false;
 }
 
 void sl_query_destroy(sl_context *context, sl_query *query) {
     if (!query) return;
-    drop_doors(context, query);
-    sl_baked_destroy(context, &query->own);
+    drop_all(context, query);
+    if (SLI_BOXES) sli_box_lists_destroy(context, &query->lists);
+    if (query->owner.destroy) query->owner.destroy(context, query->owner.what);
     sl_free(context, query->shut);
     sl_free(context, query->boxes);
     sl_free(context, query);
 }
 
-sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_query **out) {
-    if (sl_baked_is_shard(baked))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "this is one shard of a bake, without visible sets: merge the shards first");
+sl_status sl_query_over(sl_context *context, const sl_space *space, const sl_map *map,
+                        const sl_visibility *visibility, sl_query **out) {
     sl_query *q = sl_alloc_array(context, 1, sizeof *q);
     if (!q) return SL_NO_MEMORY;
-    q->baked = baked;
-    q->range = baked->map.range;
+    q->asked = space;
+    q->map = map;
+    q->visibility = visibility;
+    q->range = map->range;
     q->mirror_depth = 1;
-    q->shut = sl_alloc_array(context, baked->map.door_count, sizeof *q->shut);
+    q->shut = sl_alloc_array(context, map->door_count, sizeof *q->shut);
     if (!q->shut) {
         sl_query_destroy(context, q);
         return SL_NO_MEMORY;
     }
-    for (size_t i = 0; i < baked->map.door_count; i++) q->shut[i] = !baked->map.doors[i].open;
+    for (size_t i = 0; i < map->door_count; i++) q->shut_count += q->shut[i] = !map->doors[i].open;
     *out = q;
     return SL_OK;
 }
 
-sl_status sl_query_open(sl_context *context, const char *path, sl_query **out) {
-    sl_baked baked = {0};
-    SL_TRY(sl_baked_read(context, path, &baked));
-    const sl_status status = sl_query_create(context, &baked, out);
-    if (status != SL_OK) {
-        sl_baked_destroy(context, &baked);
-        return status;
-    }
-    (*out)->own = baked;
-    (*out)->baked = &(*out)->own;
-    return SL_OK;
+void sli_query_own(sl_query *query, sli_query_owner owner) {
+    query->owner = owner;
 }
 
-const sl_baked *sl_query_baked(const sl_query *query) {
-    return query->baked;
+const sl_map *sl_query_map(const sl_query *query) {
+    return query->map;
+}
+
+const sl_space *sl_query_asked(const sl_query *query) {
+    return query->asked;
 }
 
 // --- settings
@@ -147,22 +140,36 @@ static sl_status fail_door(sl_context *context, const sl_map *map, const char *n
                    names);
 }
 
+static void set_door(sl_context *context, sl_query *q, size_t door, bool shut) {
+    if (q->shut[door] == shut) return;
+    q->shut[door] = shut;
+    q->shut_count += shut ? 1 : (size_t)-1;
+    if (q->ready) sli_sight_space_set_door(&q->sight, door, q->shut);
+    drop_moving(context, q);
+}
+
 sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *name, bool open) {
-    const sl_map *map = &query->baked->map;
-    bool found = false, changed = false;
+    const sl_map *map = query->map;
+    bool found = false;
     for (size_t i = 0; i < map->door_count; i++) {
         if (strcmp(map->doors[i].name, name) != 0) continue;
         found = true;
-        changed |= query->shut[i] == open;
-        query->shut[i] = !open;
+        set_door(context, query, i, !open);
     }
-    if (changed) drop_doors(context, query);
     return found ? SL_OK : fail_door(context, map, name);
 }
 
 void sl_query_set_doors(sl_context *context, sl_query *query, bool open) {
-    for (size_t i = 0; i < query->baked->map.door_count; i++) query->shut[i] = !open;
-    drop_doors(context, query);
+    for (size_t i = 0; i < query->map->door_count; i++) set_door(context, query, i, !open);
+}
+
+bool sl_query_door_is_open(const sl_query *query, size_t door) {
+    return !query->shut[door];
+}
+
+void sl_query_set_backwards(sl_context *context, sl_query *query, bool backwards) {
+    if (backwards != query->backwards) drop_all(context, query);
+    query->backwards = backwards;
 }
 
 sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_moving_box *boxes,
@@ -187,16 +194,16 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
 }
 
 sl_status sl_query_set_range(sl_context *context, sl_query *query, double range) {
-    const double baked = query->baked->map.range;
+    const double known = query->visibility ? query->map->range : 0;
     if (!(range >= 0) || isinf(range))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the range must be 0 or more, and finite; 0: no limit");
-    if (baked > 0 && (range == 0 || range > baked))
+    if (known > 0 && (range == 0 || range > known))
         return sl_fail(
             context, SL_BAD_ARGUMENT,
             "the map was baked with a view range of %.17g, and nothing farther is known: "
             "ask for a range up to that, or bake the map --without range",
-            baked);
+            known);
     query->range = range;
     return SL_OK;
 }
@@ -205,47 +212,70 @@ sl_status sl_query_set_mirror_depth(sl_context *context, sl_query *query, uint32
     if (depth > MIRROR_DEPTH_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "the mirror depth must be 0 to %d",
                        MIRROR_DEPTH_MOST);
-    if (depth != query->mirror_depth) drop_answers(context, query);
+    if (depth != query->mirror_depth) {
+        drop_search(context, query);
+        drop_moving(context, query);
+    }
     query->mirror_depth = depth;
     return SL_OK;
 }
 
 // --- the layers
 
-static sl_status make_doors(sl_context *context, sl_query *q) {
-    layer *l = &q->doors;
-    bool any = false;
-    if (q->has_doors) return SL_OK;
-    for (size_t i = 0; i < q->baked->map.door_count; i++) any |= q->shut[i];
-    l->space = any ? &l->own_space : &q->baked->space;
-    l->visibility = any ? &l->own_visibility : &q->baked->visibility;
-    if (any) SL_TRY(sl_baked_shut(context, q->baked, q->shut, &l->own_space, &l->own_visibility));
-    q->has_doors = true;
+/// Makes `turned`: glass that is seen through from the other side.
+static sl_status turn_glass(sl_context *context, sl_query *q) {
+    const sl_space *from = q->asked;
+    sl_space *to = &q->turned;
+    *to = *from;
+    to->seams = sl_alloc_array(context, from->seam_count, sizeof *to->seams);
+    to->seam_portals = sl_alloc_array(context, from->seam_portal_count, sizeof *to->seam_portals);
+    if (!to->seams || !to->seam_portals) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < from->seam_count; i++) {
+        const sl_segment at = from->seams[i].at;
+        to->seams[i] = from->seams[i];
+        if (from->seams[i].kind == SL_SEAM_ONEWAY) to->seams[i].at = (sl_segment){at.b, at.a};
+    }
+    for (uint32_t i = 0; i < from->seam_portal_count; i++) {
+        to->seam_portals[i] = from->seam_portals[i];
+        to->seam_portals[i].forward ^=
+            from->seams[from->seam_portals[i].seam].kind == SL_SEAM_ONEWAY;
+    }
     return SL_OK;
 }
 
-static sl_status make_glass(sl_context *context, sl_query *q) {
-    layer *l = &q->glass;
-    if (q->has_glass) return SL_OK;
-    l->space = q->doors.space;
-    l->visibility = q->doors.visibility;
-    if (q->baked->map.oneway_count) {
-        const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-        SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &l->own_space));
-        l->space = &l->own_space;
-        // The rows are those of the doors' layer. Its stab trees have other directed portals.
-        l->own_visibility = *q->doors.visibility;
-        l->own_visibility.trees = (sl_stab_trees){0};
-        l->visibility = &l->own_visibility;
-    }
-    q->has_glass = true;
-    return SL_OK;
+static bool is_turned(const sl_query *q) {
+    return q->backwards && q->map->oneway_count;
+}
+
+/// The visible sets say what is seen from a cell, and not from where it is seen.
+static sl_visibility rows_of(const sl_query *q) {
+    if (!q->visibility) return (sl_visibility){.sight = SL_CLOSED};
+    return is_turned(q) ? (sl_visibility){.sight = q->visibility->sight} : *q->visibility;
+}
+
+static sl_status make_ready(sl_context *context, sl_query *q) {
+    if (q->ready) return SL_OK;
+    sl_status status = is_turned(q) ? turn_glass(context, q) : SL_OK;
+    if (status == SL_OK)
+        status = sli_sight_space_make(context, is_turned(q) ? &q->turned : q->asked, q->shut,
+                                      q->map->door_count, &q->sight);
+    q->ready = status == SL_OK;
+    if (!q->ready) drop_all(context, q);
+    return status;
 }
 
 static sl_status make_layers(sl_context *context, sl_query *q) {
     if (SLI_BOXES) SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
-    SL_TRY(make_doors(context, q));
-    return make_glass(context, q);
+    SL_TRY(make_ready(context, q));
+    q->rows = rows_of(q);
+    // Stab trees are of a space with all its directed portals.
+    if (q->shut_count || q->map->oneway_count) q->rows.trees = (sl_stab_trees){0};
+    return SL_OK;
+}
+
+/// The doors for visible sets.
+static const bool *shut_of(const sl_query *q) {
+    return q->shut_count ? q->shut : NULL;
 }
 
 /// Whether sight goes past boxes that hide what is behind them.
@@ -254,7 +284,7 @@ static bool has_blocks(const sl_query *q) {
 }
 
 static bool has_mirrors(const sl_query *q) {
-    return q->baked->map.mirror_count && q->mirror_depth;
+    return q->map->mirror_count && q->mirror_depth;
 }
 
 // --- what answers
@@ -262,31 +292,40 @@ static bool has_mirrors(const sl_query *q) {
 static sl_status make_search(sl_context *context, sl_query *q) {
     if (!q->search) {
         sl_eye_search *search;
-        SL_TRY(sl_eye_search_create(context, q->glass.space, q->glass.visibility, &search));
+        SL_TRY(sl_eye_search_create(context, &q->sight.space, &q->rows, &search));
         const sl_status status =
-            has_mirrors(q)
-                ? sl_eye_search_add_mirrors(context, search, &q->baked->map, q->mirror_depth)
-                : SL_OK;
+            has_mirrors(q) ? sl_eye_search_add_mirrors(context, search, q->map, q->mirror_depth)
+                           : SL_OK;
         if (status != SL_OK) {
             sl_eye_search_destroy(context, search);
             return status;
         }
         q->search = search;
     }
+    q->search->shut = shut_of(q);
     sl_eye_search_set_range(q->search, q->range);
     return SL_OK;
 }
 
+/// Boxes are cut into a space that lacks nothing: doors are walls in a copy, and glass is open both
+/// ways until the boxes stand.
 static sl_status create_moving(sl_context *context, sl_query *q) {
+    const sl_filtered_space filtered = {.shut = q->shut};
     sl_moving *moving;
-    SL_TRY(sl_moving_create(context, q->doors.space, q->doors.visibility, &moving));
-    sl_status status = q->baked->map.oneway_count ? sl_moving_add_glass(context, moving) : SL_OK;
+    if (q->shut_count)
+        SL_TRY(sl_filtered_space_make(context, q->sight.base, &filtered, NULL, &q->moving_ground));
+    sl_status status = sl_moving_create(context, q->shut_count ? &q->moving_ground : q->sight.base,
+                                        &q->rows, &moving);
+    if (status != SL_OK) {
+        sl_space_destroy(context, &q->moving_ground);
+        return status;
+    }
+    sli_moving_set_shut(moving, shut_of(q));
+    status = q->map->oneway_count ? sl_moving_add_glass(context, moving) : SL_OK;
     if (status == SL_OK && has_mirrors(q))
-        status = sl_moving_add_mirrors(context, moving, &q->baked->map, q->mirror_depth);
-    if (status == SL_OK)
-        q->moving = moving;
-    else
-        sl_moving_destroy(context, moving);
+        status = sl_moving_add_mirrors(context, moving, q->map, q->mirror_depth);
+    q->moving = moving;
+    if (status != SL_OK) drop_moving(context, q);
     return status;
 }
 
@@ -301,7 +340,7 @@ static sl_status make_moving(sl_context *context, sl_query *q) {
 /// Whether the eye is on the line of one-way glass. What it sees then depends on the side that its
 /// cell is on, which directed portals do not know.
 static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
-    const sl_map *map = &q->baked->map;
+    const sl_map *map = q->map;
     for (size_t i = 0; i < map->oneway_count; i++)
         if (sli_orient(map->oneways[i].segment.a, map->oneways[i].segment.b, eye) == 0) return true;
     return false;
@@ -310,15 +349,15 @@ static bool is_in_line_with_glass(const sl_query *q, sl_point eye) {
 /// Boxes that hide nothing need no cut cells. Lists of boxes do not know mirrors, ranges and open
 /// sight, nor an eye in line with glass.
 static bool lists_will_do(const sl_query *q, sl_point eye) {
-    return !q->any_blocks && !has_mirrors(q) && !(q->range > 0) && !q->baked->space.loose &&
-           q->baked->visibility.sight == SL_CLOSED && !is_in_line_with_glass(q, eye);
+    return !q->any_blocks && !has_mirrors(q) && !(q->range > 0) && !q->asked->loose &&
+           q->rows.sight == SL_CLOSED && !is_in_line_with_glass(q, eye);
 }
 
 static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *view, bool *seen) {
     SL_TRY(make_search(context, q));
     if (!q->lists.first)
-        SL_TRY(sli_box_lists_make(context, q->glass.space, q->boxes, q->box_count, &q->lists));
-    uint64_t *cells = sl_alloc_array(context, sl_eye_words(q->glass.space), sizeof *cells);
+        SL_TRY(sli_box_lists_make(context, &q->sight.space, q->boxes, q->box_count, &q->lists));
+    uint64_t *cells = sl_alloc_array(context, sl_eye_words(q->asked), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
     const sl_status status = sli_eye_boxes_seen(context, q->search, &q->lists, view, cells, seen);
     sl_free(context, cells);
@@ -331,18 +370,7 @@ static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline
         SL_TRY(make_moving(context, q));
         return sl_moving_outline(context, q->moving, out);
     }
-    if (!q->outline) {
-        sl_outline *outline = sl_alloc_array(context, 1, sizeof *outline);
-        if (!outline) return SL_NO_MEMORY;
-        const sl_status status = sl_outline_make(context, q->glass.space, outline);
-        if (status != SL_OK) {
-            sl_free(context, outline);
-            return status;
-        }
-        q->outline = outline;
-    }
-    *out = q->outline;
-    return SL_OK;
+    return sli_sight_space_outline(context, &q->sight, out);
 }
 
 static sl_status make_mirrors(sl_context *context, sl_query *q, const sl_outline *outline) {
@@ -350,7 +378,7 @@ static sl_status make_mirrors(sl_context *context, sl_query *q, const sl_outline
     drop_mirrors(context, q);
     sl_room_mirrors *mirrors = sl_alloc_array(context, 1, sizeof *mirrors);
     if (!mirrors) return SL_NO_MEMORY;
-    const sl_status status = sl_room_mirrors_make(context, outline, &q->baked->map, mirrors);
+    const sl_status status = sl_room_mirrors_make(context, outline, q->map, mirrors);
     if (status != SL_OK) {
         sl_free(context, mirrors);
         return status;
@@ -362,26 +390,71 @@ static sl_status make_mirrors(sl_context *context, sl_query *q, const sl_outline
 // --- questions
 
 uint32_t sl_query_locate(const sl_query *query, sl_point point) {
-    return sl_space_locate(&query->baked->space, point);
+    return sl_space_locate(query->asked, point);
+}
+
+/// What a row of the visible sets, or of what is seen by mirror, says with doors as they are.
+static bool row_holds(const sl_query *q, const sl_pvs *pvs, const sl_door_sets *doors,
+                      uint32_t from, uint32_t to) {
+    return sl_pvs_sees(pvs, from, to) &&
+           (!q->shut_count || !doors->cell_count || sl_door_sets_open(doors, from, to, q->shut));
+}
+
+static sl_status check_rows(sl_context *context, const sl_query *q, uint32_t from, uint32_t to) {
+    const uint32_t count = q->asked->cell_count;
+    if (!q->visibility || !q->visibility->pvs.cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "there are no visible sets: bake the map");
+    if (from >= count || to >= count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "there is no cell %u; cells are 0 to %u",
+                       from >= count ? from : to, count - 1);
+    return SL_OK;
 }
 
 sl_status sl_query_can_see(sl_context *context, sl_query *query, uint32_t from, uint32_t to,
                            bool *out) {
-    SL_TRY(make_doors(context, query));
-    const sl_pvs *pvs = &query->doors.visibility->pvs;
-    if (from >= pvs->cell_count || to >= pvs->cell_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "there is no cell %u; cells are 0 to %u",
-                       from >= pvs->cell_count ? from : to, pvs->cell_count - 1);
-    *out = sl_pvs_sees(pvs, from, to);
+    const sl_visibility *v = query->visibility;
+    SL_TRY(check_rows(context, query, from, to));
+    *out = query->backwards ? row_holds(query, &v->pvs, &v->doors, to, from)
+                            : row_holds(query, &v->pvs, &v->doors, from, to);
     return SL_OK;
+}
+
+sl_status sl_query_row(sl_context *context, sl_query *query, uint32_t cell, bool mirrored,
+                       uint64_t *cells) {
+    const sl_visibility *v = query->visibility;
+    SL_TRY(check_rows(context, query, cell, cell));
+    const sl_pvs *pvs = mirrored ? &v->mirrored : &v->pvs;
+    const sl_door_sets *doors = mirrored ? &v->mirrored_doors : &v->doors;
+    memset(cells, 0, sl_eye_words(query->asked) * sizeof *cells);
+    if (!pvs->cell_count) return SL_OK;
+    if (!query->backwards) sli_row_add_open_to(pvs, doors, cell, shut_of(query), cells);
+    for (uint32_t from = 0; query->backwards && from < pvs->cell_count; from++)
+        if (row_holds(query, pvs, doors, from, cell)) sl_bits_add(cells, from);
+    return SL_OK;
+}
+
+sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **space,
+                         const uint32_t **parents) {
+    SL_TRY(make_layers(context, query));
+    if (parents) *parents = NULL;
+    *space = &query->sight.space;
+    if (!has_blocks(query)) return SL_OK;
+    SL_TRY(make_moving(context, query));
+    *space = sl_moving_space(query->moving, parents);
+    return SL_OK;
+}
+
+sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out) {
+    SL_TRY(make_layers(context, query));
+    return make_outline(context, query, out);
 }
 
 sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
                         bool *out) {
     const sl_outline *outline;
-    const sl_sight sight = query->baked->visibility.sight;
     bool sees;
     SL_TRY(make_layers(context, query));
+    const sl_sight sight = query->rows.sight;
     SL_TRY(make_outline(context, query, &outline));
     SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
     if (sees && query->range > 0)
@@ -391,7 +464,7 @@ sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_p
 }
 
 sl_view sl_query_view(const sl_query *query, sl_point eye, double heading, double fov) {
-    const sl_box b = query->baked->space.bounds;
+    const sl_box b = query->asked->bounds;
     const double x = fmax(fabs(b.min.x), fabs(b.max.x)), y = fmax(fabs(b.min.y), fabs(b.max.y));
     const double reach = fmax(fmax(x, y), fmax(b.max.x - b.min.x, b.max.y - b.min.y));
     return sl_view_cone(eye, heading, fov, reach);
@@ -420,12 +493,13 @@ static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
-    const sl_filtered_space filtered = {.eye = &view->eye};
+    const sl_filtered_space filtered = {.shut = q->shut, .eye = &view->eye};
     sl_space space;
     sl_eye_search *search = NULL;
-    SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &space));
-    sl_status status = sl_eye_search_create(context, &space, q->glass.visibility, &search);
+    SL_TRY(sl_filtered_space_make(context, q->sight.base, &filtered, NULL, &space));
+    sl_status status = sl_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
+        search->shut = shut_of(q);
         sl_eye_search_set_range(search, q->range);
         status = method->cull(context, search, view, cells, account);
     }
@@ -451,7 +525,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
                                  sl_eye_account *account) {
     if (!method) method = exact_method();
     if (!has_mirrors(query)) {
-        memset(cells, 0, sl_eye_words(&query->baked->space) * sizeof *cells);
+        memset(cells, 0, sl_eye_words(query->asked) * sizeof *cells);
         if (account) *account = (sl_eye_account){0};
         return SL_OK;
     }
@@ -472,7 +546,7 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
     if (!SLI_BOXES || !query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
     if (lists_will_do(query, view->eye)) return look_by_lists(context, query, view, seen);
-    uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);
+    uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->asked), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
     sl_status status = look_past(context, query, view, false, cells, seen, &account);
     if (status == SL_OK && mirrored && has_mirrors(query))

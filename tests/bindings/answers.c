@@ -95,7 +95,7 @@ static void polygon(answerer *a) {
 static void set_door(answerer *a) {
     const uint32_t door = (uint32_t)number();
     a->shut[door] = number() != 0;
-    const char *name = sl_query_baked(a->query)->map.doors[door].name;
+    const char *name = sl_query_map(a->query)->doors[door].name;
     if (sl_query_set_door(a->context, a->query, name, !a->shut[door]) != SL_OK) abort();
 }
 

@@ -27,7 +27,7 @@ import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "visibility_graph", "axial", "walk", "view_cells", "bake", "query",
+           "from_region", "eye_to_cell", "query", "visibility_graph", "axial", "walk", "view_cells", "bake",
            "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}

@@ -709,7 +709,7 @@ static void test_methods(void **state) {
 
 /// What an eye sees past boxes, with and without solid ground.
 static void check_eye(sl_context *context, sl_query *query, sl_query *bare, sl_point eye) {
-    const sl_space *space = &sl_query_baked(query)->space;
+    const sl_space *space = sl_query_asked(query);
     const sl_view view = sl_view_all_round(eye);
     const size_t words = sl_eye_words(space);
     uint64_t *cells = calloc(words, sizeof *cells), *of_bare = calloc(words, sizeof *of_bare);

@@ -50,7 +50,7 @@ static void compare(sl_context *context, sl_query *query, sl_query *plain, sl_po
     sl_region region = {0}, other = {0};
     uint64_t cells[8] = {0};
     const sl_view view = sl_query_view(query, eye, 0, 360);
-    assert_true(sl_eye_words(&sl_query_baked(query)->space) <= 8);
+    assert_true(sl_eye_words(sl_query_asked(query)) <= 8);
     assert_ok(context, sl_query_set_range(context, query, range));
     assert_ok(context, sl_query_set_range(context, plain, range));
     assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
@@ -287,7 +287,7 @@ static void ask_from(sl_context *context, sl_query *query, sl_point eye, bool se
     sl_region region = {0};
     sl_mirrored_region mirrored = {0};
     bool out;
-    assert_true(sl_eye_words(&sl_query_baked(query)->space) <= 4);
+    assert_true(sl_eye_words(sl_query_asked(query)) <= 4);
     for (size_t i = 0; i < count; i++) {
         assert_ok(context, sl_query_look(context, query, &view, &methods[i], cells, NULL));
         assert_true(((cells[0] | cells[1] | cells[2] | cells[3]) != 0) == sees);
@@ -357,7 +357,7 @@ static sl_status bake_and_ask(sl_context *context, const char *const *parts) {
         if (status != SL_OK) break;
         status = sl_query_look(context, query, &view, NULL, cells, NULL);
         if (status == SL_OK) status = sl_query_region(context, query, &view, &region);
-        if (status != SL_OK || !sl_query_baked(query)->map.mirror_count) continue;
+        if (status != SL_OK || !sl_query_map(query)->mirror_count) continue;
         status = sl_query_look_mirrored(context, query, &view, NULL, cells, NULL);
         if (status == SL_OK) status = sl_query_mirrored_region(context, query, &view, &mirrored);
     }

@@ -226,7 +226,7 @@ static void compare_steps(const trial *t, sl_point p, sl_point q) {
 /// Two points against the library: sight, and steps by open sight, which touches nothing.
 static void compare_points(trial *t, sl_point p, sl_point q) {
     const sl_runtime *r = &t->f->runtime;
-    sl_sight *sight = (sl_sight *)(uintptr_t)&sl_query_baked(t->query)->visibility.sight;
+    sl_sight *sight = (sl_sight *)(uintptr_t)&t->f->baked.visibility.sight;
     const bool sees = sl_runtime_sees(r, p.x, p.y, q.x, q.y, t->shut, 0, t->scratch);
     bool expected, is_free;
     assert_ok(t->context, sl_query_sees(t->context, t->query, p, q, &expected));

@@ -7,9 +7,9 @@
 #ifndef SLP_FACADE_H
 #define SLP_FACADE_H
 
+#include "sightline/bake.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
-#include "sightline/query.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
 

@@ -3,6 +3,7 @@
 #define SIGHTLINE_BAKE_H
 
 #include "sightline/cell_to_cell.h"
+#include "sightline/query.h"
 #include "sightline/view_cells.h"
 
 #ifdef __cplusplus
@@ -121,6 +122,16 @@ SL_API sl_status sl_baked_read_part(sl_context *context, const char *path, sl_ba
 /// As sl_baked_read from memory, which is only read; `name` is for messages.
 SL_API sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes,
                                 size_t size, sl_baked *out);
+
+// --- questions (sightline/query.h)
+
+/// A query over a baked map, which must outlive it. SL_BAD_ARGUMENT for a shard.
+SL_API sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_query **out);
+
+/// The same for a baked file, which the query then owns. Fails as sl_baked_read does.
+SL_API sl_status sl_query_open(sl_context *context, const char *path, sl_query **out);
+
+// --- exports
 
 /// What an export needs beside the baked file. Zeroed: nothing.
 typedef struct sl_export_options {

@@ -1,21 +1,24 @@
-/// Questions to a baked map: where is a point, what sees what, what does an eye see. Doors, boxes,
-/// range and mirrors can be set between questions; nothing is baked again.
+/// Questions about sight: where is a point, what sees what, what does an eye see. Doors, boxes,
+/// range and mirrors can be set between questions; nothing is baked again. This is the one place
+/// that puts all of them together.
 ///
 ///     sl_query *query;
-///     uint64_t *cells = calloc(sl_eye_words(&baked.space), sizeof *cells);
-///     sl_query_create(context, &baked, &query);
+///     sl_region region = {0};
+///     sl_query_over(context, &space, &map, NULL, &query); // a map without a bake
 ///     sl_query_set_door(context, query, "front", false);
 ///     sl_view view = sl_query_view(query, eye, 90, 60);
-///     sl_query_look(context, query, &view, NULL, cells, NULL);
+///     sl_query_region(context, query, &view, &region);
 ///
-/// Answers are exact where the bake is, unless a method of culling is asked for that is looser. An
-/// eye outside the bounds or in solid ground sees nothing: the answer is empty, not a failure.
-/// Doors, mirrors, one-way glass, the range and boxes may come together. Numbers of cells are those
-/// of the baked space.
+/// Answers are exact where the visible sets are, unless a method of culling is asked for that is
+/// looser. An eye outside the bounds or in solid ground sees nothing: the answer is empty, not a
+/// failure. Doors, mirrors, one-way glass, the range and boxes may come together. Numbers of cells
+/// are those of the space that is asked.
+///
+/// Time: a door costs the cells that it touches. Boxes that block sight cost a copy of the space
+/// with each change of a box or a door. The first region costs the outline of all rooms.
 #ifndef SIGHTLINE_QUERY_H
 #define SIGHTLINE_QUERY_H
 
-#include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/mirrored.h"
 #include "sightline/region.h"
@@ -28,18 +31,21 @@ extern "C" {
 /// until a setting changes.
 typedef struct sl_query sl_query;
 
+/// A query over a space. `map` is the one that the space was made from: its doors, glass, mirrors
+/// and range count. `visibility` may be NULL, or have no rows: then the exact method searches the
+/// whole space, and sight is closed where it is NULL. All three must outlive the query.
+///
 /// Doors are as the map has them, the range is the map's, sightlines are reflected once, and there
-/// are no boxes. `baked` must outlive the query. SL_BAD_ARGUMENT for a shard.
-SL_API sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_query **out);
+/// are no boxes.
+SL_API sl_status sl_query_over(sl_context *context, const sl_space *space, const sl_map *map,
+                               const sl_visibility *visibility, sl_query **out);
 
-/// The same for a baked file, which the query then owns. Fails as sl_baked_read does.
-SL_API sl_status sl_query_open(sl_context *context, const char *path, sl_query **out);
-
-/// Frees a query, and the baked file where it has read one. NULL is allowed.
+/// Frees a query. NULL is allowed.
 SL_API void sl_query_destroy(sl_context *context, sl_query *query);
 
-/// What is asked.
-SL_API const sl_baked *sl_query_baked(const sl_query *query);
+/// What is asked: the space and the map, as they were given.
+SL_API const sl_space *sl_query_asked(const sl_query *query);
+SL_API const sl_map *sl_query_map(const sl_query *query);
 
 // --- settings
 
@@ -49,6 +55,12 @@ SL_API sl_status sl_query_set_door(sl_context *context, sl_query *query, const c
                                    bool open);
 /// All doors at once: open, or shut.
 SL_API void sl_query_set_doors(sl_context *context, sl_query *query, bool open);
+/// Whether a door is open, by its number in the map.
+SL_API bool sl_query_door_is_open(const sl_query *query, size_t door);
+
+/// Asks from where the eye is seen, in place of what it sees: sight goes through one-way glass the
+/// other way. Methods that need visible sets refuse then where there is glass.
+SL_API void sl_query_set_backwards(sl_context *context, sl_query *query, bool backwards);
 
 /// Boxes that block sight or are to be seen themselves (sightline/moving.h), in place of those
 /// before. They are copied. The next question fails as sl_moving_set_boxes does. If some box
@@ -74,6 +86,23 @@ SL_API uint32_t sl_query_locate(const sl_query *query, sl_point point);
 /// are: the visible sets' answer.
 SL_API sl_status sl_query_can_see(sl_context *context, sl_query *query, uint32_t from, uint32_t to,
                                   bool *out);
+
+/// What some point of a cell sees, directly or by mirror, with the doors as they are: the visible
+/// sets' row, sl_eye_words() words. SL_BAD_ARGUMENT without visible sets. Time: the row; backwards,
+/// all rows.
+SL_API sl_status sl_query_row(sl_context *context, sl_query *query, uint32_t cell, bool mirrored,
+                              uint64_t *cells);
+
+/// The space as the settings make it. Shut doors are walls, and so is the dark side of glass. Its
+/// walls are those of the space that is asked, and then these. With boxes that block, cells are
+/// cut: cell c is a part of cell (*parents)[c]. Else *parents, which may be NULL, is NULL. Valid
+/// until a setting changes. A portal that is shut has no directed portals.
+SL_API sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **space,
+                                const uint32_t **parents);
+
+/// The outline that sight goes by, of that space; made when it is first asked for. Valid until a
+/// setting changes.
+SL_API sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out);
 
 /// Whether an eye sees a point directly, past boxes and within range, as sl_sees says with the
 /// sight of the bake.
