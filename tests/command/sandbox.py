@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 # A sanitizer's finding must not look like a failure of the program's own.
@@ -49,6 +50,57 @@ def read_terminal(master):
             text += more
     os.close(master)
     return text
+
+
+# --- what a process is about, so that a test need not guess how fast the machine is
+
+def process_status(process):
+    """The fields of its status from its state on."""
+    return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+
+
+def processor_seconds(process):
+    """The time of processors that a process has used."""
+    fields = process_status(process)
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def has_signal(process, kind, number):
+    """Whether a signal is of a kind, as /proc/PID/status names it: SigCgt (caught), ShdPnd (pending)."""
+    text = pathlib.Path(f"/proc/{process}/status").read_text()
+    return bool(int(re.search(rf"^{kind}:\s*(\w+)", text, re.M)[1], 16) >> number - 1 & 1)
+
+
+def wait_until(holds, what, seconds=60):
+    end = time.monotonic() + seconds
+    while not holds():
+        check(time.monotonic() < end, f"{seconds} seconds pass, and not yet: {what}")
+        time.sleep(0.005)
+
+
+def wait_for_work(process, seconds=0.5):
+    """Until a process has used so much time of processors. The work must be far longer: a process
+    that is over by then is a zombie."""
+    if not os.path.exists("/proc/self/stat"):
+        return time.sleep(seconds)
+    wait_until(lambda: processor_seconds(process) >= seconds or process_status(process)[0] == "Z",
+               "the process is at work")
+    check(process_status(process)[0] != "Z", "the work is over too soon to be interrupted")
+
+
+def wait_for_signal(process, number):
+    """Until a process has taken a signal that was sent: a second one is then one of its own."""
+    if not os.path.exists("/proc/self/stat"):
+        return time.sleep(0.05)
+    wait_until(lambda: not has_signal(process, "ShdPnd", number), "the signal is taken")
+
+
+def wait_for_sleep(process, number):
+    """Until a process that would take a signal waits for something."""
+    if not os.path.exists("/proc/self/stat"):
+        return time.sleep(0.3)
+    wait_until(lambda: has_signal(process, "SigCgt", number) and process_status(process)[0] == "S",
+               "the process waits")
 
 
 class Sandbox:

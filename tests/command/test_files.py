@@ -6,10 +6,9 @@ import os
 import signal
 import subprocess
 import threading
-import time
 
 import sandbox
-from test_interrupt import pillars
+from test_interrupt import endless
 
 ROOM = "sightline 1\nwalls 0 0 4 0 4 3 0 3 0 0\nwall 2 0 2 2\nstart 1 1 0\n"
 
@@ -208,10 +207,10 @@ class Files(sandbox.ProgramTest):
             self.assertEqual(process.wait(timeout=20), 1)
 
     def test_hangup_counts_as_ctrl_c(self):
-        self.box.path("hall.map").write_text(pillars(24))
+        self.box.path("hall.map").write_text(endless())
         before = self.box.files()
         process = self.box.start(["bake", "hall.map", "-o", "hall.slv", "--method", "dfs"])
-        time.sleep(1)
+        sandbox.wait_for_work(process.pid)
         process.send_signal(signal.SIGHUP)
         result = self.box.finish(process, before, timeout=30)
         self.assertEqual((result.status, result.stderr), (1, "sightline: interrupted\n"))
@@ -221,7 +220,7 @@ class Files(sandbox.ProgramTest):
         os.mkfifo(self.box.folder / "pipe")
         process = subprocess.Popen([self.program, "info", "pipe"], cwd=self.box.folder,
                                    stderr=subprocess.PIPE)
-        time.sleep(0.3)
+        sandbox.wait_for_sleep(process.pid, signal.SIGINT)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=5)
         self.assertEqual((process.returncode, said), (1, b"sightline: interrupted\n"))

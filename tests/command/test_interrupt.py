@@ -3,6 +3,7 @@
 test_interrupt.py PROGRAM
 """
 import json
+import resource
 import signal
 import time
 import unittest
@@ -10,27 +11,40 @@ import unittest
 import sandbox
 
 
-def pillars(count):
+def pillars(count, wide=1):
     """A hall of pillars, none quite in line: portal sequences without end."""
     side = 4 * count
     lines = ["sightline 1", f"walls 0 0 {side} 0 {side} {side} 0 {side} 0 0"]
     for i in range(count):
         for j in range(count):
             x, y = 4 * i + 1 + j % 3 / 4, 4 * j + 1 + i % 3 / 4
-            lines.append(f"walls {x} {y} {x + 1} {y} {x + 1} {y + 1} {x} {y + 1} {x} {y}")
+            lines.append(f"walls {x} {y} {x + wide} {y} {x + wide} {y + wide} {x} {y + wide} {x} {y}")
     return "\n".join(lines) + "\n"
+
+
+def endless():
+    """Slim pillars: to look from all cells takes minutes of a processor. To read the map and to
+    write the little that is found takes a moment."""
+    return pillars(20, 1 / 16)
+
+
+def seconds_to_begin(run, bake):
+    """Time of processors after which a bake looks from cells: it takes less to do all but that."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run([*bake, "--shard", "1/2", "--time-limit", "1e-9", "-o", "begin.slv"])
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime + 0.2
 
 
 class Interrupt(unittest.TestCase):
     def interrupted(self, number, *options, old=None):
         with sandbox.Sandbox(PROGRAM) as box:
-            box.path("hall.map").write_text(pillars(24))
+            box.path("hall.map").write_text(endless())
             if old:
                 box.path("hall.slv").write_text(old)
             before = box.files()
             process = box.start(["bake", "hall.map", "-o", "hall.slv", "--method", "dfs", *options])
-            time.sleep(1)
-            self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
+            sandbox.wait_for_work(process.pid)
             asked = time.monotonic()
             process.send_signal(number)
             result = box.finish(process, before, timeout=30)
@@ -51,12 +65,12 @@ class Interrupt(unittest.TestCase):
     def test_kept(self):
         """With --keep-partial the first Ctrl-C writes what there is, which can be gone on with."""
         with sandbox.Sandbox(PROGRAM) as box:
-            box.path("hall.map").write_text(pillars(24))
+            box.path("hall.map").write_text(endless())
             bake = ["bake", "hall.map", "--method", "dfs", "--threads", "2", "--json"]
+            enough = seconds_to_begin(box.run, bake)
             before = box.files()
             process = box.start([*bake, "--keep-partial", "-o", "part.slv"])
-            time.sleep(1)
-            self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
+            sandbox.wait_for_work(process.pid, enough)
             process.send_signal(signal.SIGINT)
             result = box.finish(process, before, timeout=60)
             self.assertEqual((result.status, result.new_files), (0, ["part.slv"]))
@@ -76,8 +90,7 @@ class Interrupt(unittest.TestCase):
                 if part == "2":
                     before = box.files()
                     process = box.start([*bake, "--shard", "2/3", "-o", "2.slv"])
-                    time.sleep(0.03)
-                    self.assertIsNone(process.poll(), "the shard is over too soon to be killed")
+                    sandbox.wait_for_work(process.pid, 0.02)
                     process.kill()
                     process.communicate()
                     self.assertEqual(box.files(), before)
@@ -93,13 +106,14 @@ class Interrupt(unittest.TestCase):
 
     def test_kept_stops_at_the_second(self):
         with sandbox.Sandbox(PROGRAM) as box:
-            box.path("hall.map").write_text(pillars(40))
+            box.path("hall.map").write_text(endless())
+            bake = ["bake", "hall.map", "--method", "dfs"]
+            enough = seconds_to_begin(box.run, bake)
             before = box.files()
-            process = box.start(["bake", "hall.map", "--method", "dfs", "--keep-partial"])
-            time.sleep(1)
-            self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
+            process = box.start([*bake, "--keep-partial"])
+            sandbox.wait_for_work(process.pid, enough)
             process.send_signal(signal.SIGINT)
-            time.sleep(0.05)
+            sandbox.wait_for_signal(process.pid, signal.SIGINT)
             process.send_signal(signal.SIGINT)
             result = box.finish(process, before, timeout=60)
             self.assertEqual((result.status, result.stdout), (1, ""))
@@ -112,8 +126,7 @@ class Interrupt(unittest.TestCase):
             before = box.files()
             process = box.start(["compare", "hall.map", "--eye", "--viewpoints", "10000000",
                                  "-o", "out"])
-            time.sleep(1.5)
-            self.assertIsNone(process.poll(), "too soon over to be interrupted")
+            sandbox.wait_for_work(process.pid)
             process.send_signal(signal.SIGINT)
             result = box.finish(process, before, timeout=30)
             self.assertEqual((result.status, result.stdout), (1, ""))

@@ -11,7 +11,9 @@ import tempfile
 import time
 import unittest
 
-from test_interrupt import pillars
+import sandbox
+from sandbox import process_status, processor_seconds
+from test_interrupt import endless, seconds_to_begin
 
 PROGRAM, SHARED = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
 MAPS = [["office", "--walls", "1000"], ["city", "--walls", "600", "--turned", "20"],
@@ -28,10 +30,10 @@ class Processes(unittest.TestCase):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True,
                               text=True, timeout=120)
 
-    def start_all(self, count, *arguments):
+    def start_all(self, count, *arguments, **variables):
         # A processor need not be there for each; the checks may run as root, in a container.
         start = ["mpirun", "-n", str(count), "--oversubscribe", "--allow-run-as-root"]
-        environment = dict(os.environ, OMPI_MCA_btl_vader_single_copy_mechanism="none")
+        environment = dict(os.environ, OMPI_MCA_btl_vader_single_copy_mechanism="none", **variables)
         return subprocess.Popen([*start, SHARED, *arguments], cwd=self.folder, env=environment,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -99,45 +101,46 @@ def ranks(mpirun, count):
     return [found[str(rank)] for rank in range(count)]
 
 
-def status(process):
-    """The fields of its status from its state on."""
-    return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-
-
 def runs(process):
     try:
-        return status(process)[0] != "Z"
+        return process_status(process)[0] != "Z"
     except OSError:
         return False
-
-
-def seconds(process):
-    """The time of a processor that a process has used."""
-    fields = status(process)
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 @unittest.skipUnless(os.path.exists("/proc/self/environ"), "processes are not listed here")
 class Interrupted(Processes):
     """One signal, to any process or to mpirun, stops all of them."""
 
+    BAKE = ["bake", "hall.map", "--method", "dfs", "--threads", "1"]
+
     def setUp(self):
         super().setUp()
-        (self.folder / "hall.map").write_text(pillars(24))
+        # The bake takes minutes of a processor. Whatever is asked of it here takes seconds.
+        (self.folder / "hall.map").write_text(endless())
 
-    def interrupted(self, count, to, number, after, *options):
-        """Signals a rank, or mpirun itself where `to` is None, once the bake is `after` seconds old."""
-        bake = self.start_all(count, "bake", "hall.map", "--method", "dfs", "--threads", "1",
-                              "-o", "part.slv", *options)
-        processes = ranks(bake, count)
-        time.sleep(after)
+    def start_bake(self, count, *options, **variables):
+        bake = self.start_all(count, *self.BAKE, "-o", "part.slv", *options, **variables)
+        return bake, ranks(bake, count)
+
+    def begin_bake(self, count, *options, **variables):
+        """Until all look from cells. They begin together: none works before all have read the map."""
+        enough = seconds_to_begin(lambda words: self.done(self.run_one(*words)), self.BAKE)
+        (self.folder / "begin.slv").unlink()
+        bake, processes = self.start_bake(count, *options, **variables)
+        for process in processes:
+            sandbox.wait_for_work(process, enough)
+        return bake, processes
+
+    def interrupted(self, bake, processes, to, number, seconds=10):
+        """Signals a rank, or mpirun itself where `to` is None. All must end before so many seconds."""
         self.assertIsNone(bake.poll(), "the bake is over too soon to be interrupted")
         asked = time.monotonic()
         os.kill(bake.pid if to is None else processes[to], number)
         out, told = bake.communicate(timeout=60)
-        self.assertLess(time.monotonic() - asked, 10, told)
+        self.assertLess(time.monotonic() - asked, seconds, told)
         while any(map(runs, processes)):
-            self.assertLess(time.monotonic() - asked, 10, "processes still run")
+            self.assertLess(time.monotonic() - asked, seconds, "processes still run")
             time.sleep(0.01)
         return bake.returncode, out, told
 
@@ -145,11 +148,11 @@ class Interrupted(Processes):
         return sorted(path.name for path in self.folder.iterdir())
 
     def test_one_signal_stops_all(self):
-        for count, to, number, after in ((2, 1, signal.SIGTERM, 1), (3, 0, signal.SIGINT, 1.5),
-                                         (4, 2, signal.SIGTERM, 2), (4, 3, signal.SIGINT, 1),
-                                         (3, None, signal.SIGTERM, 1), (2, None, signal.SIGINT, 2)):
+        for count, to, number in ((2, 1, signal.SIGTERM), (3, 0, signal.SIGINT), (4, 2, signal.SIGTERM),
+                                  (4, 3, signal.SIGINT), (3, None, signal.SIGTERM),
+                                  (2, None, signal.SIGINT)):
             with self.subTest(count=count, to=to, number=number):
-                status, out, told = self.interrupted(count, to, number, after)
+                status, out, told = self.interrupted(*self.begin_bake(count), to, number)
                 self.assertNotEqual(status, 0)
                 self.assertEqual(out, "")
                 if to is not None:
@@ -157,28 +160,33 @@ class Interrupted(Processes):
                 self.assertEqual(self.files(), ["hall.map"])
 
     def test_one_signal_keeps_what_was_found(self):
-        for count, to, number, after in ((2, 1, signal.SIGTERM, 1), (4, 0, signal.SIGINT, 2),
-                                         (4, 3, signal.SIGTERM, 1.5), (3, 1, signal.SIGINT, 1),
-                                         (3, None, signal.SIGTERM, 1.5), (2, None, signal.SIGINT, 1)):
+        for count, to, number in ((2, 1, signal.SIGTERM), (4, 0, signal.SIGINT),
+                                  (4, 3, signal.SIGTERM), (3, 1, signal.SIGINT)):
             with self.subTest(count=count, to=to, number=number):
-                status, _, told = self.interrupted(count, to, number, after, "--keep-partial")
-                if to is not None:
-                    self.assertEqual(status, 0, told)
-                self.assertEqual(self.files(), ["hall.map", "part.slv"])
-                told = self.done(self.run_one("info", "part.slv")).stdout
-                self.assertIn("what is not decided counts as seen", told)
-                (self.folder / "part.slv").unlink()
+                begun = self.begin_bake(count, "--keep-partial")
+                status, _, told = self.interrupted(*begun, to, number, 30)
+                self.assertEqual(status, 0, told)
+                self.kept()
+
+    def test_mpirun_lets_them_keep_what_was_found(self):
+        """It waits for so many seconds before it asks the processes to end, and again before it
+        kills them."""
+        begun = self.begin_bake(2, "--keep-partial", OMPI_MCA_odls_base_sigkill_timeout="8")
+        self.interrupted(*begun, None, signal.SIGINT, 30)
+        self.kept()
+
+    def kept(self):
+        self.assertEqual(self.files(), ["hall.map", "part.slv"])
+        told = self.done(self.run_one("info", "part.slv")).stdout
+        self.assertIn("what is not decided counts as seen", told)
+        (self.folder / "part.slv").unlink()
 
     def test_a_second_signal_keeps_nothing(self):
-        bake = self.start_all(3, "bake", "hall.map", "--method", "dfs", "--threads", "1",
-                              "-o", "part.slv", "--keep-partial")
-        processes = ranks(bake, 3)
-        time.sleep(1)
+        bake, processes = self.begin_bake(3, "--keep-partial")
         os.kill(processes[0], signal.SIGSTOP)  # so that it learns of both at once
-        os.kill(processes[2], signal.SIGTERM)
-        time.sleep(0.2)
-        os.kill(processes[2], signal.SIGTERM)
-        time.sleep(0.2)
+        for _ in range(2):
+            os.kill(processes[2], signal.SIGTERM)
+            sandbox.wait_for_signal(processes[2], signal.SIGTERM)
         os.kill(processes[0], signal.SIGCONT)
         bake.communicate(timeout=60)
         self.assertNotEqual(bake.returncode, 0)
@@ -189,7 +197,9 @@ class Interrupted(Processes):
         for after in 0, 0.05, 0.1, 0.2, 0.4:
             for options in [], ["--keep-partial"]:
                 with self.subTest(after=after, options=options):
-                    self.interrupted(3, 1, signal.SIGTERM, after, *options)
+                    begun = self.start_bake(3, *options)
+                    time.sleep(after)
+                    self.interrupted(*begun, 1, signal.SIGTERM, 30)
                     self.assertLessEqual(set(self.files()), {"hall.map", "part.slv"})
                     if "part.slv" in self.files():
                         self.assertTrue(options)
@@ -204,9 +214,9 @@ class Interrupted(Processes):
             processes = ranks(bake, 3)
             os.kill(processes[held], signal.SIGSTOP)
             time.sleep(3)  # the others come to wait
-            before = [seconds(each) for each in processes]
+            before = [processor_seconds(each) for each in processes]
             time.sleep(2)
-            used = [seconds(each) - start for each, start in zip(processes, before)]
+            used = [processor_seconds(each) - start for each, start in zip(processes, before)]
             os.kill(processes[held], signal.SIGCONT)
             _, told = bake.communicate(timeout=60)
             self.assertEqual(bake.returncode, 0, told)

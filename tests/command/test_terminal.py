@@ -11,26 +11,33 @@ import time
 import unittest
 
 import sandbox
-from test_interrupt import pillars
+from test_interrupt import endless
+
+LINE = b"cell to cell: "
 
 
 class Terminal(unittest.TestCase):
-    def talk(self, *options, environment=None, seconds=1.5, columns=0):
-        """What a bake that is interrupted says to a terminal, and its status."""
+    def talk(self, *options, environment=None, shows=b"", columns=0):
+        """What a bake says to a terminal, and its status, if it is interrupted at work and after it
+        says something."""
         with sandbox.Sandbox(PROGRAM) as box:
-            box.path("hall.map").write_text(pillars(24))
+            box.path("hall.map").write_text(endless())
             master, slave = os.openpty()
             fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
             process = box.start(["bake", "hall.map", "--method", "dfs", *options], stderr=slave,
                                 environment=environment)
             os.close(slave)
-            time.sleep(seconds)
+            began, text = time.monotonic(), b""
+            while shows not in text:
+                text += os.read(master, 65536)
+            sandbox.wait_for_work(process.pid)
+            self.seconds = time.monotonic() - began
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=30)
-            return sandbox.read_terminal(master).decode(), process.returncode
+            return (text + sandbox.read_terminal(master)).decode(), process.returncode
 
     def test_line(self):
-        text, status = self.talk()
+        text, status = self.talk(shows=LINE)
         self.assertEqual(status, 1)
         shown = text.split("\r\x1b[K")
         lines = [line for line in shown if line.startswith("cell to cell: ")]
@@ -39,11 +46,11 @@ class Terminal(unittest.TestCase):
             self.assertRegex(line, r"^cell to cell: \d+/\d+ cells, \d+ %, .*\d+ (s|min|h)( left)?$")
             self.assertLess(len(line), 80)
         # At most ten times a second, and the last thing before the message is to clear the line.
-        self.assertLess(len(lines), 1.5 * 10 + 5)
+        self.assertLess(len(lines), self.seconds * 10 + 5)
         self.assertEqual(shown[-1], "sightline: interrupted\r\n")
 
     def test_narrow_terminal(self):
-        text, _ = self.talk(columns=24)
+        text, _ = self.talk(shows=LINE, columns=24)
         lines = [line for line in text.split("\r\x1b[K") if line.startswith("cell to cell: ")]
         self.assertTrue(lines, text)
         for line in lines:

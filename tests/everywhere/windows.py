@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "command"))
-from test_interrupt import pillars  # noqa: E402
+from test_interrupt import endless  # noqa: E402
 
 MAP = "maps/effects/chambers.map"
 
@@ -117,7 +117,7 @@ def a_file_open_elsewhere_stays(windows):
 
 
 def ctrl_c_leaves_no_file(windows):
-    (windows.folder / "large.map").write_text(pillars(40))  # minutes, by this method
+    (windows.folder / "large.map").write_text(endless())
     with windows.start(windows.program, "bake", "large.map", "-o", "large.slv", "--method",
                        "dfs") as process:
         time.sleep(3)
