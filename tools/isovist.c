@@ -110,8 +110,10 @@ static bool next_field(const char *line, size_t length, size_t *at, const char *
     return true;
 }
 
-/// Names of columns: x and y, with others in any order. Without these two, the first columns count.
-static eye_columns find_columns(const char *line, size_t length) {
+/// Names of columns: x and y, with others in any order. Where none is known, the first columns
+/// count. SL_BAD_INPUT where one is known without these two, or there is one column alone.
+static sl_status find_columns(sl_context *context, const char *path, unsigned number,
+                              const char *line, size_t length, eye_columns *out) {
     static const char *const names[EYE_FIELDS][3] = {
         {"x", "", ""}, {"y", "", ""}, {"heading", "angle", "look"}, {"fov", "", ""}};
     eye_columns columns = {.at = {SIZE_MAX, SIZE_MAX, SIZE_MAX, SIZE_MAX}};
@@ -123,7 +125,12 @@ static eye_columns find_columns(const char *line, size_t length) {
                 if (wide && wide == strlen(names[k][n]) && memcmp(field, names[k][n], wide) == 0)
                     columns.at[k] = place;
     columns.named = columns.at[0] != SIZE_MAX && columns.at[1] != SIZE_MAX;
-    return columns.named ? columns : (eye_columns){.at = {0, 1, 2, 3}};
+    bool known = place < 2;
+    for (size_t k = 0; k < EYE_FIELDS; k++) known |= columns.at[k] != SIZE_MAX;
+    if (known && !columns.named)
+        return sl_fail_at(context, path, number, "the columns x,y are needed");
+    if (columns.named) *out = columns;
+    return SL_OK;
 }
 
 /// Reads the fields of an eye. An empty one that the eye need not have leaves it as it is.
@@ -185,7 +192,7 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
         number++;
         if (is_blank(line, length)) continue;
         if (number == 1 && is_header(line, length))
-            columns = find_columns(line, length);
+            status = find_columns(context, path, number, line, length, &columns);
         else
             status = read_line(context, path, number, line, length, &columns, space, like, eyes);
     }

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+static const double pi = 3.14159265358979323846;
+
 /// Entities and insertions, and the walls that they give at least.
 typedef struct amount {
     uint64_t entities, walls;
@@ -31,12 +33,70 @@ static uint64_t chords(const sli_dxf *dxf, double share) {
     return share > 0 && share <= 1 ? (uint64_t)(31 * share) + 1 : 1;
 }
 
-static sl_status count_arc(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
-    double from = 0, to = 360;
-    SL_TRY(sli_dxf_number(dxf, entity, 50, &from));
-    SL_TRY(sli_dxf_number(dxf, entity, 51, &to));
-    const double sweep = fmod(to - from, 360);
-    *walls = chords(dxf, (sweep > 0 ? sweep : sweep + 360) / 360);
+/// Of the circle: a bulge is the tangent of a quarter of its arc's angle.
+static double bulge_share(double bulge) {
+    return 2 * atan(fabs(bulge)) / pi;
+}
+
+/// From the groups of an arc's two angles. `full` is a whole turn in their unit.
+static sl_status count_arc(sli_dxf *dxf, sli_dxf_range entity, int group, double full,
+                           uint64_t *walls) {
+    double from = 0, to = full;
+    SL_TRY(sli_dxf_number(dxf, entity, group, &from));
+    SL_TRY(sli_dxf_number(dxf, entity, group + 1, &to));
+    const double sweep = fmod(to - from, full);
+    *walls = chords(dxf, (sweep > 0 ? sweep : sweep + full) / full);
+    return SL_OK;
+}
+
+/// The pieces between corners; a bulge makes one an arc. The last corner's is of the side that
+/// closes the polyline.
+static sl_status count_polyline(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
+    const uint64_t corners = number_of(dxf, entity, 10);
+    uint64_t seen = 0;
+    *walls = corners ? corners - 1 : 0;
+    for (size_t i = entity.begin; i < entity.end; i++) {
+        const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
+        double bulge;
+        seen += pair->code == 10;
+        if (pair->code != 42 || !seen || seen == corners) continue;
+        SL_TRY(sli_dxf_read_number(dxf, pair, &bulge));
+        *walls = sli_limit_sum(*walls, chords(dxf, bulge_share(bulge)) - 1);
+    }
+    return SL_OK;
+}
+
+/// A piece between two knots as one wall.
+static sl_status count_spline(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
+    const uint64_t points = number_of(dxf, entity, 10);
+    double last = INFINITY;
+    *walls = 0;
+    for (size_t i = entity.begin; i < entity.end; i++) {
+        const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
+        double knot;
+        if (pair->code != 40) continue;
+        SL_TRY(sli_dxf_read_number(dxf, pair, &knot));
+        *walls += knot > last && *walls + 1 < points;
+        last = knot;
+    }
+    return SL_OK;
+}
+
+/// The walls of an entity but for its blocks, at least.
+static sl_status count_shape(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
+    const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
+    *walls = 0;
+    if (sli_word_is(kind, "LINE")) *walls = 1;
+    if (sli_word_is(kind, "CIRCLE")) *walls = chords(dxf, 1);
+    if (sli_word_is(kind, "ARC")) return count_arc(dxf, entity, 50, 360, walls);
+    if (sli_word_is(kind, "ELLIPSE")) return count_arc(dxf, entity, 41, 2 * pi, walls);
+    if (sli_word_is(kind, "LWPOLYLINE")) return count_polyline(dxf, entity, walls);
+    if (sli_word_is(kind, "SPLINE")) return count_spline(dxf, entity, walls);
+    if (sli_word_is(kind, "VERTEX")) {
+        double bulge = 0;
+        SL_TRY(sli_dxf_number(dxf, entity, 42, &bulge));
+        *walls = chords(dxf, bulge_share(bulge));
+    }
     return SL_OK;
 }
 
@@ -78,13 +138,8 @@ static sl_status count_range(counter *c, sli_dxf_range range, uint64_t depth, am
     for (size_t i = range.begin; i < range.end; i = entity.end) {
         entity = sli_dxf_entity(dxf, i, range.end);
         const sli_word kind = sli_dxf_at(dxf, i)->value;
-        uint64_t walls = sli_word_is(kind, "LINE") || sli_word_is(kind, "VERTEX");
-        if (sli_word_is(kind, "CIRCLE")) walls = chords(dxf, 1);
-        if (sli_word_is(kind, "ARC")) SL_TRY(count_arc(dxf, entity, &walls));
-        if (sli_word_is(kind, "LWPOLYLINE")) {
-            const uint64_t corners = number_of(dxf, entity, 10);
-            walls = corners ? corners - 1 : 0;
-        }
+        uint64_t walls;
+        SL_TRY(count_shape(dxf, entity, &walls));
         sum->entities = sli_limit_sum(sum->entities, 1);
         // Lines of no length and other layers give none: too few walls are counted only where the
         // entities are not inserted.

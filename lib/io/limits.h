@@ -15,7 +15,7 @@ typedef enum sli_limit {
 } sli_limit;
 
 /// SL_BAD_INPUT where there are more than the context allows:
-/// "FILE:LINE: WHAT: 484000000 squares, more than the limit of 67108864; --max-squares raises it".
+/// "FILE:LINE: WHAT: 484000000 squares, more than the limit of 134217728; --max-squares raises it".
 /// `what` may be empty. UINT64_MAX stands for any number.
 sl_status sli_limit_check(sl_context *context, const char *name, unsigned line, sli_limit which,
                           uint64_t found, const char *what);

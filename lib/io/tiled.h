@@ -114,6 +114,9 @@ typedef struct sli_tiled_tile {
     sli_tiled_word word;
     sli_says says;  ///< by its class and its properties
     json_t *shapes; ///< an array of objects; NULL for none
+    uint32_t item;  ///< of the first shape's name in the map; 0 before the tile is drawn
+    uint64_t drawn; ///< the shapes that are drawn for each such tile,
+    uint64_t walls; ///< and their walls
 } sli_tiled_tile;
 
 typedef struct sli_tiled_set {
@@ -141,7 +144,7 @@ void sli_tiled_destroy_sets(sl_context *context, sli_tiled_sets *sets);
 /// The set of a tile, by its number without the bits of turning; NULL where no set has it.
 const sli_tiled_set *sli_tiled_find_set(const sli_tiled_sets *sets, uint32_t gid);
 /// What the tile says, or NULL for nothing.
-const sli_tiled_tile *sli_tiled_find_tile(const sli_tiled_set *set, uint32_t gid);
+sli_tiled_tile *sli_tiled_find_tile(const sli_tiled_set *set, uint32_t gid);
 
 // --- objects as walls: rectangles, ellipses, polygons, polylines
 
@@ -166,6 +169,10 @@ typedef struct sli_tiled_shape {
 
 /// Reads what an object is; `object` must outlive the shape.
 sl_status sli_tiled_read_shape(const sli_json *object, sli_tiled_shape *shape);
+
+/// The walls that drawing the shape gives, without those of no length. With a tolerance an ellipse
+/// counts as 4.
+uint64_t sli_tiled_shape_walls(const sli_pen *pen, const sli_tiled_shape *shape);
 
 /// Draws the outline. The pen's affine leads from the object's layer to the map.
 sl_status sli_tiled_draw_shape(sli_pen *pen, const sli_tiled_shape *shape);
@@ -213,6 +220,7 @@ typedef struct sli_tiled_reader {
     bool guess;          ///< nothing says what is solid: the first tile layer is guessed from
     uint32_t guessed;    ///< the tile that is taken as solid, 0 where the empty squares are
     char guessed_of[64]; ///< and its layer
+    uint64_t tile_shapes, tile_walls;                  ///< that the layers' tiles draw
     size_t solid_layers, solid_tiles, shapes, objects; ///< taken
     size_t other_layers, other_objects, other_shapes;  ///< left out
     size_t unknown_tiles;                              ///< of tilesets that cannot be read

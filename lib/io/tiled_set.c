@@ -199,7 +199,7 @@ const sli_tiled_set *sli_tiled_find_set(const sli_tiled_sets *sets, uint32_t gid
     return low ? &sets->sets.items[low - 1] : NULL;
 }
 
-const sli_tiled_tile *sli_tiled_find_tile(const sli_tiled_set *set, uint32_t gid) {
+sli_tiled_tile *sli_tiled_find_tile(const sli_tiled_set *set, uint32_t gid) {
     const sli_tiled_tile key = {.id = gid - set->first};
     if (!set->tiles.count) return NULL;
     return bsearch(&key, set->tiles.items, set->tiles.count, sizeof key, compare_tiles);
@@ -332,6 +332,16 @@ static sl_status draw_ellipse(sli_pen *pen, double width, double height) {
     pen->at = (sl_point){width, b};
     return sli_pen_arc(pen, (sl_point){a, b}, (sl_point){a, 0}, (sl_point){0, b}, full_turn,
                        pen->at);
+}
+
+uint64_t sli_tiled_shape_walls(const sli_pen *pen, const sli_tiled_shape *shape) {
+    if (shape->kind == SLI_TILED_RECTANGLE) return 4;
+    if (shape->kind == SLI_TILED_ELLIPSE) return pen->tolerance > 0 ? 4 : 32;
+    if (shape->kind != SLI_TILED_POLYGON && shape->kind != SLI_TILED_POLYLINE) return 0;
+    uint64_t points = json_array_size(shape->points.value);
+    const char *text = json_string_value(shape->points.value);
+    for (; text && *(text += strspn(text, " \t\r\n")); points++) text += strcspn(text, " \t\r\n");
+    return points && shape->kind == SLI_TILED_POLYLINE ? points - 1 : points;
 }
 
 sl_status sli_tiled_draw_shape(sli_pen *pen, const sli_tiled_shape *shape) {

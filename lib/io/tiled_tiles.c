@@ -13,6 +13,7 @@
 /// Time O(tiles), for staggered blocks O(squares).
 #include "io/tiled.h"
 
+#include "io/limits.h"
 #include "sightline/import.h"
 
 #include <math.h>
@@ -118,20 +119,43 @@ static bool covers(const sli_tiled_reader *reader, const sli_tiled_set *set,
            size.x == tile.x && size.y == tile.y && set->x == 0 && set->y == 0;
 }
 
-static sl_status name_tile_shape(sli_tiled_reader *reader, uint32_t gid, size_t number) {
-    char label[SL_LINE_TEXT];
-    snprintf(label, sizeof label, "tile %u, shape %zu", (unsigned)(gid & SLI_TILED_TILE),
-             number + 1);
-    return sli_tiled_name_shape(reader, label);
+static sli_json shapes_of(const sli_tiled_reader *reader, const sli_tiled_set *set,
+                          const sli_tiled_tile *tile) {
+    return (sli_json){.file = set->file.root ? &set->file : reader->map->file,
+                      .value = tile->shapes,
+                      .key = "objects"};
+}
+
+/// Names a tile's shapes and counts what they draw, once.
+static sl_status meet_tile(sli_tiled_reader *reader, const sli_tiled_set *set,
+                           sli_tiled_tile *tile) {
+    const sli_json list = shapes_of(reader, set, tile);
+    bool whole = false;
+    if (tile->item) return SL_OK;
+    tile->item = reader->pen.item + 1;
+    for (size_t i = 0; i < json_array_size(tile->shapes); i++) {
+        const sli_json object = sli_json_item(&list, i);
+        char label[SL_LINE_TEXT];
+        sli_tiled_shape shape;
+        SL_TRY(sli_tiled_read_shape(&object, &shape));
+        snprintf(label, sizeof label, "tile %u, shape %zu", (unsigned)(set->first + tile->id),
+                 i + 1);
+        SL_TRY(sli_tiled_name_shape(reader, label));
+        // The first one that covers the tile makes a square solid, which was counted as such.
+        if (!whole && (whole = covers(reader, set, &shape))) continue;
+        tile->drawn++;
+        tile->walls += sli_tiled_shape_walls(&reader->pen, &shape);
+    }
+    return SL_OK;
 }
 
 static sl_status draw_tile_shapes(sli_tiled_reader *reader, const block *all, size_t at,
-                                  const sli_tiled_set *set, json_t *shapes) {
-    const sli_json list = {
-        .file = set->file.root ? &set->file : reader->map->file, .value = shapes, .key = "objects"};
+                                  const sli_tiled_set *set, const sli_tiled_tile *tile) {
+    const sli_json list = shapes_of(reader, set, tile);
     const sli_affine outer = reader->pen.affine;
+    const uint32_t last = reader->pen.item;
     sl_status status = SL_OK;
-    for (size_t i = 0; status == SL_OK && i < json_array_size(shapes); i++) {
+    for (size_t i = 0; status == SL_OK && i < json_array_size(tile->shapes); i++) {
         const sli_json object = sli_json_item(&list, i);
         sli_tiled_shape shape;
         SL_TRY(sli_tiled_read_shape(&object, &shape));
@@ -142,10 +166,11 @@ static sl_status draw_tile_shapes(sli_tiled_reader *reader, const block *all, si
         }
         *(shape.kind < SLI_TILED_PICTURE ? &reader->shapes : &reader->other_shapes) += 1;
         if (shape.kind >= SLI_TILED_PICTURE) continue;
-        SL_TRY(name_tile_shape(reader, all->gids[at], i));
+        reader->pen.item = tile->item + (uint32_t)i;
         reader->pen.affine = affine_of_tile(reader, all, at, set);
         status = sli_tiled_draw_shape(&reader->pen, &shape);
         reader->pen.affine = outer;
+        reader->pen.item = last;
     }
     return status;
 }
@@ -207,7 +232,29 @@ static sl_status take_tile(sli_tiled_reader *reader, const sli_tiled_place *at, 
         reader->solid_tiles++;
     }
     if (word != SLI_TILED_UNSAID || !tile || !tile->shapes) return SL_OK;
-    return draw_tile_shapes(reader, all, i, set, tile->shapes);
+    return draw_tile_shapes(reader, all, i, set, tile);
+}
+
+/// Before any is drawn: one tile may have many shapes, and a layer has many such tiles.
+static sl_status check_shapes(sli_tiled_reader *reader, const sli_tiled_place *at,
+                              const block *all) {
+    const char *name = reader->map->file->name;
+    for (size_t i = 0; i < all->columns * all->rows; i++) {
+        const uint32_t gid = all->gids[i] & SLI_TILED_TILE;
+        const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+        sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+        if (!tile || !tile->shapes || at->word == SLI_TILED_SOLID ||
+            sli_tiled_word_of_tile(set, tile) != SLI_TILED_UNSAID)
+            continue;
+        if (tile->says.kind == SLI_THING_DOOR && !at->gids.length) continue;
+        SL_TRY(meet_tile(reader, set, tile));
+        reader->tile_shapes = sli_limit_sum(reader->tile_shapes, tile->drawn);
+        reader->tile_walls = sli_limit_sum(reader->tile_walls, tile->walls);
+    }
+    SL_TRY(sli_limit_check(reader->context, name, 0, SLI_LIMIT_ENTITIES, reader->tile_shapes,
+                           "the tiles' shapes, as often as they are drawn"));
+    return sli_limit_check(reader->context, name, 0, SLI_LIMIT_WALLS, reader->tile_walls,
+                           "the tiles' shapes give");
 }
 
 static int compare_gids(const void *left, const void *right) {
@@ -244,6 +291,7 @@ static sl_status take_tiles(sli_tiled_reader *reader, const sli_json *layer,
                  sli_show((sli_word){name, strlen(name)}).text);
         SL_TRY(guess_tile(reader, all, &reader->guessed));
     }
+    if (!reader->guess) SL_TRY(check_shapes(reader, at, all));
     for (size_t i = 0; i < count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
         if (!reader->guess)

@@ -72,6 +72,30 @@ def circles():
     return dxf([("C", [(0, "CIRCLE"), (8, "0"), (10, 0), (20, 0), (40, 1)])], array("C", 2000, 2000))
 
 
+def curves(kind):
+    """A block of curves, 1000 x 1000 times."""
+    ellipse = [(0, "ELLIPSE"), (8, "0"), (10, 0), (20, 0), (11, 1), (21, 0), (40, .5)]
+    bulges = [(0, "LWPOLYLINE"), (8, "0"), (70, 1)]
+    spline = [(0, "SPLINE"), (8, "0"), (71, 3)]
+    spline += [(40, min(max(i - 3, 0), 37)) for i in range(44)]
+    for i in range(40):
+        bulges += [(10, i), (20, 0), (42, 1)]
+        spline += [(10, i), (20, i % 7)]
+    content = {"ellipse": ellipse, "bulges": bulges, "spline": spline}[kind]
+    return dxf([("C", content)], array("C", 1000, 1000))
+
+
+def shaped_tiles(shapes, side=4000):
+    """A layer of tiles that all have the same shapes to collide with, the last one left out."""
+    tiles = struct.pack("<I", 1) * (side * side - 1) + bytes(4)
+    data = base64.b64encode(zlib.compress(tiles)).decode()
+    return (f'<map orientation="orthogonal" width="{side}" height="{side}" tilewidth="8" '
+            'tileheight="8"><tileset firstgid="1" name="t" tilewidth="8" tileheight="8" '
+            f'tilecount="1" columns="1"><tile id="0"><objectgroup>{shapes}</objectgroup></tile>'
+            f'</tileset><layer id="1" name="g" width="{side}" height="{side}">'
+            f'<data encoding="base64" compression="zlib">{data}</data></layer></map>').encode()
+
+
 def svg(body):
     return f'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">{body}</svg>'.encode()
 
@@ -135,6 +159,17 @@ def cases():
         "block 'A' is inserted in itself", []
     yield "deep.dxf", deep_blocks(50000), "more than the limit of 128; --max-depth raises it", []
     yield "circles.dxf", circles(), "128000000 walls, more than the limit of 16777216; --max-walls", []
+    yield "ellipses.dxf", curves("ellipse"), "the drawing's blocks give: 32000000 walls", []
+    yield "bulges.dxf", curves("bulges"), "the drawing's blocks give: ", []
+    yield "splines.dxf", curves("spline"), "the drawing's blocks give: 37000000 walls", []
+    box = '<object id="1" x="0" y="0" width="4" height="4"/>'
+    none = '<object id="1" x="0" y="0" width="0" height="0"/>'
+    full = '<object id="1" x="0" y="0" width="8" height="8"/>'
+    yield "boxes.tmx", shaped_tiles(box), \
+        "the tiles' shapes give: 63999996 walls, more than the limit of 16777216; --max-walls", []
+    for name, shape in ("empty", none), ("full", full), ("points", '<object id="1"><point/></object>'):
+        yield f"{name}.tmx", shaped_tiles(shape * 3, 2500), \
+            "the tiles' shapes, as often as they are drawn: ", ["--max-entities", "1000000"]
     yield "uses.svg", nested_uses(), "more than the limit of 16777216; --max-entities raises it", []
     yield "lines.svg", used_polylines(), "more than the limit of 16777216; --max-walls raises it", []
     yield "itself.svg", svg('<g id="a"><line x2="1"/><use href="#a"/></g>'), \
@@ -169,6 +204,12 @@ def main():
             done = run(program, ["convert", str(path), *options])
             if done.returncode != status:
                 faults.append(f"{options}: status {done.returncode}: {done.stderr.strip()[:300]}")
+        # Tiles that their shapes cover are squares, and no walls.
+        tiles = folder / "tiles.tmx"
+        tiles.write_bytes(shaped_tiles('<object id="1" x="0" y="0" width="8" height="8"/>', 300))
+        done = run(program, ["convert", str(tiles), "--max-walls", "100", "--max-entities", "100"])
+        if done.returncode:
+            faults.append(f"tiles.tmx: status {done.returncode}: {done.stderr.strip()[:300]}")
         # All commands that read maps take the limits.
         for command in (["info"], ["check"], ["isovist", "--grid", "1"]):
             done = run(program, [*command, str(path), "--max-walls", "10"])
