@@ -50,6 +50,8 @@
 #define ROOMIER (4.0 / 3)
 /// How much less roomy than other places cores of walls are.
 #define CORE 16
+/// How much less roomy than niches outdoors rooms are.
+#define ROOMY 4
 /// How long, by the square root of their area, the walls around a core are: 4 around a square, 4.5
 /// around a rectangle that is 2.6 times as long as wide, 6.4 around one of 8 times.
 #define CORE_AT_JAMB  4.5
@@ -220,6 +222,10 @@ static double area_of(const finder *f, uint32_t half) {
     return sli_cross((sl_point){b.x - a.x, b.y - a.y}, (sl_point){c.x - a.x, c.y - a.y}) / 2;
 }
 
+static bool holds(const sl_box *b, sl_point p) {
+    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+}
+
 /// Takes a triangle, and its neighbours that belong to the same group, into it.
 static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, uint32_t number) {
     group *g = &f->groups.items[number];
@@ -229,7 +235,7 @@ static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, ui
     g->access = fmax(g->access, f->access[triangle]);
     g->area += area_of(f, half);
     SL_TRY(sli_clearance_of(&f->clearance, half, &place, &clearance));
-    if (clearance > g->clearance) {
+    if (clearance > g->clearance && holds(&f->bounds, place)) {
         g->clearance = clearance;
         g->place = place;
     }
@@ -752,10 +758,27 @@ static sl_status take_roomier(finder *f, double most, double times, double *clea
     return SL_OK;
 }
 
-/// Finds a roomy place behind openings up to a width; anywhere, if only cores of walls have such.
+/// Takes the largest part that is closed, of those that are roomy against a clearance.
+static sl_status take_closed(finder *f, double *clearance) {
+    const double least = *clearance / ROOMY;
+    double area = 0;
+    SL_TRY(gather(f, (choice){.least = 0, .most = 0}));
+    for (size_t i = 0; i < f->groups.count; i++) {
+        const group *g = &f->groups.items[i];
+        if (g->clearance < least || g->area <= area) continue;
+        area = g->area;
+        *clearance = g->clearance;
+        f->found.roomiest = g->place;
+    }
+    return SL_OK;
+}
+
+/// Finds a roomy place: in a closed part, else behind openings up to a width, as niches outdoors
+/// are, too; anywhere, if only cores of walls have such.
 static sl_status find_roomiest(finder *f, double most) {
     double clearance = 0;
     SL_TRY(take_roomier(f, most, 1, &clearance));
+    SL_TRY(take_closed(f, &clearance));
     return take_roomier(f, INFINITY, CORE, &clearance);
 }
 

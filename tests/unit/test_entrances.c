@@ -431,6 +431,23 @@ static void test_corridor(void **state) {
     close_plan(&p);
 }
 
+/// A closed building with two wings. The yard between them is roomier than its rooms are; the place
+/// that a start is proposed in is in the building.
+static void test_roomiest(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const turned t = turned_by(i * 17.3, 1, 0, 0);
+        plan p;
+        turn_plan("walls 0 0 12 0 12 10 7.5 10 7.5 2 4.5 2 4.5 10 0 10 0 0\nwall 1.5 1.5 1.5 9\n"
+                  "wall 3 1.5 3 9\nwall 9 1.5 9 9\nwall 10.5 1.5 10.5 9\n"
+                  "walls 0.2 0.2 0.9 0.2 0.9 0.9 0.2 0.9 0.2 0.2\n",
+                  &t, &p);
+        assert_true(is_inside(&p, p.map.interior.roomiest));
+        assert_false(is_inside(&p, turn(&t, 6, 6)));
+        close_plan(&p);
+    }
+}
+
 /// Without an opening and a unit all is as walls enclose it, however small.
 static void test_closed(void **state) {
     (void)state;
@@ -507,7 +524,7 @@ int main(void) {
         cmocka_unit_test(test_outdoors),    cmocka_unit_test(test_closed),
         cmocka_unit_test(test_again),       cmocka_unit_test(test_memory),
         cmocka_unit_test(test_units),       cmocka_unit_test(test_corridor),
-        cmocka_unit_test(test_thick_walls),
+        cmocka_unit_test(test_thick_walls), cmocka_unit_test(test_roomiest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
