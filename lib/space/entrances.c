@@ -13,7 +13,8 @@
 ///
 /// With a width W, triangles of access W or less, joined, are *parts*. A part counts as inside if a
 /// disc of W/2 fits in it, so that cores of walls do not. If it has an opening, it must be roomier
-/// than the opening: else it is a niche or an alley.
+/// than the opening: else it is a niche or an alley. In cores of thick walls such a disc fits, too.
+/// So a closed part beside parts with openings must be short if it is narrower than W.
 ///
 /// W is what the map says, or 1.2 m if its unit is known. Else it is found. Every *pocket*
 /// (triangles of one access that are roomier than it) tells of an opening, and W is the largest
@@ -42,12 +43,19 @@
 
 /// Usual entrances, in metres.
 #define ENTRANCE 1.2
-/// Openings up to so many times W are doubtful.
-#define DOUBT 2.5
+/// Openings up to so many times W are doubtful. A width that is found is that of a narrow door.
+#define DOUBT       2.5
+#define DOUBT_FOUND 3.5
 /// How much roomier than its opening a part or pocket is.
 #define ROOMIER (4.0 / 3)
 /// How much less roomy than other places cores of walls are.
 #define CORE 16
+/// How much less roomy than niches outdoors rooms are.
+#define ROOMY 4
+/// How long, by the square root of their area, the walls around a core are: 4 around a square, 4.5
+/// around a rectangle that is 2.6 times as long as wide, 6.4 around one of 8 times.
+#define CORE_AT_JAMB  4.5
+#define CORE_ANYWHERE 6.4
 
 /// Triangles that belong together.
 typedef struct group {
@@ -97,6 +105,11 @@ static uint32_t label_of(const finder *f, uint32_t half) {
 static double side_length(const finder *f, uint32_t half) {
     const sl_point a = start_of(f, half), b = start_of(f, half ^ 1);
     return sli_length(b.x - a.x, b.y - a.y);
+}
+
+/// How wide doubtful openings are.
+static double doubtful_up_to(const finder *f, double width) {
+    return (f->found.by == SL_ENTRANCE_FOUND ? DOUBT_FOUND : DOUBT) * width;
 }
 
 // --- access
@@ -209,6 +222,10 @@ static double area_of(const finder *f, uint32_t half) {
     return sli_cross((sl_point){b.x - a.x, b.y - a.y}, (sl_point){c.x - a.x, c.y - a.y}) / 2;
 }
 
+static bool holds(const sl_box *b, sl_point p) {
+    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+}
+
 /// Takes a triangle, and its neighbours that belong to the same group, into it.
 static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, uint32_t number) {
     group *g = &f->groups.items[number];
@@ -218,7 +235,7 @@ static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, ui
     g->access = fmax(g->access, f->access[triangle]);
     g->area += area_of(f, half);
     SL_TRY(sli_clearance_of(&f->clearance, half, &place, &clearance));
-    if (clearance > g->clearance) {
+    if (clearance > g->clearance && holds(&f->bounds, place)) {
         g->clearance = clearance;
         g->place = place;
     }
@@ -342,16 +359,59 @@ static bool says_ground(const sl_map *map) {
     return any;
 }
 
+/// Whether a side of a group is the jamb of an opening: both of its ends are in `ends`.
+static bool has_jamb(const finder *f, const group *g, const sl_bits *ends) {
+    for (uint32_t i = 0; i < g->count; i++) {
+        uint32_t half = f->half[f->order[g->first + i]];
+        for (int k = 0; k < 3; k++, half = triangles(f)->halves.items[half].next)
+            if (label_of(f, half) == SLI_WALL &&
+                sl_bits_has(ends, triangles(f)->halves.items[half].from) &&
+                sl_bits_has(ends, sli_half_end(triangles(f), half)))
+                return true;
+    }
+    return false;
+}
+
+/// Leaves out cores of walls so thick that half a disc fits: they are narrower than W, and long.
+static sl_status drop_cores(finder *f, double width) {
+    const sli_half_edge *halves = triangles(f)->halves.items;
+    sl_bits *ends =
+        sl_alloc_array(f->context, sl_bits_words(triangles(f)->points.count), sizeof *ends);
+    sl_status status = ends ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t half = 0; half < triangles(f)->halves.count && ends; half++) {
+        const uint32_t label = label_of(f, half), own = f->triangle[half];
+        if (label == SLI_WALL || label == SLI_FREE || own == NONE || f->access[own] == 0 ||
+            f->channels.items.items[label].width > width)
+            continue;
+        sl_bits_add(ends, halves[half].from);
+        sl_bits_add(ends, halves[half ^ 1].from);
+    }
+    for (size_t i = 0; i < f->openings.count && ends; i++) {
+        sl_bits_add(ends, f->openings.items[i].from);
+        sl_bits_add(ends, f->openings.items[i].to);
+    }
+    for (size_t i = 0; i < f->groups.count && status == SL_OK; i++) {
+        group *g = &f->groups.items[i];
+        if (!g->inside || g->access > 0 || g->reached < CORE_AT_JAMB * sqrt(g->area)) continue;
+        if (g->reached < CORE_ANYWHERE * sqrt(g->area) && !has_jamb(f, g, ends)) continue;
+        status = fits(f, g, width, &g->inside);
+    }
+    sl_free(f->context, ends);
+    return status;
+}
+
 static sl_status choose_parts(finder *f, double width) {
     const bool ground = says_ground(f->map);
+    bool opened = f->found.doubtful_width > 0;
     SL_TRY(gather(f, (choice){.least = 0, .most = width}));
     for (size_t i = 0; i < f->groups.count; i++) {
         group *g = &f->groups.items[i];
         double wanted = fmax(width / 2, ROOMIER * g->access);
         if (ground && g->access == 0) wanted = 0;
         SL_TRY(fits(f, g, wanted, &g->inside));
+        opened |= g->inside && g->access > 0;
     }
-    return SL_OK;
+    return opened && !ground ? drop_cores(f, width) : SL_OK;
 }
 
 // --- doubts
@@ -420,7 +480,7 @@ static sl_status find_halls(finder *f, double width, uint8_t *halls) {
     for (size_t i = 0; i < f->groups.count; i++) {
         const group *g = &f->groups.items[i];
         const uint32_t out = g->inside && g->access > 0 ? way_out_of(f, g) : NONE;
-        if (out != NONE && f->access[out] <= DOUBT * width) halls[out] = 1;
+        if (out != NONE && f->access[out] <= doubtful_up_to(f, width)) halls[out] = 1;
     }
     return SL_OK;
 }
@@ -434,14 +494,15 @@ static bool has_hall(const finder *f, const group *g, const uint8_t *halls) {
 /// Looks for halls, and for pockets with an opening somewhat wider than the width. `marks` gets all
 /// that is about them.
 static sl_status find_doubts(finder *f, double width, const uint8_t *halls, uint8_t *marks) {
+    const double most = doubtful_up_to(f, width);
     double largest = 0;
-    SL_TRY(gather(f, (choice){nextafter(width, INFINITY), DOUBT * width, true}));
+    SL_TRY(gather(f, (choice){nextafter(width, INFINITY), most, true}));
     for (size_t i = 0; i < f->groups.count; i++) {
         group *g = &f->groups.items[i];
         bool roomier;
         SL_TRY(fits(f, g, ROOMIER * g->access, &roomier));
         if (!roomier && !has_hall(f, g, halls)) continue;
-        SL_TRY(mark_around(f, g, DOUBT * width, marks));
+        SL_TRY(mark_around(f, g, most, marks));
         const uint32_t half = opening_of(f, g);
         if (half == NONE) continue;
         SL_TRY(SL_ARRAY_ROOM(f->context, &f->openings, 1));
@@ -667,7 +728,7 @@ static sl_status find_parts(finder *f, double width) {
 /// Finds what is inside by openings up to `width`; 0 for a width that is to be found, up to `most`.
 static sl_status find_by(finder *f, sl_entrance by, double width, double most, bool *found) {
     f->found = (sl_interior){.by = by, .width = width, .roomiest = NOWHERE};
-    sl_status status = make_channels(f, width > 0 ? DOUBT * width : most);
+    sl_status status = make_channels(f, width > 0 ? doubtful_up_to(f, width) : most);
     if (status == SL_OK && width == 0) status = find_width(f, most, &f->found.width);
     const bool any = f->found.width > 0;
     if (status == SL_OK && any) status = find_parts(f, f->found.width + f->weld);
@@ -697,10 +758,27 @@ static sl_status take_roomier(finder *f, double most, double times, double *clea
     return SL_OK;
 }
 
-/// Finds a roomy place behind openings up to a width; anywhere, if only cores of walls have such.
+/// Takes the largest part that is closed, of those that are roomy against a clearance.
+static sl_status take_closed(finder *f, double *clearance) {
+    const double least = *clearance / ROOMY;
+    double area = 0;
+    SL_TRY(gather(f, (choice){.least = 0, .most = 0}));
+    for (size_t i = 0; i < f->groups.count; i++) {
+        const group *g = &f->groups.items[i];
+        if (g->clearance < least || g->area <= area) continue;
+        area = g->area;
+        *clearance = g->clearance;
+        f->found.roomiest = g->place;
+    }
+    return SL_OK;
+}
+
+/// Finds a roomy place: in a closed part, else behind openings up to a width, as niches outdoors
+/// are, too; anywhere, if only cores of walls have such.
 static sl_status find_roomiest(finder *f, double most) {
     double clearance = 0;
     SL_TRY(take_roomier(f, most, 1, &clearance));
+    SL_TRY(take_closed(f, &clearance));
     return take_roomier(f, INFINITY, CORE, &clearance);
 }
 

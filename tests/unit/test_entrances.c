@@ -136,6 +136,48 @@ static void test_house(void **state) {
     }
 }
 
+/// A house of one loop, or of four walls that are drawn as rectangles. It has a toilet and a
+/// corridor that thin walls close.
+static void say_thick(const char *first, double e, double t, bool apart, char text[4000]) {
+    const double w = 10 - t, h = 8 - t;
+    int n = snprintf(text, 4000, "%s", first);
+    if (apart)
+        n += snprintf(text + n, 4000 - (size_t)n,
+                      "walls 0 0 3 0 3 %g 0 %g 0 0\nwalls %g 0 10 0 10 %g %g %g %g 0\n"
+                      "walls 0 %g 0 8 10 8 10 %g 0 %g\nwalls 0 %g %g %g %g %g\n"
+                      "walls 10 %g %g %g %g %g\n",
+                      t, t, 3 + e, t, 3 + e, t, 3 + e, h, h, h, t, t, t, t, h, t, w, t, w, h);
+    else
+        n += snprintf(text + n, 4000 - (size_t)n,
+                      "walls %g 0 10 0 10 8 0 8 0 0 3 0 3 %g %g %g %g %g %g %g %g %g %g %g %g 0\n",
+                      3 + e, t, t, t, t, h, w, h, w, t, 3 + e, t, 3 + e);
+    snprintf(text + n, 4000 - (size_t)n,
+             "walls %g 5.8 %g 5.8 %g 4 %g 4\nwalls %g 4 %g 4 %g 4.95 %g 4.95\n", t, t + 0.9,
+             t + 0.9, t, t + 0.9, t + 5.4, t + 5.4, t + 0.9);
+}
+
+/// Half a disc fits in cores of thick walls, too: these are not inside. Short rooms and corridors
+/// that are narrower than an entrance are.
+static void test_thick_walls(void **state) {
+    (void)state;
+    static const double thick[] = {0.365, 0.5, 0.6, 0.65}, angles[] = {0, 17.3, 45};
+    static const char *const units[] = {"", "unit m\n", "entrance 1.2\n"};
+    for (int i = 0; i < 4 * 3 * 3 * 2 * 3; i++) {
+        const double t = thick[i % 4], e = 0.8 + 0.2 * (i / 4 % 3);
+        const turned turns = turned_by(angles[i / 12 % 3], 1, 0, 0);
+        char text[4000];
+        plan p;
+        say_thick(units[i / 72], e, t, i / 36 % 2, text);
+        turn_plan(text, &turns, &p);
+        const sl_point in[] = {{6, 2}, {t + 0.4, 5}, {t + 3, 4.5}};
+        const sl_point core[] = {{t / 2, 3},     {10 - t / 2, 3}, {5, 8 - t / 2},
+                                 {t / 4, t / 4}, {1, t / 2},      {7, t / 2}};
+        for (int k = 0; k < 3; k++) assert_true(is_inside(&p, turn(&turns, in[k].x, in[k].y)));
+        for (int k = 0; k < 6; k++) assert_false(is_inside(&p, turn(&turns, core[k].x, core[k].y)));
+        close_plan(&p);
+    }
+}
+
 /// An opening that is wider than entrances: the house is not inside by halves.
 static void test_wide_entrance(void **state) {
     (void)state;
@@ -150,6 +192,17 @@ static void test_wide_entrance(void **state) {
         assert_float_equal(p.map.interior.doubtful_width, 2, 1e-9);
         assert_int_equal(p.map.interior.place_count, 0);
         assert_int_equal(p.space.inside_count, p.space.cell_count);
+        close_plan(&p);
+        say_thick("unit m\n", 2, 0.65, doors,
+                  text); // a closed room, cores in which half a disc fits
+        turn_plan(text, &t, &p);
+        assert_int_equal(doubt_of(&p), SL_INSIDE_OPENING);
+        assert_int_equal(p.map.interior.place_count, 0);
+        close_plan(&p);
+        say_house("", 2.4, 2, text); // the width that is found is that of inner doors
+        turn_plan(text, &t, &p);
+        assert_int_equal(doubt_of(&p), SL_INSIDE_OPENING);
+        assert_int_equal(p.map.interior.place_count, 0);
         close_plan(&p);
         say_house("unit m\nentrance 2\n", 2, doors, text);
         turn_plan(text, &t, &p);
@@ -378,6 +431,23 @@ static void test_corridor(void **state) {
     close_plan(&p);
 }
 
+/// A closed building with two wings. The yard between them is roomier than its rooms are; the place
+/// that a start is proposed in is in the building.
+static void test_roomiest(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const turned t = turned_by(i * 17.3, 1, 0, 0);
+        plan p;
+        turn_plan("walls 0 0 12 0 12 10 7.5 10 7.5 2 4.5 2 4.5 10 0 10 0 0\nwall 1.5 1.5 1.5 9\n"
+                  "wall 3 1.5 3 9\nwall 9 1.5 9 9\nwall 10.5 1.5 10.5 9\n"
+                  "walls 0.2 0.2 0.9 0.2 0.9 0.9 0.2 0.9 0.2 0.2\n",
+                  &t, &p);
+        assert_true(is_inside(&p, p.map.interior.roomiest));
+        assert_false(is_inside(&p, turn(&t, 6, 6)));
+        close_plan(&p);
+    }
+}
+
 /// Without an opening and a unit all is as walls enclose it, however small.
 static void test_closed(void **state) {
     (void)state;
@@ -449,11 +519,12 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_house),    cmocka_unit_test(test_wide_entrance),
-        cmocka_unit_test(test_exact),    cmocka_unit_test(test_disc),
-        cmocka_unit_test(test_outdoors), cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_again),    cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_units),    cmocka_unit_test(test_corridor),
+        cmocka_unit_test(test_house),       cmocka_unit_test(test_wide_entrance),
+        cmocka_unit_test(test_exact),       cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_outdoors),    cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_again),       cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_units),       cmocka_unit_test(test_corridor),
+        cmocka_unit_test(test_thick_walls), cmocka_unit_test(test_roomiest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
