@@ -477,26 +477,19 @@ static const sl_eye_method *exact_method(void) {
     return &methods[count - 1];
 }
 
-/// What the exact method sees past the boxes. `seen` may be NULL.
-static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view, bool mirrored,
-                           uint64_t *cells, bool *seen, sl_eye_account *account) {
-    SL_TRY(make_moving(context, q));
-    bool *all = seen ? seen : sl_alloc_array(context, q->box_count, sizeof *all);
-    if (!all) return SL_NO_MEMORY;
-    const sl_status status = (mirrored ? sl_moving_look_mirrored : sl_moving_look)(
-        context, q->moving, view, cells, all, account);
-    if (!seen) sl_free(context, all);
-    return status;
+/// The space for an eye in line with glass: glass that is dark for it is a wall, all other is open.
+static sl_status make_space_in_line(sl_context *context, const sl_query *q, const sl_view *view,
+                                    sl_space *out) {
+    const sl_filtered_space filtered = {.shut = q->shut, .eye = &view->eye};
+    return sl_filtered_space_make(context, q->sight.base, &filtered, NULL, out);
 }
 
-/// Looks from an eye in line with glass: glass that is dark for it is a wall, all other is open.
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
-    const sl_filtered_space filtered = {.shut = q->shut, .eye = &view->eye};
     sl_space space;
     sl_eye_search *search = NULL;
-    SL_TRY(sl_filtered_space_make(context, q->sight.base, &filtered, NULL, &space));
+    SL_TRY(make_space_in_line(context, q, view, &space));
     sl_status status = sl_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
@@ -508,13 +501,48 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
     return status;
 }
 
+static sl_status look_past_in_line(sl_context *context, const sl_query *q, const sl_view *view,
+                                   uint64_t *cells, bool *seen, sl_eye_account *account) {
+    sl_space space;
+    sl_moving *moving = NULL;
+    SL_TRY(make_space_in_line(context, q, view, &space));
+    sl_status status = sl_moving_create(context, &space, &q->rows, &moving);
+    if (status == SL_OK) status = sl_moving_set_boxes(context, moving, q->boxes, q->box_count);
+    if (status == SL_OK) {
+        sli_moving_set_shut(moving, shut_of(q));
+        sl_moving_set_range(moving, q->range);
+        status = sl_moving_look(context, moving, view, cells, seen, account);
+    }
+    sl_moving_destroy(context, moving);
+    sl_space_destroy(context, &space);
+    return status;
+}
+
+/// What the exact method sees past the boxes. `seen` may be NULL.
+static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view, bool mirrored,
+                           uint64_t *cells, bool *seen, sl_eye_account *account) {
+    const bool in_line = !mirrored && is_in_line_with_glass(q, view->eye);
+    if (!in_line) SL_TRY(make_moving(context, q));
+    bool *all = seen ? seen : sl_alloc_array(context, q->box_count, sizeof *all);
+    if (!all) return SL_NO_MEMORY;
+    sl_status status;
+    if (in_line)
+        status = look_past_in_line(context, q, view, cells, all, account);
+    else if (mirrored)
+        status = sl_moving_look_mirrored(context, q->moving, view, cells, all, account);
+    else
+        status = sl_moving_look(context, q->moving, view, cells, all, account);
+    if (!seen) sl_free(context, all);
+    return status;
+}
+
 sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *view,
                         const sl_eye_method *method, uint64_t *cells, sl_eye_account *account) {
     if (!method) method = exact_method();
     SL_TRY(make_layers(context, query));
     if (has_blocks(query) && method == exact_method())
         return look_past(context, query, view, false, cells, NULL, account);
-    if (!has_mirrors(query) && is_in_line_with_glass(query, view->eye))
+    if (is_in_line_with_glass(query, view->eye))
         return look_in_line(context, query, view, method, cells, account);
     SL_TRY(make_search(context, query));
     return method->cull(context, query->search, view, cells, account);

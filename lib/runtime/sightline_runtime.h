@@ -311,10 +311,12 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 ///
 /// Exact, and as sl_sees of the library: open portals that the line touches, ends included, lead
 /// from a cell that the eye stands in to a cell that touches the point. So it may graze walls on
-/// either side. A point on a wall or on a shut door is seen from both sides, but an eye there sees
-/// one. Each of two points sees the other or none does, unless one of them is where walls or shut
-/// doors part what is around it, or one-way glass is between them. (The range is exact if no
-/// coordinate but 0 is 1e70 times smaller than another one.)
+/// either side. (A line that grazes walls on both sides leads sl_runtime_look to no cell: such a
+/// point may be seen though none of its cells is listed.) A point on a wall or on a shut door is
+/// seen from both sides, but an eye there sees one. Each of two points sees the other or none does,
+/// unless one of them is where walls or shut doors part what is around it, or one-way glass is
+/// between them. (The range is exact if no coordinate but 0 is 1e70 times smaller than another
+/// one.)
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
 /// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the

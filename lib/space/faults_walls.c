@@ -105,27 +105,55 @@ static sl_status list_ends(sl_context *context, const sl_map *map, wall_end **ou
     return SL_OK;
 }
 
-static sl_status find_gap(sl_context *context, const sl_map *map, sli_wall_index *index,
-                          double most, const wall_end *end, sli_fault_list *out) {
+/// A wall that an end may have a gap to.
+typedef struct candidate {
+    double width;
+    uint32_t wall;
+} candidate;
+
+typedef SL_ARRAY(candidate) candidate_list;
+
+static int compare_candidates(const void *left, const void *right) {
+    const candidate *a = left, *b = right;
+    if (a->width != b->width) return a->width < b->width ? -1 : 1;
+    return (a->wall > b->wall) - (a->wall < b->wall);
+}
+
+/// The walls up to `most` away from an end, the nearest first: most ends have a gap to the first.
+static sl_status list_candidates(sl_context *context, const sl_map *map, sli_wall_index *index,
+                                 double most, const wall_end *end, candidate_list *out) {
     const sli_box_list *near = &index->near;
+    out->count = 0;
     SL_TRY(sli_walls_near(context, index, (sl_segment){end->at, end->at}, most));
-    sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
+    SL_TRY(SL_ARRAY_ROOM(context, out, near->count));
     for (size_t i = 0; i < near->count; i++) {
         const sl_wall *other = &map->walls[near->items[i]];
         if (near->items[i] == end->wall || sli_touches_wall(other, end->at)) continue;
-        const sl_point to = sli_nearest_on_wall(other, end->at);
-        const double width = sli_apart(end->at, to);
-        if (!(width <= most) || width > gap.size) continue;
-        if (width == gap.size && near->items[i] > gap.walls[1]) continue;
-        if (is_closed(map, near, end->at, other, to)) continue;
-        gap.size = width;
-        gap.at = (sl_segment){end->at, to};
-        gap.walls[0] = end->wall;
-        gap.walls[1] = near->items[i];
+        const double width = sli_apart(end->at, sli_nearest_on_wall(other, end->at));
+        if (width <= most) out->items[out->count++] = (candidate){width, near->items[i]};
     }
-    if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end->at, gap.at.b))
-        return SL_OK;
-    return sli_add_to_list(context, out, gap);
+    if (out->count > 1) qsort(out->items, out->count, sizeof *out->items, compare_candidates);
+    return SL_OK;
+}
+
+static sl_status find_gap(sl_context *context, const sl_map *map, sli_wall_index *index,
+                          double most, const wall_end *end, candidate_list *candidates,
+                          sli_fault_list *out) {
+    SL_TRY(list_candidates(context, map, index, most, end, candidates));
+    for (size_t i = 0; i < candidates->count; i++) {
+        const candidate *found = &candidates->items[i];
+        const sl_wall *other = &map->walls[found->wall];
+        const sl_point to = sli_nearest_on_wall(other, end->at);
+        if (is_closed(map, &index->near, end->at, other, to)) continue;
+        if (is_reported_there(other, end->at, to)) return SL_OK;
+        return sli_add_to_list(context, out,
+                               (sl_fault){.kind = SL_FAULT_GAP,
+                                          .size = found->width,
+                                          .at = {end->at, to},
+                                          .walls = {end->wall, found->wall},
+                                          .cell = SL_NO_CELL});
+    }
+    return SL_OK;
 }
 
 /// The gaps between a map's walls, up to a width. The faults' walls are those of this map.
@@ -133,16 +161,19 @@ static sl_status list_gaps(sl_context *context, const sl_map *map, double most, 
                            sli_fault_list *out) {
     sli_wall_index index;
     wall_end *ends = NULL;
+    candidate_list candidates = {0};
     size_t count = 0;
     SL_TRY(sl_check_cancelled(context));
     sl_status status = sli_wall_index_create(context, map, &index);
     if (status == SL_OK) status = list_ends(context, map, &ends, &count);
     for (size_t i = 0; i < count && status == SL_OK; i++) {
         if (i % 256 == 0) status = sl_check_cancelled(context);
-        if (status == SL_OK) status = find_gap(context, map, &index, most, &ends[i], out);
+        if (status == SL_OK)
+            status = find_gap(context, map, &index, most, &ends[i], &candidates, out);
         if (reports) sl_report(context, "check", "wall ends", i + 1, count);
     }
     sl_free(context, ends);
+    sl_free(context, candidates.items);
     sli_wall_index_destroy(context, &index);
     return status;
 }

@@ -11,7 +11,8 @@ extern "C" {
 
 /// Whether an eye sees a point. Exact. SL_CLOSED: portals lead from a cell that the eye stands in
 /// (view.h) to a cell that touches the point, and the segment between eye and point touches each of
-/// them. It may graze walls on either side, but crosses none. SL_OPEN: the same, and the segment
+/// them. It may graze walls on either side, but crosses none. (One that grazes walls on both sides
+/// leads the culling methods to no cell, as eye_to_cell.h says.) SL_OPEN: the same, and the segment
 /// has no point in common with a wall. False where either point is outside the bounds, and where
 /// the eye is in solid ground.
 SL_API sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye,
