@@ -7,7 +7,7 @@
 #include "bench.h"
 
 #include "bake/slv.h"
-#include "sightline/query.h"
+#include "sightline/bake.h"
 #include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION

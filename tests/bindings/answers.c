@@ -13,7 +13,7 @@
 ///     d number shut                    shuts or opens a door; no answer
 ///     tk x y ..., tv ..., tr ...       microseconds that cells, polygons or (library) regions of
 ///                                      these eyes take together: the least of several times
-#include "sightline/query.h"
+#include "sightline/bake.h"
 #include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION

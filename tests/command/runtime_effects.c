@@ -11,7 +11,6 @@
 #include "sightline_runtime.h"
 
 #include "sightline/bake.h"
-#include "sightline/query.h"
 #include "sightline/support.h"
 
 enum { SIDE = 12, BOXES_MOST = 8 };

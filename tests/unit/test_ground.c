@@ -6,7 +6,6 @@
 #include "io/shapes.h"
 #include "map/grid.h"
 #include "sightline/bake.h"
-#include "sightline/query.h"
 #include "sightline/support.h"
 #include "unit/map_same.h"
 

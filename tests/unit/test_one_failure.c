@@ -2,9 +2,9 @@
 #include "one_failure.h"
 
 #include "map_files.h"
+#include "sightline/bake.h"
 #include "sightline/faults.h"
 #include "sightline/geojson.h"
-#include "sightline/query.h"
 #include "sightline/solvers.h"
 
 #include <dirent.h>

@@ -5,7 +5,7 @@
 #include "runtime_maps.h"
 
 #include "geometry/crossing.h"
-#include "sightline/query.h"
+#include "sightline/bake.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 
 #include "oracle/random_effects.h"
 
-#include "sightline/query.h"
+#include "sightline/bake.h"
 
 enum { MAPS = 64, EYES = 12, CELLS_MOST = 128, DOORS_MOST = 64 };
 

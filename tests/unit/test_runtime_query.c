@@ -5,8 +5,8 @@
 #include "runtime_maps.h"
 
 #include "geometry/crossing.h"
+#include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
-#include "sightline/query.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #include "runtime_maps.h"
 
 #include "oracle/two_points.h"
-#include "sightline/query.h"
+#include "sightline/bake.h"
 #include "sightline/support.h"
 #include "space/index.h"
 

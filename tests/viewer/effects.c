@@ -10,7 +10,6 @@
 #include "script.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"
-#include "sightline/query.h"
 
 #include <math.h>
 #include <stdio.h>
