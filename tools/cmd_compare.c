@@ -236,18 +236,11 @@ static sl_status write_eye_files(sl_context *context, const eye_comparison *comp
 static sl_status settle_doors(sl_context *context, comparing *all) {
     const sl_map *map = &all->map;
     if (!map->door_count) return SL_OK;
-    bool *shut = sl_alloc_array(context, map->door_count, sizeof *shut);
-    if (!shut) return SL_NO_MEMORY;
     const door_choice as_they_are = {0};
-    const sl_filtered_space filtered = {.shut = shut};
-    sl_space settled;
-    sl_status status = doors_read(context, &as_they_are, map, shut);
-    if (status == SL_OK)
-        status = sl_filtered_space_make(context, &all->space, &filtered, NULL, &settled);
-    sl_free(context, shut);
-    SL_TRY(status);
-    sl_space_destroy(context, &all->space);
-    all->space = settled;
+    sl_baked baked = {.map = *map, .space = all->space};
+    SL_TRY(doors_shut(context, &as_they_are, &baked));
+    sl_visibility_destroy(context, &baked.visibility);
+    all->space = baked.space;
     sl_effects_note_doors(context, map);
     return SL_OK;
 }

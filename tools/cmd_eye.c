@@ -219,24 +219,23 @@ static sl_status draw_space(sl_context *context, const eye_plan *plan, const sl_
 
 /// In the picture, one-way glass that is dark for the eye is a wall.
 static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
-                      const eye_run *run, const eye_objects *objects) {
-    const sl_filtered_space filtered = {.eye = &plan->at};
+                      sl_query *query, const eye_run *run, const eye_objects *objects) {
     sl_baked dark = *baked;
     if (!baked->map.oneway_count) return draw_space(context, plan, baked, run, objects);
     dark.space = (sl_space){0};
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &dark.space));
+    SL_TRY(sl_query_space_from(context, query, plan->at, &dark.space));
     const sl_status status = draw_space(context, plan, &dark, run, objects);
     sl_space_destroy(context, &dark.space);
     return status;
 }
 
 static sl_status tell(command_console *console, const eye_plan *plan, const sl_baked *baked,
-                      const eye_run *run, const eye_objects *objects) {
+                      sl_query *query, const eye_run *run, const eye_objects *objects) {
     if (plan->output && output_has_ending(plan->output, EYE_FILES))
         SL_TRY(eye_files_write(console->context, baked, run, objects, plan->look, plan->fov,
                                plan->output));
     else if (plan->output)
-        SL_TRY(draw(console->context, plan, baked, run, objects));
+        SL_TRY(draw(console->context, plan, baked, query, run, objects));
     progress_line_clear(&console->line);
     if (plan->json) return eye_print_json(console->context, baked, run, objects);
     if (console->quiet && plan->output) return SL_OK;
@@ -257,7 +256,7 @@ static sl_status ask(command_console *console, const eye_plan *plan, const sl_ba
     eye_objects objects = {0};
     sl_status status = eye_objects_read(context, &plan->objects, &baked->map, &objects);
     if (status == SL_OK) status = eye_objects_run(context, query, &run, !plan->json, &objects);
-    if (status == SL_OK) status = tell(console, plan, baked, &run, &objects);
+    if (status == SL_OK) status = tell(console, plan, baked, query, &run, &objects);
     eye_objects_destroy(context, &objects);
     eye_run_destroy(context, &run);
     return status;

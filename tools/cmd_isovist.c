@@ -37,9 +37,7 @@ typedef struct isovist_plan {
 /// The space, and what its eyes see.
 typedef struct isovist_work {
     sl_baked baked;
-    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
-    sl_outline outline;
-    sl_room_mirrors mirrors;
+    sl_query *query;
     isovist_scene scene;
     eye_places eyes;
     isovist_result *isovists; ///< NULL with --union
@@ -279,10 +277,15 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, isov
                                 &plan->drawing, plan->picture);
 }
 
-static sl_status make_outline(sl_context *context, isovist_work *w) {
-    const sl_space *space;
-    SL_TRY(pipeline_look_through(context, &w->baked.map, &w->baked.space, &w->dark, &space));
-    return sl_outline_make(context, space, &w->outline);
+/// What sight goes by: shut doors are walls of the space by now.
+static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovist_work *w) {
+    w->scene.range = plan->range;
+    w->scene.mirror_depth = plan->mirror_depth;
+    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
+    SL_TRY(sl_query_outline(context, w->query, &w->scene.outline));
+    if (w->baked.map.mirror_count && plan->together)
+        sl_note(context, "mirrors are walls here: --union counts what is seen directly");
+    return plan->together ? SL_OK : sl_query_mirrors(context, w->query, &w->scene.mirrors);
 }
 
 /// A grid is all that is inside.
@@ -309,14 +312,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
-    SL_TRY(make_outline(context, w));
-    w->scene = (isovist_scene){&w->outline, NULL, plan->range, plan->mirror_depth};
-    if (w->baked.map.mirror_count && plan->together) {
-        sl_note(context, "mirrors are walls here: --union counts what is seen directly");
-    } else if (w->baked.map.mirror_count) {
-        SL_TRY(sl_room_mirrors_make(context, &w->outline, &w->baked.map, &w->mirrors));
-        w->scene.mirrors = &w->mirrors;
-    }
+    SL_TRY(make_scene(context, plan, w));
     SL_TRY(plan->together ? join_regions(context, w) : measure(context, plan, w));
     if (plan->picture)
         SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
@@ -418,9 +414,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     seen_parts_destroy(console->context, &w.parts);
     isovist_union_destroy(console->context, &w.together);
     eyes_destroy(console->context, &w.eyes);
-    sl_room_mirrors_destroy(console->context, &w.mirrors);
-    sl_outline_destroy(console->context, &w.outline);
-    sl_space_destroy(console->context, &w.dark);
+    sl_query_destroy(console->context, w.query);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }

@@ -3,7 +3,7 @@
 #include "heat_map.h"
 #include "outputs.h"
 #include "pipeline.h"
-#include "sightline/outline.h"
+#include "sightline/query.h"
 #include "sightline/support.h"
 #include "vga_change.h"
 #include "vga_grid.h"
@@ -38,8 +38,8 @@ typedef struct vga_plan {
 
 typedef struct vga_work {
     sl_baked baked;
-    sl_space dark; ///< with glass that is a wall on its dark side
-    sl_outline outline;
+    sl_query *query;
+    const sl_outline *outline; ///< the query's
     sl_vga_graph graph;
     sl_vga_link *links;
     size_t link_count;
@@ -181,7 +181,7 @@ static sl_status check_memory(sl_context *context, const vga_plan *plan, uint32_
 static sl_status check_measures(sl_context *context, const vga_plan *plan, const vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
     uint64_t bytes;
-    SL_TRY(sl_vga_measure_bytes(context, &w->outline, grid, &w->graph, &plan->options, &bytes));
+    SL_TRY(sl_vga_measure_bytes(context, w->outline, grid, &w->graph, &plan->options, &bytes));
     if (w->link_count) // the graph of linked places, and its measures
         bytes += sl_vga_graph_bytes(grid->count) + grid->count * sizeof(sl_vga_measures);
     char size[SIZE_TEXT], most[SIZE_TEXT];
@@ -209,7 +209,7 @@ static sl_status find_depths(sl_context *context, const vga_plan *plan, vga_work
     sl_status status = from && w->table.depths ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = vga_grid_find(context, grid, "--from", &plan->from, from);
     if (status == SL_OK)
-        status = sl_vga_depth(context, &w->outline, grid, &w->graph, w->links, w->link_count, parts,
+        status = sl_vga_depth(context, w->outline, grid, &w->graph, w->links, w->link_count, parts,
                               from, plan->from.count, w->table.depths);
     sl_free(context, from);
     return status;
@@ -238,7 +238,7 @@ static sl_status walk_agents(sl_context *context, const vga_plan *plan, vga_work
 
 static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
-    const isovist_scene scene = {.outline = &w->outline, .range = plan->range};
+    const isovist_scene scene = {.outline = w->outline, .range = plan->range};
     for (uint32_t p = 0; p < grid->count; p++)
         SL_TRY(eyes_add(context, &w->eyes, (eye_place){grid->points[p], 0, 360}));
     w->table.isovists = sl_alloc_array(context, grid->count, sizeof *w->table.isovists);
@@ -281,7 +281,7 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     if (!table->measures) return SL_NO_MEMORY;
     if (of_graph || plan->pairs) {
         SL_TRY(check_memory(context, plan, grid->count));
-        SL_TRY(sl_vga_graph_make(context, &w->outline, grid, plan->range, plan->options.threads,
+        SL_TRY(sl_vga_graph_make(context, w->outline, grid, plan->range, plan->options.threads,
                                  &w->graph));
         if (plan->turned) SL_TRY(sl_vga_graph_turn(context, &w->graph));
     }
@@ -293,15 +293,14 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     if (plan->from.count) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
     if (plan->options.parts)
-        SL_TRY(sl_vga_measure_linked(context, &w->outline, grid, &w->graph, w->links, w->link_count,
+        SL_TRY(sl_vga_measure_linked(context, w->outline, grid, &w->graph, w->links, w->link_count,
                                      &plan->options, table->measures));
     return plan->parts & VGA_PART_ISOVIST ? measure_regions(context, plan, w) : SL_OK;
 }
 
 static sl_status make_outline(sl_context *context, vga_work *w) {
-    const sl_space *space;
-    SL_TRY(pipeline_look_through(context, &w->baked.map, &w->baked.space, &w->dark, &space));
-    return sl_outline_make(context, space, &w->outline);
+    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
+    return sl_query_outline(context, w->query, &w->outline);
 }
 
 /// Fields go row by row from the lowest, grids column by column. A point is the middle of a square.
@@ -370,8 +369,8 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     sl_status status = check_area(context, plan, &w->baked.space);
     status = pipeline_name_stray(context, plan->input, &w->baked.map, &w->baked.space, status);
     if (status == SL_OK)
-        status = vga_grid_choose(context, &plan->points, &plan->pipeline, &w->baked.map,
-                                 &w->outline, &w->table.grid);
+        status = vga_grid_choose(context, &plan->points, &plan->pipeline, &w->baked.map, w->outline,
+                                 &w->table.grid);
     SL_TRY(name_unit(context, plan, &w->baked.map, &w->baked.space, status));
     if (plan->points.links)
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
@@ -389,8 +388,7 @@ static void work_destroy(sl_context *context, vga_work *w) {
     sl_vga_grid_destroy(context, &w->table.grid);
     sl_vga_graph_destroy(context, &w->graph);
     eyes_destroy(context, &w->eyes);
-    sl_outline_destroy(context, &w->outline);
-    sl_space_destroy(context, &w->dark);
+    sl_query_destroy(context, w->query);
     sl_baked_destroy(context, &w->baked);
 }
 

@@ -224,8 +224,6 @@ typedef struct walk_plan {
 /// The space, the way through it, and the results.
 typedef struct walk_work {
     sl_baked baked;
-    sl_space dark;           ///< with walls on the dark sides of one-way glass; empty without glass
-    const sl_space *through; ///< what culling by baked sets looks through
     sl_hierarchy hierarchy;
     walk_way way;
     double step; ///< at speed 1
@@ -317,8 +315,7 @@ static sl_status add_row(command_console *console, const walk_plan *plan, walk_w
                          const walk_choice *choice, double speed, const eye_places *eyes,
                          double **frames) {
     sl_context *context = console->context;
-    const walk_scene scene = {&w->baked, &w->hierarchy, w->through, 1e-9 * plan->wall_cost,
-                              plan->repeat};
+    const walk_scene scene = {&w->baked, &w->hierarchy, 1e-9 * plan->wall_cost, plan->repeat};
     walk_row row = {.choice = *choice, .speed = speed, .steps = eyes->list.count};
     SL_TRY(SL_ARRAY_ROOM(context, &w->rows, 1));
     if (frames) {
@@ -482,8 +479,6 @@ static sl_status work(command_console *console, const walk_plan *plan, walk_work
         SL_TRY(pipeline_note_inside(console->context, &plan->pipeline, &w->baked.map,
                                     &w->baked.space));
     SL_TRY(doors_shut(console->context, &plan->doors, &w->baked));
-    SL_TRY(pipeline_look_through(console->context, &w->baked.map, &w->baked.space, &w->dark,
-                                 &w->through));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);
@@ -585,7 +580,6 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     sl_free(console->context, w.rows.items);
     sl_free(console->context, w.way.items);
     sl_hierarchy_destroy(console->context, &w.hierarchy);
-    sl_space_destroy(console->context, &w.dark);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }

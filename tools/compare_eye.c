@@ -37,10 +37,8 @@ typedef struct comparing {
     const compare_eye_plan *plan;
     const sl_map *map;
     const sl_space *space;
-    sl_space dark; ///< with walls on the dark sides of one-way glass; empty without glass
     sl_visibility visibility;
-    sl_eye_search *search;
-    sl_outline outline;
+    sl_query *query;
     sl_region region;
     double *area; ///< by cell; 0 for outside cells
     double whole;
@@ -59,13 +57,13 @@ typedef struct contender {
 enum { CONTENDERS_MOST = 16 };
 
 static sl_status ask_method(comparing *all, const contender *me, const sl_view *view, answer *out) {
-    return me->method->cull(all->context, all->search, view, out->cells, &out->account);
+    return sl_query_look(all->context, all->query, view, me->method, out->cells, &out->account);
 }
 
 /// The exact visible region: what is seen of each cell, and no more.
 static sl_status ask_region(comparing *all, const contender *me, const sl_view *view, answer *out) {
     (void)me;
-    SL_TRY(sl_region_make(all->context, &all->outline, view, all->map->range, &all->region));
+    SL_TRY(sl_query_region(all->context, all->query, view, &all->region));
     out->has_area = true;
     out->area = sl_region_area(&all->region);
     out->account = (sl_eye_account){.nodes = all->region.portals_passed};
@@ -271,7 +269,7 @@ static sl_status run_cones(comparing *all, eye_comparison *out) {
 }
 
 /// The visible sets, with glass and the range. Mirrors are walls, and shut doors are by now.
-static sl_status see(comparing *all, const sl_space *through, sl_sight sight, double *seconds) {
+static sl_status see(comparing *all, sl_sight sight, double *seconds) {
     size_t count;
     sl_plan plan = sl_plan_make(all->map);
     plan.effects &= ~(unsigned)(SL_EFFECT_MIRROR | SL_EFFECT_DOOR);
@@ -283,9 +281,8 @@ static sl_status see(comparing *all, const sl_space *through, sl_sight sight, do
     const double start = sl_seconds();
     SL_TRY(sl_see_methods(&count)->see(all->context, all->space, &options, &all->visibility));
     *seconds = sl_seconds() - start;
-    SL_TRY(sl_eye_search_create(all->context, through, &all->visibility, &all->search));
-    sl_eye_search_set_range(all->search, all->map->range);
-    return SL_OK;
+    SL_TRY(sl_query_over(all->context, all->space, all->map, &all->visibility, &all->query));
+    return sl_query_set_mirror_depth(all->context, all->query, 0);
 }
 
 static sl_status make_answers(comparing *all) {
@@ -301,20 +298,15 @@ sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan
                           const sl_space *space, sl_sight sight, eye_comparison *out) {
     sl_context *context = console->context;
     comparing all = {.context = context, .plan = plan, .map = map, .space = space};
-    const sl_space *through;
     eye_comparison result = {.space = space, .sight = sight, .plan = plan};
     sl_status status = draw_viewpoints(context, &all);
     if (status == SL_OK) status = make_answers(&all);
-    if (status == SL_OK) status = pipeline_look_through(context, map, space, &all.dark, &through);
-    if (status == SL_OK) status = see(&all, through, sight, &result.pvs_seconds);
-    if (status == SL_OK) status = sl_outline_make(context, through, &all.outline);
+    if (status == SL_OK) status = see(&all, sight, &result.pvs_seconds);
     if (status == SL_OK) status = run_cones(&all, &result);
     for (size_t i = 0; i < BATCH; i++) sl_free(context, all.answers[i].cells);
     sl_region_destroy(context, &all.region);
-    sl_outline_destroy(context, &all.outline);
-    sl_eye_search_destroy(context, all.search);
+    sl_query_destroy(context, all.query);
     sl_visibility_destroy(context, &all.visibility);
-    sl_space_destroy(context, &all.dark);
     sl_free(context, all.area);
     sl_free(context, all.viewpoints);
     if (status == SL_OK)

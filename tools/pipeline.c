@@ -331,14 +331,6 @@ sl_status pipeline_name_stray(sl_context *context, const char *path, const sl_ma
     return status;
 }
 
-sl_status pipeline_look_through(sl_context *context, const sl_map *map, const sl_space *space,
-                                sl_space *dark, const sl_space **out) {
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    *out = map->oneway_count ? dark : space;
-    if (!map->oneway_count) return SL_OK;
-    return sl_filtered_space_make(context, space, &filtered, NULL, dark);
-}
-
 // --- help
 
 void pipeline_print_subdivisions(void) {

@@ -76,11 +76,6 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
 sl_status pipeline_name_stray(sl_context *context, const char *path, const sl_map *map,
                               const sl_space *space, sl_status status);
 
-/// The space that eyes look through: `space`, or with one-way glass `dark`, which has walls on the
-/// dark sides. `dark` must be empty before, and the caller destroys it.
-sl_status pipeline_look_through(sl_context *context, const sl_map *map, const sl_space *space,
-                                sl_space *dark, const sl_space **out);
-
 /// For --help: the names that the options take.
 void pipeline_print_subdivisions(void);
 void pipeline_print_effects(void);

@@ -371,10 +371,9 @@ typedef struct running {
     const walk_scene *scene;
     const walk_choice *choice;
     sl_walk *walk;
-    sl_eye_search *search;
+    sl_query *query;
     uint64_t *cells;
     walk_canvas *canvas;
-    sl_visibility visibility; ///< the baked sets; borrowed, without stab trees past glass
 } running;
 
 static sl_status start(sl_context *context, running *r) {
@@ -384,19 +383,16 @@ static sl_status start(sl_context *context, running *r) {
                               &r->walk);
     r->cells = sl_alloc_array(context, sl_eye_words(space), sizeof *r->cells);
     if (!r->cells) return SL_NO_MEMORY;
-    r->visibility = r->scene->baked->visibility;
-    if (r->scene->through != space) r->visibility.trees = (sl_stab_trees){0};
-    SL_TRY(sl_eye_search_create(context, r->scene->through, &r->visibility, &r->search));
-    sl_eye_search_set_range(r->search, r->scene->baked->map.range);
-    return SL_OK;
+    SL_TRY(sl_query_create(context, r->scene->baked, &r->query));
+    return sl_query_set_mirror_depth(context, r->query, 0);
 }
 
 static void stop(sl_context *context, running *r) {
     sl_walk_destroy(context, r->walk);
-    sl_eye_search_destroy(context, r->search);
+    sl_query_destroy(context, r->query);
     sl_free(context, r->cells);
     r->walk = NULL;
-    r->search = NULL;
+    r->query = NULL;
     r->cells = NULL;
 }
 
@@ -428,7 +424,7 @@ static sl_status do_frame(sl_context *context, running *r, const eye_place *eye,
         put_counts(&frame, out);
     } else {
         sl_eye_account account;
-        SL_TRY(r->choice->baked->cull(context, r->search, &view, r->cells, &account));
+        SL_TRY(sl_query_look(context, r->query, &view, r->choice->baked, r->cells, &account));
         out[FIGURE_ORIENTATIONS] = (double)account.orientations;
     }
     const double seen = sl_seconds();

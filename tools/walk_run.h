@@ -70,9 +70,8 @@ const char *walk_choice_test(const walk_choice *choice);
 typedef struct walk_scene {
     const sl_baked *baked;
     const sl_hierarchy *hierarchy;
-    const sl_space *through; ///< what baked culling looks through: with glass dark from its side
-    double wall_seconds;     ///< what drawing a wall is counted for; 0: as measured
-    unsigned repeat;         ///< walks; times are the least of all, frame by frame
+    double wall_seconds; ///< what drawing a wall is counted for; 0: as measured
+    unsigned repeat;     ///< walks; times are the least of all, frame by frame
 } walk_scene;
 
 /// Walks from eye to eye; gives means over all frames. `frames` has FIGURES places for each eye, or

@@ -449,6 +449,16 @@ sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outlin
     return make_outline(context, query, out);
 }
 
+sl_status sl_query_mirrors(sl_context *context, sl_query *query, const sl_room_mirrors **out) {
+    const sl_outline *outline;
+    *out = NULL;
+    if (!has_mirrors(query)) return SL_OK;
+    SL_TRY(sl_query_outline(context, query, &outline));
+    SL_TRY(make_mirrors(context, query, outline));
+    *out = query->mirrors;
+    return SL_OK;
+}
+
 sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
                         bool *out) {
     const sl_outline *outline;
@@ -477,11 +487,10 @@ static const sl_eye_method *exact_method(void) {
     return &methods[count - 1];
 }
 
-/// The space for an eye in line with glass: glass that is dark for it is a wall, all other is open.
-static sl_status make_space_in_line(sl_context *context, const sl_query *q, const sl_view *view,
-                                    sl_space *out) {
-    const sl_filtered_space filtered = {.shut = q->shut, .eye = &view->eye};
-    return sl_filtered_space_make(context, q->sight.base, &filtered, NULL, out);
+sl_status sl_query_space_from(sl_context *context, sl_query *query, sl_point eye, sl_space *out) {
+    const sl_filtered_space filtered = {.shut = query->shut, .eye = &eye};
+    SL_TRY(make_layers(context, query));
+    return sl_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
 }
 
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
@@ -489,7 +498,7 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
                               sl_eye_account *account) {
     sl_space space;
     sl_eye_search *search = NULL;
-    SL_TRY(make_space_in_line(context, q, view, &space));
+    SL_TRY(sl_query_space_from(context, q, view->eye, &space));
     sl_status status = sl_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
@@ -501,11 +510,11 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
     return status;
 }
 
-static sl_status look_past_in_line(sl_context *context, const sl_query *q, const sl_view *view,
+static sl_status look_past_in_line(sl_context *context, sl_query *q, const sl_view *view,
                                    uint64_t *cells, bool *seen, sl_eye_account *account) {
     sl_space space;
     sl_moving *moving = NULL;
-    SL_TRY(make_space_in_line(context, q, view, &space));
+    SL_TRY(sl_query_space_from(context, q, view->eye, &space));
     sl_status status = sl_moving_create(context, &space, &q->rows, &moving);
     if (status == SL_OK) status = sl_moving_set_boxes(context, moving, q->boxes, q->box_count);
     if (status == SL_OK) {

@@ -252,29 +252,6 @@ int slp_level_look(slp_level *level, const double *eyes, size_t count, double he
 
 // --- visible regions
 
-/// The space as queries see it: walls in place of shut doors and of dark sides of glass, numbered
-/// as theirs are. `own` is what the caller has to destroy.
-static sl_status find_space(slp_level *level, sl_space *own, const sl_space **out) {
-    sl_context *context = level->base.context;
-    const sl_map *map = &level->baked.map;
-    const sl_filtered_space shut = {.shut = level->shut};
-    const sl_filtered_space dark = {.one_way = true, .dark_walls = true};
-    *own = (sl_space){0};
-    *out = &level->baked.space;
-    if (map->door_count) {
-        SL_TRY(sl_filtered_space_make(context, *out, &shut, NULL, own));
-        *out = own;
-    }
-    if (!map->oneway_count) return SL_OK;
-    sl_space with_glass;
-    const sl_status status = sl_filtered_space_make(context, *out, &dark, NULL, &with_glass);
-    sl_space_destroy(context, own);
-    if (status != SL_OK) return status;
-    *own = with_glass;
-    *out = own;
-    return SL_OK;
-}
-
 static sl_status keep_polygon(sl_context *context, slp_polygons *out, const sl_region *region,
                               uint32_t depth, double tolerance) {
     const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
@@ -325,11 +302,9 @@ int slp_level_isovists(slp_level *level, const double *eyes, size_t count, const
         if (!level->polygons) return SL_NO_MEMORY;
         level->eye_count = count;
     }
-    sl_space own;
-    SL_TRY(find_space(level, &own, &a.space));
-    const sl_status status = ask_all(&a, threads);
-    sl_space_destroy(level->base.context, &own);
-    return status;
+    SL_TRY(slp_level_queries(level, 1));
+    SL_TRY(sl_query_space(level->base.context, level->queries.items[0], &a.space, NULL));
+    return ask_all(&a, threads);
 }
 
 size_t slp_level_polygons(const slp_level *level, int64_t *eyes, int64_t *depths, int64_t *counts) {
@@ -446,23 +421,20 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, const
     return status;
 }
 
-static sl_status fill_and_measure(slp_level *level, const sl_space *space, const slp_vga *given,
+static sl_status fill_and_measure(slp_level *level, const sl_outline *outline, const slp_vga *given,
                                   const double *seeds, size_t seed_count, const double *from,
                                   size_t from_count) {
     sl_context *context = level->base.context;
-    sl_outline outline = {0};
     sl_point *places = copy_points(context, seeds, seed_count);
     if (!places) return SL_NO_MEMORY;
     sl_status status = seed_count ? SL_OK : check_area(level, given->step);
-    if (status == SL_OK) status = sl_outline_make(context, space, &outline);
     if (status == SL_OK)
-        status = sl_vga_grid_fill(context, &outline, given->step, places, seed_count, &level->grid);
+        status = sl_vga_grid_fill(context, outline, given->step, places, seed_count, &level->grid);
     if (status == SL_OK && !level->grid.count)
         status = sl_fail(context, SL_BAD_ARGUMENT,
                          "no point of a grid of step %.9g is inside the map", given->step);
     if (status == SL_OK && (given->parts || from_count))
-        status = measure_grid(level, &outline, given, from, from_count);
-    sl_outline_destroy(context, &outline);
+        status = measure_grid(level, outline, given, from, from_count);
     sl_free(context, places);
     return status;
 }
@@ -470,17 +442,14 @@ static sl_status fill_and_measure(slp_level *level, const sl_space *space, const
 int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, size_t seed_count,
                   const double *from, size_t from_count) {
     sl_context *context = level->base.context;
-    sl_space own;
-    const sl_space *space;
+    const sl_outline *outline;
     slp_level_forget(level);
     SL_TRY(
         sl_effects_check_because(context, &level->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
                                  "steps and paths lead straight to points, not to mirror images"));
-    SL_TRY(find_space(level, &own, &space));
-    const sl_status status =
-        fill_and_measure(level, space, given, seeds, seed_count, from, from_count);
-    sl_space_destroy(context, &own);
-    return status;
+    SL_TRY(slp_level_queries(level, 1));
+    SL_TRY(sl_query_outline(context, level->queries.items[0], &outline));
+    return fill_and_measure(level, outline, given, seeds, seed_count, from, from_count);
 }
 
 size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,

@@ -104,6 +104,15 @@ SL_API sl_status sl_query_space(sl_context *context, sl_query *query, const sl_s
 /// setting changes.
 SL_API sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out);
 
+/// The mirrors of that outline; NULL where the map has none, or the depth is 0. Valid likewise.
+SL_API sl_status sl_query_mirrors(sl_context *context, sl_query *query,
+                                  const sl_room_mirrors **out);
+
+/// The space as one eye looks at it straight on, without boxes: doors that are shut are walls, and
+/// so is glass that is dark for the eye; all other glass is open. The caller destroys it.
+SL_API sl_status sl_query_space_from(sl_context *context, sl_query *query, sl_point eye,
+                                     sl_space *out);
+
 /// Whether an eye sees a point directly, past boxes and within range, as sl_sees says with the
 /// sight of the bake.
 SL_API sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
