@@ -112,7 +112,8 @@ void help_name(const char *name, int width, const char *what, const char *after)
 void help_measure(const sl_measure *measure, int width) {
     char unit[SL_UNIT_TEXT], after[SL_UNIT_TEXT + 4];
     sl_measure_say_unit(measure, "", unit);
-    snprintf(after, sizeof after, "in %s", unit);
+    // Manual pages are plain ASCII.
+    snprintf(after, sizeof after, "in %s", measure->unit == SL_UNIT_DEGREES ? "degrees" : unit);
     help_name(measure->name, width, measure->meaning, *unit ? after : NULL);
 }
 
