@@ -36,8 +36,8 @@ extern "C" {
     row(radial_variance, RADIAL, AREA,   "second moment of the radials about their mean") \
     row(radial_skewness, RADIAL, VOLUME, "third moment of the radials about their mean")
 
-/// Of a point of a visibility graph (sl_vga_measures). Integration is by Hillier and Hanson 1984, and
-/// by Teklenburg, Timmermans and van Wagenberg 1993.
+/// Of a point of a visibility graph (sl_vga_measures). Integration: Hillier and Hanson 1984;
+/// Teklenburg, Timmermans and van Wagenberg 1993.
 #define SL_GRAPH_MEASURES(row) \
     row(connectivity,                       LOCAL,   NONE,   "number of points seen") \
     row(visual_mean_depth,                  GLOBAL,  NONE,   "mean number of steps to all points") \
