@@ -1,5 +1,6 @@
 /// `sightline axial`: the axial lines of a plan, or drawn ones, and their measures.
 #include "commands.h"
+#include "help.h"
 #include "line_table.h"
 #include "outputs.h"
 #include "pipeline.h"
@@ -8,7 +9,6 @@
 #include "within.h"
 
 #include <inttypes.h>
-#include <stddef.h>
 #include <string.h>
 
 typedef struct lines_kind {
@@ -17,26 +17,6 @@ typedef struct lines_kind {
 
 enum { LINES_ALL, LINES_SUBSETS, LINES_FEWEST, LINES_DRAWN };
 static const lines_kind kinds[] = {{"all"}, {"subsets"}, {"fewest"}, {"drawn"}};
-
-#define MEASURE(name, has_radius)                                                                  \
-    { #name, offsetof(sl_axial_measures, name), has_radius }
-static const line_measure measures[] = {
-    MEASURE(connectivity, false),
-    MEASURE(line_length, false),
-    MEASURE(control, false),
-    MEASURE(controllability, false),
-    MEASURE(choice, true),
-    MEASURE(choice_norm, true),
-    MEASURE(node_count, true),
-    MEASURE(total_depth, true),
-    MEASURE(mean_depth, true),
-    MEASURE(integration_hh, true),
-    MEASURE(integration_pvalue, true),
-    MEASURE(integration_tekl, true),
-    MEASURE(entropy, true),
-};
-enum { MEASURES = sizeof measures / sizeof *measures };
-static const size_t default_measure = 9;
 
 typedef struct axial_plan {
     const char *input, *output, *picture;
@@ -134,8 +114,8 @@ static sl_status measure(sl_context *context, const axial_plan *plan, axial_work
         SL_TRY(read_radius(context, plan->radii.count ? plan->radii.items[i] : "n", &options.radius,
                            ending));
         SL_TRY(sl_axial_measure(context, w->lines.lines, &w->graph, &options, w->measures));
-        SL_TRY(line_table_add(context, &w->table, measures, MEASURES, w->measures,
-                              sizeof *w->measures, ending));
+        SL_TRY(
+            line_table_add(context, &w->table, SL_AXIAL, w->measures, sizeof *w->measures, ending));
     }
     return SL_OK;
 }
@@ -181,12 +161,15 @@ static sl_status work(command_console *console, axial_plan *plan, axial_work *w)
     return SL_OK;
 }
 
+static void print_tables(void) {
+    help_measures(SL_AXIAL);
+}
+
 sl_status cmd_axial(command_console *console, int argc, char **argv) {
     axial_plan plan = {.pipeline = pipeline_default(),
                        .lines = LINES_FEWEST,
-                       .measure = default_measure,
+                       .measure = sl_measure_find(SL_AXIAL, "integration_hh"),
                        .drawing = sl_draw_options_default()};
-    const name_table names = {"measure", measures, sizeof *measures, MEASURES, NULL};
     const name_table lines = {"kind of lines", kinds, sizeof *kinds, sizeof kinds / sizeof *kinds,
                               NULL};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
@@ -208,7 +191,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
          .check = CHECK_PICTURE},
         {"measure", 0, "NAME",
          "what the picture shows and the summary ranks (default: integration_hh)",
-         .choice = &plan.measure, .names = names},
+         .choice = &plan.measure, .names = measure_table(SL_AXIAL)},
         {"radius", 0, "N",
          "only lines within N steps, or n for all (default); may be given several times",
          .list = &plan.radii},
@@ -230,6 +213,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
                 "that is turned by any angle has up to three times as many lines.",
         .examples = "  sightline axial office.map -o axial.csv --picture axial.png\n"
                     "  sightline axial drawn.dxf --lines drawn --radius n --radius 3 -o axial.csv",
+        .tables = print_tables,
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "eye_run.h"
 #include "heat_map.h"
+#include "help.h"
 #include "isovist.h"
 #include "isovist_union.h"
 #include "json_print.h"
@@ -175,17 +176,17 @@ static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isov
 static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
     const eye_places *eyes = &w->eyes;
     const size_t count = eyes->columns * eyes->rows;
+    const sl_measure *measure = &sl_measures(SL_ISOVIST, &(size_t){0})[plan->measure];
     double *values = sl_alloc_array(context, count, sizeof *values);
     if (!values) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count; i++)
-        values[eyes->squares.items[i]] = isovist_value(&w->isovists[i], plan->measure);
-    char unit[ISOVIST_UNIT];
-    isovist_unit(plan->measure, w->baked.map.unit, unit);
-    const name_table measures = isovist_measures();
+        values[eyes->squares.items[i]] = sl_measure_value(measure, &w->isovists[i].measures);
+    char unit[SL_UNIT_TEXT];
+    sl_measure_say_unit(measure, w->baked.map.unit, unit);
     const heat_map heat = {.input = plan->input,
                            .map = plan->pipeline.input.import.map,
-                           .measure = name_table_at(&measures, plan->measure),
+                           .measure = measure->name,
                            .drawing = &plan->drawing,
                            .path = plan->picture};
     sl_field field = {.unit = *unit ? unit : NULL,
@@ -328,11 +329,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
 }
 
 static void print_tables(void) {
-    const name_table measures = isovist_measures();
-    fputs("\nmeasures, for --measure:", stdout);
-    for (size_t i = 0; i < measures.count; i++)
-        printf("%s%s", i % 6 ? ", " : i ? ",\n  " : "\n  ", name_table_at(&measures, i));
-    putchar('\n');
+    help_measures(SL_ISOVIST);
 }
 
 sl_status cmd_isovist(command_console *console, int argc, char **argv) {
@@ -354,7 +351,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"picture", 0, "PICTURE", "draw the regions, or a heat map of the grid: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"measure", 0, "NAME", "the measure of the heat map (default: area)",
-         .choice = &plan.measure, .names = isovist_measures(), .given = &plan.measure_given},
+         .choice = &plan.measure, .names = measure_table(SL_ISOVIST), .given = &plan.measure_given},
         {"scale", 0, "MIN,MAX",
          "the ends of the colour scale, to compare pictures (default: smallest and largest value)",
          .point = &plan.scale, .given = &plan.scale_given},

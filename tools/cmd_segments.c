@@ -1,26 +1,12 @@
 /// `sightline segments`: angular analysis of a network of drawn lines.
 #include "commands.h"
+#include "help.h"
 #include "line_table.h"
 #include "outputs.h"
 #include "sightline/axial.h"
 #include "sightline/support.h"
 
-#include <stddef.h>
 #include <string.h>
-
-#define MEASURE(name, has_radius)                                                                  \
-    { #name, offsetof(sl_segment_measures, name), has_radius }
-static const line_measure measures[] = {
-    MEASURE(connectivity, false),
-    MEASURE(segment_length, false),
-    MEASURE(t1024_choice, true),
-    MEASURE(t1024_integration, true),
-    MEASURE(t1024_node_count, true),
-    MEASURE(t1024_total_depth, true),
-    MEASURE(nach, true),
-    MEASURE(nain, true),
-};
-enum { MEASURES = sizeof measures / sizeof *measures };
 
 typedef struct segments_plan {
     const char *input, *output, *picture;
@@ -107,8 +93,8 @@ static sl_status run(sl_context *context, const segments_plan *plan, segments_wo
             SL_TRY(read_radius(context, "--angular-radius", "angular",
                                plan->angular.items[i - metric], &options.angular_radius, ending));
         SL_TRY(sl_segment_measure(context, w->segments, w->table.count, &options, w->measures));
-        SL_TRY(line_table_add(context, &w->table, measures, MEASURES, w->measures,
-                              sizeof *w->measures, ending));
+        SL_TRY(line_table_add(context, &w->table, SL_SEGMENTS, w->measures, sizeof *w->measures,
+                              ending));
     }
     return SL_OK;
 }
@@ -135,10 +121,14 @@ static sl_status work(command_console *console, const segments_plan *plan, segme
     return SL_OK;
 }
 
+static void print_tables(void) {
+    help_measures(SL_SEGMENTS);
+}
+
 sl_status cmd_segments(command_console *console, int argc, char **argv) {
-    segments_plan plan = {
-        .reading = input_options_default(), .measure = 2, .drawing = sl_draw_options_default()};
-    const name_table names = {"measure", measures, sizeof *measures, MEASURES, NULL};
+    segments_plan plan = {.reading = input_options_default(),
+                          .measure = sl_measure_find(SL_SEGMENTS, "t1024_choice"),
+                          .drawing = sl_draw_options_default()};
     const option_table reading = input_option_table(&plan.reading);
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_spec options[] = {
@@ -150,7 +140,7 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
          .check = CHECK_PICTURE},
         {"measure", 0, "NAME",
          "what the picture shows and the summary ranks (default: t1024_choice)",
-         .choice = &plan.measure, .names = names},
+         .choice = &plan.measure, .names = measure_table(SL_SEGMENTS)},
         {"metric-radius", 0, "R",
          "only segments within R along the network, or n for all (default); may be given several "
          "times",
@@ -173,6 +163,7 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
         .examples = "  sightline segments streets.dxf -o streets.csv --picture choice.png\n"
                     "  sightline segments axial.csv --metric-radius 400 --metric-radius n -o "
                     "all.csv",
+        .tables = print_tables,
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

@@ -1,6 +1,7 @@
 /// `sightline vga`: visibility graph analysis of a grid of points, as tables and heat maps.
 #include "commands.h"
 #include "heat_map.h"
+#include "help.h"
 #include "outputs.h"
 #include "pipeline.h"
 #include "sightline/query.h"
@@ -49,16 +50,9 @@ typedef struct vga_work {
 
 // --- the options
 
-static size_t default_measure(void) {
-    const name_table measures = vga_measures();
-    size_t k = 0;
-    while (strcmp(name_table_at(&measures, k), "visual_integration_hh") != 0) k++;
-    return k;
-}
-
 /// A measure of the groups that are chosen: the default one, else their first.
 static size_t some_measure(unsigned parts) {
-    size_t k = default_measure();
+    size_t k = sl_measure_find(SL_VGA, "visual_integration_hh");
     if (parts & vga_measure_part(k)) return k;
     for (k = 0; !(parts & vga_measure_part(k));) k++;
     return k;
@@ -82,7 +76,7 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     const unsigned part = p->measure_given ? vga_measure_part(p->measure) : 0;
     const unsigned steps = VGA_PART_STEPS | VGA_PART_STEP_LENGTHS | VGA_PART_STEP_TURNS;
     if (part & steps && !p->from.count) {
-        const name_table measures = vga_measures();
+        const name_table measures = measure_table(SL_VGA);
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--measure %s needs --from X,Y: where the steps begin",
                        name_table_at(&measures, p->measure));
@@ -307,7 +301,7 @@ static sl_status make_outline(sl_context *context, vga_work *w) {
 static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
     const size_t count = (size_t)grid->columns * grid->rows;
-    const name_table measures = vga_measures();
+    const name_table measures = measure_table(SL_VGA);
     double *values = sl_alloc_array(context, count, sizeof *values);
     if (!values) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) values[i] = NAN;
@@ -394,7 +388,7 @@ static void work_destroy(sl_context *context, vga_work *w) {
 
 static sl_status draw_change(sl_context *context, const vga_plan *plan, const vga_work *w,
                              const vga_change *change) {
-    const name_table measures = vga_measures();
+    const name_table measures = measure_table(SL_VGA);
     char name[96];
     snprintf(name, sizeof name, "change of %s", name_table_at(&measures, plan->measure));
     const heat_map heat = {.input = plan->input,
@@ -460,16 +454,17 @@ static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
 }
 
 static void print_tables(void) {
-    const name_table measures = vga_measures();
-    fputs("\nmeasures, for --measure, and their groups, for --measures:\n", stdout);
+    size_t count;
+    const sl_measure *measures = sl_measures(SL_VGA, &count);
+    const name_table parts = vga_parts();
+    puts("\nmeasures, for --measure, and their groups, for --measures:");
     for (unsigned bit = 0; 1u << bit <= VGA_PART_STEPS; bit++) {
-        const name_table parts = vga_parts();
-        if (1u << bit == VGA_PART_ALL) continue;
         const bool steps = 1u << bit == VGA_PART_STEPS;
-        printf("  %s:\n", steps ? "with --from and --agents" : name_table_at(&parts, bit));
-        for (size_t k = 0; k < measures.count; k++)
+        if (1u << bit == VGA_PART_ALL) continue;
+        printf(" %s:\n", steps ? "with --from and --agents" : name_table_at(&parts, bit));
+        for (size_t k = 0; k < count; k++)
             if (steps ? vga_measure_part(k) >= VGA_PART_STEPS : vga_measure_part(k) == 1u << bit)
-                printf("    %s\n", name_table_at(&measures, k));
+                help_measure(&measures[k], 36);
     }
 }
 
@@ -497,7 +492,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .check = CHECK_PICTURE},
         {"measure", 0, "NAME",
          "what the picture shows and the summary ranks (default: visual_integration_hh)",
-         .choice = &plan.measure, .names = vga_measures(), .given = &plan.measure_given},
+         .choice = &plan.measure, .names = measure_table(SL_VGA), .given = &plan.measure_given},
         {"measures", 0, "GROUP,...",
          "what to compute: visual, through, metric, angular, isovist, all (default: the group of "
          "--measure, else visual)",

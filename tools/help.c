@@ -109,6 +109,21 @@ void help_name(const char *name, int width, const char *what, const char *after)
     help_wrap(text, width + 2, width + 2);
 }
 
+void help_measure(const sl_measure *measure, int width) {
+    char unit[SL_UNIT_TEXT], after[SL_UNIT_TEXT + 4];
+    sl_measure_say_unit(measure, "", unit);
+    // Manual pages are plain ASCII.
+    snprintf(after, sizeof after, "in %s", measure->unit == SL_UNIT_DEGREES ? "degrees" : unit);
+    help_name(measure->name, width, measure->meaning, *unit ? after : NULL);
+}
+
+void help_measures(sl_analysis analysis) {
+    size_t count;
+    const sl_measure *measures = sl_measures(analysis, &count);
+    puts("\nmeasures, for --measure:");
+    for (size_t k = 0; k < count; k++) help_measure(&measures[k], 20);
+}
+
 // --- manual pages
 
 /// Text for man(7): backslashes, dashes, and dots at the start of a line mean themselves.

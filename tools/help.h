@@ -28,4 +28,10 @@ void help_wrap(const char *text, int column, int indent);
 /// nothing).
 void help_name(const char *name, int width, const char *what, const char *after);
 
+/// Prints a measure likewise: its name, what it means, and its unit where that is not of the map.
+void help_measure(const sl_measure *measure, int width);
+
+/// Prints all measures of an analysis, under a heading.
+void help_measures(sl_analysis analysis);
+
 #endif

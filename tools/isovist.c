@@ -6,7 +6,6 @@
 #include "within.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -204,56 +203,13 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
 
 // --- measures
 
-typedef struct measure {
-    const char *name;
-    size_t offset; ///< in sl_region_measures
-    int power;     ///< of the map's unit; ANGLE for degrees
-} measure;
-
-enum { ANGLE = -1 };
-
-#define MEASURE(name, power)                                                                       \
-    { #name, offsetof(sl_region_measures, name), power }
-static const measure measures[] = {
-    MEASURE(area, 2),
-    MEASURE(perimeter, 1),
-    MEASURE(compactness, 0),
-    MEASURE(occlusivity, 1),
-    MEASURE(drift_magnitude, 1),
-    MEASURE(drift_angle, ANGLE),
-    MEASURE(min_radial, 1),
-    MEASURE(max_radial, 1),
-    MEASURE(mean_radial, 1),
-    MEASURE(radial_variance, 2),
-    MEASURE(radial_skewness, 3),
-};
-enum { MEASURES = sizeof measures / sizeof *measures, EYES_A_BUNDLE = 64 };
-
-name_table isovist_measures(void) {
-    return (name_table){"measure", measures, sizeof *measures, MEASURES, NULL};
-}
-
-void isovist_unit(size_t which, const char *unit, char text[ISOVIST_UNIT]) {
-    static const char *const powers[] = {"", "", "\xc2\xb2", "\xc2\xb3"};
-    const int power = measures[which].power;
-    text[0] = '\0';
-    if (power == ANGLE)
-        snprintf(text, ISOVIST_UNIT, "\xc2\xb0");
-    else if (power && *unit)
-        snprintf(text, ISOVIST_UNIT, "%s%s", unit, powers[power]);
-}
-
-static double value_of(const sl_region_measures *all, size_t which) {
-    return *(const double *)((const char *)all + measures[which].offset);
-}
-
-double isovist_value(const isovist_result *isovist, size_t which) {
-    return value_of(&isovist->measures, which);
-}
+enum { EYES_A_BUNDLE = 64 };
 
 void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *all) {
-    for (size_t i = 0; i < MEASURES; i++)
-        sl_geojson_add_real(out, measures[i].name, value_of(all, i));
+    size_t count;
+    const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
+    for (size_t i = 0; i < count; i++)
+        sl_geojson_add_real(out, measures[i].name, sl_measure_value(&measures[i], all));
 }
 
 sl_view eye_view(const sl_space *space, const eye_place *eye) {
@@ -326,8 +282,10 @@ static void put(FILE *out, double value, char after) {
 
 static sl_status write_rows(sl_context *context, bool mirrors, const eye_places *eyes,
                             const isovist_result *isovists, FILE *out) {
+    size_t count;
+    const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
     fputs("x,y,heading,fov,", out);
-    for (size_t k = 0; k < MEASURES; k++) fprintf(out, "%s,", measures[k].name);
+    for (size_t k = 0; k < count; k++) fprintf(out, "%s,", measures[k].name);
     fputs(mirrors ? "corners,mirrored_area,parts\n" : "corners\n", out);
     for (size_t i = 0; i < eyes->list.count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
@@ -336,7 +294,8 @@ static sl_status write_rows(sl_context *context, bool mirrors, const eye_places 
         put(out, eye->at.y, ',');
         put(out, eye->heading, ',');
         put(out, eye->fov, ',');
-        for (size_t k = 0; k < MEASURES; k++) put(out, isovist_value(&isovists[i], k), ',');
+        for (size_t k = 0; k < count; k++)
+            put(out, sl_measure_value(&measures[k], &isovists[i].measures), ',');
         fprintf(out, "%zu", isovists[i].corners);
         if (mirrors) {
             putc(',', out);

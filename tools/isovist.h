@@ -53,13 +53,6 @@ typedef struct isovist_result {
     size_t parts;         ///< of what is seen by mirror
 } isovist_result;
 
-enum { ISOVIST_UNIT = 32 };
-
-/// The measures by name.
-name_table isovist_measures(void);
-/// The unit of a measure of a map whose lengths are in `unit`: "m²"; "" for none.
-void isovist_unit(size_t measure, const char *unit, char text[ISOVIST_UNIT]);
-double isovist_value(const isovist_result *isovist, size_t measure);
 /// Adds all measures of a region as properties.
 void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *measures);
 

@@ -17,21 +17,22 @@ void line_table_destroy(sl_context *context, line_table *table) {
     *table = (line_table){0};
 }
 
-sl_status line_table_add(sl_context *context, line_table *table, const line_measure *kinds,
-                         size_t kind_count, const void *measures, size_t size, const char *radius) {
+sl_status line_table_add(sl_context *context, line_table *table, sl_analysis analysis,
+                         const void *values, size_t size, const char *radius) {
+    size_t count;
+    const sl_measure *measures = sl_measures(analysis, &count);
     const bool first = table->columns.count == 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &table->columns, kind_count));
-    for (size_t k = 0; k < kind_count; k++) {
-        if (!first && !kinds[k].has_radius) continue;
+    SL_TRY(SL_ARRAY_ROOM(context, &table->columns, count));
+    for (size_t k = 0; k < count; k++) {
+        const bool has_radius = measures[k].group == SL_GROUP_NETWORK;
+        if (!first && !has_radius) continue;
         line_column column = {.measure = k};
-        snprintf(column.name, sizeof column.name, "%s%s", kinds[k].name,
-                 kinds[k].has_radius ? radius : "");
+        snprintf(column.name, sizeof column.name, "%s%s", measures[k].name,
+                 has_radius ? radius : "");
         column.values = sl_alloc_array(context, (size_t)table->count + 1, sizeof *column.values);
         if (!column.values) return SL_NO_MEMORY;
-        for (uint32_t i = 0; i < table->count; i++) {
-            const char *of_line = (const char *)measures + i * size;
-            column.values[i] = *(const double *)(of_line + kinds[k].offset);
-        }
+        for (uint32_t i = 0; i < table->count; i++)
+            column.values[i] = sl_measure_value(&measures[k], (const char *)values + i * size);
         table->columns.items[table->columns.count++] = column;
     }
     return SL_OK;

@@ -12,7 +12,7 @@ enum { LINE_COLUMN_NAME = 96 };
 /// A column: a value for each line; NAN for none.
 typedef struct line_column {
     char name[LINE_COLUMN_NAME];
-    size_t measure; ///< by its number in the command's table
+    size_t measure; ///< by its number in the table of measures
     double *values;
 } line_column;
 
@@ -22,21 +22,13 @@ typedef struct line_table {
     SL_ARRAY(line_column) columns;
 } line_table;
 
-/// A measure of a command: its name, where it is in the struct of measures, and whether it depends
-/// on a radius.
-typedef struct line_measure {
-    const char *name;
-    size_t offset;
-    bool has_radius;
-} line_measure;
-
 void line_table_destroy(sl_context *context, line_table *table);
 
-/// Adds a column for each measure. `measures` has `size` bytes for each line. `radius` is what the
-/// names of those with a radius end with: "_r3"; where it is not the first one ("" or not), only
-/// those are added.
-sl_status line_table_add(sl_context *context, line_table *table, const line_measure *kinds,
-                         size_t kind_count, const void *measures, size_t size, const char *radius);
+/// Adds a column for each measure of an analysis. `values` has `size` bytes for each line. `radius`
+/// is what the names of those that a radius limits end with: "_r3"; where it is not the first one
+/// ("" or not), only those are added.
+sl_status line_table_add(sl_context *context, line_table *table, sl_analysis analysis,
+                         const void *values, size_t size, const char *radius);
 
 /// The first column of a measure.
 const line_column *line_table_column(const line_table *table, size_t measure);

@@ -86,6 +86,12 @@ const char *sight_name(sl_sight sight) {
     return sights[sight];
 }
 
+name_table measure_table(sl_analysis analysis) {
+    size_t count;
+    const sl_measure *measures = sl_measures(analysis, &count);
+    return (name_table){"measure", measures, sizeof *measures, count, NULL};
+}
+
 name_table method_table(void) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);

@@ -2,6 +2,7 @@
 #ifndef NAMES_H
 #define NAMES_H
 
+#include "sightline/measures.h"
 #include "sightline/stab.h"
 
 /// `count` structures of `stride` bytes that each start with a pointer to their name. Or, without
@@ -27,6 +28,7 @@ const char *nearest_name(const name_table *table, const char *word);
 /// "closed" and "open", numbered as sl_sight is.
 name_table sight_table(void);
 /// Numbered as in the tables of the library.
+name_table measure_table(sl_analysis analysis);
 name_table method_table(void);
 name_table effect_table(void);
 name_table subdivision_table(void);

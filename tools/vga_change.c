@@ -64,7 +64,7 @@ static void put(FILE *out, double value, const char *missing) {
 }
 
 static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) {
-    const name_table names = vga_measures();
+    const name_table names = measure_table(SL_VGA);
     double values[VALUES];
     fputs("x,y", out);
     for (size_t k = 0; k < names.count; k++)
@@ -90,7 +90,7 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
 }
 
 static sl_status write_geojson(sl_context *context, const vga_change *c, FILE *file) {
-    const name_table names = vga_measures();
+    const name_table names = measure_table(SL_VGA);
     sl_geojson_writer out = sl_geojson_begin(file);
     double values[VALUES];
     char key[96];
@@ -186,7 +186,7 @@ static size_t find_best(const vga_change *c, size_t measure, int sign, size_t be
 }
 
 static void print_best(const vga_change *c, size_t measure, int sign) {
-    const name_table names = vga_measures();
+    const name_table names = measure_table(SL_VGA);
     size_t best[BEST];
     const size_t count = find_best(c, measure, sign, best);
     if (count)
@@ -199,7 +199,7 @@ static void print_best(const vga_change *c, size_t measure, int sign) {
 }
 
 void vga_change_print(const vga_change *change, size_t measure) {
-    const name_table names = vga_measures();
+    const name_table names = measure_table(SL_VGA);
     size_t both = 0, before = 0, after = 0;
     for (size_t n = 0; n < change->count; n++) {
         const vga_pair *p = &change->pairs[n];

@@ -5,86 +5,39 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stddef.h>
 
-typedef struct part {
-    const char *name;
-} part;
+/// Groups as they can be chosen, in the order of the bits.
+static const sl_measure_group groups[] = {SL_GROUP_LOCAL, SL_GROUP_THROUGH, SL_GROUP_METRIC,
+                                          SL_GROUP_ANGULAR, SL_GROUP_ISOVIST};
+enum { GROUPS = sizeof groups / sizeof *groups, BEST = 10 };
 
-static const part parts[] = {{"visual"},  {"through"}, {"metric"},
-                             {"angular"}, {"isovist"}, {"all"}};
-
-name_table vga_parts(void) {
-    return (name_table){"group of measures", parts, sizeof *parts, sizeof parts / sizeof *parts,
-                        NULL};
+static const char *part_name(size_t index) {
+    return index < GROUPS ? sl_measure_group_name(groups[index]) : "all";
 }
 
-typedef struct column {
-    const char *name;
-    unsigned part;
-    size_t offset; ///< in sl_vga_measures, sl_region_measures or sl_vga_depths
-} column;
+name_table vga_parts(void) {
+    return (name_table){.kind = "group of measures", .count = GROUPS + 1, .at = part_name};
+}
 
-#define OF_GRAPH(part, name)                                                                       \
-    { #name, VGA_PART_##part, offsetof(sl_vga_measures, name) }
-#define OF_REGION(name)                                                                            \
-    { #name, VGA_PART_ISOVIST, offsetof(sl_region_measures, name) }
-#define OF_STEPS(part, name)                                                                       \
-    { #name, VGA_PART_##part, offsetof(sl_vga_depths, name) }
-static const column columns[] = {
-    OF_GRAPH(VISUAL, connectivity),
-    OF_GRAPH(VISUAL, visual_mean_depth),
-    OF_GRAPH(VISUAL, visual_node_count),
-    OF_GRAPH(VISUAL, visual_integration_hh),
-    OF_GRAPH(VISUAL, visual_integration_tekl),
-    OF_GRAPH(VISUAL, visual_integration_pvalue),
-    OF_GRAPH(VISUAL, visual_entropy),
-    OF_GRAPH(VISUAL, visual_relativised_entropy),
-    OF_GRAPH(VISUAL, visual_clustering_coefficient),
-    OF_GRAPH(VISUAL, visual_control),
-    OF_GRAPH(VISUAL, visual_controllability),
-    OF_GRAPH(VISUAL, point_first_moment),
-    OF_GRAPH(VISUAL, point_second_moment),
-    OF_GRAPH(THROUGH, through_vision),
-    OF_GRAPH(METRIC, metric_mean_shortest_path_distance),
-    OF_GRAPH(METRIC, metric_mean_shortest_path_angle),
-    OF_GRAPH(METRIC, metric_mean_straight_line_distance),
-    OF_GRAPH(ANGULAR, angular_mean_depth),
-    OF_GRAPH(ANGULAR, angular_total_depth),
-    OF_REGION(area),
-    OF_REGION(perimeter),
-    OF_REGION(compactness),
-    OF_REGION(occlusivity),
-    OF_REGION(drift_magnitude),
-    OF_REGION(drift_angle),
-    OF_REGION(min_radial),
-    OF_REGION(max_radial),
-    OF_GRAPH(METRIC, metric_node_count),
-    OF_GRAPH(ANGULAR, angular_node_count),
-    OF_STEPS(STEPS, visual_step_depth),
-    OF_STEPS(STEP_LENGTHS, metric_step_shortest_path_length),
-    OF_STEPS(STEP_LENGTHS, metric_step_shortest_path_angle),
-    OF_STEPS(STEP_LENGTHS, metric_straight_line_distance),
-    OF_STEPS(STEP_TURNS, angular_step_depth),
-    {"gate_counts", VGA_PART_AGENTS, 0},
-};
-enum { COLUMNS = sizeof columns / sizeof *columns, BEST = 10 };
-
-name_table vga_measures(void) {
-    return (name_table){"measure", columns, sizeof *columns, COLUMNS, NULL};
+static const sl_measure *columns(size_t *count) {
+    return sl_measures(SL_VGA, count);
 }
 
 unsigned vga_measure_part(size_t measure) {
-    return columns[measure].part;
+    const sl_measure *m = &columns(&(size_t){0})[measure];
+    if (m->of == SL_OF_AGENTS) return VGA_PART_AGENTS;
+    unsigned part = VGA_PART_VISUAL; // of local and global ones
+    for (size_t i = 0; i < GROUPS; i++)
+        if (groups[i] == m->group) part = 1u << i;
+    return m->of == SL_OF_DEPTH ? part * VGA_PART_STEPS : part;
 }
 
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {
-    const column *c = &columns[measure];
-    const void *from = &table->measures[point];
-    if (c->part == VGA_PART_AGENTS) return (double)table->gates[point];
-    if (c->part >= VGA_PART_STEPS) from = &table->depths[point];
-    if (c->part == VGA_PART_ISOVIST) from = &table->isovists[point].measures;
-    return *(const double *)((const char *)from + c->offset);
+    const sl_measure *m = &columns(&(size_t){0})[measure];
+    if (m->of == SL_OF_AGENTS) return (double)table->gates[point];
+    if (m->of == SL_OF_DEPTH) return sl_measure_value(m, &table->depths[point]);
+    if (m->of == SL_OF_REGION) return sl_measure_value(m, &table->isovists[point].measures);
+    return sl_measure_value(m, &table->measures[point]);
 }
 
 // --- files
@@ -100,17 +53,19 @@ static void put(FILE *out, double value, const char *missing) {
 }
 
 static sl_status write_csv(sl_context *context, const vga_table *table, FILE *out) {
+    size_t count;
+    const sl_measure *measures = columns(&count);
     fputs("x,y", out);
-    for (size_t k = 0; k < COLUMNS; k++)
-        if (table->parts & columns[k].part) fprintf(out, ",%s", columns[k].name);
+    for (size_t k = 0; k < count; k++)
+        if (table->parts & vga_measure_part(k)) fprintf(out, ",%s", measures[k].name);
     putc('\n', out);
     for (uint32_t p = 0; p < table->grid.count; p++) {
         if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         put(out, table->grid.points[p].x, "");
         putc(',', out);
         put(out, table->grid.points[p].y, "");
-        for (size_t k = 0; k < COLUMNS; k++) {
-            if (!(table->parts & columns[k].part)) continue;
+        for (size_t k = 0; k < count; k++) {
+            if (!(table->parts & vga_measure_part(k))) continue;
             putc(',', out);
             put(out, vga_value(table, k, p), "");
         }
@@ -120,6 +75,8 @@ static sl_status write_csv(sl_context *context, const vga_table *table, FILE *ou
 }
 
 static sl_status write_geojson(sl_context *context, const vga_table *table, FILE *out) {
+    size_t count;
+    const sl_measure *measures = columns(&count);
     fputs("{\"type\": \"FeatureCollection\", \"features\": [", out);
     for (uint32_t p = 0; p < table->grid.count; p++) {
         if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
@@ -131,9 +88,9 @@ static sl_status write_geojson(sl_context *context, const vga_table *table, FILE
         put(out, table->grid.points[p].y, "");
         fputs("]}, \"properties\": {", out);
         const char *comma = "";
-        for (size_t k = 0; k < COLUMNS; k++) {
-            if (!(table->parts & columns[k].part)) continue;
-            fprintf(out, "%s\"%s\": ", comma, columns[k].name);
+        for (size_t k = 0; k < count; k++) {
+            if (!(table->parts & vga_measure_part(k))) continue;
+            fprintf(out, "%s\"%s\": ", comma, measures[k].name);
             put(out, vga_value(table, k, p), "null");
             comma = ", ";
         }
@@ -155,6 +112,7 @@ sl_status vga_write(sl_context *context, const vga_table *table, const char *pat
 // --- the summary
 
 static void print_mean(const vga_table *table, size_t measure) {
+    const char *name = columns(&(size_t){0})[measure].name;
     double sum = 0, squares = 0, count = 0;
     for (uint32_t p = 0; p < table->grid.count; p++) {
         const double value = vga_value(table, measure, p);
@@ -163,7 +121,7 @@ static void print_mean(const vga_table *table, size_t measure) {
         count++;
     }
     if (count == 0) {
-        printf("  %-36s %12s\n", columns[measure].name, "not defined");
+        printf("  %-36s %12s\n", name, "not defined");
         return;
     }
     const double mean = sum / count;
@@ -171,7 +129,7 @@ static void print_mean(const vga_table *table, size_t measure) {
         const double value = vga_value(table, measure, p);
         if (!isnan(value)) squares += (value - mean) * (value - mean);
     }
-    printf("  %-36s %12.6g %12.6g\n", columns[measure].name, mean, sqrt(squares / count));
+    printf("  %-36s %12.6g %12.6g\n", name, mean, sqrt(squares / count));
 }
 
 /// The points of the highest values, the first of equal ones.
@@ -192,13 +150,15 @@ static size_t find_best(const vga_table *table, size_t measure, uint32_t best[BE
 
 void vga_print_summary(const vga_table *table, size_t measure) {
     uint32_t best[BEST];
+    size_t columns_count;
+    const char *name = columns(&columns_count)[measure].name;
     const size_t count = find_best(table, measure, best);
     printf("%" PRIu32 " points\n  %-36s %12s %12s\n", table->grid.count, "measure", "mean",
            "deviation");
-    for (size_t k = 0; k < COLUMNS; k++)
-        if (table->parts & columns[k].part) print_mean(table, k);
+    for (size_t k = 0; k < columns_count; k++)
+        if (table->parts & vga_measure_part(k)) print_mean(table, k);
     if (!count) return;
-    printf("highest %s:\n  %12s %12s %12s\n", columns[measure].name, "x", "y", "value");
+    printf("highest %s:\n  %12s %12s %12s\n", name, "x", "y", "value");
     for (size_t k = 0; k < count; k++)
         printf("  %12.6g %12.6g %12.6g\n", table->grid.points[best[k]].x,
                table->grid.points[best[k]].y, vga_value(table, measure, best[k]));

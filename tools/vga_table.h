@@ -18,16 +18,14 @@ typedef struct vga_table {
 
 enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_ANGULAR = 8 };
 enum { VGA_PART_ISOVIST = 16, VGA_PART_ALL = 32 };
-/// What is measured from chosen points, from the first of these bits on.
-enum { VGA_PART_STEPS = 64, VGA_PART_STEP_LENGTHS = 128, VGA_PART_STEP_TURNS = 256 };
-enum { VGA_PART_AGENTS = 512 };
+/// What is measured from chosen points: the groups from this bit on.
+enum { VGA_PART_STEPS = 64, VGA_PART_STEP_LENGTHS = VGA_PART_STEPS * VGA_PART_METRIC };
+enum { VGA_PART_STEP_TURNS = VGA_PART_STEPS * VGA_PART_ANGULAR, VGA_PART_AGENTS = 1024 };
 
 /// The groups that can be chosen, numbered as the bits are; the last is "all".
 name_table vga_parts(void);
 
-/// The measures in the order of the columns. The last ones are depths from chosen points.
-name_table vga_measures(void);
-/// The group of a measure.
+/// The group of a measure, by its place in the table of SL_VGA.
 unsigned vga_measure_part(size_t measure);
 
 /// NAN where the measure is not defined.

@@ -138,8 +138,7 @@ DO(heat_back, heat_choose(app, -1))
 DO(heat_steps, heat_toggle_steps(app))
 
 static bool is_heat_steps(const app_state *app) {
-    size_t count;
-    return !heat_measures(&count)[app->view.heat_choice.measure].part;
+    return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
 }
 
 DO(heat_hold, heat_toggle_held(app))

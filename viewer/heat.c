@@ -122,13 +122,16 @@ static bool is_old(const app_state *app, const heat_layer *layer) {
     return !same;
 }
 
-static const heat_measure *chosen(const app_state *app) {
-    size_t count;
-    return &heat_measures(&count)[app->view.heat_choice.measure];
+static const sl_measure *chosen(const app_state *app) {
+    return heat_measure(app->view.heat_choice.measure);
+}
+
+static unsigned chosen_part(const app_state *app) {
+    return heat_measure_part(chosen(app));
 }
 
 static sl_status start(app_state *app, heat_layer *layer) {
-    layer->graph.wanted = chosen(app)->part;
+    layer->graph.wanted = chosen_part(app);
     layer->stopped = true; // where it fails too, so that it is not tried again and again
     SL_TRY(task_start(app->context, heat_graph_work, &layer->graph, &layer->job));
     layer->stopped = false;
@@ -235,18 +238,18 @@ static sl_status count_steps(app_state *app, heat_layer *layer) {
 }
 
 static sl_status evaluate(app_state *app, heat_layer *layer) {
-    const heat_measure *measure = chosen(app);
+    const sl_measure *measure = chosen(app);
     const uint32_t count = layer->graph.grid.count;
     if (layer->measure != app->view.heat_choice.measure) layer->valued = false;
     layer->measure = app->view.heat_choice.measure;
     if (!layer->values) layer->values = sl_alloc_array(app->context, count, sizeof *layer->values);
     if (!layer->values) return SL_NO_MEMORY;
-    if (!measure->part) return count_steps(app, layer);
+    if (!heat_measure_part(measure)) return count_steps(app, layer);
     if (layer->valued) return SL_OK;
     layer->least = INFINITY;
     layer->most = -INFINITY;
     for (uint32_t p = 0; p < count; p++) {
-        layer->values[p] = heat_graph_value(&layer->graph, measure, p);
+        layer->values[p] = sl_measure_value(measure, &layer->graph.measures[p]);
         layer->least = fmin(layer->least, layer->values[p]);
         layer->most = fmax(layer->most, layer->values[p]);
     }
@@ -256,7 +259,7 @@ static sl_status evaluate(app_state *app, heat_layer *layer) {
 }
 
 void heat_layer_update(app_state *app, bool wait) {
-    const unsigned part = chosen(app)->part;
+    const unsigned part = chosen_part(app);
     if (app->view.heat && is_old(app, app->view.heat)) drop(app);
     if (!layers_shows(app, LAYER_HEAT) || !app->document.baked) {
         // What is there waits for the next time. What is not starts anew then.
@@ -311,21 +314,19 @@ static void choose(app_state *app, size_t measure) {
     app->view.heat_choice.held = false;
     app->view.heat_choice.stamp++;
     heat_say_measure(app, text);
-    ui_say(&app->ui, false, "%s%s", text, chosen(app)->part ? "" : " from the pointer");
+    ui_say(&app->ui, false, "%s%s", text, chosen_part(app) ? "" : " from the pointer");
 }
 
 void heat_choose(app_state *app, int by) {
-    size_t count;
-    heat_measures(&count);
+    const size_t count = heat_measure_count();
     choose(app, (app->view.heat_choice.measure + count + (size_t)(by + (int)count)) % count);
 }
 
 void heat_toggle_steps(app_state *app) {
-    size_t count;
     heat_choice *choice = &app->view.heat_choice;
-    heat_measures(&count);
-    const bool on = choice->measure == count - 1;
-    const size_t next = on ? choice->before : count - 1;
+    const size_t steps = heat_measure_count() - 1;
+    const bool on = choice->measure == steps;
+    const size_t next = on ? choice->before : steps;
     if (!on) choice->before = choice->measure;
     choose(app, next == choice->measure ? 0 : next);
 }

@@ -13,7 +13,7 @@ typedef struct legend_key legend_key;
 
 /// What is chosen of it. Zeroed: the first measure, on a grid of the usual step.
 typedef struct heat_choice {
-    size_t measure, before; ///< of heat_measures; the one before steps were chosen
+    size_t measure, before; ///< by heat_measure(); the one before steps were chosen
     double step;            ///< 0: the usual one
     bool held;              ///< the colour scale stays as it is
     double least, most;     ///< its ends then

@@ -8,48 +8,27 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stddef.h>
-#include <string.h>
 
 // --- measures
 
-#define OF(part, name)                                                                             \
-    { #name, SL_VGA_##part, offsetof(sl_vga_measures, name) }
-static const heat_measure measures[] = {
-    OF(GLOBAL, visual_integration_hh),
-    OF(LOCAL, connectivity),
-    OF(GLOBAL, visual_mean_depth),
-    OF(GLOBAL, visual_node_count),
-    OF(GLOBAL, visual_integration_tekl),
-    OF(GLOBAL, visual_integration_pvalue),
-    OF(GLOBAL, visual_entropy),
-    OF(GLOBAL, visual_relativised_entropy),
-    OF(LOCAL, visual_clustering_coefficient),
-    OF(LOCAL, visual_control),
-    OF(LOCAL, visual_controllability),
-    OF(LOCAL, point_first_moment),
-    OF(LOCAL, point_second_moment),
-    OF(THROUGH, through_vision),
-    OF(METRIC, metric_mean_shortest_path_distance),
-    OF(METRIC, metric_mean_shortest_path_angle),
-    OF(METRIC, metric_mean_straight_line_distance),
-    OF(ANGULAR, angular_mean_depth),
-    OF(ANGULAR, angular_total_depth),
-    {"visual_step_depth", 0, 0},
-};
-enum { MEASURES = sizeof measures / sizeof *measures };
-
-const heat_measure *heat_measures(size_t *count) {
-    *count = MEASURES;
-    return measures;
+const sl_measure *heat_measure(size_t number) {
+    size_t count;
+    const sl_measure *all = sl_measures(SL_VGA, &count);
+    const size_t usual = sl_measure_find(SL_VGA, "visual_integration_hh");
+    if (number == 0) return &all[usual];
+    for (size_t k = 0; k < count; k++)
+        if (k != usual && all[k].of == SL_OF_GRAPH && --number == 0) return &all[k];
+    return number == 1 ? &all[sl_measure_find(SL_VGA, "visual_step_depth")] : NULL;
 }
 
-static double *entry(sl_vga_measures *of, const heat_measure *measure) {
-    return (double *)((char *)of + measure->offset);
+size_t heat_measure_count(void) {
+    size_t count = 0;
+    while (heat_measure(count)) count++;
+    return count;
 }
 
-double heat_graph_value(const heat_graph *graph, const heat_measure *measure, uint32_t point) {
-    return *entry(&graph->measures[point], measure);
+unsigned heat_measure_part(const sl_measure *measure) {
+    return measure->of == SL_OF_GRAPH ? 1u << measure->group : 0;
 }
 
 // --- the work
@@ -96,9 +75,11 @@ static sl_status measure(sl_context *context, heat_graph *g, unsigned part) {
     options.parts = part;
     const sl_status status =
         sl_vga_measure(context, &g->outline, &g->grid, &g->graph, &options, made);
-    for (size_t k = 0; k < MEASURES && status == SL_OK; k++)
-        for (uint32_t p = 0; p < g->grid.count && measures[k].part == part; p++)
-            *entry(&g->measures[p], &measures[k]) = *entry(&made[p], &measures[k]);
+    size_t count;
+    const sl_measure *all = sl_measures(SL_VGA, &count);
+    for (size_t k = 0; k < count && status == SL_OK; k++)
+        for (uint32_t p = 0; p < g->grid.count && heat_measure_part(&all[k]) == part; p++)
+            ((double *)&g->measures[p])[all[k].index] = sl_measure_value(&all[k], &made[p]);
     if (status == SL_OK) g->parts |= part;
     sl_free(context, made);
     return status;

@@ -5,15 +5,14 @@
 
 #include "sightline/vga.h"
 
-/// A measure. `part` is of sl_vga_part; 0: steps from a chosen point, which need the graph alone.
-typedef struct heat_measure {
-    const char *name;
-    unsigned part;
-    size_t offset; ///< in sl_vga_measures
-} heat_measure;
-
-/// The measures. The last one is the number of steps from a point.
-const heat_measure *heat_measures(size_t *count);
+/// The measures that it shows, by number: those of the table of SL_VGA that are of the graph, the
+/// usual one first; the last one is the number of steps from a point. NULL: there is none of this
+/// number.
+const sl_measure *heat_measure(size_t number);
+/// How many there are.
+size_t heat_measure_count(void);
+/// The part that computes a measure, of sl_vga_part; 0: steps, which need the graph alone.
+unsigned heat_measure_part(const sl_measure *measure);
 
 /// Zeroed to start. The caller fills the first block.
 typedef struct heat_graph {
@@ -36,9 +35,6 @@ enum { HEAT_POINTS_MOST = 20000 };
 /// Makes the graph, if it is not there, and measures what is wanted. For task_start; `data` is the
 /// heat_graph. What was there before a failure stays.
 sl_status heat_graph_work(sl_context *context, void *data);
-
-/// NAN where the measure is not defined.
-double heat_graph_value(const heat_graph *graph, const heat_measure *measure, uint32_t point);
 
 /// The point in whose square a place lies; UINT32_MAX: none.
 uint32_t heat_graph_square(const heat_graph *graph, sl_point at);

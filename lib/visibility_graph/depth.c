@@ -261,6 +261,9 @@ static sl_status find_paths(sl_context *context, const sli_vga_job *job, const p
     return status;
 }
 
+#define NONE(name, group, unit, meaning) NAN,
+static const sl_vga_depths no_depths = {SL_DEPTH_MEASURES(NONE)};
+
 sl_status sl_vga_depth(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
                        const sl_vga_graph *graph, const sl_vga_link *links, size_t link_count,
                        unsigned parts, const uint32_t *from, size_t from_count,
@@ -268,8 +271,7 @@ sl_status sl_vga_depth(sl_context *context, const sl_outline *outline, const sl_
     const sl_vga_options options = {.parts = parts};
     sl_bits *turning = NULL;
     places joined = {0};
-    for (uint32_t p = 0; p < graph->count; p++)
-        depths[p] = (sl_vga_depths){NAN, NAN, NAN, NAN, NAN};
+    for (uint32_t p = 0; p < graph->count; p++) depths[p] = no_depths;
     sl_status status = find_places(context, graph->count, links, link_count, &joined);
     if (status == SL_OK && parts & SL_VGA_GLOBAL)
         status = find_steps(context, graph, &joined, from, from_count, depths);

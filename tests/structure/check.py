@@ -32,7 +32,7 @@ FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "c
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "json_write": "base", "support": "base", "version": "base",
+HEADERS = {"context": "base", "json_write": "base", "measures": "base", "support": "base", "version": "base",
            "import": "map",
            "faults": "space", "outline": "space",
            "dual": "stab", "glpk": "stab", "solvers": "stab",

@@ -5,6 +5,7 @@
 #include "sightline/bake.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -80,18 +81,17 @@ static const double *shown(app_state *app, const heat_graph **graph) {
 
 /// Each value is the library's, and the colour scale goes from the least to the largest.
 static void assert_fresh(app_state *app) {
-    size_t count;
-    const heat_measure *measure = &heat_measures(&count)[app->view.heat_choice.measure];
+    const sl_measure *measure = heat_measure(app->view.heat_choice.measure);
     sl_context *context = sl_context_create(NULL);
     const heat_graph *graph;
     fresh f;
     double least = INFINITY, most = -INFINITY, low, high;
     const double *values = shown(app, &graph);
-    make_fresh(app, context, measure->part, &f);
+    make_fresh(app, context, heat_measure_part(measure), &f);
     assert_int_equal(graph->grid.count, f.grid.count);
     assert_memory_equal(graph->grid.points, f.grid.points, f.grid.count * sizeof *f.grid.points);
     for (uint32_t p = 0; p < f.grid.count; p++) {
-        const double value = *(double *)((char *)&f.measures[p] + measure->offset);
+        const double value = sl_measure_value(measure, &f.measures[p]);
         if (!isfinite(value)) {
             assert_true(isnan(values[p]));
             continue;
@@ -106,13 +106,27 @@ static void assert_fresh(app_state *app) {
     sl_context_destroy(context);
 }
 
+/// Every measure of the graph can be chosen, each once.
+static void test_list(void **state) {
+    size_t count, numbers = 0;
+    const sl_measure *all = sl_measures(SL_VGA, &count);
+    (void)state;
+    for (size_t k = 0; k < count; k++) {
+        size_t times = 0;
+        for (size_t n = 0; n < heat_measure_count(); n++) times += heat_measure(n) == &all[k];
+        const bool steps = strcmp(all[k].name, "visual_step_depth") == 0;
+        assert_int_equal(times, all[k].of == SL_OF_GRAPH || steps);
+        numbers += times;
+    }
+    assert_int_equal(numbers, heat_measure_count());
+}
+
 /// All measures, one after the other, and back to the first one.
 static void test_measures(void **state) {
     static const char *const maps[] = {MAPS "/office.map", MAPS "/oblique/rotunda.map",
                                        MAPS "/effects/range.map", MAPS "/effects/oneway.map"};
-    size_t count;
+    const size_t count = heat_measure_count();
     (void)state;
-    heat_measures(&count);
     for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {
         app_state *app = start(maps[m]);
         heat_set_step(app, 0);
@@ -316,9 +330,8 @@ static void test_no_value(void **state) {
         app_state *app = start(path);
         heat_set_step(app, 0);
         press_key(app, "1");
-        size_t count, k = 0;
-        const heat_measure *measures = heat_measures(&count);
-        while (!strstr(measures[k].name, "integration")) k++;
+        size_t k = 0;
+        while (!strstr(heat_measure(k)->name, "integration")) k++;
         while (app->view.heat_choice.measure != k) press_key(app, "2");
         legend_key key;
         assert_true(heat_layer_key(app, &key));
@@ -351,11 +364,11 @@ static void test_fills(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_measures),   cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_kept_scale), cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_glass),
-        cmocka_unit_test(test_stopped),    cmocka_unit_test(test_fills),
-        cmocka_unit_test(test_no_value),
+        cmocka_unit_test(test_list),    cmocka_unit_test(test_measures),
+        cmocka_unit_test(test_changes), cmocka_unit_test(test_kept_scale),
+        cmocka_unit_test(test_steps),   cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_glass),   cmocka_unit_test(test_stopped),
+        cmocka_unit_test(test_fills),   cmocka_unit_test(test_no_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /** The whole library: bakes maps and answers about them. */
 import type { Bounds, Cell, DirectedPortal, Door, Point, Segment, Start, View } from './sightline.js'
+import type { RegionMeasures } from './measures.js'
 import { SightlineError } from './sightline.js'
 
 export { SightlineError }
@@ -99,19 +100,7 @@ export interface Region {
 }
 
 /** A region with the measures of depthmapX. */
-export interface Isovist extends Region {
-  area: number
-  perimeter: number
-  compactness: number
-  occlusivity: number
-  driftMagnitude: number
-  driftAngle: number
-  minRadial: number
-  maxRadial: number
-  meanRadial: number
-  radialVariance: number
-  radialSkewness: number
-}
+export interface Isovist extends Region, RegionMeasures {}
 
 export interface Fault {
   kind: 'leak' | 'gap' | 'overlap' | 'crossing' | 'thin' | 'unreachable'
@@ -230,6 +219,8 @@ export type PortalEnds = [number, number, number, number]
 export class Core {
   private constructor()
   readonly version: string
+  /** The measures of an isovist. Its members have these names in camel case. */
+  readonly measures: readonly string[]
   /** Bakes a map, or opens a .slv, and keeps it. Close the scene. */
   open(map: MapInput, options?: BakeOptions): Scene
   bake(map: MapInput, options?: BakeOptions): Uint8Array

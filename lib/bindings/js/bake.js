@@ -21,6 +21,9 @@ function sceneOf(scene) {
 
 /** A loaded module. All calls are synchronous; scenes stay until they are closed. */
 export class Core extends Module {
+  /** The measures of an isovist, by name. Its members have the names in camel case. */
+  measures = this.textAt(this.core.region_names()).match(/\w+/g)
+
   /** The options, checked; those of the bake are set. `more`: the options of the call beside these. */
   #configure(asked, ...more) {
     const options = optionsOf(asked, 'method', 'subdivide', 'sight', 'insideOnly', 'stabTrees', 'check', 'weld',

@@ -1,22 +1,11 @@
 /** Visibility graph analysis: a grid of points, which of them see each other, and measures. */
 import { SightlineError } from './sightline.js'
 import type { MapInput } from './bake.js'
+import type { Depth, Measure, MeasureRow } from './measures.js'
 
 export { SightlineError }
 
-export type Measure =
-  | 'connectivity' | 'point_first_moment' | 'point_second_moment' | 'visual_clustering_coefficient'
-  | 'visual_control' | 'visual_controllability'
-  | 'visual_node_count' | 'visual_mean_depth' | 'visual_entropy' | 'visual_relativised_entropy'
-  | 'visual_integration_hh' | 'visual_integration_pvalue' | 'visual_integration_tekl'
-  | 'through_vision'
-  | 'metric_mean_shortest_path_distance' | 'metric_mean_shortest_path_angle'
-  | 'metric_mean_straight_line_distance' | 'metric_node_count'
-  | 'angular_mean_depth' | 'angular_total_depth' | 'angular_node_count'
-
-export type Depth =
-  | 'visual_step_depth' | 'metric_step_shortest_path_length' | 'metric_step_shortest_path_angle'
-  | 'metric_straight_line_distance' | 'angular_step_depth'
+export type { Depth, Measure }
 
 export interface Progress {
   /** Return false to stop. */
@@ -42,9 +31,6 @@ export interface GraphOptions extends Progress {
   name?: string
 }
 
-export const measures: readonly Measure[]
-export const depths: readonly Depth[]
-
 export class Graph {
   private constructor()
   readonly step: number
@@ -60,6 +46,9 @@ export class Graph {
   readonly points: Float64Array
   /** By point: column * rows + row. */
   readonly squares: Uint32Array
+  /** All measures of points, and all depths from a point. */
+  readonly measures: readonly MeasureRow<Measure>[]
+  readonly depths: readonly MeasureRow<Depth>[]
   /** A measure by point; NaN where it is not defined. */
   values(name: Measure, options?: Progress): Float64Array
   /** The point in whose square a place lies, or -1. */
@@ -72,6 +61,8 @@ export class Graph {
 
 export interface GraphCore {
   readonly version: string
+  readonly measures: readonly MeasureRow<Measure>[]
+  readonly depths: readonly MeasureRow<Depth>[]
   graph(map: MapInput, options: GraphOptions): Graph
 }
 

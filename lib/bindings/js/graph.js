@@ -11,29 +11,17 @@ import { Module, instantiable } from './module.js'
 
 export { SightlineError }
 
-/** Groups of measures: the bit of the group, and its measures in the order of the module. */
-const GROUPS = [
-  [1, ['connectivity', 'point_first_moment', 'point_second_moment', 'visual_clustering_coefficient',
-    'visual_control', 'visual_controllability']],
-  [2, ['visual_node_count', 'visual_mean_depth', 'visual_entropy', 'visual_relativised_entropy',
-    'visual_integration_hh', 'visual_integration_pvalue', 'visual_integration_tekl']],
-  [4, ['through_vision']],
-  [8, ['metric_mean_shortest_path_distance', 'metric_mean_shortest_path_angle',
-    'metric_mean_straight_line_distance', 'metric_node_count']],
-  [16, ['angular_mean_depth', 'angular_total_depth', 'angular_node_count']],
-]
-const DEPTHS = [[2, 'visual_step_depth'], [8, 'metric_step_shortest_path_length'],
-  [8, 'metric_step_shortest_path_angle'], [8, 'metric_straight_line_distance'], [16, 'angular_step_depth']]
+/** Measures that the module lists: name, group and unit of each, in the order of their values. */
+const rowsOf = (core, at) => Object.freeze(core.textAt(at).toLowerCase().match(/.+/g).map((line) => {
+  const [name, group, unit] = line.split(' ')
+  return Object.freeze({ name, group, unit })
+}))
 
-/** Names of all measures. */
-export const measures = Object.freeze(GROUPS.flatMap(([, names]) => names))
-/** Names of all depths from a point. */
-export const depths = Object.freeze(DEPTHS.map(([, name]) => name))
-
-const groupOf = (name) => {
-  const group = GROUPS.find(([, names]) => names.includes(textOf('measure', name)))
-  if (!group) throw new SightlineError(`there is no measure '${name}'`)
-  return group
+/** The place of a measure among some. */
+const placeOf = (rows, what, name) => {
+  const place = rows.findIndex((row) => row.name === textOf(what, name))
+  if (place < 0) throw new SightlineError(`there is no ${what} '${name}'`)
+  return place
 }
 
 /** A made graph. Close it. */
@@ -64,8 +52,18 @@ export class Graph {
     throw new SightlineError(this.#at ? 'the module stopped, and the graph is lost' : 'the graph is closed')
   }
 
+  /** All measures of points: name, group, unit. */
+  get measures() {
+    return this.#core.measures
+  }
+
+  /** Likewise, of all depths from a point. */
+  get depths() {
+    return this.#core.depths
+  }
+
   /** A column of the table that the last call left: values that are not defined are NaN. */
-  #column(width, k) {
+  #column({ length: width }, k) {
     const table = new Float64Array(this.#core.memory.buffer, this.#core.given(1)[0], width * this.count)
     return Float64Array.from({ length: this.count }, (_, p) => table[width * p + k])
   }
@@ -73,10 +71,12 @@ export class Graph {
   /** A measure of all points; computes its group, where that is not done yet. */
   values(name, given) {
     const options = optionsOf(given, 'progress', 'timeLimit')
-    const [part, names] = groupOf(name), at = this.#place
+    const { measures } = this, k = placeOf(measures, 'measure', name), at = this.#place
     if (!this.#values.has(name)) {
-      this.#core.watched(options, () => this.#core.ask((core) => core.graph_measure(at, part)))
-      for (const each of names) this.#values.set(each, this.#column(measures.length, measures.indexOf(each)))
+      this.#core.watched(options, () => this.#core.ask((core) => core.graph_measure(at, k)))
+      measures.forEach((row, i) => {
+        if (row.group === measures[k].group) this.#values.set(row.name, this.#column(measures, i))
+      })
     }
     return this.#values.get(name).slice()
   }
@@ -88,11 +88,10 @@ export class Graph {
 
   /** How far all points are from the point at a place: NaN where nothing leads; null without a point there. */
   depth(x, y, name = 'visual_step_depth') {
-    const k = depths.indexOf(textOf('depth', name)), from = this.find(x, y), at = this.#place
-    if (k < 0) throw new SightlineError(`there is no depth '${name}'`)
+    const { depths } = this, k = placeOf(depths, 'depth', name), from = this.find(x, y), at = this.#place
     if (from < 0) return null
-    this.#core.ask((core) => core.graph_depth(at, DEPTHS[k][0], from))
-    return this.#column(depths.length, k)
+    this.#core.ask((core) => core.graph_depth(at, k, from))
+    return this.#column(depths, k)
   }
 
   /** Whether one point sees another, by their numbers. */
@@ -112,6 +111,11 @@ export class Graph {
 
 /** The loaded module, for calls without promises. */
 class GraphCore extends Module {
+  /** All measures of points: name, group, unit. */
+  measures = rowsOf(this, this.core.graph_rows())
+  /** All depths from a point, likewise. */
+  depths = rowsOf(this, this.core.depth_rows())
+
   #open(map, options) {
     if (!isBaked(map))
       return this.withMap(map, options, (name, at, size, items) => {
@@ -146,7 +150,7 @@ class GraphCore extends Module {
     numberOf('entrance', entrance, 0)
     wholeOf('most', most, 0xffffffff)
     for (const [name, open] of Object.entries(objectOf('doors', doors))) flagOf(`door '${name}'`, open)
-    for (const name of listOf('measures', wanted)) groupOf(name)
+    for (const name of listOf('measures', wanted)) placeOf(this.measures, 'measure', name)
     return this.watched(options, () => {
       const at = this.#open(map, options)
       try {

@@ -10,8 +10,6 @@ const NONE = 0xffffffff
 export const MOST_MIRRORS = 16
 const GUARANTEES = ['exact', 'conservative', 'aggressive', 'rounded']
 const EDGES = ['wall', 'border', 'occluding', 'cone', 'mirror', 'arc']
-const MEASURES = ['area', 'perimeter', 'compactness', 'occlusivity', 'driftMagnitude', 'driftAngle',
-  'minRadial', 'maxRadial', 'meanRadial', 'radialVariance', 'radialSkewness']
 const TABLE = ['cellCount', 'cells', 'vertexCount', 'vertices', 'portalCount', 'portals',
   'directedCount', 'directed', 'wallCount', 'walls', 'nodeCount', 'nodes', 'seamCount', 'seams',
   'seamPortalCount', 'seamPortals', 'neighbours', 'root', 'insideCount', 'doorCount', 'mirrorCount',
@@ -315,8 +313,8 @@ export class Scene {
     this.#askRegion(x, y, options)
     const region = this.#region([...this.#given(6)])
     this.#core.core.scene_measures(this.#place)
-    const numbers = this.#core.givenNumbers(MEASURES.length)
-    MEASURES.forEach((name, i) => (region[name] = numbers[i]))
+    const numbers = this.#core.givenNumbers()
+    this.#core.measures.forEach((name, i) => (region[name.replace(/_./g, (at) => at[1].toUpperCase())] = numbers[i]))
     return region
   }
 

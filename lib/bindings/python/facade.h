@@ -75,8 +75,9 @@ SLP_API const char *slp_version(void);
 SLP_API const char *slp_message(const void *handle);
 SLP_API const char *slp_notes(const void *handle);
 SLP_API void slp_cancel(void *handle, int cancelled);
-/// Lists of names, one a line: "map_formats", "methods", "eye_methods", "subdivisions", "exports",
-/// "isovist", "vga". Returns the length; writes up to `room` bytes, the 0 included.
+/// Lists of names, one a line: "map_formats", "methods", "eye_methods", "subdivisions", "exports".
+/// And "measures", of regions and of visibility graphs: name, group, unit, meaning, part of
+/// sl_vga_part, with tabs between. Returns the length; writes up to `room` bytes, the 0 included.
 SLP_API size_t slp_names(const void *handle, const char *list, char *text, size_t room);
 
 // --- plans
@@ -164,8 +165,8 @@ SLP_API int slp_level_cell_sees(slp_level *level, const int64_t *from, const int
 SLP_API int slp_level_look(slp_level *level, const double *eyes, size_t count, double heading,
                            double fov, const char *method, int mirrored, unsigned threads,
                            uint8_t *cells);
-/// Rows of measures in the order of slp_names "isovist". Polygons are kept where asked for; arcs
-/// become chords within `tolerance`.
+/// Rows of measures of sl_region_measures, corners, mirrored_area, parts. Polygons are kept where
+/// asked for; arcs become chords within `tolerance`.
 SLP_API int slp_level_isovists(slp_level *level, const double *eyes, size_t count,
                                const double *headings, const double *fovs, unsigned threads,
                                int keep, double tolerance, double *measures);
@@ -183,7 +184,7 @@ typedef struct slp_vga {
 /// Measures a grid and keeps the result. `from`: points from which steps are counted, if any.
 SLP_API int slp_level_vga(slp_level *level, const slp_vga *options, const double *seeds,
                           size_t seed_count, const double *from, size_t from_count);
-/// The number of points kept. `measures`: rows in the order of slp_names "vga"; `depths`: -1 for
+/// The number of points kept. `measures`: rows of sl_vga_measures; `depths`: -1 for
 /// none. Each may be NULL.
 SLP_API size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
                                   int64_t *depths);

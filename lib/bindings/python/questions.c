@@ -4,71 +4,40 @@
 #include "sightline/import.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
-// --- columns by name
-
-typedef struct column {
-    const char *name;
-    size_t offset;
-} column;
-
-#define REGION(name)                                                                               \
-    { #name, offsetof(sl_region_measures, name) }
-static const column region_columns[] = {
-    REGION(area),
-    REGION(perimeter),
-    REGION(compactness),
-    REGION(occlusivity),
-    REGION(drift_magnitude),
-    REGION(drift_angle),
-    REGION(min_radial),
-    REGION(max_radial),
-    REGION(mean_radial),
-    REGION(radial_variance),
-    REGION(radial_skewness),
-};
-enum { REGION_COLUMNS = sizeof region_columns / sizeof *region_columns };
+/// Values are copied as they lie in their structures: a double for each row of the table.
+enum { REGION_COLUMNS = sizeof(sl_region_measures) / sizeof(double) };
+enum { VGA_COLUMNS = sizeof(sl_vga_measures) / sizeof(double) };
 /// Beside those of the region: corners, mirrored_area, parts.
 enum { ISOVIST_COLUMNS = REGION_COLUMNS + 3 };
 
-#define VGA(name)                                                                                  \
-    { #name, offsetof(sl_vga_measures, name) }
-static const column vga_columns[] = {
-    VGA(connectivity),
-    VGA(point_first_moment),
-    VGA(point_second_moment),
-    VGA(visual_clustering_coefficient),
-    VGA(visual_control),
-    VGA(visual_controllability),
-    VGA(visual_node_count),
-    VGA(visual_mean_depth),
-    VGA(visual_entropy),
-    VGA(visual_relativised_entropy),
-    VGA(visual_integration_hh),
-    VGA(visual_integration_pvalue),
-    VGA(visual_integration_tekl),
-    VGA(through_vision),
-    VGA(metric_mean_shortest_path_distance),
-    VGA(metric_mean_shortest_path_angle),
-    VGA(metric_mean_straight_line_distance),
-    VGA(metric_node_count),
-    VGA(angular_mean_depth),
-    VGA(angular_total_depth),
-    VGA(angular_node_count),
-};
-enum { VGA_COLUMNS = sizeof vga_columns / sizeof *vga_columns };
-
-static double value_at(const void *measures, const column *of) {
-    return *(const double *)((const char *)measures + of->offset);
-}
+// --- names
 
 static size_t put_name(char *text, size_t room, size_t length, const char *name) {
     for (; *name; name++, length++)
         if (length + 1 < room) text[length] = *name;
     if (length + 1 < room) text[length] = '\n';
     return length + 1;
+}
+
+/// Adds what the table says of the measures that one structure holds, and by which part they are
+/// computed, with tabs between.
+static size_t put_measures(char *text, size_t room, size_t length, sl_analysis analysis,
+                           sl_measure_of of) {
+    size_t count;
+    const sl_measure *all = sl_measures(analysis, &count);
+    for (size_t i = 0; i < count; i++) {
+        char unit[SL_UNIT_TEXT], line[512];
+        const unsigned part = of == SL_OF_GRAPH ? 1u << all[i].group : 0;
+        if (all[i].of != of) continue;
+        sl_measure_say_unit(&all[i], "unit", unit);
+        snprintf(line, sizeof line, "%s\t%s\t%s\t%s\t%u", all[i].name,
+                 sl_measure_group_name(all[i].group), unit, all[i].meaning, part);
+        length = put_name(text, room, length, line);
+    }
+    return length;
 }
 
 size_t slp_names(const void *handle, const char *list, char *text, size_t room) {
@@ -90,14 +59,9 @@ size_t slp_names(const void *handle, const char *list, char *text, size_t room) 
         const sl_export_format *all = sl_export_formats(context, &count);
         for (size_t i = 0; i < count; i++)
             if (!all[i].takes_wad) n = put_name(text, room, n, all[i].name);
-    } else if (strcmp(list, "isovist") == 0) {
-        for (size_t i = 0; i < REGION_COLUMNS; i++)
-            n = put_name(text, room, n, region_columns[i].name);
-        n = put_name(text, room, n, "corners");
-        n = put_name(text, room, n, "mirrored_area");
-        n = put_name(text, room, n, "parts");
-    } else if (strcmp(list, "vga") == 0) {
-        for (size_t i = 0; i < VGA_COLUMNS; i++) n = put_name(text, room, n, vga_columns[i].name);
+    } else if (strcmp(list, "measures") == 0) {
+        n = put_measures(text, room, n, SL_ISOVIST, SL_OF_REGION);
+        n = put_measures(text, room, n, SL_VGA, SL_OF_GRAPH);
     }
     if (room) text[n < room ? n : room - 1] = '\0';
     return n;
@@ -273,7 +237,7 @@ static sl_status ask_region(sl_context *context, const asking *a, sl_query *quer
     SL_TRY(sl_query_mirrored_region(context, query, &view, region));
     const sl_region_measures measures = sl_region_measure(&region->direct);
     double *row = a->measures + i * ISOVIST_COLUMNS;
-    for (size_t k = 0; k < REGION_COLUMNS; k++) row[k] = value_at(&measures, &region_columns[k]);
+    memcpy(row, &measures, sizeof measures);
     row[REGION_COLUMNS] = (double)sl_region_corners(&region->direct, a->space, NULL, 0);
     row[REGION_COLUMNS + 1] = region->part_count ? sl_mirrored_area(region) : 0;
     row[REGION_COLUMNS + 2] = (double)region->part_count;
@@ -460,9 +424,8 @@ size_t slp_level_vga_copy(const slp_level *level, double *points, double *measur
             points[2 * p + 1] = level->grid.points[p].y;
         }
         if (measures && level->measures)
-            for (size_t k = 0; k < VGA_COLUMNS; k++)
-                measures[p * (size_t)VGA_COLUMNS + k] =
-                    value_at(&level->measures[p], &vga_columns[k]);
+            memcpy(&measures[p * (size_t)VGA_COLUMNS], &level->measures[p],
+                   sizeof level->measures[p]);
         if (depths && level->depths)
             depths[p] = level->depths[p] == UINT32_MAX ? -1 : (int64_t)level->depths[p];
     }

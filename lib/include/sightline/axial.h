@@ -14,6 +14,7 @@
 #ifndef SIGHTLINE_AXIAL_H
 #define SIGHTLINE_AXIAL_H
 
+#include "sightline/measures.h"
 #include "sightline/outline.h"
 
 #ifdef __cplusplus
@@ -69,22 +70,9 @@ typedef struct sl_axial_options {
     unsigned threads;
 } sl_axial_options;
 
-/// Of an axial line. NAN for a measure that is not defined.
+/// Of an axial line: measures.h says what each is. NAN for a measure that is not defined.
 typedef struct sl_axial_measures {
-    double connectivity; ///< lines that it touches
-    double line_length;
-    double control;         ///< sum over these of 1 / their connectivity
-    double controllability; ///< their number, of all lines that they touch together
-    double choice;      ///< shortest paths between two other lines through it: each pair counts 1
-    double choice_norm; ///< choice, of all pairs within reach
-    double node_count;  ///< lines that steps lead to, itself included
-    double total_depth; ///< sum of the steps to them
-    double mean_depth;
-    double integration_hh;     ///< Hillier and Hanson 1984: 1 / real relative asymmetry
-    double integration_pvalue; ///< likewise, relative to a pyramid
-    double integration_tekl;   ///< Teklenburg, Timmermans and van Wagenberg 1993; not defined where
-                               ///< one line alone is two steps away
-    double entropy;            ///< of the numbers of lines by depth, in bits
+    SL_AXIAL_MEASURES(SL_MEASURE_MEMBER)
 } sl_axial_measures;
 
 /// Measures all lines: a step leads to a line that touches. Choice is betweenness (Brandes 2001):
@@ -102,15 +90,9 @@ typedef struct sl_segment_options {
 
 /// Of a segment (Turner 2007, From axial to road-centre lines). Angles are rounded to 1024th parts
 /// of a full turn, as in depthmapX' analyses T1024. NAN for a measure that is not defined.
+/// measures.h says what each is.
 typedef struct sl_segment_measures {
-    double connectivity; ///< segments at its two ends
-    double segment_length;
-    double t1024_node_count;  ///< segments that paths lead to, itself included
-    double t1024_total_depth; ///< sum of the turns to them, in right angles
-    double t1024_integration; ///< node count^2 / total depth
-    double t1024_choice;      ///< paths between two others through it: each pair counts 1
-    double nach;              ///< log10(choice + 1) / log10(total depth + 3): Hillier et al. 2012
-    double nain;              ///< node count^1.2 / total depth: likewise
+    SL_SEGMENT_MEASURES(SL_MEASURE_MEMBER)
 } sl_segment_measures;
 
 /// Measures segments that meet at common ends only, as walls of a clean map do (sl_map_clean).

@@ -2,6 +2,7 @@
 #ifndef SIGHTLINE_REGION_H
 #define SIGHTLINE_REGION_H
 
+#include "sightline/measures.h"
 #include "sightline/outline.h"
 #include "sightline/view.h"
 
@@ -67,20 +68,11 @@ SL_API sl_status sl_region_make(sl_context *context, const sl_outline *outline, 
                                 double range, sl_region *region);
 
 /// Measures under the names that depthmapX gives them (isovist.cpp of its salalib), in the map's
-/// unit. All are 0 for an empty region. Arcs count as arcs, not as chords.
+/// unit: measures.h says what each is. All are 0 for an empty region. Arcs count as arcs, not as
+/// chords.
 typedef struct sl_region_measures {
-    double area;
-    double perimeter;       ///< of all edges, borders of a view cone among them
-    double compactness;     ///< 4 pi area / perimeter^2: 1 for a circle
-    double occlusivity;     ///< length of the occluding edges
-    double drift_magnitude; ///< from the eye to the region's centre of gravity
-    double drift_angle;     ///< its direction, degrees from 0 to 360 counter-clockwise from +x
-    double min_radial;      ///< to the nearest point of an edge that is not of the view cone
-    double max_radial;      ///< to the farthest point
-    // Over all directions of the view, by angle (Benedikt 1979, To Take Hold of Space):
-    double mean_radial;     ///< of the lengths of radials
-    double radial_variance; ///< their second moment about the mean
-    double radial_skewness; ///< their third moment about the mean
+    SL_ISOVIST_MEASURES(SL_MEASURE_MEMBER)
+    SL_RADIAL_MEASURES(SL_MEASURE_MEMBER)
 } sl_region_measures;
 
 /// All measures of a region. Time: its edges.

@@ -15,6 +15,7 @@
 #include "sightline/geometry.h"
 #include "sightline/import.h"
 #include "sightline/map.h"
+#include "sightline/measures.h"
 #include "sightline/mirrored.h"
 #include "sightline/moving.h"
 #include "sightline/outline.h"

@@ -14,6 +14,7 @@
 #ifndef SIGHTLINE_VGA_H
 #define SIGHTLINE_VGA_H
 
+#include "sightline/measures.h"
 #include "sightline/outline.h"
 
 #ifdef __cplusplus
@@ -69,13 +70,13 @@ SL_API sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outlin
                                    sl_vga_graph *out);
 SL_API void sl_vga_graph_destroy(sl_context *context, sl_vga_graph *graph); ///< and zeroes it
 
-/// Groups of measures, or-ed.
+/// Groups of measures, or-ed: bits of sl_measure_group.
 typedef enum sl_vga_part {
-    SL_VGA_LOCAL = 1,   ///< of a point, its neighbours and theirs
-    SL_VGA_GLOBAL = 2,  ///< of the steps along the graph to all points
-    SL_VGA_THROUGH = 4, ///< of the lines that pass a point
-    SL_VGA_METRIC = 8,  ///< of shortest paths
-    SL_VGA_ANGULAR = 16 ///< of paths that turn least
+    SL_VGA_LOCAL = 1 << SL_GROUP_LOCAL,     ///< of a point, its neighbours and theirs
+    SL_VGA_GLOBAL = 1 << SL_GROUP_GLOBAL,   ///< of the steps along the graph to all points
+    SL_VGA_THROUGH = 1 << SL_GROUP_THROUGH, ///< of the lines that pass a point
+    SL_VGA_METRIC = 1 << SL_GROUP_METRIC,   ///< of shortest paths
+    SL_VGA_ANGULAR = 1 << SL_GROUP_ANGULAR  ///< of paths that turn least
 } sl_vga_part;
 
 /// Start from sl_vga_options_default().
@@ -94,33 +95,10 @@ SL_API sl_vga_options sl_vga_options_default(void);
 /// by 0 or takes the logarithm of 0 (no neighbour, one point, no point deeper than a step, a
 /// neighbour that sees nothing through one-way glass), or of a part that was not asked for.
 /// Values are never infinite.
+/// measures.h says what each is. Connectivity is of the global measures too.
 typedef struct sl_vga_measures {
-    double connectivity;                  ///< number of points seen; of global measures too
-    double point_first_moment;            ///< sum of their distances
-    double point_second_moment;           ///< sum of their squared distances
-    double visual_clustering_coefficient; ///< share of the pairs of neighbours that see each other
-    double visual_control;                ///< sum over the neighbours of 1 / their connectivity
-    double visual_controllability; ///< neighbours, of all points that the neighbours see together
-
-    double visual_node_count; ///< points that steps along the graph lead to, itself included
-    double visual_mean_depth; ///< mean number of steps to them
-    double visual_entropy;    ///< of the numbers of points by depth, in bits
-    double visual_relativised_entropy; ///< against a Poisson distribution of the same mean
-    double visual_integration_hh;      ///< Hillier and Hanson 1984: 1 / real relative asymmetry
-    double visual_integration_pvalue;  ///< likewise, relative to a pyramid
-    double visual_integration_tekl;    ///< Teklenburg, Timmermans and van Wagenberg 1993; not
-                                       ///< defined where one point alone is two steps away
-
-    double through_vision; ///< lines between two points that see each other, both ways, through it
-
-    double metric_mean_shortest_path_distance; ///< mean length of the shortest paths
-    double metric_mean_shortest_path_angle;    ///< mean turn along them, in right angles
-    double metric_mean_straight_line_distance; ///< mean distance, through walls
-    double metric_node_count;                  ///< points that paths lead to, itself included
-
-    double angular_mean_depth;  ///< mean turn along the paths that turn least, in right angles
-    double angular_total_depth; ///< its sum
-    double angular_node_count;  ///< points that paths lead to, itself included
+    SL_GRAPH_MEASURES(SL_MEASURE_MEMBER)
+    SL_GRAPH_COUNTS(SL_MEASURE_MEMBER)
 } sl_vga_measures;
 
 /// Measures all points; `measures` has an entry for each. Paths go from point to point along the
@@ -159,13 +137,9 @@ SL_API sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *ou
 /// shortest among those that turn only at points beside walls. It may be longer than the shortest
 /// path of the plan, which turns at corners. Lengths and turns are added up in single precision, as
 /// in depthmapX.
+/// measures.h says what each is.
 typedef struct sl_vga_depths {
-    double visual_step_depth; ///< steps along the graph
-    double
-        metric_step_shortest_path_length;   ///< length of the shortest path that turns beside walls
-    double metric_step_shortest_path_angle; ///< turn along it, in right angles
-    double metric_straight_line_distance;   ///< distance, through walls
-    double angular_step_depth;              ///< turn along the path that turns least
+    SL_DEPTH_MEASURES(SL_MEASURE_MEMBER)
 } sl_vga_depths;
 
 /// The depths of all points from the nearest of some points. `parts`: SL_VGA_GLOBAL for steps,

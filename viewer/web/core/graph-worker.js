@@ -16,6 +16,7 @@ const tasks = {
         const made = { step, count, columns, rows, left, bottom, squares, directed };
         return { ...made, values: measure && graph.values(measure, { progress: tellEvery(id) }) };
     },
+    measures: () => core.measures.map(({ name }) => name),
     values: ({ id, measure }) => graph?.values(measure, { progress: tellEvery(id) }) ?? null,
     depth: ({ eye }) => graph?.depth(...eye) ?? null,
 };

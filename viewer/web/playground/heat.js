@@ -10,11 +10,8 @@ import { isInside, cellCorners } from '../parts/plan.js';
 
 const get = (id) => /** @type {any} */ (document.getElementById(id));
 
-/** Measures to choose from; the first one is the depth from the eye. */
-const MEASURES = ['visual_step_depth', 'visual_integration_hh', 'connectivity', 'visual_mean_depth', 'visual_entropy',
-    'visual_clustering_coefficient', 'visual_control', 'visual_controllability', 'through_vision',
-    'metric_mean_shortest_path_distance', 'angular_mean_depth'];
-const DEPTH = MEASURES[0];
+/** The depth from the eye, and the measure to begin with. */
+const DEPTH = 'visual_step_depth', USUAL = 'visual_integration_hh';
 const labelOf = (name) => name.replaceAll('_', ' ') + (name === DEPTH ? ' from the eye' : '');
 
 /** The usual grid has up to this number of points. */
@@ -46,8 +43,6 @@ export class HeatMap {
         this.deepest = 0;
         /** The step that was entered; null: the usual one. @type {number | null} */
         this.step = null;
-        get('heat-measure').append(...MEASURES.map((name) => new Option(labelOf(name), name)));
-        get('heat-measure').value = MEASURES[1];
         for (const id of ['heat-on', 'heat-measure']) get(id).addEventListener('change', () => this.changed());
         get('heat-step').addEventListener('change', () => {
             this.step = get('heat-step').value === '' ? null : Number(get('heat-step').value);
@@ -93,14 +88,26 @@ export class HeatMap {
         return { text: this.app.doc.text(), grid, doors: this.app.openDoors() };
     }
 
+    /** The measures to choose from: the worker's module knows them. */
+    async fill() {
+        const choice = get('heat-measure');
+        if (choice.length) return;
+        const names = [DEPTH, ...await this.client.call('measures', {})];
+        if (choice.length) return;
+        choice.append(...names.map((name) => new Option(labelOf(name), name)));
+        choice.value = USUAL;
+    }
+
     async run() {
         if (!this.on || !countWalls(this.app.doc.items) || !this.app.plan) return;
-        const wanted = this.wanted(), key = JSON.stringify(wanted), { measure } = this;
+        const wanted = this.wanted(), key = JSON.stringify(wanted);
         // Not into what is being typed.
         if (document.activeElement !== get('heat-step')) get('heat-step').value = String(wanted.grid);
         get('heat-stop').disabled = false;
         this.say('Computing ...');
         try {
+            await this.fill();
+            const { measure } = this;
             if (key !== this.made) {
                 this.made = '';
                 this.deepest = 0;

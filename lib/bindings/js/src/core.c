@@ -523,6 +523,14 @@ SLI_EXPORT(int, scene_region, scene *s, double x, double y, double heading, doub
     return (int)sli_module.status;
 }
 
+#define NAME(name, group, unit, meaning) #name " "
+
+/// The names of a region's measures, in the order of their values. What they mean is in
+/// measures.d.ts: pages load no more than they need.
+SLI_EXPORT(const char *, region_names, void) {
+    return SL_ISOVIST_MEASURES(NAME) SL_RADIAL_MEASURES(NAME);
+}
+
 /// numbers: the measures of the last region, in the order of sl_region_measures.
 SLI_EXPORT(void, scene_measures, const scene *s) {
     const sl_region_measures m = sl_region_measure(&s->region);

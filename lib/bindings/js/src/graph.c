@@ -159,10 +159,27 @@ SLI_EXPORT(int, graph_make, graph *g, double step, double range, double most) {
 
 // --- measures
 
-/// Measures a group, of sl_vga_part. integers[0]: the place of the sl_vga_measures.
-SLI_EXPORT(int, graph_measure, graph *g, unsigned part) {
+/// What they mean is in measures.d.ts: pages load no more than they need.
+#define ROW(name, group, unit, meaning) #name " " #group " " #unit "\n"
+
+/// The measures of points, a line each: name, group, unit.
+SLI_EXPORT(const char *, graph_rows, void) {
+    return SL_GRAPH_MEASURES(ROW) SL_GRAPH_COUNTS(ROW);
+}
+
+/// Depths from a point, likewise.
+SLI_EXPORT(const char *, depth_rows, void) {
+    return SL_DEPTH_MEASURES(ROW);
+}
+
+#define PART(name, group, unit, meaning) SL_VGA_##group,
+static const uint8_t graph_parts[] = {SL_GRAPH_MEASURES(PART) SL_GRAPH_COUNTS(PART)};
+static const uint8_t depth_parts[] = {SL_DEPTH_MEASURES(PART)};
+
+/// Measures the group of a measure, by its row. integers[0]: the place of the sl_vga_measures.
+SLI_EXPORT(int, graph_measure, graph *g, size_t row) {
     sl_vga_options options = sl_vga_options_default();
-    options.parts = part;
+    options.parts = graph_parts[row];
     options.threads = 1;
     if (!g->measures) g->measures = sl_alloc_array(context(), g->grid.count, sizeof *g->measures);
     sli_done(!g->measures ? SL_NO_MEMORY
@@ -177,12 +194,13 @@ SLI_EXPORT(uint32_t, graph_find, const graph *g, double x, double y) {
     return sl_vga_grid_find(&g->grid, (sl_point){x, y});
 }
 
-/// Depths of all points from one. integers[0]: the place of the sl_vga_depths.
-SLI_EXPORT(int, graph_depth, graph *g, unsigned part, uint32_t from) {
+/// Depths of all points from one, of the group of a row. integers[0]: the place of the
+/// sl_vga_depths.
+SLI_EXPORT(int, graph_depth, graph *g, size_t row, uint32_t from) {
     if (!g->depths) g->depths = sl_alloc_array(context(), g->grid.count, sizeof *g->depths);
     sli_done(!g->depths ? SL_NO_MEMORY
-                        : sl_vga_depth(context(), &g->outline, &g->grid, &g->graph, NULL, 0, part,
-                                       &from, 1, g->depths));
+                        : sl_vga_depth(context(), &g->outline, &g->grid, &g->graph, NULL, 0,
+                                       depth_parts[row], &from, 1, g->depths));
     sli_module.integers[0] = (uint32_t)(uintptr_t)g->depths;
     return (int)sli_module.status;
 }

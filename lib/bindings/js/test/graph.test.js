@@ -1,12 +1,13 @@
 /** Graphs have the values of the native command: to the last bit, but for logarithms of the C library. */
 import assert from 'node:assert/strict'
 import { readFileSync, writeFileSync } from 'node:fs'
-import { basename } from 'node:path'
+import { basename, join } from 'node:path'
 import test from 'node:test'
-import { command, house, load, maps, place } from './help.js'
+import { command, folder, house, load, maps, place } from './help.js'
 
-const { graph, load: loadCore, measures, SightlineError } = await load('graph.js')
+const { graph, load: loadCore, SightlineError } = await load('graph.js')
 const core = await loadCore()
+const measures = core.measures.map(({ name }) => name), depths = core.depths.map(({ name }) => name)
 const textOf = (path) => readFileSync(path, 'utf8')
 
 /** The command's table: names and rows of numbers, NaN where it is empty. */
@@ -46,6 +47,19 @@ function boundsOf(text) {
   }
   return { minX: Math.min(...xs), maxX: Math.max(...xs), minY: Math.min(...ys), maxY: Math.max(...ys) }
 }
+
+test('measures and depths are the columns of the command, and so are their types', async () => {
+  const path = place('room.map')
+  writeFileSync(path, 'sightline 1\nwalls 0 0 6 0 6 6 0 6 0 0\n')
+  const { names } = native(path, 1, '--measures', 'visual,through,metric,angular', '--from', '3,3')
+  assert.deepEqual(names, ['x', 'y', ...measures, ...depths])
+  const types = readFileSync(join(folder, 'measures.d.ts'), 'utf8')
+  assert.deepEqual([...types.matchAll(/\| '(\w+)'/g)].map((found) => found[1]), [...measures, ...depths])
+  const regions = (await (await load('bake.js')).load()).measures
+  const snake = (member) => member.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)
+  assert.deepEqual([...types.matchAll(/^  (\w+): number$/gm)].map((found) => snake(found[1])), regions)
+  assert.deepEqual(core.measures.at(-2), { name: 'metric_node_count', group: 'metric', unit: 'none' })
+})
 
 test('every map text of the project has the native values', () => {
   let refused = 0

@@ -20,14 +20,14 @@ from ._library import said as _said
 from .drawing import heat_map
 from .errors import (BadArgument, BadInput, Cancelled, Closed, FileError, OutOfMemory,
                      SightlineError, SightlineWarning, Unsupported)
-from .level import Explanation, Level, PortalSequence
+from .level import Explanation, Level, Measure, PortalSequence, measures_of as _measures_of
 from .plan import Plan
 
 __version__: str = _said(_call.version())
 
 __all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Doors", "Explanation", "FileError",
-           "Level", "OutOfMemory", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
-           "Unsupported", "eye_methods", "exports", "formats", "heat_map", "methods"]
+           "Level", "Measure", "OutOfMemory", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
+           "Unsupported", "eye_methods", "exports", "formats", "heat_map", "measures", "methods"]
 
 
 def _names(what: str) -> list[str]:
@@ -52,3 +52,8 @@ def eye_methods() -> list[str]:
 def exports() -> list[str]:
     """The formats of `Level.export`."""
     return _names("exports")
+
+
+def measures() -> list[Measure]:
+    """The measures of isovists and visibility graphs: the columns of `isovists` and `vga`."""
+    return _measures_of(Plan())

@@ -396,7 +396,7 @@ class Handle:
             room = call.names(pointer, what.encode(), None, 0) + 1
             buffer = ctypes.create_string_buffer(room)
             call.names(pointer, what.encode(), ctypes.cast(buffer, ctypes.c_void_p), room)
-        return said(buffer.value).split()
+        return said(buffer.value).splitlines()
 
     def _segments(self, kind: str) -> Floats:
         with self._lock:

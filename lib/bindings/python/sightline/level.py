@@ -13,10 +13,40 @@ from . import drawing, tables
 from ._library import (Floats, Handle, Integers, Vga, address, as_count, as_flag, as_number,
                        as_point, as_points, as_reals, call, existing, path_text, said, text)
 
-VGA_PARTS = {"visual": 1 | 2, "through": 4, "metric": 8, "angular": 16, "isovist": 0}
 # Questions up to this number are answered at once; Ctrl-C waits for them.
 FEW = 16
 _NO_POINTS = np.empty((0, 2))
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A measure: a column of `isovists` or `vga`.
+
+    Attributes
+    ----------
+    group
+        What `vga(measures=...)` takes: "visual", "through", "metric", "angular", "isovist".
+    unit
+        "unit" stands for that of the map: "unit²". Empty for numbers and ratios.
+    meaning
+        In a few words.
+    """
+    name: str
+    group: str
+    unit: str
+    meaning: str
+    part: int = field(repr=False, default=0)
+
+
+_MEASURES: list[Measure] = []
+
+
+def measures_of(handle: Handle) -> list[Measure]:
+    """The library's table, which is asked once."""
+    if not _MEASURES:
+        rows = [row.split("\t") for row in handle._names("measures")]
+        _MEASURES[:] = [Measure(*row[:4], int(row[4])) for row in rows]
+    return list(_MEASURES)
 
 
 @dataclass(frozen=True)
@@ -348,7 +378,7 @@ class Level(drawing.InNotebooks, Handle):
             tolerance = as_number(tolerance, "tolerance", over=0)
         with self._lock:
             chord = tolerance or (self.range or 1) / 1000
-            measures = np.empty((len(eyes), len(self._names("isovist"))))
+            measures = np.empty((len(eyes), len(self._measures("isovist")) + 3))
             ask = self._ask_long if len(eyes) > FEW else self._ask
             ask(call.level_isovists, eyes, len(eyes), headings, fovs,
                 as_count(threads, "threads", 1024), keep, chord, measures.reshape(-1))
@@ -394,6 +424,11 @@ class Level(drawing.InNotebooks, Handle):
         shapes = [points if as_array else tables.polygon(points) for _, _, points in found]
         return shapes if mirrors else shapes[0]
 
+    def _measures(self, analysis: str) -> list[Measure]:
+        """Those of isovists, or of visibility graphs, in the order of the columns of the library."""
+        isovist = analysis == "isovist"
+        return [each for each in measures_of(self) if (each.group == "isovist") == isovist]
+
     def isovists(self, points: ArrayLike, heading: ArrayLike = 0, fov: ArrayLike = 360, *,
                  range: Optional[float] = None, polygons: bool = False, tolerance: Optional[float] = None, threads: int = 0,
                  arrays: bool = False) -> Any:
@@ -415,9 +450,8 @@ class Level(drawing.InNotebooks, Handle):
         Returns
         -------
         DataFrame
-            x, y, area, perimeter, compactness, occlusivity, drift_magnitude, drift_angle,
-            min_radial, max_radial, mean_radial, radial_variance, radial_skewness, corners; and
-            mirrored_area and parts where the map has mirrors.
+            x, y, the measures of the group "isovist" (`sightline.measures()`: area, perimeter
+            and so on), corners; and mirrored_area and parts where the map has mirrors.
         """
         eyes = as_points(points, "points").reshape(-1, 2)
         polygons, arrays = as_flag(polygons, "polygons"), as_flag(arrays, "arrays")
@@ -428,7 +462,8 @@ class Level(drawing.InNotebooks, Handle):
                 measures, found = self._isovists(eyes, heading, fov, threads, polygons, tolerance)
             finally:
                 self.range = before
-        names = self._names("isovist")
+        names = [measure.name for measure in self._measures("isovist")]
+        names += ["corners", "mirrored_area", "parts"]
         columns: dict[str, NDArray[Any]] = {"x": eyes[:, 0].copy(), "y": eyes[:, 1].copy()}
         for i, name in enumerate(names):
             if name not in ("mirrored_area", "parts") or len(self.mirrors):
@@ -455,7 +490,7 @@ class Level(drawing.InNotebooks, Handle):
             pointer = self._open_pointer()
             count = call.level_vga_copy(pointer, None, None, None)
             points, depths = np.empty((count, 2)), np.empty(count, np.int64)
-            measures = np.full((count, len(self._names("vga"))), np.nan)
+            measures = np.full((count, len(self._measures("vga"))), np.nan)
             call.level_vga_copy(pointer, address(points), address(measures), address(depths))
         return points, measures, depths
 
@@ -500,18 +535,20 @@ class Level(drawing.InNotebooks, Handle):
             A dict of arrays in place of a DataFrame.
         """
         chosen = (measures,) if isinstance(measures, str) else tuple(measures)
+        of_graph = self._measures("vga")
+        groups = [*dict.fromkeys(measure.group for measure in of_graph), "isovist"]
         geometry, arrays = as_flag(geometry, "geometry"), as_flag(arrays, "arrays")
         for part in chosen:
-            if not isinstance(part, str) or part not in VGA_PARTS:
-                raise ValueError(f"there is no group {part!r}; groups: {', '.join(VGA_PARTS)}")
-        bits = sum({VGA_PARTS[part]: VGA_PARTS[part] for part in chosen})
+            if not isinstance(part, str) or part not in groups:
+                raise ValueError(f"there is no group {part!r}; groups: {', '.join(groups)}")
+        bits = sum({measure.part for measure in of_graph if measure.group in chosen})
         limit = self.range if range is None else range
         points, found, depths = self._vga(grid, seeds, limit, bits, radius, metric_radius,
                                           angular_radius, threads, depth_from, seen_from)
         columns: dict[str, NDArray[Any]] = {"x": points[:, 0].copy(), "y": points[:, 1].copy()}
-        for i, name in enumerate(self._names("vga")):
-            if _part_of(name) in chosen:
-                columns[name] = found[:, i].copy()
+        for i, measure in enumerate(of_graph):
+            if measure.group in chosen:
+                columns[measure.name] = found[:, i].copy()
         if depth_from is not None:
             columns["visual_step_depth"] = depths
         if "isovist" in chosen:
@@ -582,11 +619,3 @@ class Level(drawing.InNotebooks, Handle):
         how = f"{self.guarantee}, by {self.method}" if self.has_sets else "no visible sets"
         return (f"<Level: {cells} cell{'' if cells == 1 else 's'}, {portals} "
                 f"portal{'' if portals == 1 else 's'}, {how}>")
-
-
-def _part_of(name: str) -> str:
-    """The group of a measure of the visibility graph."""
-    for part in ("metric", "angular", "through"):
-        if name.startswith(part):
-            return part
-    return "visual"

@@ -277,6 +277,23 @@ class CommandLine(unittest.TestCase):
         for name in theirs:
             np.testing.assert_array_equal(ours[name], theirs[name], name)
 
+    def test_measures_are_those_of_the_command_in_its_order(self):
+        path = support.MAPS / "office.map"
+        plan, table = sightline.Plan.from_file(path), sightline.measures()
+        of_region = [measure.name for measure in table if measure.group == "isovist"]
+        of_graph = [measure.name for measure in table if measure.group != "isovist"]
+        theirs = support.table(support.command("isovist", path, "--grid", "9"))
+        self.assertEqual([name for name in theirs if name not in ("x", "y", "heading", "fov")],
+                         [*of_region, "corners"])
+        self.assertEqual(list(plan.isovists([(53, 20)], arrays=True)), ["x", "y", *of_region, "corners"])
+        theirs = support.table(support.command("vga", path, "--grid", "9", "--measures",
+                                               "visual,through,metric,angular"))
+        self.assertEqual(list(theirs), ["x", "y", *of_graph])
+        groups = {measure.group for measure in table} - {"isovist"}
+        self.assertEqual(list(plan.vga(9, measures=groups, arrays=True)), list(theirs))
+        self.assertTrue(all(measure.meaning for measure in table))
+        self.assertEqual(next(each.unit for each in table if each.name == "area"), "unit\u00b2")
+
     def test_a_measure_that_is_not_defined_is_nan(self):
         path = self.scratch / "corner.map"
         path.write_text("sightline 1\nwalls 0.75 0.75 2.25 0.75 2.25 2.25 1.75 2.25 1.75 1.25 "
