@@ -3,7 +3,6 @@
 #define SIGHTLINE_BAKE_H
 
 #include "sightline/cell_to_cell.h"
-#include "sightline/view_cells.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -28,6 +28,5 @@
 #include "sightline/steps.h"
 #include "sightline/version.h"
 #include "sightline/view.h"
-#include "sightline/view_cells.h"
 
 #endif
