@@ -31,13 +31,13 @@ typedef struct bake_report {
 // --- JSON
 
 static void add_seconds(json_fields *fields, const bake_report *report) {
-    json_fields seconds = json_begin();
-    json_add_real(&seconds, "read", report->seconds.read);
-    json_add_real(&seconds, "subdivide", report->account.seconds.subdivide);
-    if (report->account.checked) json_add_real(&seconds, "check", report->account.seconds.check);
-    json_add_real(&seconds, "cell_to_cell", report->seconds.see);
-    json_add_real(&seconds, "write", report->seconds.write);
-    json_add_fields(fields, "seconds", &seconds);
+    json_open(fields, "seconds");
+    json_add_real(fields, "read", report->seconds.read);
+    json_add_real(fields, "subdivide", report->account.seconds.subdivide);
+    if (report->account.checked) json_add_real(fields, "check", report->account.seconds.check);
+    json_add_real(fields, "cell_to_cell", report->seconds.see);
+    json_add_real(fields, "write", report->seconds.write);
+    json_close(fields);
 }
 
 /// How much of the work was done, if the bake was not done in one go.
@@ -46,17 +46,17 @@ static void add_parts(json_fields *fields, const bake_report *report) {
     const sl_partial *partial = &report->baked->partial;
     json_add_flag(fields, "finished", !sl_partial_begun(partial));
     if (!parts->units) return;
-    json_fields inner = json_begin();
-    json_add_text(&inner, "units", parts->units);
-    json_add_count(&inner, "count", parts->unit_count);
-    json_add_count(&inner, "known_before", parts->known);
-    json_add_count(&inner, "done", parts->done);
+    json_open(fields, "work");
+    json_add_text(fields, "units", parts->units);
+    json_add_count(fields, "count", parts->unit_count);
+    json_add_count(fields, "known_before", parts->known);
+    json_add_count(fields, "done", parts->done);
     if (partial->shard_count) {
-        json_add_count(&inner, "shard", partial->shard);
-        json_add_count(&inner, "shards", partial->shard_count);
-        json_add_count(&inner, "left", sl_partial_left(partial));
+        json_add_count(fields, "shard", partial->shard);
+        json_add_count(fields, "shards", partial->shard_count);
+        json_add_count(fields, "left", sl_partial_left(partial));
     }
-    json_add_fields(fields, "work", &inner);
+    json_close(fields);
 }
 
 static void add_visibility(json_fields *fields, const sl_visibility *visibility) {
@@ -74,17 +74,17 @@ static void add_visibility(json_fields *fields, const sl_visibility *visibility)
         json_add_count(fields, "cells_on_cycles", account->on_cycles);
     }
     json_add_count(fields, "longest_sequence", account->deepest);
-    json_fields work = json_begin();
-    json_add_count(&work, "door_steps", account->door_steps);
-    json_add_count(&work, "mirror_steps", account->mirror_steps);
-    json_add_count(&work, "glass_tests", account->glass_tests);
-    json_add_count(&work, "mirrored_pairs", account->mirrored_pairs);
-    json_add_count(&work, "rounded_places", account->rounded_places);
-    json_add_count(&work, "door_bytes", sl_door_sets_bytes(&visibility->doors));
-    json_add_count(&work, "door_fallbacks", account->door_fallbacks);
-    json_add_count(&work, "range_tests", account->range_tests);
-    json_add_count(&work, "close_calls", account->close_calls);
-    json_add_fields(fields, "effect_work", &work);
+    json_open(fields, "effect_work");
+    json_add_count(fields, "door_steps", account->door_steps);
+    json_add_count(fields, "mirror_steps", account->mirror_steps);
+    json_add_count(fields, "glass_tests", account->glass_tests);
+    json_add_count(fields, "mirrored_pairs", account->mirrored_pairs);
+    json_add_count(fields, "rounded_places", account->rounded_places);
+    json_add_count(fields, "door_bytes", sl_door_sets_bytes(&visibility->doors));
+    json_add_count(fields, "door_fallbacks", account->door_fallbacks);
+    json_add_count(fields, "range_tests", account->range_tests);
+    json_add_count(fields, "close_calls", account->close_calls);
+    json_close(fields);
     if (!trees->cell_count) return;
     json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
     json_add_count(fields, "trees_left_out", trees->left_out);

@@ -140,20 +140,19 @@ static sl_status check(command_console *console, const check_plan *plan, checked
 
 // --- every map of a file
 
-static json_fields refused_fields(const char *name, const sl_context *context) {
-    json_fields fields = json_begin();
-    json_add_text(&fields, "map", name);
-    json_add_text(&fields, "error", sl_context_message(context));
-    return fields;
+static void add_refused(json_fields *fields, const char *name, const sl_context *context) {
+    json_open_item(fields);
+    json_add_text(fields, "map", name);
+    json_add_text(fields, "error", sl_context_message(context));
+    json_close(fields);
 }
 
-/// `done`: so many items are there. A map that is broken does not keep others from being checked.
+/// A map that is broken does not keep others from being checked.
 static sl_status check_each(command_console *console, const check_plan *plan,
-                            const sl_map_list *list, json_fields *items, size_t *done,
-                            size_t *broken) {
+                            const sl_map_list *list, json_fields *fields, size_t *broken) {
     sl_context *context = console->context;
-    for (; *done < list->count; ++*done) {
-        const char *name = list->names[*done];
+    for (size_t i = 0; i < list->count; i++) {
+        const char *name = list->names[i];
         checked c = {0};
         check_plan one = *plan;
         one.pipeline.input.import.map = name;
@@ -161,8 +160,10 @@ static sl_status check_each(command_console *console, const check_plan *plan,
         if (status == SL_OK) status = examine(context, &one, plan->faults.gap, &c);
         progress_line_clear(&console->line);
         const bool refused = status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
-        if (plan->json && (refused || status == SL_OK))
-            items[*done] = refused ? refused_fields(name, context) : faults_line_fields(name, &c);
+        if (plan->json && refused)
+            add_refused(fields, name, context);
+        else if (plan->json && status == SL_OK)
+            faults_add_line(fields, name, &c);
         else if (refused)
             printf("%s: %s\n", name,
                    text_without_folder(sl_context_message(context), plan->pipeline.path));
@@ -185,24 +186,21 @@ static sl_status check_every(command_console *console, const check_plan *plan) {
     sl_map_list list = {0};
     sl_context_set_limits(context, &plan->pipeline.input.limits);
     SL_TRY(sl_map_list_read(context, path, &list));
-    size_t done = 0, broken = 0;
-    json_fields *items = sl_alloc_array(context, list.count, sizeof *items);
-    sl_status status = items ? SL_OK : SL_NO_MEMORY;
-    if (!list.count)
-        status = sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s does not name maps", path);
-    if (status == SL_OK) status = check_each(console, plan, &list, items, &done, &broken);
-    if (plan->json && status == SL_OK) {
-        json_fields fields = json_begin();
-        json_add_text(&fields, "file", path);
-        json_add_list(&fields, "maps", items, done);
+    size_t broken = 0;
+    json_fields fields = json_begin();
+    json_add_text(&fields, "file", path);
+    json_open_list(&fields, "maps");
+    sl_status status =
+        list.count ? check_each(console, plan, &list, &fields, &broken)
+                   : sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s does not name maps", path);
+    json_close_list(&fields);
+    if (plan->json && status == SL_OK)
         status = json_print(context, &fields);
-    } else if (plan->json) {
-        for (size_t i = 0; i < done; i++) json_drop(&items[i]);
-    }
+    else
+        json_drop(&fields);
     if (status == SL_OK && broken)
         status = sl_fail(context, SL_BAD_INPUT, "%s: %zu of %zu maps cannot be checked", path,
                          broken, list.count);
-    sl_free(context, items);
     sl_map_list_destroy(context, &list);
     return status;
 }

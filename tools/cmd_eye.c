@@ -85,11 +85,11 @@ static void eye_print(const sl_baked *baked, const eye_run *run) {
 /// {"area": a, "perimeter": p, "polygon": [[x, y], ...]}
 static void add_region(json_fields *fields, const sl_region *region) {
     const sl_region_measures measures = sl_region_measure(region);
-    json_fields inner = json_begin();
-    json_add_real(&inner, "area", measures.area);
-    json_add_real(&inner, "perimeter", measures.perimeter);
-    json_add_points(&inner, "polygon", region->points, region->count);
-    json_add_fields(fields, "region", &inner);
+    json_open(fields, "region");
+    json_add_real(fields, "area", measures.area);
+    json_add_real(fields, "perimeter", measures.perimeter);
+    json_add_points(fields, "polygon", region->points, region->count);
+    json_close(fields);
 }
 
 /// "mirrors": the chain by the map's numbers, from 0, the eye's end first.
@@ -107,49 +107,46 @@ static void add_chain(json_fields *fields, const sl_mirrored_region *region, uin
 }
 
 /// [{"mirrors": [0], "area": a, "rounded": false, "polygon": [...], "image": [...]}, ...]
-static sl_status add_parts(sl_context *context, json_fields *fields,
-                           const sl_mirrored_region *region) {
-    json_fields *parts = sl_alloc_array(context, region->part_count, sizeof *parts);
-    if (!parts) return SL_NO_MEMORY;
+static void add_parts(json_fields *fields, const sl_mirrored_region *region) {
+    json_open_list(fields, "mirrored_region");
     for (uint32_t i = 0; i < region->part_count; i++) {
         const sl_mirror_part *part = &region->parts[i];
-        parts[i] = json_begin();
-        add_chain(&parts[i], region, i);
-        json_add_real(&parts[i], "area", sl_region_area(&part->region));
-        json_add_flag(&parts[i], "rounded", part->rounded);
-        json_add_points(&parts[i], "polygon", part->region.points, part->region.count);
-        json_add_points(&parts[i], "image", part->image, part->region.count);
+        json_open_item(fields);
+        add_chain(fields, region, i);
+        json_add_real(fields, "area", sl_region_area(&part->region));
+        json_add_flag(fields, "rounded", part->rounded);
+        json_add_points(fields, "polygon", part->region.points, part->region.count);
+        json_add_points(fields, "image", part->image, part->region.count);
+        json_close(fields);
     }
-    json_add_list(fields, "mirrored_region", parts, region->part_count);
-    sl_free(context, parts);
-    return SL_OK;
+    json_close_list(fields);
 }
 
-static sl_status add_mirrored(sl_context *context, json_fields *fields, const sl_baked *baked,
-                              const eye_run *run) {
+static void add_mirrored(json_fields *fields, const sl_baked *baked, const eye_run *run) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    json_fields sets = json_begin();
+    json_open(fields, "mirrored");
     for (size_t i = 0; i < count; i++)
         if (run->results[i].mirrored)
-            json_add_members(&sets, methods[i].name, run->results[i].mirrored,
+            json_add_members(fields, methods[i].name, run->results[i].mirrored,
                              baked->space.cell_count);
-    json_add_fields(fields, "mirrored", &sets);
-    return add_parts(context, fields, &run->mirrored);
+    json_close(fields);
+    add_parts(fields, &run->mirrored);
 }
 
 static sl_status eye_print_json(sl_context *context, const sl_baked *baked, const eye_run *run,
                                 const eye_objects *objects) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    json_fields fields = json_begin(), sets = json_begin();
+    json_fields fields = json_begin();
     json_add_count(&fields, "cell", run->cell);
     if (sl_partial_begun(&baked->partial)) json_add_flag(&fields, "finished", false);
+    json_open(&fields, "methods");
     for (size_t i = 0; i < count; i++)
-        json_add_members(&sets, methods[i].name, run->results[i].cells, baked->space.cell_count);
-    json_add_fields(&fields, "methods", &sets);
+        json_add_members(&fields, methods[i].name, run->results[i].cells, baked->space.cell_count);
+    json_close(&fields);
     add_region(&fields, &run->region);
-    if (run->has_mirrors) SL_TRY(add_mirrored(context, &fields, baked, run));
+    if (run->has_mirrors) add_mirrored(&fields, baked, run);
     eye_objects_add_json(&fields, baked, objects);
     return json_print(context, &fields);
 }

@@ -92,18 +92,18 @@ static sl_status print_doors(sl_context *context, const sl_map *map) {
 static sl_status add_doors_json(sl_context *context, json_fields *fields, const sl_map *map) {
     size_t count;
     named_door *doors = name_doors(context, map, &count);
-    json_fields *items = sl_alloc_array(context, count, sizeof *items);
-    for (size_t i = 0; doors && items && i < count; i++) {
-        items[i] = json_begin();
-        json_add_text(&items[i], "name", doors[i].name);
-        json_add_text(&items[i], "state", state_of(&doors[i]));
-        json_add_count(&items[i], "parts", doors[i].parts);
+    if (!doors) return SL_NO_MEMORY;
+    json_open_list(fields, "named_doors");
+    for (size_t i = 0; i < count; i++) {
+        json_open_item(fields);
+        json_add_text(fields, "name", doors[i].name);
+        json_add_text(fields, "state", state_of(&doors[i]));
+        json_add_count(fields, "parts", doors[i].parts);
+        json_close(fields);
     }
-    const bool there = doors && items;
-    if (there) json_add_list(fields, "named_doors", items, count);
-    sl_free(context, items);
+    json_close_list(fields);
     sl_free(context, doors);
-    return there ? SL_OK : SL_NO_MEMORY;
+    return SL_OK;
 }
 
 // --- maps
@@ -156,19 +156,16 @@ static void print_layers(const sl_drawing_layers *layers) {
 }
 
 /// "layers": [{"name": "WALLS", "entities": 12, "on": true}, ...]
-static sl_status add_layers_json(sl_context *context, json_fields *fields,
-                                 const sl_drawing_layers *layers) {
-    json_fields *items = sl_alloc_array(context, layers->count, sizeof *items);
-    if (!items) return SL_NO_MEMORY;
+static void add_layers_json(json_fields *fields, const sl_drawing_layers *layers) {
+    json_open_list(fields, "layers");
     for (size_t i = 0; i < layers->count; i++) {
-        items[i] = json_begin();
-        json_add_text(&items[i], "name", layers->items[i].name);
-        json_add_count(&items[i], "entities", layers->items[i].entities);
-        json_add_flag(&items[i], "on", layers->items[i].on);
+        json_open_item(fields);
+        json_add_text(fields, "name", layers->items[i].name);
+        json_add_count(fields, "entities", layers->items[i].entities);
+        json_add_flag(fields, "on", layers->items[i].on);
+        json_close(fields);
     }
-    json_add_list(fields, "layers", items, layers->count);
-    sl_free(context, items);
-    return SL_OK;
+    json_close_list(fields);
 }
 
 static sl_status print_map_json(sl_context *context, const info_request *request, const sl_map *map,
@@ -183,13 +180,11 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     json_add_count(&fields, "walls", cleaning->before);
     json_add_count(&fields, "oblique_walls", oblique);
     for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
-    sl_status status = add_doors_json(context, &fields, map);
-    if (status == SL_OK && request->is_drawing)
-        status = add_layers_json(context, &fields, &request->layers);
-    if (status != SL_OK) {
+    if (add_doors_json(context, &fields, map) != SL_OK) {
         json_drop(&fields);
-        return status;
+        return SL_NO_MEMORY;
     }
+    if (request->is_drawing) add_layers_json(&fields, &request->layers);
     json_add_real(&fields, "range", map->range);
     json_add_cleaning(&fields, "cleaning", cleaning);
     plan_add_json(&fields, map);
@@ -245,16 +240,15 @@ static sl_status print_map(sl_context *context, const info_request *request, con
 
 static sl_status print_list_json(sl_context *context, const char *path, const sl_map_list *list) {
     json_fields fields = json_begin();
-    json_fields *maps = sl_alloc_array(context, list->count, sizeof *maps);
-    if (!maps) return SL_NO_MEMORY;
-    for (size_t i = 0; i < list->count; i++) {
-        maps[i] = json_begin();
-        json_add_text(&maps[i], "name", list->names[i]);
-    }
     json_add_text(&fields, "file", path);
     json_add_text(&fields, "kind", "maps");
-    json_add_list(&fields, "maps", maps, list->count);
-    sl_free(context, maps);
+    json_open_list(&fields, "maps");
+    for (size_t i = 0; i < list->count; i++) {
+        json_open_item(&fields);
+        json_add_text(&fields, "name", list->names[i]);
+        json_close(&fields);
+    }
+    json_close_list(&fields);
     return json_print(context, &fields);
 }
 
@@ -350,7 +344,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
                                   const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
-    json_fields fields = json_begin(), bytes = json_begin();
+    json_fields fields = json_begin();
     json_add_text(&fields, "file", request->path);
     json_add_text(&fields, "kind", "baked");
     json_add_box(&fields, "bounds", baked->space.bounds);
@@ -363,17 +357,15 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     ground_add_json(&fields, &baked->space);
     json_add_count(&fields, "tree_depth", baked->space.tree_depth);
     json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
-    for (int i = 0; i < BAKED_PARTS; i++) {
-        json_add_count(&fields, parts[i].name, parts[i].count);
-        json_add_count(&bytes, parts[i].name, parts[i].bytes);
-    }
+    for (int i = 0; i < BAKED_PARTS; i++) json_add_count(&fields, parts[i].name, parts[i].count);
     if (add_doors_json(context, &fields, &baked->map) != SL_OK) {
         json_drop(&fields);
-        json_drop(&bytes);
         return SL_NO_MEMORY;
     }
     mean_pvs_add_json(&fields, mean);
-    json_add_fields(&fields, "memory_bytes", &bytes);
+    json_open(&fields, "memory_bytes");
+    for (int i = 0; i < BAKED_PARTS; i++) json_add_count(&fields, parts[i].name, parts[i].bytes);
+    json_close(&fields);
     json_add_count(&fields, "file_bytes", request->bytes.size);
     return json_print(context, &fields);
 }

@@ -57,26 +57,22 @@ static void print_report(const reject_plan *plan, const sl_reject_report *report
 static sl_status print_json(sl_context *context, const reject_plan *plan,
                             const sl_reject_report *report, double seconds) {
     json_fields fields = json_begin();
-    json_fields *maps = sl_alloc_array(context, report->count, sizeof *maps);
-    if (!maps) {
-        json_drop(&fields);
-        return SL_NO_MEMORY;
-    }
-    for (size_t i = 0; i < report->count; i++) {
-        const sl_reject_account *map = &report->maps[i];
-        maps[i] = json_begin();
-        json_add_text(&maps[i], "name", map->map);
-        json_add_count(&maps[i], "sectors", map->sectors);
-        json_add_count(&maps[i], "cells", map->cells);
-        json_add_count(&maps[i], "pairs", pairs_of(map->sectors));
-        json_add_count(&maps[i], "hidden", map->hidden);
-        json_add_count(&maps[i], "unknown", map->unknown);
-    }
     json_add_text(&fields, "input", plan->input);
     json_add_text(&fields, "output", plan->output);
-    json_add_list(&fields, "maps", maps, report->count);
+    json_open_list(&fields, "maps");
+    for (size_t i = 0; i < report->count; i++) {
+        const sl_reject_account *map = &report->maps[i];
+        json_open_item(&fields);
+        json_add_text(&fields, "name", map->map);
+        json_add_count(&fields, "sectors", map->sectors);
+        json_add_count(&fields, "cells", map->cells);
+        json_add_count(&fields, "pairs", pairs_of(map->sectors));
+        json_add_count(&fields, "hidden", map->hidden);
+        json_add_count(&fields, "unknown", map->unknown);
+        json_close(&fields);
+    }
+    json_close_list(&fields);
     json_add_real(&fields, "seconds", seconds);
-    sl_free(context, maps);
     return json_print(context, &fields);
 }
 

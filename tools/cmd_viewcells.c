@@ -104,15 +104,15 @@ static sl_status view_report_print(sl_context *context, const view_report *repor
 }
 
 static void add_seconds(json_fields *fields, const view_seconds *seconds) {
-    json_fields inner = json_begin();
-    json_add_real(&inner, "read", seconds->read);
-    json_add_real(&inner, "subdivide", seconds->subdivide);
-    json_add_real(&inner, "sample", seconds->sample);
-    json_add_real(&inner, "divide", seconds->divide);
-    json_add_real(&inner, "merge", seconds->merge);
-    json_add_real(&inner, "evaluate", seconds->evaluate);
-    json_add_real(&inner, "see", seconds->see);
-    json_add_fields(fields, "seconds", &inner);
+    json_open(fields, "seconds");
+    json_add_real(fields, "read", seconds->read);
+    json_add_real(fields, "subdivide", seconds->subdivide);
+    json_add_real(fields, "sample", seconds->sample);
+    json_add_real(fields, "divide", seconds->divide);
+    json_add_real(fields, "merge", seconds->merge);
+    json_add_real(fields, "evaluate", seconds->evaluate);
+    json_add_real(fields, "see", seconds->see);
+    json_close(fields);
 }
 
 static sl_status view_report_print_json(sl_context *context, const view_report *report) {

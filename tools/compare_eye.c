@@ -439,34 +439,30 @@ void compare_eye_print_columns(void) {
          "                      what Teller & Sequin 1991 tell of Soda Hall");
 }
 
-static json_fields fields_of_row(const compare_eye_row *row) {
-    json_fields fields = json_begin();
+static void add_row(json_fields *fields, const compare_eye_row *row) {
+    json_open_item(fields);
     double share, reduction;
-    json_add_real(&fields, "fov", row->fov);
-    json_add_text(&fields, "method", row->name);
-    json_add_text(&fields, "guarantee", sl_guarantee_name(row->guarantee));
-    json_add_real(&fields, "share", row->share);
-    json_add_real(&fields, "reduction", reduction_of(row));
+    json_add_real(fields, "fov", row->fov);
+    json_add_text(fields, "method", row->name);
+    json_add_text(fields, "guarantee", sl_guarantee_name(row->guarantee));
+    json_add_real(fields, "share", row->share);
+    json_add_real(fields, "reduction", reduction_of(row));
     if (isnan(row->cells))
-        json_add_text(&fields, "cells", NULL);
+        json_add_text(fields, "cells", NULL);
     else
-        json_add_real(&fields, "cells", row->cells);
-    json_add_real(&fields, "nodes", row->nodes);
-    json_add_real(&fields, "orientations", row->orientations);
-    json_add_real(&fields, "seconds", row->seconds);
+        json_add_real(fields, "cells", row->cells);
+    json_add_real(fields, "nodes", row->nodes);
+    json_add_real(fields, "orientations", row->orientations);
+    json_add_real(fields, "seconds", row->seconds);
     if (compare_eye_paper(row->name, row->fov, &share, &reduction)) {
-        json_add_real(&fields, "paper_share", share);
-        json_add_real(&fields, "paper_reduction", reduction);
+        json_add_real(fields, "paper_share", share);
+        json_add_real(fields, "paper_reduction", reduction);
     }
-    return fields;
+    json_close(fields);
 }
 
 sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comparison) {
     const sl_space *space = comparison->space;
-    json_fields *rows = sl_alloc_array(context, comparison->row_count, sizeof *rows);
-    if (!rows) return SL_NO_MEMORY;
-    for (size_t i = 0; i < comparison->row_count; i++)
-        rows[i] = fields_of_row(&comparison->rows[i]);
     json_fields fields = json_begin();
     json_add_text(&fields, "map", comparison->input);
     json_add_text(&fields, "sight", sight_name(comparison->sight));
@@ -478,7 +474,8 @@ sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comp
     json_add_count(&fields, "viewpoints", comparison->plan->viewpoints);
     json_add_count(&fields, "seed", comparison->plan->seed);
     json_add_real(&fields, "cell_to_cell_seconds", comparison->pvs_seconds);
-    json_add_list(&fields, "rows", rows, comparison->row_count);
-    sl_free(context, rows);
+    json_open_list(&fields, "rows");
+    for (size_t i = 0; i < comparison->row_count; i++) add_row(&fields, &comparison->rows[i]);
+    json_close_list(&fields);
     return json_print(context, &fields);
 }

@@ -382,13 +382,13 @@ static void add_value(json_fields *fields, const char *key, column_value value) 
     }
 }
 
-static json_fields fields_of_run(const compare_result *comparison, const compare_run *run) {
+static void add_run(json_fields *fields, const compare_result *comparison, const compare_run *run) {
     size_t count;
     const compare_column *columns = compare_columns(&count);
-    json_fields fields = json_begin();
+    json_open_item(fields);
     for (size_t i = 0; i < count; i++)
-        add_value(&fields, columns[i].name, columns[i].value(comparison, run));
-    return fields;
+        add_value(fields, columns[i].name, columns[i].value(comparison, run));
+    json_close(fields);
 }
 
 sl_status compare_print_json(sl_context *context, const compare_result *comparison) {
@@ -396,10 +396,6 @@ sl_status compare_print_json(sl_context *context, const compare_result *comparis
     char reference[RUN_NAME] = "";
     if (comparison->reference != NO_RUN)
         run_name(&comparison->runs[comparison->reference], reference);
-    json_fields *runs = sl_alloc_array(context, comparison->run_count, sizeof *runs);
-    if (!runs) return SL_NO_MEMORY;
-    for (size_t i = 0; i < comparison->run_count; i++)
-        runs[i] = fields_of_run(comparison, &comparison->runs[i]);
     json_fields fields = json_begin();
     json_add_text(&fields, "map", comparison->input);
     json_add_text(&fields, "sight", sight_name(comparison->sight));
@@ -410,8 +406,10 @@ sl_status compare_print_json(sl_context *context, const compare_result *comparis
     json_add_count(&fields, "threads", 1);
     json_add_real(&fields, "time_limit", comparison->limit);
     json_add_text(&fields, "reference", reference[0] ? reference : NULL);
-    json_add_list(&fields, "runs", runs, comparison->run_count);
+    json_open_list(&fields, "runs");
+    for (size_t i = 0; i < comparison->run_count; i++)
+        add_run(&fields, comparison, &comparison->runs[i]);
+    json_close_list(&fields);
     compare_subdivisions_add_json(&fields, &comparison->subdivisions);
-    sl_free(context, runs);
     return json_print(context, &fields);
 }

@@ -166,19 +166,21 @@ void compare_subdivisions_print(const compare_subdivisions *all) {
 }
 
 void compare_subdivisions_add_json(json_fields *fields, const compare_subdivisions *all) {
-    json_fields list[SUBDIVISIONS_MOST];
+    if (!all->count) return;
+    json_open_list(fields, "subdivisions");
     for (size_t i = 0; i < all->count; i++) {
         const compare_subdivision *one = &all->items[i];
-        list[i] = json_begin();
-        json_add_text(&list[i], "name", one->subdivision->name);
-        json_add_count(&list[i], "cells", one->cells);
-        json_add_count(&list[i], "portals", one->portals);
-        json_add_real(&list[i], "subdivide_seconds", one->subdivide_seconds);
-        json_add_text(&list[i], "method", all->method->name);
-        json_add_text(&list[i], "solver", all->solver ? all->solver->name : NULL);
-        json_add_flag(&list[i], "done", one->done);
-        json_add_real(&list[i], "seconds", one->seconds);
-        json_add_count(&list[i], "pairs", one->pairs);
+        json_open_item(fields);
+        json_add_text(fields, "name", one->subdivision->name);
+        json_add_count(fields, "cells", one->cells);
+        json_add_count(fields, "portals", one->portals);
+        json_add_real(fields, "subdivide_seconds", one->subdivide_seconds);
+        json_add_text(fields, "method", all->method->name);
+        json_add_text(fields, "solver", all->solver ? all->solver->name : NULL);
+        json_add_flag(fields, "done", one->done);
+        json_add_real(fields, "seconds", one->seconds);
+        json_add_count(fields, "pairs", one->pairs);
+        json_close(fields);
     }
-    if (all->count) json_add_list(fields, "subdivisions", list, all->count);
+    json_close_list(fields);
 }

@@ -212,8 +212,10 @@ bool console_open(command_console *console) {
         .user = console, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
     console->context = sl_context_create(&hooks);
     const bool good = console->context && built_use_formats(console->context) == SL_OK;
-    if (!good) fputs("sightline: out of memory\n", stderr);
-    return good;
+    if (good) return true;
+    fputs("sightline: out of memory\n", stderr);
+    sl_context_destroy(console->context);
+    return false;
 }
 
 static int exit_status(sl_status status) {

@@ -333,26 +333,30 @@ static bool is_repeated(const eye_objects *objects, size_t index) {
 
 void eye_objects_add_json(json_fields *fields, const sl_baked *baked, const eye_objects *objects) {
     if (!objects->count) return;
-    json_fields sets = json_begin(), seen = json_begin(), region = json_begin();
+    json_open(fields, "objects_seen");
     for (size_t i = 0; i < objects->count; i++)
         if (!is_repeated(objects, i))
-            json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
-    json_add_fields(fields, "objects_seen", &seen);
+            json_add_flag(fields, objects->objects[i].text, objects->seen[i]);
+    json_close(fields);
     if (objects->has_mirrors) {
-        json_fields mirrored = json_begin();
+        json_open(fields, "objects_mirrored");
         for (size_t i = 0; i < objects->count; i++)
             if (!is_repeated(objects, i))
-                json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
-        json_add_fields(fields, "objects_mirrored", &mirrored);
-        json_add_members(&sets, "mirrored_cells", objects->mirrored_cells, baked->space.cell_count);
+                json_add_flag(fields, objects->objects[i].text, objects->mirrored[i]);
+        json_close(fields);
     }
-    json_add_members(&sets, "cells", objects->cells, baked->space.cell_count);
+    json_open(fields, "past_objects");
+    if (objects->has_mirrors)
+        json_add_members(fields, "mirrored_cells", objects->mirrored_cells,
+                         baked->space.cell_count);
+    json_add_members(fields, "cells", objects->cells, baked->space.cell_count);
     const sl_region_measures measures = sl_region_measure(&objects->region);
-    json_add_real(&region, "area", measures.area);
-    json_add_real(&region, "perimeter", measures.perimeter);
-    json_add_points(&region, "polygon", objects->region.points, objects->region.count);
-    json_add_fields(&sets, "region", &region);
-    json_add_fields(fields, "past_objects", &sets);
+    json_open(fields, "region");
+    json_add_real(fields, "area", measures.area);
+    json_add_real(fields, "perimeter", measures.perimeter);
+    json_add_points(fields, "polygon", objects->region.points, objects->region.count);
+    json_close(fields);
+    json_close(fields);
 }
 
 // --- polygons to be drawn

@@ -431,13 +431,13 @@ void faults_print(const faults_report *report) {
 
 // --- JSON
 
-static json_fields fault_fields(const checked *found, const sl_fault *fault) {
+static void add_fault(json_fields *fields, const checked *found, const sl_fault *fault) {
     const sl_map *map = &found->map;
-    json_fields fields = json_begin();
+    json_open_item(fields);
     const sl_point at[2] = {fault->at.a, fault->at.b};
-    json_add_text(&fields, "kind", sl_fault_name(fault->kind));
-    json_add_real(&fields, "size", fault->size);
-    json_add_points(&fields, "at", at, 2);
+    json_add_text(fields, "kind", sl_fault_name(fault->kind));
+    json_add_real(fields, "size", fault->size);
+    json_add_points(fields, "at", at, 2);
     static const char *const walls[] = {"wall", "other_wall"};
     static const char *const lines[] = {"line", "other_line"}, *const items[] = {"item",
                                                                                  "other_item"};
@@ -446,55 +446,51 @@ static json_fields fault_fields(const checked *found, const sl_fault *fault) {
         if (fault->walls[i] == UINT32_MAX) continue;
         const uint32_t line = map->walls[fault->walls[i]].line;
         const char *label = sl_map_label(map, line);
-        json_add_count(&fields, walls[i], fault->walls[i]);
-        json_add_count(&fields, (map->lines_are_items ? items : lines)[i], line);
-        if (label) json_add_text(&fields, labels[i], label);
+        json_add_count(fields, walls[i], fault->walls[i]);
+        json_add_count(fields, (map->lines_are_items ? items : lines)[i], line);
+        if (label) json_add_text(fields, labels[i], label);
     }
-    if (fault->cell != SL_NO_CELL) json_add_count(&fields, "cell", fault->cell);
+    if (fault->cell != SL_NO_CELL) json_add_count(fields, "cell", fault->cell);
     if (fault->kind == SL_FAULT_GAP || fault->kind == SL_FAULT_LEAK)
-        json_add_flag(&fields, "needs_decision", fault->stays);
-    if (fault->cells) json_add_count(&fields, "cells", fault->cells);
+        json_add_flag(fields, "needs_decision", fault->stays);
+    if (fault->cells) json_add_count(fields, "cells", fault->cells);
     if (fault->point_count)
-        json_add_points(&fields, "way", found->faults.points + fault->first_point,
+        json_add_points(fields, "way", found->faults.points + fault->first_point,
                         fault->point_count);
-    return fields;
+    json_close(fields);
 }
 
 static void add_counts(json_fields *fields, const char *key,
                        const uint32_t counts[SL_FAULT_KINDS]) {
-    json_fields inner = json_begin();
+    json_open(fields, key);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
-        json_add_count(&inner, sl_fault_name((sl_fault_kind)kind), counts[kind]);
-    json_add_fields(fields, key, &inner);
+        json_add_count(fields, sl_fault_name((sl_fault_kind)kind), counts[kind]);
+    json_close(fields);
 }
 
 static const char *const inside_words[] = {"sure", "leaks", "doubtful", "few", "none", "opening"};
 
-static sl_status add_stray_list(sl_context *context, json_fields *fields, const checked *found) {
+static void add_stray_list(json_fields *fields, const checked *found) {
     const uint32_t count = found->strays.count;
-    json_fields *items = sl_alloc_array(context, count, sizeof *items);
-    if (!items) return SL_NO_MEMORY;
+    json_open_list(fields, "strays");
     for (uint32_t i = 0; i < count; i++) {
         const sl_stray *stray = &found->strays.items[i];
         const char *label = sl_map_label(&found->map, stray->line);
-        items[i] = json_begin();
-        json_add_points(&items[i], "at", &stray->at, 1);
-        json_add_real(&items[i], "distance", stray->distance);
-        if (stray->wall != UINT32_MAX) json_add_count(&items[i], "wall", stray->wall);
-        json_add_count(&items[i], found->map.lines_are_items ? "item" : "line", stray->line);
-        if (label) json_add_text(&items[i], "label", label);
+        json_open_item(fields);
+        json_add_points(fields, "at", &stray->at, 1);
+        json_add_real(fields, "distance", stray->distance);
+        if (stray->wall != UINT32_MAX) json_add_count(fields, "wall", stray->wall);
+        json_add_count(fields, found->map.lines_are_items ? "item" : "line", stray->line);
+        if (label) json_add_text(fields, "label", label);
+        json_close(fields);
     }
-    json_add_list(fields, "strays", items, count);
-    sl_free(context, items);
-    return SL_OK;
+    json_close_list(fields);
 }
 
 sl_status faults_print_json(sl_context *context, const faults_report *report) {
     const checked *found = report->found;
     const uint32_t count = found->faults.count;
     json_fields fields = json_begin();
-    json_fields *items = sl_alloc_array(context, count, sizeof *items);
-    if (!items) return SL_NO_MEMORY;
     json_add_text(&fields, "file", report->input);
     json_add_count(&fields, "walls", found->map.wall_count);
     json_add_count(&fields, "cells", found->baked.space.cell_count);
@@ -507,23 +503,19 @@ sl_status faults_print_json(sl_context *context, const faults_report *report) {
     json_add_count(&fields, "closed_on_import", found->faults.welded);
     json_add_real(&fields, "weld", found->faults.weld);
     add_counts(&fields, "counts", found->faults.counts);
-    for (uint32_t i = 0; i < count; i++) items[i] = fault_fields(found, &found->faults.items[i]);
-    json_add_list(&fields, "faults", items, count);
-    const sl_status status = add_stray_list(context, &fields, found);
+    json_open_list(&fields, "faults");
+    for (uint32_t i = 0; i < count; i++) add_fault(&fields, found, &found->faults.items[i]);
+    json_close_list(&fields);
+    add_stray_list(&fields, found);
     if (report->mended) {
-        json_fields mended = json_begin();
-        json_add_text(&mended, "file", report->mended);
-        json_add_count(&mended, "moved", report->snap.moved);
-        json_add_real(&mended, "farthest", report->snap.farthest);
-        json_add_count(&mended, "vanished", report->snap.vanished);
-        json_add_flag(&mended, "ground_dropped", report->snap.ground_dropped);
-        add_counts(&mended, "counts", report->left->faults.counts);
-        json_add_fields(&fields, "mended", &mended);
-    }
-    sl_free(context, items);
-    if (status != SL_OK) {
-        json_drop(&fields);
-        return status;
+        json_open(&fields, "mended");
+        json_add_text(&fields, "file", report->mended);
+        json_add_count(&fields, "moved", report->snap.moved);
+        json_add_real(&fields, "farthest", report->snap.farthest);
+        json_add_count(&fields, "vanished", report->snap.vanished);
+        json_add_flag(&fields, "ground_dropped", report->snap.ground_dropped);
+        add_counts(&fields, "counts", report->left->faults.counts);
+        json_close(&fields);
     }
     return json_print(context, &fields);
 }
@@ -553,13 +545,13 @@ void faults_print_line(const char *name, const checked *c) {
     puts(checked_has_fault(c) || c->inside == SL_INSIDE_FEW ? "" : "; nothing found");
 }
 
-json_fields faults_line_fields(const char *name, const checked *c) {
-    json_fields fields = json_begin();
-    json_add_text(&fields, "map", name);
-    json_add_count(&fields, "walls", c->map.wall_count);
-    json_add_count(&fields, "cells", c->baked.space.cell_count);
-    json_add_text(&fields, "inside", inside_words[c->inside]);
-    add_counts(&fields, "counts", c->faults.counts);
-    json_add_count(&fields, "strays", c->strays.count);
-    return fields;
+void faults_add_line(json_fields *fields, const char *name, const checked *c) {
+    json_open_item(fields);
+    json_add_text(fields, "map", name);
+    json_add_count(fields, "walls", c->map.wall_count);
+    json_add_count(fields, "cells", c->baked.space.cell_count);
+    json_add_text(fields, "inside", inside_words[c->inside]);
+    add_counts(fields, "counts", c->faults.counts);
+    json_add_count(fields, "strays", c->strays.count);
+    json_close(fields);
 }

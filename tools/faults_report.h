@@ -40,6 +40,6 @@ sl_status faults_print_json(sl_context *context, const faults_report *report);
 /// One line: "E1M1: 475 walls, 250 cells; 2 leaks, 1 gap".
 void faults_print_line(const char *name, const checked *c);
 /// The same as the fields of an object.
-json_fields faults_line_fields(const char *name, const checked *c);
+void faults_add_line(json_fields *fields, const char *name, const checked *c);
 
 #endif

@@ -81,16 +81,24 @@ void json_add_text(json_fields *fields, const char *key, const char *text) {
     sl_json_put_text(json, text);
 }
 
-void json_add_list(json_fields *fields, const char *key, json_fields *items, size_t count) {
-    sl_json_writer *json = json_add(fields, key);
-    sl_json_put_list(json);
-    for (size_t i = 0; i < count; i++) {
-        sl_json_put_end(writer_of(&items[i]), '}');
-        fields->failed |= items[i].failed || items[i].writer.failed;
-        sl_json_put_written(json, items[i].text, items[i].size);
-        json_drop(&items[i]);
-    }
-    sl_json_put_end(json, ']');
+void json_open(json_fields *fields, const char *key) {
+    sl_json_put_object(json_add(fields, key));
+}
+
+void json_close(json_fields *fields) {
+    sl_json_put_end(writer_of(fields), '}');
+}
+
+void json_open_list(json_fields *fields, const char *key) {
+    sl_json_put_list(json_add(fields, key));
+}
+
+void json_open_item(json_fields *fields) {
+    sl_json_put_object(writer_of(fields));
+}
+
+void json_close_list(json_fields *fields) {
+    sl_json_put_end(writer_of(fields), ']');
 }
 
 void json_add_box(json_fields *fields, const char *key, sl_box box) {
@@ -121,29 +129,22 @@ void json_add_points(json_fields *fields, const char *key, const sl_point *point
     sl_json_put_end(json, ']');
 }
 
-void json_add_fields(json_fields *fields, const char *key, json_fields *inner) {
-    sl_json_put_end(writer_of(inner), '}');
-    fields->failed |= inner->failed || inner->writer.failed;
-    sl_json_put_written(json_add(fields, key), inner->text, inner->size);
-    json_drop(inner);
-}
-
 void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_account *account) {
-    json_fields cleaning = json_begin();
-    json_add_count(&cleaning, "before", account->before);
-    json_add_count(&cleaning, "after", account->after);
-    json_add_count(&cleaning, "zero_length", account->zero_length);
-    json_add_count(&cleaning, "duplicate", account->duplicate);
-    json_add_count(&cleaning, "merged", account->merged);
-    json_add_count(&cleaning, "split", account->split);
-    json_add_count(&cleaning, "welded", account->welded);
-    json_add_count(&cleaning, "crossings", account->crossings);
-    json_add_real(&cleaning, "largest_move", account->largest_move);
-    json_add_fields(fields, key, &cleaning);
+    json_open(fields, key);
+    json_add_count(fields, "before", account->before);
+    json_add_count(fields, "after", account->after);
+    json_add_count(fields, "zero_length", account->zero_length);
+    json_add_count(fields, "duplicate", account->duplicate);
+    json_add_count(fields, "merged", account->merged);
+    json_add_count(fields, "split", account->split);
+    json_add_count(fields, "welded", account->welded);
+    json_add_count(fields, "crossings", account->crossings);
+    json_add_real(fields, "largest_move", account->largest_move);
+    json_close(fields);
 }
 
 sl_status json_print(sl_context *context, json_fields *fields) {
-    sl_json_put_end(writer_of(fields), '}');
+    json_close(fields);
     const bool failed = fields->failed || fields->writer.failed;
     sl_json_writer out = sl_json_writer_to(stdout, 2);
     // A write that fails shows when the program checks its stdout at the end.

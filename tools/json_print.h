@@ -1,4 +1,5 @@
-/// One JSON object on stdout, built field by field.
+/// One JSON object on stdout, built field by field. Nothing but json_begin() begins what must be
+/// printed or dropped: objects within the object are opened and closed in it.
 #ifndef JSON_PRINT_H
 #define JSON_PRINT_H
 
@@ -19,7 +20,7 @@ typedef struct json_fields {
 void text_make_readable(const char *text, char *out, size_t size);
 
 json_fields json_begin(void);
-/// Frees fields that are not printed or added to others.
+/// Frees fields that are not printed.
 void json_drop(json_fields *fields);
 
 /// A field whose value the caller puts: lists and objects within it must be closed again.
@@ -35,10 +36,13 @@ void json_add_box(json_fields *fields, const char *key, sl_box box);
 void json_add_members(json_fields *fields, const char *key, const uint64_t *set, uint32_t count);
 /// [[x, y], ...]
 void json_add_points(json_fields *fields, const char *key, const sl_point *points, size_t count);
-/// An object within the object; `inner` is used up.
-void json_add_fields(json_fields *fields, const char *key, json_fields *inner);
-/// A list of such objects; all of them are used up.
-void json_add_list(json_fields *fields, const char *key, json_fields *items, size_t count);
+/// An object within the object: fields that are added before json_close() are its own.
+void json_open(json_fields *fields, const char *key);
+void json_close(json_fields *fields);
+/// A list of objects: each is opened by json_open_item() and closed by json_close().
+void json_open_list(json_fields *fields, const char *key);
+void json_open_item(json_fields *fields);
+void json_close_list(json_fields *fields);
 void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_account *account);
 
 /// Prints the object on stdout and uses it up.

@@ -26,9 +26,9 @@ void plan_add_json(json_fields *fields, const sl_map *map) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
-    json_fields calls = json_begin();
-    for (size_t i = 0; i < count; i++) json_add_flag(&calls, effects[i]->name, called_for >> i & 1);
-    json_add_fields(fields, "effects", &calls);
+    json_open(fields, "effects");
+    for (size_t i = 0; i < count; i++) json_add_flag(fields, effects[i]->name, called_for >> i & 1);
+    json_close(fields);
 }
 
 // --- cleaning

@@ -21,3 +21,8 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     (void)argc;
     return refuse(console, argv[0]);
 }
+
+sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
+    (void)argc;
+    return refuse(console, argv[0]);
+}

@@ -1,7 +1,7 @@
 /// What is open, and the job in the background: from a file or a map to its space, and on to its
 /// visibility, in a thread of its own.
 ///
-/// A job owns all that it makes until it sets a flag: space_ready, seen_ready, done. After the flag
+/// A job owns all that it makes until it sets a flag (space_ready, seen_ready) or ends. After that
 /// that part belongs to the main thread. document_poll takes it over and never waits. A change by
 /// hand cancels the job and starts another one. The old map stays until the new one has its space.
 ///
@@ -12,11 +12,10 @@
 /// simpler than to mend the old space.
 #include "document.h"
 
-#include "sightline/io.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
+#include "task.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
 #include <strings.h>
@@ -38,19 +37,16 @@ struct bake_job {
     sl_eye_search *search;
     double weld;
     sl_visibility visibility; ///< the job's until seen_ready
-    sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
-    sl_status status;         ///< when `done`
-    char message[1024];
+    sl_visibility
+        with_trees;         ///< the same with stab trees, when it ends; empty where there are none
     char notes[NOTES_TEXT]; ///< the job's until space_ready
     char inside[SL_INSIDE_TEXT];
-    pthread_t thread;
-    atomic_bool cancel, space_ready, seen_ready, done;
-    bool live;      ///< the space alone
-    uint32_t edit;  ///< of the document, when the job started
-    double started; ///< by the clock
-    double until;   ///< the clock's time at which the job gives up stab trees; 0: never
-    _Atomic(const char *) stage;
-    atomic_uint_fast64_t count, total;
+    task *task;
+    atomic_bool space_ready, seen_ready;
+    bool live;              ///< the space alone
+    uint32_t edit;          ///< of the document, when the job started
+    double started;         ///< by the clock
+    double until;           ///< the clock's time at which the job gives up stab trees; 0: never
     bool taken, seen_taken; ///< the main thread has the space, the visibility
 };
 
@@ -63,21 +59,14 @@ struct bake_job {
 /// The search for stab trees ends after this time: open places have too many sequences.
 #define TREE_SECONDS 20
 
-static bool is_cancelled(void *user) {
-    const bake_job *job = user;
-    return atomic_load(&job->cancel) || (job->until > 0 && sl_seconds() > job->until);
-}
-
-static void take_progress(void *user, const sl_progress *progress) {
-    bake_job *job = user;
-    atomic_store(&job->stage, progress->stage);
-    atomic_store(&job->count, progress->done);
-    atomic_store(&job->total, progress->total);
+static bool is_over(void *data) {
+    const bake_job *job = data;
+    return job->until > 0 && sl_seconds() > job->until;
 }
 
 /// Keeps what the reader says. Notes that come after the space are dropped.
-static void take_note(void *user, const char *message) {
-    bake_job *job = user;
+static void take_note(void *data, const char *message) {
+    bake_job *job = data;
     const size_t used = strlen(job->notes);
     if (!atomic_load(&job->space_ready))
         snprintf(job->notes + used, sizeof job->notes - used, "%s%s", used ? "\n" : "", message);
@@ -151,7 +140,8 @@ static sl_status see_with_trees(sl_context *context, bake_job *job, sl_bake_opti
     options.see.tree_bytes = TREE_BYTES;
     job->until = sl_seconds() + TREE_SECONDS;
     const sl_status status = see(context, job, &options, &job->with_trees);
-    return status == SL_CANCELLED && !atomic_load(&job->cancel) ? SL_OK : status;
+    job->until = 0;
+    return status == SL_CANCELLED ? sl_check_cancelled(context) : status;
 }
 
 static sl_status bake(sl_context *context, bake_job *job) {
@@ -176,24 +166,11 @@ static sl_status bake(sl_context *context, bake_job *job) {
     return see_with_trees(context, job, options);
 }
 
-static sl_status work(sl_context *context, bake_job *job) {
+static sl_status work(sl_context *context, void *data) {
+    bake_job *job = data;
     if (job->source.path && document_is_baked(job->source.path)) return read_baked(context, job);
     if (job->source.path) SL_TRY(read_map(context, job));
     return bake(context, job);
-}
-
-static void *run(void *user) {
-    bake_job *job = user;
-    const sl_hooks hooks = {
-        .user = job, .progress = take_progress, .note = take_note, .cancelled = is_cancelled};
-    sl_context *context = sl_context_create(&hooks);
-    job->status = context ? sl_io_use(context) : SL_NO_MEMORY;
-    if (job->status == SL_OK) job->status = work(context, job);
-    snprintf(job->message, sizeof job->message, "%s",
-             context ? sl_context_message(context) : "out of memory");
-    if (context) sl_context_destroy(context);
-    atomic_store(&job->done, true);
-    return NULL;
 }
 
 static void free_job(sl_context *context, bake_job *job) {
@@ -217,18 +194,13 @@ static void free_job(sl_context *context, bake_job *job) {
 
 /// Starts the thread. Owns the content of the job also on failure.
 static sl_status bake_job_start(sl_context *context, bake_job *job) {
-    atomic_store(&job->stage, "read");
+    const task_hooks hooks = {.note = take_note, .over = is_over};
     job->started = sl_seconds();
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
-    if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
-    free_job(context, job);
-    return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
-}
-
-/// Waits for the thread. Frees the job with all that was not taken over.
-static void bake_job_end(sl_context *context, bake_job *job) {
-    pthread_join(job->thread, NULL);
-    free_job(context, job);
+    const sl_status status =
+        job->baked ? task_start(context, work, job, "read", &hooks, &job->task) : SL_NO_MEMORY;
+    if (status != SL_OK) free_job(context, job);
+    return status;
 }
 
 // --- the document
@@ -470,13 +442,11 @@ static sl_status take_visibility(sl_context *context, document_state *document,
 
 static sl_status finish(sl_context *context, document_state *document) {
     bake_job *job = document->job;
-    sl_status status = job->status;
-    if (status != SL_OK)
-        sl_fail(context, status, "%s", job->message);
-    else if (job->with_trees.pvs.cell_count)
+    sl_status status = task_end(context, job->task);
+    if (status == SL_OK && job->with_trees.pvs.cell_count)
         status = take_visibility(context, document, &job->with_trees);
     document->job = NULL;
-    bake_job_end(context, job);
+    free_job(context, job);
     return status;
 }
 
@@ -484,7 +454,7 @@ sl_status document_poll(sl_context *context, document_state *document, bool *cha
     *changed = false;
     bake_job *job = document->job;
     if (!job) return SL_OK;
-    const bool done = atomic_load(&job->done);
+    const bool done = task_done(job->task);
     if (!job->taken && atomic_load(&job->space_ready)) {
         *changed = true;
         const sl_status status = take_space(context, document);
@@ -506,7 +476,7 @@ sl_status document_poll(sl_context *context, document_state *document, bool *cha
 void document_wait_space(const document_state *document, double seconds) {
     const double end = sl_seconds() + seconds;
     const bake_job *job = document->job;
-    while (job && !job->taken && !atomic_load(&job->space_ready) && !atomic_load(&job->done) &&
+    while (job && !job->taken && !atomic_load(&job->space_ready) && !task_done(job->task) &&
            sl_seconds() < end) {
         const struct timespec pause = {0, 100000};
         nanosleep(&pause, NULL);
@@ -532,22 +502,19 @@ sl_status document_wait(sl_context *context, document_state *document, bool *cha
 job_progress document_progress(const document_state *document) {
     const bake_job *job = document->job;
     if (!job || (job->live && sl_seconds() < job->started + SOON)) return (job_progress){0};
-    const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
-    return (job_progress){.running = true,
-                          .stage = atomic_load(&job->stage),
-                          .share = total ? (double)count / (double)total : -1};
+    return task_progress(job->task);
 }
 
 void document_stop_soon(document_state *document) {
-    if (document->job) atomic_store(&document->job->cancel, true);
+    if (document->job) task_cancel(document->job->task);
 }
 
 void document_cancel(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     if (!job) return;
-    atomic_store(&job->cancel, true);
+    task_drop(context, job->task);
     document->job = NULL;
-    bake_job_end(context, job);
+    free_job(context, job);
 }
 
 void document_close(sl_context *context, document_state *document) {

@@ -1,39 +1,32 @@
 /// PNG pictures that are written in the background.
 ///
 /// A picture is drawn in the main thread, since that changes the state of the app. What takes long
-/// is to compress and to write it: that is the work of a thread, which owns the surface. Lines of
-/// .svg and .pdf are recorded, and drawn once more by the thread. Of a series, as many pictures are
+/// is to compress and to write it: that is the work of a task, which owns the surface. Lines of
+/// .svg and .pdf are recorded, and drawn once more by the task. Of a series, as many pictures are
 /// in the making as there are writers; frames of the window go on between them.
 #include "export.h"
 
 #include "app.h"
 #include "save.h"
 #include "sightline/support.h"
+#include "task.h"
 
 #include <errno.h>
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <string.h>
 #include <sys/stat.h>
 
 enum { WRITERS = 2, EXPORT_PATH = 4096 };
 
 typedef struct writer {
-    bool runs;
-    pthread_t thread;
-    atomic_bool done;
-    atomic_bool *cancel; ///< the job's
+    task *task; ///< NULL: it is free
     char path[EXPORT_PATH];
-    cairo_surface_t *surface; ///< the thread's, until `done`
+    cairo_surface_t *surface; ///< the task's, until it ends
     int width, height;
-    sl_status status; ///< when `done`
-    char message[512];
 } writer;
 
 struct export_job {
     writer writers[WRITERS];
-    atomic_bool cancel;
     char folder[EXPORT_PATH - 32]; ///< of a series; empty for a single picture
     char said[256];
     unsigned every, number, total; ///< of pictures: the number of those taken
@@ -44,27 +37,15 @@ struct export_job {
 
 // --- in the thread
 
-static bool is_cancelled(void *user) {
-    return atomic_load(((writer *)user)->cancel);
-}
-
 static void paint(void *user, cairo_t *cairo) {
     cairo_set_source_surface(cairo, ((writer *)user)->surface, 0, 0);
     cairo_paint(cairo);
 }
 
-static void *run(void *user) {
-    writer *w = user;
-    const sl_hooks hooks = {.user = w, .cancelled = is_cancelled};
-    sl_context *context = sl_context_create(&hooks);
-    w->status = context ? sl_check_cancelled(context) : SL_NO_MEMORY;
-    if (w->status == SL_OK)
-        w->status = sl_draw_page_file(context, w->path, w->width, w->height, "Sightline", paint, w);
-    snprintf(w->message, sizeof w->message, "%s",
-             context ? sl_context_message(context) : "out of memory");
-    if (context) sl_context_destroy(context);
-    atomic_store(&w->done, true);
-    return NULL;
+static sl_status write_picture(sl_context *context, void *data) {
+    writer *w = data;
+    SL_TRY(sl_check_cancelled(context));
+    return sl_draw_page_file(context, w->path, w->width, w->height, "Sightline", paint, w);
 }
 
 // --- a picture
@@ -72,10 +53,8 @@ static void *run(void *user) {
 static sl_status begin(app_state *app, writer *w, const char *path, int width, int height,
                        void (*draw)(void *user, cairo_t *cairo)) {
     export_job *job = app->exports;
-    w->cancel = &job->cancel;
     w->width = width;
     w->height = height;
-    atomic_store(&w->done, false);
     snprintf(w->path, sizeof w->path, "%s", path);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     cairo_t *cairo = cairo_create(w->surface);
@@ -87,25 +66,21 @@ static sl_status begin(app_state *app, writer *w, const char *path, int width, i
     job->draws = false;
     const cairo_status_t drawn = cairo_status(cairo);
     cairo_destroy(cairo);
-    if (drawn == CAIRO_STATUS_SUCCESS && pthread_create(&w->thread, NULL, run, w) == 0) {
-        w->runs = true;
-        return SL_OK;
-    }
-    cairo_surface_destroy(w->surface);
-    w->surface = NULL;
-    if (drawn)
-        return sl_fail(app->context, drawn == CAIRO_STATUS_NO_MEMORY ? SL_NO_MEMORY : SL_IO,
-                       "%s: cannot draw: %s", path, cairo_status_to_string(drawn));
-    return sl_fail(app->context, SL_NO_MEMORY, "no thread that writes pictures");
+    const sl_status status =
+        drawn ? sl_fail(app->context, drawn == CAIRO_STATUS_NO_MEMORY ? SL_NO_MEMORY : SL_IO,
+                        "%s: cannot draw: %s", path, cairo_status_to_string(drawn))
+              : task_start(app->context, write_picture, w, NULL, NULL, &w->task);
+    if (status != SL_OK) cairo_surface_destroy(w->surface);
+    return status;
 }
 
+/// Waits for a picture.
 static sl_status finish(sl_context *context, writer *w) {
-    if (!w->runs) return SL_OK;
-    pthread_join(w->thread, NULL);
+    if (!w->task) return SL_OK;
+    const sl_status status = task_end(context, w->task);
     cairo_surface_destroy(w->surface);
-    w->surface = NULL;
-    w->runs = false;
-    return w->status == SL_OK ? SL_OK : sl_fail(context, w->status, "%s", w->message);
+    w->task = NULL;
+    return status;
 }
 
 // --- the job
@@ -125,6 +100,13 @@ static sl_status end(app_state *app) {
     app->exports = NULL;
     sl_free(app->context, job);
     return status;
+}
+
+/// Cancels the writers, and ends the job.
+static void stop(app_state *app) {
+    for (int i = 0; i < WRITERS; i++)
+        if (app->exports->writers[i].task) task_cancel(app->exports->writers[i].task);
+    end(app);
 }
 
 static sl_status start(app_state *app, export_job **out) {
@@ -180,7 +162,7 @@ void export_move(app_state *app) {
     job->free = -1;
     if (!is_series(job) || job->next >= r->frames.count || r->records) return;
     for (int i = 0; i < WRITERS; i++)
-        if (!job->writers[i].runs) job->free = i;
+        if (!job->writers[i].task) job->free = i;
     if (job->free < 0) return;
     app->view.eye.at = r->frames.items[job->next].at;
     app->view.eye.heading = r->frames.items[job->next].heading;
@@ -203,8 +185,8 @@ void export_take(app_state *app) {
     bool any = false;
     for (int i = 0; i < WRITERS; i++) {
         writer *w = &job->writers[i];
-        if (w->runs && atomic_load(&w->done) && status == SL_OK) status = finish(app->context, w);
-        any |= w->runs;
+        if (w->task && task_done(w->task) && status == SL_OK) status = finish(app->context, w);
+        any |= w->task != NULL;
     }
     const path_recorder *r = &app->tool.recorder;
     const bool more = is_series(job) && job->next < r->frames.count && !r->records;
@@ -218,8 +200,7 @@ void export_take(app_state *app) {
     if (status != SL_OK) {
         char message[sizeof app->ui.message];
         snprintf(message, sizeof message, "%s", sl_context_message(app->context));
-        atomic_store(&job->cancel, true);
-        end(app);
+        stop(app);
         ui_say(&app->ui, true, "%s", message);
     } else {
         status = end(app);
@@ -230,15 +211,14 @@ void export_take(app_state *app) {
 
 bool export_stop(app_state *app) {
     if (!app->exports) return false;
-    atomic_store(&app->exports->cancel, true);
-    end(app);
+    stop(app);
     return true;
 }
 
 job_progress export_progress(const export_job *job) {
     if (!job || job->draws) return (job_progress){0};
     unsigned open = 0;
-    for (int i = 0; i < WRITERS; i++) open += job->writers[i].runs;
+    for (int i = 0; i < WRITERS; i++) open += job->writers[i].task != NULL;
     return (job_progress){
         .running = true,
         .stage = "write pictures",

@@ -87,8 +87,7 @@ void heat_set_step(app_state *app, int place) {
 
 static void end_job(sl_context *context, heat_layer *layer) {
     if (!layer->job) return;
-    task_cancel(layer->job);
-    task_end(context, layer->job);
+    task_drop(context, layer->job);
     layer->job = NULL;
     layer->made = layer->graph.made;
     layer->has = layer->graph.parts;
@@ -133,7 +132,7 @@ static unsigned chosen_part(const app_state *app) {
 static sl_status start(app_state *app, heat_layer *layer) {
     layer->graph.wanted = chosen_part(app);
     layer->stopped = true; // where it fails too, so that it is not tried again and again
-    SL_TRY(task_start(app->context, heat_graph_work, &layer->graph, &layer->job));
+    SL_TRY(task_start(app->context, heat_graph_work, &layer->graph, NULL, NULL, &layer->job));
     layer->stopped = false;
     layer->measure = app->view.heat_choice.measure;
     return SL_OK;

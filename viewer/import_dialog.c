@@ -63,8 +63,7 @@ void import_destroy(app_state *app) {
     import_state *s = app->dialog.import;
     if (!s) return;
     if (s->task) {
-        task_cancel(s->task);
-        task_end(app->context, s->task);
+        task_drop(app->context, s->task);
         document_source_destroy(app->context, &s->weld->source);
         sl_free(app->context, s->weld);
     }
@@ -264,7 +263,8 @@ static void suggest(app_state *app, import_state *s) {
     s->weld = sl_alloc_array(app->context, 1, sizeof *s->weld);
     sl_status status =
         s->weld ? document_source_copy(app->context, &source, &s->weld->source) : SL_NO_MEMORY;
-    if (status == SL_OK) status = task_start(app->context, find_weld, s->weld, &s->task);
+    if (status == SL_OK)
+        status = task_start(app->context, find_weld, s->weld, NULL, NULL, &s->task);
     if (status == SL_OK) return;
     snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(app->context));
     if (s->weld) document_source_destroy(app->context, &s->weld->source);

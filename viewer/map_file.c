@@ -232,7 +232,8 @@ static sl_status start_job(app_state *app, const char *path, bool recover) {
     save_job *job = sl_alloc_array(app->context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     sl_status status = fill_job(app, job, path, recover);
-    if (status == SL_OK) status = task_start(app->context, write_file, job, &app->file.task);
+    if (status == SL_OK)
+        status = task_start(app->context, write_file, job, NULL, NULL, &app->file.task);
     if (status == SL_OK)
         app->file.job = job;
     else
@@ -365,8 +366,7 @@ void map_file_taken(app_state *app) {
 void map_file_destroy(app_state *app) {
     file_state *file = &app->file;
     if (file->task) {
-        task_cancel(file->task);
-        task_end(app->context, file->task);
+        task_drop(app->context, file->task);
         free_job(app, file->job);
         file->task = NULL;
     }

@@ -9,6 +9,7 @@
 struct task {
     sl_status (*work)(sl_context *context, void *data);
     void *data;
+    task_hooks hooks;
     sl_status status; ///< when `done`
     char message[1024];
     pthread_t thread;
@@ -18,7 +19,13 @@ struct task {
 };
 
 static bool is_cancelled(void *user) {
-    return atomic_load(&((task *)user)->cancel);
+    const task *t = user;
+    return atomic_load(&t->cancel) || (t->hooks.over && t->hooks.over(t->data));
+}
+
+static void take_note(void *user, const char *message) {
+    const task *t = user;
+    if (t->hooks.note) t->hooks.note(t->data, message);
 }
 
 static void take_progress(void *user, const sl_progress *progress) {
@@ -30,7 +37,8 @@ static void take_progress(void *user, const sl_progress *progress) {
 
 static void *run(void *user) {
     task *t = user;
-    const sl_hooks hooks = {.user = t, .progress = take_progress, .cancelled = is_cancelled};
+    const sl_hooks hooks = {
+        .user = t, .progress = take_progress, .note = take_note, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
     t->status = context ? sl_io_use(context) : SL_NO_MEMORY;
     if (t->status == SL_OK) t->status = t->work(context, t->data);
@@ -42,11 +50,13 @@ static void *run(void *user) {
 }
 
 sl_status task_start(sl_context *context, sl_status (*work)(sl_context *context, void *data),
-                     void *data, task **out) {
+                     void *data, const char *stage, const task_hooks *hooks, task **out) {
     task *t = sl_alloc_array(context, 1, sizeof *t);
     if (!t) return SL_NO_MEMORY;
     t->work = work;
     t->data = data;
+    if (hooks) t->hooks = *hooks;
+    atomic_store(&t->stage, stage);
     if (pthread_create(&t->thread, NULL, run, t) != 0) {
         sl_free(context, t);
         return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
@@ -76,4 +86,11 @@ sl_status task_end(sl_context *context, task *t) {
     if (status != SL_OK) sl_fail(context, status, "%s", t->message);
     sl_free(context, t);
     return status;
+}
+
+void task_drop(sl_context *context, task *t) {
+    if (!t) return;
+    task_cancel(t);
+    pthread_join(t->thread, NULL);
+    sl_free(context, t);
 }

@@ -1,15 +1,14 @@
-/// The layer of view cells: a cut of the merge history, coloured by cost. A thread of its own makes
-/// the history on a copy of the map once the layer is on.
+/// The layer of view cells: a cut of the merge history, coloured by cost. A task makes the history
+/// on a copy of the map once the layer is on.
 #include "view_cells.h"
 
 #include "app.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
+#include "task.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,37 +17,26 @@
 /// Lines that measure costs, for each line that makes the cells.
 #define TELLING 2
 
-struct view_job {
-    sl_map map;
+typedef struct view_history {
+    sl_view_tree tree;
+    sl_view_hierarchy hierarchy; ///< told by other lines than those that it was made by
+} view_history;
+
+typedef struct view_job {
+    task *task;
+    sl_map map; ///< a copy
     sl_space space;
     sl_outline outline;
     sl_view_places places;
     sl_view_segments segments, telling;
     sl_view_hierarchy merged; ///< as told by the lines that made it
     view_history history;
-    sl_status status; ///< when `done`
-    char message[1024];
-    pthread_t thread;
-    atomic_bool cancel, done;
-    _Atomic(const char *) stage;
-    atomic_uint_fast64_t count, total;
-};
+} view_job;
 
-void view_history_destroy(sl_context *context, view_history *history) {
+static void view_history_destroy(sl_context *context, view_history *history) {
     sl_view_hierarchy_destroy(context, &history->hierarchy);
     sl_view_tree_destroy(context, &history->tree);
     *history = (view_history){0};
-}
-
-static bool is_cancelled(void *user) {
-    return atomic_load(&((view_job *)user)->cancel);
-}
-
-static void take_progress(void *user, const sl_progress *progress) {
-    view_job *job = user;
-    atomic_store(&job->stage, progress->stage);
-    atomic_store(&job->count, progress->done);
-    atomic_store(&job->total, progress->total);
 }
 
 static const sl_view_method *method_that_merges(void) {
@@ -80,7 +68,9 @@ static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job 
     return status;
 }
 
-static sl_status work(sl_context *context, view_job *job) {
+/// With as many lines and elementary view cells as `sightline viewcells` takes by default.
+static sl_status work(sl_context *context, void *data) {
+    view_job *job = data;
     const sl_view_sampling sampling = sl_view_sampling_default();
     sl_view_subdivision subdivision = sl_view_subdivision_default();
     subdivision.seed = sampling.seed;
@@ -97,18 +87,6 @@ static sl_status work(sl_context *context, view_job *job) {
     return tell(context, &scene, job);
 }
 
-static void *run(void *user) {
-    view_job *job = user;
-    const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
-    sl_context *context = sl_context_create(&hooks);
-    job->status = context ? work(context, job) : SL_NO_MEMORY;
-    snprintf(job->message, sizeof job->message, "%s",
-             context ? sl_context_message(context) : "out of memory");
-    if (context) sl_context_destroy(context);
-    atomic_store(&job->done, true);
-    return NULL;
-}
-
 static void free_job(sl_context *context, view_job *job) {
     view_history_destroy(context, &job->history);
     sl_view_hierarchy_destroy(context, &job->merged);
@@ -121,45 +99,15 @@ static void free_job(sl_context *context, view_job *job) {
     sl_free(context, job);
 }
 
-sl_status view_job_start(sl_context *context, const sl_map *map, view_job **out) {
+static sl_status start_job(sl_context *context, const sl_map *map, view_job **out) {
     view_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
-    atomic_store(&job->stage, "sample");
-    const sl_status status = sl_map_copy(context, map, &job->map);
-    if (status == SL_OK && pthread_create(&job->thread, NULL, run, job) == 0) {
+    sl_status status = sl_map_copy(context, map, &job->map);
+    if (status == SL_OK) status = task_start(context, work, job, "sample", NULL, &job->task);
+    if (status == SL_OK)
         *out = job;
-        return SL_OK;
-    }
-    free_job(context, job);
-    if (status != SL_OK) return status;
-    return sl_fail(context, SL_NO_MEMORY, "no thread for view cells in the background");
-}
-
-void view_job_cancel(view_job *job) {
-    atomic_store(&job->cancel, true);
-}
-
-bool view_job_is_done(const view_job *job) {
-    return atomic_load(&job->done);
-}
-
-job_progress view_job_progress(const view_job *job) {
-    const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
-    return (job_progress){.running = true,
-                          .stage = atomic_load(&job->stage),
-                          .share = total ? (double)count / (double)total : -1};
-}
-
-sl_status view_job_end(sl_context *context, view_job *job, view_history *out) {
-    pthread_join(job->thread, NULL);
-    const sl_status status = job->status;
-    if (status == SL_OK) {
-        *out = job->history;
-        job->history = (view_history){0};
-    } else {
-        sl_fail(context, status, "view cells: %s", job->message);
-    }
-    free_job(context, job);
+    else
+        free_job(context, job);
     return status;
 }
 
@@ -186,11 +134,9 @@ struct view_layer {
 // --- the work
 
 static void end_job(sl_context *context, view_layer *layer) {
-    view_history unused = {0};
     if (!layer->job) return;
-    view_job_cancel(layer->job);
-    view_job_end(context, layer->job, &unused);
-    view_history_destroy(context, &unused);
+    task_drop(context, layer->job->task);
+    free_job(context, layer->job);
     layer->job = NULL;
 }
 
@@ -243,7 +189,17 @@ static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
 static sl_status take(sl_context *context, view_layer *layer) {
     view_job *job = layer->job;
     layer->job = NULL;
-    SL_TRY(view_job_end(context, job, &layer->history));
+    const sl_status status = task_end(context, job->task);
+    if (status == SL_OK) {
+        layer->history = job->history;
+        job->history = (view_history){0};
+    } else {
+        char message[1024];
+        snprintf(message, sizeof message, "%s", sl_context_message(context));
+        sl_fail(context, status, "view cells: %s", message);
+    }
+    free_job(context, job);
+    SL_TRY(status);
     const sl_view_hierarchy *h = &layer->history.hierarchy;
     layer->costs = sl_alloc_array(context, h->cell_count, sizeof *layer->costs);
     layer->bytes = sl_alloc_array(context, h->cell_count, sizeof *layer->bytes);
@@ -263,7 +219,7 @@ static sl_status begin(app_state *app) {
     layer->version = app->document.version;
     layer->mark = SL_NO_VIEW_CELL;
     app->view.views = layer; // kept where it fails too, so that it is not tried again and again
-    return view_job_start(app->context, &app->document.map, &layer->job);
+    return start_job(app->context, &app->document.map, &layer->job);
 }
 
 static void drop(app_state *app) {
@@ -281,7 +237,7 @@ void view_layer_update(app_state *app, bool wait) {
     const bool settled = app->document.has_visibility || !(app->document.job || app->document.live);
     if (!app->view.views && settled) app_check(app, begin(app));
     view_layer *layer = app->view.views;
-    if (layer && layer->job && (wait || view_job_is_done(layer->job)))
+    if (layer && layer->job && (wait || task_done(layer->job->task)))
         app_check(app, take(app->context, layer));
 }
 
@@ -292,7 +248,7 @@ bool view_layer_stop(app_state *app) {
 }
 
 job_progress view_layer_progress(const view_layer *layer) {
-    return layer && layer->job ? view_job_progress(layer->job) : (job_progress){0};
+    return layer && layer->job ? task_progress(layer->job->task) : (job_progress){0};
 }
 
 // --- the walk through the history

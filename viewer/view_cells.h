@@ -1,36 +1,11 @@
-/// View cells that adapt to what is seen: the background job that makes the merge history of a map,
-/// and the layer that shows a cut of it, coloured by cost.
+/// The layer of view cells that adapt to what is seen: a cut of the merge history of the map, which
+/// is made in the background, coloured by cost.
 #ifndef VIEWER_VIEW_CELLS_H
 #define VIEWER_VIEW_CELLS_H
 
 #include "document.h"
 #include "sightline/canvas.h"
 #include "sightline/view_cells.h"
-
-// --- the job
-
-/// The result of the job. Zeroed: nothing yet.
-typedef struct view_history {
-    sl_view_tree tree;
-    sl_view_hierarchy hierarchy; ///< told by other lines than those that it was made by
-} view_history;
-
-void view_history_destroy(sl_context *context, view_history *history); ///< and zeroes it
-
-typedef struct view_job view_job;
-
-/// Starts the thread on a copy of the map, with as many lines and elementary view cells as
-/// `sightline viewcells` takes by default.
-sl_status view_job_start(sl_context *context, const sl_map *map, view_job **out);
-void view_job_cancel(view_job *job);
-bool view_job_is_done(const view_job *job);
-job_progress view_job_progress(const view_job *job);
-
-/// Waits for the thread and frees the job. The caller owns `*out`, which is untouched on failure;
-/// status and message say what failed.
-sl_status view_job_end(sl_context *context, view_job *job, view_history *out);
-
-// --- the layer
 
 typedef struct app_state app_state;
 typedef struct view_layer view_layer;

@@ -12,11 +12,10 @@
 /// states of a segment share its 1 where they tie. Sums are whole numbers, as in measures.c.
 ///
 /// Cost: O(n * pairs of segments that meet * log) for n segments. Threads take segments one by one.
+#include "base/heap.h"
 #include "geometry/length.h"
-#include "sightline/axial.h"
-
 #include "geometry/orient.h"
-#include "sightline/support.h"
+#include "sightline/axial.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -133,6 +132,12 @@ typedef struct entry {
     uint32_t state;
 } entry;
 
+static inline bool is_before(const entry *a, const entry *b) {
+    return a->key < b->key || (a->key == b->key && a->state < b->state);
+}
+
+SLI_HEAP(queue, entry, is_before)
+
 typedef struct scratch {
     uint64_t *keys; ///< by state
     double *paths, *depends;
@@ -141,37 +146,8 @@ typedef struct scratch {
     bool *done, *wanted;
     uint64_t *choice; ///< by segment
     uint32_t count;   ///< of states in order
-    SL_ARRAY(entry) heap;
+    queue queue;
 } scratch;
-
-static bool is_before(entry a, entry b) {
-    return a.key < b.key || (a.key == b.key && a.state < b.state);
-}
-
-static sl_status push(sl_context *context, scratch *s, entry e) {
-    SL_TRY(SL_ARRAY_ROOM(context, &s->heap, 1));
-    size_t i = s->heap.count++;
-    for (; i && is_before(e, s->heap.items[(i - 1) / 2]); i = (i - 1) / 2)
-        s->heap.items[i] = s->heap.items[(i - 1) / 2];
-    s->heap.items[i] = e;
-    return SL_OK;
-}
-
-static entry pop(scratch *s) {
-    entry *items = s->heap.items;
-    const entry first = items[0], moved = items[--s->heap.count];
-    size_t i = 0;
-    for (;;) {
-        size_t child = 2 * i + 1;
-        if (child >= s->heap.count) break;
-        if (child + 1 < s->heap.count && is_before(items[child + 1], items[child])) child++;
-        if (!is_before(items[child], moved)) break;
-        items[i] = items[child];
-        i = child;
-    }
-    items[i] = moved;
-    return first;
-}
 
 typedef struct job {
     network net;
@@ -180,7 +156,7 @@ typedef struct job {
     _Atomic uint64_t *choice;
 } job;
 
-/// Lengths are not negative, so their bits order them: the heap of keys serves here too.
+/// Lengths are not negative, so their bits order them: the queue of keys serves here too.
 static uint64_t bits_of(double length) {
     union {
         double value;
@@ -198,14 +174,15 @@ static sl_status want(sl_context *context, const job *j, scratch *s, uint32_t ro
     *count = n->count - 1;
     if (!(radius > 0)) return SL_OK;
     *count = 0;
-    s->heap.count = 0;
+    s->queue.count = 0;
     for (uint32_t c = 0; c < n->corner_count; c++) s->far[c] = INFINITY;
     for (int e = 0; e < 2; e++) {
         s->far[n->corners[root][e]] = n->lengths[root] / 2;
-        SL_TRY(push(context, s, (entry){bits_of(n->lengths[root] / 2), n->corners[root][e]}));
+        SL_TRY(queue_push(context, &s->queue,
+                          (entry){bits_of(n->lengths[root] / 2), n->corners[root][e]}));
     }
-    while (s->heap.count) {
-        const entry e = pop(s);
+    while (s->queue.count) {
+        const entry e = queue_pop(&s->queue);
         const double here = s->far[e.state];
         if (e.key > bits_of(here)) continue;
         if (here > radius) break;
@@ -218,7 +195,7 @@ static sl_status want(sl_context *context, const job *j, scratch *s, uint32_t ro
             }
             if (here + n->lengths[segment] >= s->far[to]) continue;
             s->far[to] = here + n->lengths[segment];
-            SL_TRY(push(context, s, (entry){bits_of(s->far[to]), to}));
+            SL_TRY(queue_push(context, &s->queue, (entry){bits_of(s->far[to]), to}));
         }
     }
     return SL_OK;
@@ -232,7 +209,7 @@ static sl_status search(sl_context *context, const job *j, scratch *s, uint32_t 
     uint64_t most = FAR;
     if (radius > 0 && radius < 1e6)
         most = ((uint64_t)floor(radius * UNITS_OF_RIGHT_ANGLE) + 1) << STEP_BITS;
-    s->heap.count = s->count = 0;
+    s->queue.count = s->count = 0;
     for (uint32_t i = 0; i < 2 * n->count; i++) {
         s->keys[i] = FAR;
         s->paths[i] = s->depends[i] = 0;
@@ -241,10 +218,10 @@ static sl_status search(sl_context *context, const job *j, scratch *s, uint32_t 
     for (uint32_t e = 0; e < 2; e++) {
         s->keys[2 * root + e] = 0;
         s->paths[2 * root + e] = 1;
-        SL_TRY(push(context, s, (entry){0, 2 * root + e}));
+        SL_TRY(queue_push(context, &s->queue, (entry){0, 2 * root + e}));
     }
-    while (s->heap.count) {
-        const entry e = pop(s);
+    while (s->queue.count) {
+        const entry e = queue_pop(&s->queue);
         if (s->done[e.state] || e.key != s->keys[e.state]) continue;
         if (e.key >= most) break;
         s->done[e.state] = true;
@@ -257,7 +234,7 @@ static sl_status search(sl_context *context, const job *j, scratch *s, uint32_t 
             if (key < s->keys[a.to]) {
                 s->keys[a.to] = key;
                 s->paths[a.to] = 0;
-                SL_TRY(push(context, s, (entry){key, a.to}));
+                SL_TRY(queue_push(context, &s->queue, (entry){key, a.to}));
             }
             s->paths[a.to] += s->paths[e.state];
         }
@@ -337,7 +314,7 @@ static void end(sl_context *context, void *all, void *state) {
     sl_free(context, s->done);
     sl_free(context, s->wanted);
     sl_free(context, s->choice);
-    sl_free(context, s->heap.items);
+    sl_free(context, s->queue.items);
     sl_free(context, s);
 }
 

@@ -219,7 +219,8 @@ static sl_status enqueue(sli_view_divider *d, sli_view_choose choose, uint32_t n
     bool splits = false;
     SL_TRY(choose(d, part, &priority, &splits));
     if (!splits) return SL_OK;
-    return sli_heap_push(d->context, &d->queue, (sli_heap_item){.key = priority, .a = number});
+    return sli_view_queue_push(d->context, &d->queue,
+                               (sli_view_entry){.key = priority, .a = number});
 }
 
 // --- splitting
@@ -344,18 +345,18 @@ static sl_status cut_part(sl_context *context, void *job, void *state, size_t un
 static sl_status list_ahead(sli_view_divider *d, unsigned threads, ahead *a) {
     size_t most = d->pieces && threads > 1 ? (size_t)AHEAD_A_THREAD * threads : 1;
     if (most > d->options->cells - d->with_mass) most = d->options->cells - d->with_mass;
-    sli_heap looked_at = {0};
+    sli_view_queue looked_at = {0};
     sl_status status = SL_OK;
     while (status == SL_OK && d->queue.count && looked_at.count < most) {
         status = SL_ARRAY_ROOM(d->context, &looked_at, 1);
         if (status == SL_OK) status = SL_ARRAY_ROOM(d->context, &a->parts, 1);
         if (status != SL_OK) break;
-        const sli_heap_item item = sli_heap_pop(&d->queue);
+        const sli_view_entry item = sli_view_queue_pop(&d->queue);
         looked_at.items[looked_at.count++] = item;
         if (!d->parts.items[item.a].cut) a->parts.items[a->parts.count++] = item.a;
     }
     while (status == SL_OK && looked_at.count)
-        status = sli_heap_push(d->context, &d->queue, looked_at.items[--looked_at.count]);
+        status = sli_view_queue_push(d->context, &d->queue, looked_at.items[--looked_at.count]);
     sl_free(d->context, looked_at.items);
     return status;
 }
@@ -384,7 +385,7 @@ static sl_status divide(sli_view_divider *d, sli_view_choose choose, bool stops_
     while (d->queue.count && d->with_mass < d->options->cells) {
         SL_TRY(sl_check_cancelled(d->context));
         if (!d->parts.items[d->queue.items[0].a].cut) SL_TRY(cut_ahead(d));
-        const uint32_t number = sli_heap_pop(&d->queue).a;
+        const uint32_t number = sli_view_queue_pop(&d->queue).a;
         const double gain = d->parts.items[number].split.gain;
         without_gain = gain < d->options->least_gain * first_cost ? without_gain + 1 : 0;
         if (stops_early && without_gain >= d->options->patience) break;

@@ -3,53 +3,26 @@
 #ifndef SL_VIEW_DIVIDE_H
 #define SL_VIEW_DIVIDE_H
 
-#include "sightline/support.h"
+#include "base/heap.h"
 #include "view_cells/pieces.h"
 #include "view_cells/tree.h"
 
 #include <math.h>
 
-// --- A priority queue: the largest key first, of equal ones that with the lowest numbers.
+// --- a priority queue
 
-typedef struct sli_heap_item {
+typedef struct sli_view_entry {
     double key;
     uint32_t a, b;
-} sli_heap_item;
+} sli_view_entry;
 
-typedef SL_ARRAY(sli_heap_item) sli_heap;
-
-static inline bool sli_heap_before(const sli_heap_item *x, const sli_heap_item *y) {
+/// The largest key first, of equal ones that with the lowest numbers.
+static inline bool sli_view_is_before(const sli_view_entry *x, const sli_view_entry *y) {
     if (x->key != y->key) return x->key > y->key;
     return x->a != y->a ? x->a < y->a : x->b < y->b;
 }
 
-static inline sl_status sli_heap_push(sl_context *context, sli_heap *heap, sli_heap_item item) {
-    SL_TRY(SL_ARRAY_ROOM(context, heap, 1));
-    size_t at = heap->count++;
-    while (at && sli_heap_before(&item, &heap->items[(at - 1) / 2])) {
-        heap->items[at] = heap->items[(at - 1) / 2];
-        at = (at - 1) / 2;
-    }
-    heap->items[at] = item;
-    return SL_OK;
-}
-
-/// Takes the first item; there must be one.
-static inline sli_heap_item sli_heap_pop(sli_heap *heap) {
-    const sli_heap_item top = heap->items[0], last = heap->items[--heap->count];
-    size_t at = 0;
-    while (true) {
-        size_t next = 2 * at + 1;
-        if (next >= heap->count) break;
-        if (next + 1 < heap->count && sli_heap_before(&heap->items[next + 1], &heap->items[next]))
-            next++;
-        if (!sli_heap_before(&heap->items[next], &last)) break;
-        heap->items[at] = heap->items[next];
-        at = next;
-    }
-    if (heap->count) heap->items[at] = last;
-    return top;
-}
+SLI_HEAP(sli_view_queue, sli_view_entry, sli_view_is_before)
 
 // --- dividing
 
@@ -116,7 +89,7 @@ typedef struct sli_view_divider {
     SL_ARRAY(sl_segment) lines;
     uint32_t with_mass; ///< parts that are not empty space
     uint64_t made;      ///< parts that a method has queued
-    sli_heap queue;
+    sli_view_queue queue;
     // Scratch for choosing splits.
     sli_view_extent *extents; ///< by object; low over high for those not seen
     uint8_t *sides;           ///< by object: 1: seen right of a line, 2: left of it

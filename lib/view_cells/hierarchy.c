@@ -38,7 +38,7 @@ typedef struct merger {
     sl_point *middle;    ///< by number
     number_list *around; ///< by number: its neighbours, some since merged
     sl_bits *both;       ///< scratch: a row
-    sli_heap queue;
+    sli_view_queue queue;
 } merger;
 
 /// The part that holds a number now (find with path compression).
@@ -73,8 +73,8 @@ static double cost_of_both(merger *m, uint32_t a, uint32_t b) {
 static sl_status weigh(merger *m, uint32_t a, uint32_t b) {
     const double increase = (m->mass[a] + m->mass[b]) * cost_of_both(m, a, b) -
                             m->mass[a] * m->cost[a] - m->mass[b] * m->cost[b];
-    const sli_heap_item item = {-increase, a < b ? a : b, a < b ? b : a};
-    return sli_heap_push(m->context, &m->queue, item);
+    const sli_view_entry item = {-increase, a < b ? a : b, a < b ? b : a};
+    return sli_view_queue_push(m->context, &m->queue, item);
 }
 
 static sl_status add_around(merger *m, uint32_t number, uint32_t neighbour) {
@@ -146,7 +146,7 @@ static sl_status merge_all(merger *m) {
         }
         uint32_t a, b;
         if (m->queue.count) {
-            const sli_heap_item item = sli_heap_pop(&m->queue);
+            const sli_view_entry item = sli_view_queue_pop(&m->queue);
             a = item.a;
             b = item.b;
             if (m->up[a] != a || m->up[b] != b) continue;

@@ -103,7 +103,7 @@ typedef struct walker {
 
 static sl_status push(sl_context *context, walker *w, entry e) {
     const uint64_t bucket = (uint64_t)(e.key * PARTS);
-    if (bucket == w->reached) return sli_vga_push(context, &w->heap, e);
+    if (bucket == w->reached) return sli_vga_heap_push(context, &w->heap, e);
     SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
     e.next = w->buckets[bucket % BUCKETS];
     w->buckets[bucket % BUCKETS] = (uint32_t)w->entries.count;
@@ -122,7 +122,7 @@ static sl_status reach_next(sl_context *context, walker *w) {
             next = e->next;
             if ((uint64_t)(e->key * PARTS) == w->reached) {
                 w->waiting--;
-                if (e->key <= w->turn[e->at]) SL_TRY(sli_vga_push(context, &w->heap, *e));
+                if (e->key <= w->turn[e->at]) SL_TRY(sli_vga_heap_push(context, &w->heap, *e));
             } else {
                 e->next = left;
                 left = i;
@@ -429,7 +429,7 @@ static sl_status find_straightest(sl_context *context, walker *w, uint32_t from)
     for (;;) {
         if (!w->heap.count) SL_TRY(reach_next(context, w));
         if (!w->heap.count) break;
-        const entry e = sli_vga_pop(&w->heap);
+        const entry e = sli_vga_heap_pop(&w->heap);
         if (radius > 0 && e.key > radius) break;
         if (e.key > w->turn[e.at]) continue; // a better path has come since
         if (e.before != SLI_VGA_NONE)

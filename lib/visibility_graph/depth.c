@@ -74,7 +74,7 @@ typedef struct walker {
 } walker;
 
 static sl_status push(sl_context *context, walker *w, float key, uint32_t point, uint32_t before) {
-    return sli_vga_push(context, &w->heap, (entry){key, point, point, before, SLI_VGA_NONE});
+    return sli_vga_heap_push(context, &w->heap, (entry){key, point, point, before, SLI_VGA_NONE});
 }
 
 static sl_point square_of(const walker *w, uint32_t point) {
@@ -154,7 +154,7 @@ static sl_status search(sl_context *context, walker *w, try_way *try, const uint
         SL_TRY(push(context, w, 0, from[i], SLI_VGA_NONE));
     }
     while (w->heap.count) {
-        const entry e = sli_vga_pop(&w->heap);
+        const entry e = sli_vga_heap_pop(&w->heap);
         if (most > 0 && e.key > most) break;
         if (e.key > w->length[e.at] || sl_bits_has(w->done, e.at)) continue;
         SL_TRY(sl_check_cancelled(context));

@@ -7,6 +7,7 @@
 ///
 /// Angles are estimates in doubles: they decide only the order. What is hidden is decided exactly,
 /// by the node visibility test. Cost: O(log n) for each node and wall that leaves the heap.
+#include "base/heap.h"
 #include "geometry/length.h"
 #include "walk/walk_parts.h"
 
@@ -19,12 +20,17 @@ typedef struct candidate {
     bool is_node;
 } candidate;
 
+static inline bool is_before(const candidate *a, const candidate *b) {
+    return a->size > b->size;
+}
+
+SLI_HEAP(queue, candidate, is_before)
+
 struct sli_chooser {
     const sl_hierarchy *hierarchy;
     double *longest; ///< by node: the longest wall in it, scaled
-    candidate *heap;
-    uint32_t count; ///< in the heap
-    double scale;   ///< brings coordinates near 1, so that no product overflows
+    queue queue;
+    double scale; ///< brings coordinates near 1, so that no product overflows
     // Of the frame:
     sli_walk_cone cone;
     sl_point eye, right, left;
@@ -48,9 +54,8 @@ sl_status sli_chooser_create(sl_context *context, const sl_hierarchy *h, sli_cho
     sli_chooser *c = sl_alloc_array(context, 1, sizeof *c);
     if (!c) return SL_NO_MEMORY;
     c->hierarchy = h;
-    c->heap = sl_alloc_array(context, (size_t)h->occluder_count + h->node_count, sizeof *c->heap);
     c->longest = sl_alloc_array(context, h->node_count, sizeof *c->longest);
-    if (!c->heap || !c->longest) {
+    if (!c->longest) {
         sli_chooser_destroy(context, c);
         return SL_NO_MEMORY;
     }
@@ -62,7 +67,7 @@ sl_status sli_chooser_create(sl_context *context, const sl_hierarchy *h, sli_cho
 }
 
 void sli_chooser_destroy(sl_context *context, sli_chooser *chooser) {
-    if (chooser) sl_free(context, chooser->heap);
+    if (chooser) sl_free(context, chooser->queue.items);
     if (chooser) sl_free(context, chooser->longest);
     sl_free(context, chooser);
 }
@@ -97,48 +102,33 @@ static double node_size(const sli_chooser *c, uint32_t node) {
     return length > 0 ? -cosine * fabs(cosine) : -2;
 }
 
-static void push(sli_chooser *c, candidate what) {
-    if (!(what.size >= -1)) return;
-    uint32_t i = c->count++;
-    for (; i && c->heap[(i - 1) / 2].size < what.size; i = (i - 1) / 2)
-        c->heap[i] = c->heap[(i - 1) / 2];
-    c->heap[i] = what;
-}
-
-static candidate pop(sli_chooser *c) {
-    const candidate top = c->heap[0], last = c->heap[--c->count];
-    uint32_t i = 0;
-    for (uint32_t child; (child = 2 * i + 1) < c->count; i = child) {
-        if (child + 1 < c->count && c->heap[child + 1].size > c->heap[child].size) child++;
-        if (c->heap[child].size <= last.size) break;
-        c->heap[i] = c->heap[child];
-    }
-    c->heap[i] = last;
-    return top;
+static sl_status push(sl_context *context, sli_chooser *c, candidate what) {
+    return what.size >= -1 ? queue_push(context, &c->queue, what) : SL_OK;
 }
 
 static sl_point toward(const sli_chooser *c, sl_point at) {
     return (sl_point){(at.x - c->eye.x) * c->scale, (at.y - c->eye.y) * c->scale};
 }
 
-static void push_node(sli_chooser *c, uint32_t node) {
-    push(c, (candidate){node_size(c, node), node, true});
+static sl_status push_node(sl_context *context, sli_chooser *c, uint32_t node) {
+    return push(context, c, (candidate){node_size(c, node), node, true});
 }
 
 /// Puts the contents of a node on the heap, unless it is hidden.
-static void open_node(sli_chooser *c, sl_walk *w, uint32_t node) {
+static sl_status open_node(sl_context *context, sli_chooser *c, sl_walk *w, uint32_t node) {
     const sl_hierarchy *h = c->hierarchy;
     const sl_walk_node *n = &h->nodes[node];
     sli_node_view seen;
     sli_walk_view_node(w, node, &seen);
-    if (!seen.wedge_count || sli_walk_test(w, &seen) == SL_NODE_INVISIBLE) return;
+    if (!seen.wedge_count || sli_walk_test(w, &seen) == SL_NODE_INVISIBLE) return SL_OK;
     for (uint32_t i = h->first_occluder[node]; i < h->first_occluder[node + 1]; i++) {
         const sl_segment *s = &h->occluders[i];
-        push(c, (candidate){wall_size(c, toward(c, s->a), toward(c, s->b)), i, false});
+        const double size = wall_size(c, toward(c, s->a), toward(c, s->b));
+        SL_TRY(push(context, c, (candidate){size, i, false}));
     }
-    if (n->cell != SL_NO_CELL) return;
-    push_node(c, (uint32_t)n->child[0]);
-    push_node(c, (uint32_t)n->child[1]);
+    if (n->cell != SL_NO_CELL) return SL_OK;
+    SL_TRY(push_node(context, c, (uint32_t)n->child[0]));
+    return push_node(context, c, (uint32_t)n->child[1]);
 }
 
 /// Chooses a wall if it hides anything within the cone that was free.
@@ -165,16 +155,16 @@ static sl_status try_wall(sl_context *context, const sl_segment *wall, const sli
 sl_status sli_chooser_choose(sl_context *context, sl_walk *w, const sl_view *view) {
     sli_chooser *c = w->chooser;
     const sli_shadows *s = &w->occlusion->shadows;
-    c->count = 0;
+    c->queue.count = 0;
     c->cone = w->cone;
     c->eye = view->eye;
     c->right = toward(c, view->right);
     c->left = toward(c, view->left);
-    if (w->options.occluders) push_node(c, 0);
-    while (c->count && s->occluders.count < w->options.occluders) {
-        const candidate next = pop(c);
+    if (w->options.occluders) SL_TRY(push_node(context, c, 0));
+    while (c->queue.count && s->occluders.count < w->options.occluders) {
+        const candidate next = queue_pop(&c->queue);
         if (next.is_node)
-            open_node(c, w, next.number);
+            SL_TRY(open_node(context, c, w, next.number));
         else
             SL_TRY(try_wall(context, &c->hierarchy->occluders[next.number], &w->cone, w->test,
                             w->occlusion));

@@ -18,6 +18,7 @@
 #include "sightline/io.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
+#include "sightline/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,6 @@
 
 #include "sightline/cell_to_cell.h"
 #include "sightline/query.h"
-#include "sightline/view_cells.h"
 
 #ifdef __cplusplus
 extern "C" {

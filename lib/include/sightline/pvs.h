@@ -2,7 +2,7 @@
 #ifndef SIGHTLINE_PVS_H
 #define SIGHTLINE_PVS_H
 
-#include "sightline/context.h"
+#include "sightline/space.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,6 +38,38 @@ SL_API uint64_t sl_pvs_pairs(const sl_pvs *pvs); ///< of all rows
 
 /// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.
 SL_API sl_status sl_pvs_check(sl_context *context, const sl_pvs *pvs);
+
+// --- rows of view cells
+
+/// "No view cell": empty space, where no viewpoint is.
+#define SL_NO_VIEW_CELL UINT32_MAX
+
+/// What view cells see, in cells of a space (sightline/view_cells.h makes them). Rows form a tree:
+/// nodes below view_cell_count are view cells, and a view cell sees what its own row and the rows
+/// of all nodes above it hold. Zeroed: none.
+typedef struct sl_view_rows {
+    uint32_t view_cell_count, node_count;
+    uint32_t *view_cells; ///< by cell of the space: its view cell, or SL_NO_VIEW_CELL
+    uint32_t *parents;    ///< by node: a node of a higher number, or SL_NO_VIEW_CELL
+    sl_pvs rows;          ///< by node; as many rows as cells, the rest are empty
+} sl_view_rows;
+
+/// Expands rows to visible sets of cells: each cell sees what its view cell sees. `pairs`: how many
+/// pairs there are. Untrusted rows must be checked before.
+SL_API sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,
+                                     uint64_t *pairs);
+SL_API void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows); ///< and zeroes it
+
+/// The view cell of a point: that of its cell in the space. SL_NO_VIEW_CELL for none.
+SL_API uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *space,
+                                    sl_point point);
+/// Sets bit c % 64 of word c / 64 for each cell c that a view cell sees; other bits stay.
+SL_API void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits);
+/// Whether a view cell sees a cell.
+SL_API bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell);
+
+/// Checks rows from an untrusted file. SL_BAD_INPUT.
+SL_API sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows);
 
 #ifdef __cplusplus
 }

@@ -29,6 +29,5 @@
 #include "sightline/steps.h"
 #include "sightline/version.h"
 #include "sightline/view.h"
-#include "sightline/view_cells.h"
 
 #endif

@@ -18,9 +18,6 @@
 extern "C" {
 #endif
 
-/// "No view cell": empty space, where no viewpoint is.
-#define SL_NO_VIEW_CELL UINT32_MAX
-
 // --- what is seen
 
 /// What the objects in potentially visible sets are.
@@ -315,16 +312,6 @@ SL_API sl_status sl_view_sets_exact(sl_context *context, const sl_map *map,
                                     const sl_see_method *method, const sl_see_options *options,
                                     sl_view_sets *out);
 
-/// What view cells see, in cells of a space (section 5.2). Rows form a tree: nodes below
-/// view_cell_count are view cells, and a view cell sees what its own row and the rows of all nodes
-/// above it hold. Zeroed: none.
-typedef struct sl_view_rows {
-    uint32_t view_cell_count, node_count;
-    uint32_t *view_cells; ///< by cell of the space: its view cell, or SL_NO_VIEW_CELL
-    uint32_t *parents;    ///< by node: a node of a higher number, or SL_NO_VIEW_CELL
-    sl_pvs rows;          ///< by node; as many rows as cells, the rest are empty
-} sl_view_rows;
-
 /// Makes the rows of the view cells of a cut (as from sl_view_cut), over a space with their seams,
 /// from what its cells see. Only cells inside count. `compressed`: what two siblings of the
 /// hierarchy both see is stored once, above them; else there are no nodes above. SL_BAD_ARGUMENT
@@ -332,22 +319,6 @@ typedef struct sl_view_rows {
 SL_API sl_status sl_view_rows_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
                                    const sl_view_tree *tree, const sl_view_hierarchy *hierarchy,
                                    uint32_t cells, bool compressed, sl_view_rows *out);
-/// Expands rows to visible sets of cells: each cell sees what its view cell sees. `pairs`: how many
-/// pairs there are. Untrusted rows must be checked before.
-SL_API sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,
-                                     uint64_t *pairs);
-SL_API void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows); ///< and zeroes it
-
-/// The view cell of a point: that of its cell in the space. SL_NO_VIEW_CELL for none.
-SL_API uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *space,
-                                    sl_point point);
-/// Sets bit c % 64 of word c / 64 for each cell c that a view cell sees; other bits stay.
-SL_API void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits);
-/// Whether a view cell sees a cell.
-SL_API bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell);
-
-/// Checks rows from an untrusted file. SL_BAD_INPUT.
-SL_API sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows);
 
 /// The expected cost (equation 1) by exact sets, in cells of the scene's own space; its objects
 /// must be cells. `space` is the one with the seams, also along the scene's portals. `hierarchy`
