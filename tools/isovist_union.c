@@ -12,7 +12,11 @@ sl_status isovist_union_make(sl_context *context, const sl_space *space, const s
     if (status == SL_OK) status = sl_overlay_make(context, &inside, shapes, regions->count, out);
     sl_shape_destroy(context, &inside);
     sl_free(context, shapes);
-    return status;
+    if (status != SL_OK) return status;
+    out->areas[0] = 0; // of the plan itself: no crossing of outlines has rounded it
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (space->cells[c].inside) out->areas[0] += sl_space_area(space, c);
+    return SL_OK;
 }
 
 static void put_rows(const sl_overlay *all, FILE *out) {

@@ -1,5 +1,5 @@
-/// The outline of what many shapes cover: the walls of an overlay that part pieces above a count
-/// from pieces below it, joined to loops.
+/// The outline of pieces of a mesh: their sides that do not lead to another one of them, joined to
+/// loops. So are found what many shapes of an overlay cover, and what is inside of a space.
 ///
 /// At a point where several loops meet, the loop that comes in goes on by the first way out,
 /// clockwise from the way back. So it keeps along the wedge of the covered area that it borders:
@@ -10,7 +10,7 @@
 ///              not | covered       since then is a loop of its own.
 ///                  v b
 ///
-/// Time O(n log n) for n walls, to sort them by their starts.
+/// Time O(n log n) for n sides, to sort them by their starts.
 #include "sightline/overlay.h"
 
 #include "geometry/orient.h"
@@ -43,27 +43,49 @@ static int compare_ways(const void *left, const void *right) {
     return order ? order : sli_compare_points(a->to, b->to);
 }
 
-/// Lists the sides of covered pieces that lead elsewhere.
-static sl_status list_ways(tracer *t, const sl_overlay *overlay, size_t at_least) {
-    const sl_space *pieces = &overlay->pieces;
-    uint8_t *covered = sl_alloc_array(t->context, pieces->wall_count, sizeof *covered);
-    t->ways = sl_alloc_array(t->context, pieces->wall_count, sizeof *t->ways);
-    t->place = sl_alloc_array(t->context, pieces->wall_count, sizeof *t->place);
-    t->path = sl_alloc_array(t->context, pieces->wall_count, sizeof *t->path);
-    const bool room = covered && t->ways && t->place && t->path;
-    for (uint32_t c = 0; room && c < pieces->cell_count; c++)
-        for (uint32_t i = 0; overlay->counts[c] >= at_least && i < pieces->cells[c].vertex_count;
-             i++) {
-            const uint32_t side = pieces->neighbour[pieces->cells[c].first_vertex + i];
-            if (side < SL_NEIGHBOUR_BORDER)
-                covered[side & ~SL_NEIGHBOUR_RIGHT] |= side & SL_NEIGHBOUR_RIGHT ? 2 : 1;
-        }
-    for (uint32_t w = 0; room && w < pieces->wall_count; w++) {
-        const sl_wall *wall = &pieces->walls[w];
-        if (covered[w] == 1) t->ways[t->count++] = (way){wall->a, wall->b, false};
-        if (covered[w] == 2) t->ways[t->count++] = (way){wall->b, wall->a, false};
+/// What is asked of each side of a covered piece.
+typedef struct side_list {
+    const sl_space *pieces;
+    const bool *covered;
+    uint8_t *of_wall; ///< by wall: 1 if the piece at its left is covered, 2 for its right, or both
+} side_list;
+
+static void note_walls(const side_list *l, const sl_cell *cell) {
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const uint32_t side = l->pieces->neighbour[cell->first_vertex + i];
+        if (side < SL_NEIGHBOUR_BORDER)
+            l->of_wall[side & ~SL_NEIGHBOUR_RIGHT] |= side & SL_NEIGHBOUR_RIGHT ? 2 : 1;
     }
-    sl_free(t->context, covered);
+}
+
+/// Lists the sides that do not lead to another covered piece.
+static void add_ways(tracer *t, const side_list *l, const sl_cell *cell) {
+    const sl_point *corners = l->pieces->vertices + cell->first_vertex;
+    uint32_t portal = cell->first_directed;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const uint32_t side = l->pieces->neighbour[cell->first_vertex + i];
+        if (side == SL_NEIGHBOUR_PORTAL && l->covered[l->pieces->directed[portal++].cell]) continue;
+        if (side < SL_NEIGHBOUR_BORDER && l->of_wall[side & ~SL_NEIGHBOUR_RIGHT] == 3) continue;
+        t->ways[t->count++] =
+            (way){corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], false};
+    }
+}
+
+static sl_status list_ways(tracer *t, const sl_space *pieces, const bool *covered) {
+    side_list l = {pieces, covered, NULL};
+    size_t most = 0;
+    for (uint32_t c = 0; c < pieces->cell_count; c++)
+        if (covered[c]) most += pieces->cells[c].vertex_count;
+    l.of_wall = sl_alloc_array(t->context, pieces->wall_count, sizeof *l.of_wall);
+    t->ways = sl_alloc_array(t->context, most, sizeof *t->ways);
+    t->place = sl_alloc_array(t->context, most, sizeof *t->place);
+    t->path = sl_alloc_array(t->context, most, sizeof *t->path);
+    const bool room = l.of_wall && t->ways && t->place && t->path;
+    for (uint32_t c = 0; room && c < pieces->cell_count; c++)
+        if (covered[c]) note_walls(&l, &pieces->cells[c]);
+    for (uint32_t c = 0; room && c < pieces->cell_count; c++)
+        if (covered[c]) add_ways(t, &l, &pieces->cells[c]);
+    sl_free(t->context, l.of_wall);
     if (t->count) qsort(t->ways, t->count, sizeof *t->ways, compare_ways);
     for (size_t i = 0; i < t->count; i++) t->place[i] = NONE;
     return room ? SL_OK : SL_NO_MEMORY;
@@ -129,8 +151,8 @@ static sl_status follow(tracer *t, size_t at) {
     return SL_OK;
 }
 
-static sl_status trace(tracer *t, const sl_overlay *overlay, size_t at_least) {
-    SL_TRY(list_ways(t, overlay, at_least));
+static sl_status trace(tracer *t, const sl_space *pieces, const bool *covered) {
+    SL_TRY(list_ways(t, pieces, covered));
     for (size_t i = 0; i < t->count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(t->context));
         if (!t->ways[i].used) SL_TRY(follow(t, i));
@@ -138,12 +160,11 @@ static sl_status trace(tracer *t, const sl_overlay *overlay, size_t at_least) {
     return SL_OK;
 }
 
-sl_status sl_overlay_outline(sl_context *context, const sl_overlay *overlay, size_t at_least,
-                             sl_shape *out) {
+/// The outline of a mesh's covered pieces.
+static sl_status make_outline(sl_context *context, const sl_space *pieces, const bool *covered,
+                              sl_shape *out) {
     tracer t = {.context = context};
-    if (!at_least)
-        return sl_fail(context, SL_BAD_ARGUMENT, "the outline of what 0 shapes cover: ask for 1");
-    const sl_status status = trace(&t, overlay, at_least);
+    const sl_status status = trace(&t, pieces, covered);
     sl_free(context, t.ways);
     sl_free(context, t.place);
     sl_free(context, t.path);
@@ -155,7 +176,21 @@ sl_status sl_overlay_outline(sl_context *context, const sl_overlay *overlay, siz
     return status;
 }
 
-sl_status sl_shape_of_inside(sl_context *context, const sl_space *space, sl_shape *out) {
+sl_status sl_overlay_outline(sl_context *context, const sl_overlay *overlay, size_t at_least,
+                             sl_shape *out) {
+    const sl_space *pieces = &overlay->pieces;
+    if (!at_least)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the outline of what 0 shapes cover: ask for 1");
+    bool *covered = sl_alloc_array(context, pieces->cell_count, sizeof *covered);
+    for (uint32_t c = 0; covered && c < pieces->cell_count; c++)
+        covered[c] = overlay->counts[c] >= at_least;
+    const sl_status status = covered ? make_outline(context, pieces, covered, out) : SL_NO_MEMORY;
+    sl_free(context, covered);
+    return status;
+}
+
+/// Of a space whose walls may be several sides of cells: lays its cells over each other.
+static sl_status join_cells(sl_context *context, const sl_space *space, sl_overlay *out) {
     size_t *ends = sl_alloc_array(context, space->cell_count, sizeof *ends), count = 0, corners = 0;
     sl_point *points = sl_alloc_array(context, space->vertex_count, sizeof *points);
     sl_status status = ends && points ? SL_OK : SL_NO_MEMORY;
@@ -165,13 +200,24 @@ sl_status sl_shape_of_inside(sl_context *context, const sl_space *space, sl_shap
             points[corners++] = space->vertices[cell->first_vertex + i];
         if (cell->inside) ends[count++] = corners;
     }
-    sl_overlay cells = {0};
     if (status == SL_OK)
-        status = sl_overlay_make(context, NULL, &(sl_shape){points, ends, count}, 1, &cells);
-    if (status == SL_OK) status = sl_overlay_outline(context, &cells, 1, out);
-    sl_overlay_destroy(context, &cells);
+        status = sl_overlay_make(context, NULL, &(sl_shape){points, ends, count}, 1, out);
     sl_free(context, ends);
     sl_free(context, points);
+    return status;
+}
+
+sl_status sl_shape_of_inside(sl_context *context, const sl_space *space, sl_shape *out) {
+    sl_overlay joined = {0};
+    if (!space->neighbour || space->cut_walls) {
+        SL_TRY(join_cells(context, space, &joined));
+        space = &joined.pieces; // inside is what they cover
+    }
+    bool *inside = sl_alloc_array(context, space->cell_count, sizeof *inside);
+    for (uint32_t c = 0; inside && c < space->cell_count; c++) inside[c] = space->cells[c].inside;
+    const sl_status status = inside ? make_outline(context, space, inside, out) : SL_NO_MEMORY;
+    sl_free(context, inside);
+    sl_overlay_destroy(context, &joined);
     return status;
 }
 

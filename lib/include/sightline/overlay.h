@@ -1,11 +1,13 @@
 /// What several eyes see together: shapes laid over each other, and the area that one, two or more
 /// of them cover.
 ///
-///     sl_shape seen[2] = {{of_one.points, &of_one.count, 1}, {of_other.points, &of_other.count,
-///     1}}; sl_overlay overlay; if (sl_overlay_make(context, &space, seen, 2, &overlay) == SL_OK) {
-///         printf("%g of %g, both see %g\n", overlay.areas[1], overlay.areas[0], overlay.areas[2]);
-///         sl_overlay_destroy(context, &overlay);
-///     }
+///     sl_shape inside, seen[2] = {{one.points, &one.count, 1}, {other.points, &other.count, 1}};
+///     sl_overlay overlay;
+///     sl_status status = sl_shape_of_inside(context, &space, &inside); // for all its overlays
+///     if (status == SL_OK) status = sl_overlay_make(context, &inside, seen, 2, &overlay);
+///
+/// Of two regions this gives the area that both see, overlay.areas[2], and that one of them sees,
+/// overlay.areas[1], of all that is inside, overlay.areas[0].
 #ifndef SIGHTLINE_OVERLAY_H
 #define SIGHTLINE_OVERLAY_H
 
@@ -45,17 +47,17 @@ typedef struct sl_overlay {
 /// Lays shapes over each other. What is within `within` counts; where that is NULL, all that is
 /// covered.
 ///
-/// Outlines are cut where they cross. Exact predicates find the crossings, and each is rounded
-/// once. Points within 2^-46 times the largest coordinate of each other become one, as when a map
-/// is cleaned, and an outline goes through points half as near to it. So places are right to about
-/// that, and nothing else is rounded: the areas are those of the pieces to one rounding. The order
-/// of the shapes does not matter.
+/// Outlines are cut where they cross. Exact predicates find the crossings, and each gets the
+/// nearest representable point. Points within 2^-46 times the largest coordinate of each other
+/// become one, as when a map is cleaned, and an outline goes through points half as near to it. So
+/// places are right to about that, and nothing else is rounded: the areas are those of the pieces
+/// to one rounding. The order of the shapes does not matter.
 ///
 /// Nothing is kept between calls. For an area that grows, lay its outline (sl_overlay_outline) and
 /// the new shape over each other.
 ///
-/// Time O((n + k) log n) for n points and k crossings. SL_BAD_INPUT for coordinates that a map may
-/// not have. Without points, the overlay has no pieces.
+/// Time O((n + k) log n) for n points and k crossings. SL_BAD_ARGUMENT for coordinates that a map
+/// may not have. Without points, the overlay has no pieces.
 SL_API sl_status sl_overlay_make(sl_context *context, const sl_shape *within,
                                  const sl_shape *shapes, size_t count, sl_overlay *out);
 SL_API void sl_overlay_destroy(sl_context *context, sl_overlay *overlay); ///< and zeroes it
