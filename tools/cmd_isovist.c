@@ -43,7 +43,7 @@ typedef struct isovist_work {
     eye_places eyes;
     isovist_result *isovists; ///< NULL with --union
     seen_parts parts;         ///< of all eyes, once they are gathered
-    isovist_union together;
+    sl_overlay together;      ///< with --union
 } isovist_work;
 
 // --- the options
@@ -244,12 +244,12 @@ static void say_union(const isovist_work *w, char *text, size_t size) {
     const char *name = w->baked.map.unit, *space = *name ? " " : "",
                *square = *name ? "\xc2\xb2" : "";
     snprintf(text, size, "%zu viewpoint%s %.6g%s%s%s of %.6g%s%s%s inside (%.3g %%)",
-             w->together.count, w->together.count == 1 ? " sees" : "s see", areas[1], space, name,
-             square, areas[0], space, name, square, 100 * areas[1] / areas[0]);
+             w->together.shape_count, w->together.shape_count == 1 ? " sees" : "s see", areas[1],
+             space, name, square, areas[0], space, name, square, 100 * areas[1] / areas[0]);
 }
 
 static void write_caption(const isovist_work *w, char *text, size_t size) {
-    if (w->together.count) {
+    if (w->together.shape_count) {
         say_union(w, text, size);
         return;
     }
@@ -409,7 +409,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     const sl_status status = work(console, &plan, &w);
     sl_free(console->context, w.isovists);
     seen_parts_destroy(console->context, &w.parts);
-    isovist_union_destroy(console->context, &w.together);
+    sl_overlay_destroy(console->context, &w.together);
     eyes_destroy(console->context, &w.eyes);
     sl_query_destroy(console->context, w.query);
     sl_baked_destroy(console->context, &w.baked);

@@ -38,8 +38,8 @@ HEADERS = {"context": "base", "json_write": "base", "measures": "base", "support
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
            "steps": "cell_to_cell",
-           "mirrored": "eye_to_cell", "moving": "eye_to_cell", "region": "eye_to_cell",
-           "sees": "eye_to_cell", "view": "eye_to_cell",
+           "mirrored": "eye_to_cell", "moving": "eye_to_cell", "overlay": "eye_to_cell",
+           "region": "eye_to_cell", "sees": "eye_to_cell", "view": "eye_to_cell",
            "vga": "visibility_graph",
            "explained": "bake", "geojson": "bake", "reject": "io", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.

@@ -19,6 +19,7 @@
 #include "sightline/mirrored.h"
 #include "sightline/moving.h"
 #include "sightline/outline.h"
+#include "sightline/overlay.h"
 #include "sightline/pvs.h"
 #include "sightline/query.h"
 #include "sightline/region.h"
