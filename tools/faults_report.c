@@ -451,7 +451,8 @@ static void print_inside(const checked *found) {
                interior->doubtful_width, space, name, digits, interior->doubtful.a.x, digits,
                interior->doubtful.a.y, interior->width, space, name);
     else if (found->inside == SL_INSIDE_SMALL)
-        puts("  inside is doubtful: walls enclose less than half of the area among them, and the map "
+        puts("  inside is doubtful: walls enclose less than half of the area among them, and the "
+             "map "
              "has no start");
     else if (found->inside == SL_INSIDE_FEW)
         puts("  inside is doubtful: most of the area is in rooms that no start leads to");
