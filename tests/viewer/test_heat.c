@@ -301,6 +301,24 @@ static void test_stopped(void **state) {
     }
 }
 
+/// Without a start the eye begins in the roomiest place, where the heat map counts: not in the
+/// largest cell, which may be a corridor or a court.
+static void test_first_eye(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/a.map", folder);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs("sightline 1\nwalls 0 0 40 0 40 1 0 1 0 0\nwalls 0 3 6 3 6 9 0 9 0 3\n", stream);
+    assert_int_equal(fclose(stream), 0);
+    app_state *app = start(path);
+    assert_true(app->view.eye.at.x == 3 && app->view.eye.at.y == 6);
+    viewer_end(app);
+    unlink(path);
+    rmdir(folder);
+}
+
 /// In a room where all see all, no point has an integration: the key says so, in place of a scale
 /// from inf to -inf.
 static void test_no_value(void **state) {
@@ -357,7 +375,7 @@ int main(void) {
         cmocka_unit_test(test_kept_scale), cmocka_unit_test(test_steps),
         cmocka_unit_test(test_refused),    cmocka_unit_test(test_glass),
         cmocka_unit_test(test_stopped),    cmocka_unit_test(test_fills),
-        cmocka_unit_test(test_no_value),
+        cmocka_unit_test(test_first_eye),  cmocka_unit_test(test_no_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
