@@ -177,11 +177,15 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     const eye_places *eyes = &w->eyes;
     const size_t count = eyes->columns * eyes->rows;
     const sl_measure *measure = &sl_measures(SL_ISOVIST, &(size_t){0})[plan->measure];
-    double *values = sl_alloc_array(context, count, sizeof *values);
-    if (!values) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) values[i] = NAN;
-    for (size_t i = 0; i < eyes->list.count; i++)
-        values[eyes->squares.items[i]] = sl_measure_value(measure, &w->isovists[i].measures);
+    double *field_values = sl_alloc_array(context, count, sizeof *field_values);
+    double *values = sl_alloc_array(context, eyes->list.count, sizeof *values);
+    uint32_t *sizes = sl_alloc_array(context, eyes->list.count, sizeof *sizes);
+    sl_status status = field_values && values && sizes ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = isovist_part_sizes(context, w->scene.outline, eyes, sizes);
+    for (size_t i = 0; i < count && status == SL_OK; i++) field_values[i] = NAN;
+    for (size_t i = 0; i < eyes->list.count && status == SL_OK; i++)
+        field_values[eyes->squares.items[i]] = values[i] =
+            sl_measure_value(measure, &w->isovists[i].measures);
     char unit[SL_UNIT_TEXT];
     sl_measure_say_unit(measure, w->baked.map.unit, unit);
     const heat_map heat = {.input = plan->input,
@@ -194,11 +198,17 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
                       .step = eyes->step,
                       .columns = eyes->columns,
                       .rows = eyes->rows,
-                      .values = values,
+                      .values = field_values,
                       .least = plan->scale.x,
                       .most = plan->scale.y};
-    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
+    if (status == SL_OK) {
+        heat_map_scale(context, plan->scale_given != NULL, values, sizes,
+                       (uint32_t)eyes->list.count, &field.least, &field.most);
+        status = heat_map_draw(context, &w->baked, &heat, &field);
+    }
+    sl_free(context, field_values);
     sl_free(context, values);
+    sl_free(context, sizes);
     return status;
 }
 
@@ -353,7 +363,9 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"measure", 0, "NAME", "the measure of the heat map (default: area)",
          .choice = &plan.measure, .names = measure_table(SL_ISOVIST), .given = &plan.measure_given},
         {"scale", 0, "MIN,MAX",
-         "the ends of the colour scale, to compare pictures (default: smallest and largest value)",
+         "the ends of the colour scale, to compare pictures (default: smallest and largest value "
+         "in "
+         "parts of the plan with at least a tenth of the points of the largest part)",
          .point = &plan.scale, .given = &plan.scale_given},
         {"union", 0, NULL,
          "the area that at least 1, 2, ... viewpoints see, in place of each one's measures; in a "

@@ -298,17 +298,31 @@ static sl_status make_outline(sl_context *context, vga_work *w) {
 }
 
 /// Fields go row by row from the lowest, grids column by column. A point is the middle of a square.
+static void lay_out(const sl_vga_grid *grid, const double *values, double *field) {
+    for (size_t i = 0; i < (size_t)grid->columns * grid->rows; i++) field[i] = NAN;
+    for (uint32_t p = 0; p < grid->count; p++) {
+        const size_t column = grid->squares[p] / grid->rows, row = grid->squares[p] % grid->rows;
+        field[row * grid->columns + column] = values[p];
+    }
+}
+
+/// Gives each point the value of the picture's measure, and the size of its part.
+static sl_status evaluate(sl_context *context, const vga_plan *plan, const vga_work *w,
+                          double *values, uint32_t *sizes) {
+    for (uint32_t p = 0; p < w->table.grid.count; p++)
+        values[p] = vga_value(&w->table, plan->measure, p);
+    if (!w->graph.rows) return isovist_part_sizes(context, w->outline, &w->eyes, sizes);
+    return sl_vga_part_sizes(context, &w->graph, w->links, w->link_count, sizes);
+}
+
 static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
     const size_t count = (size_t)grid->columns * grid->rows;
     const name_table measures = measure_table(SL_VGA);
-    double *values = sl_alloc_array(context, count, sizeof *values);
-    if (!values) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) values[i] = NAN;
-    for (uint32_t p = 0; p < grid->count; p++) {
-        const size_t column = grid->squares[p] / grid->rows, row = grid->squares[p] % grid->rows;
-        values[row * grid->columns + column] = vga_value(&w->table, plan->measure, p);
-    }
+    double *field_values = sl_alloc_array(context, count, sizeof *field_values);
+    double *values = sl_alloc_array(context, grid->count, sizeof *values);
+    uint32_t *sizes = sl_alloc_array(context, grid->count, sizeof *sizes);
+    sl_status status = field_values && values && sizes ? SL_OK : SL_NO_MEMORY;
     const heat_map heat = {.input = plan->input,
                            .map = plan->pipeline.input.import.map,
                            .measure = name_table_at(&measures, plan->measure),
@@ -319,11 +333,19 @@ static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work 
                       .step = grid->step,
                       .columns = grid->columns,
                       .rows = grid->rows,
-                      .values = values,
+                      .values = field_values,
                       .least = plan->scale.x,
                       .most = plan->scale.y};
-    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
+    if (status == SL_OK) status = evaluate(context, plan, w, values, sizes);
+    if (status == SL_OK) {
+        lay_out(grid, values, field_values);
+        heat_map_scale(context, plan->scale_given != NULL, values, sizes, grid->count, &field.least,
+                       &field.most);
+        status = heat_map_draw(context, &w->baked, &heat, &field);
+    }
+    sl_free(context, field_values);
     sl_free(context, values);
+    sl_free(context, sizes);
     return status;
 }
 
@@ -516,7 +538,9 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"range", 0, "R", "see no farther than R (default: the map's range)", .number = &plan.range,
          .over_0 = true, .given = &plan.range_given},
         {"scale", 0, "MIN,MAX",
-         "the ends of the colour scale, to compare pictures (default: smallest and largest value)",
+         "the ends of the colour scale, to compare pictures (default: smallest and largest value "
+         "in "
+         "parts of the plan with at least a tenth of the points of the largest part)",
          .point = &plan.scale, .given = &plan.scale_given, .rare = true},
         {"threads", 0, "N", "number of threads (default: one per core)",
          .count32 = &plan.options.threads, .most = 1024},

@@ -161,6 +161,30 @@ static uint32_t closable(const sl_faults *faults, sl_fault_kind kind) {
     return count;
 }
 
+/// The leaks that are no wider than what the map or --entrance says of entrances.
+static uint32_t leaking_entrances(const checked *found) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < found->faults.count; i++) {
+        const sl_fault *fault = &found->faults.items[i];
+        count += fault->kind == SL_FAULT_LEAK && fault->size <= found->map.entrance;
+    }
+    return count;
+}
+
+static void print_entrances(const checked *found) {
+    const uint32_t count = leaking_entrances(found);
+    if (!count) return;
+    const char *many = found->faults.counts[SL_FAULT_LEAK] == 1 ? "the leak is an entrance"
+                       : count == 1                             ? "one leak is an entrance"
+                                                                : "leaks are entrances";
+    if (count == 1)
+        printf("  %s", many);
+    else
+        printf("  %u %s", (unsigned)count, many);
+    printf(" up to %.4g wide, but starts go before entrances: without a start, inside ends there\n",
+           found->map.entrance);
+}
+
 static void print_mended(const faults_report *report) {
     const sl_faults *left = &report->left->faults;
     const size_t moved = report->snap.moved, vanished = report->snap.vanished;
@@ -245,7 +269,13 @@ static bool is_among(const char *name, const char *const *names) {
 }
 
 /// What a next command is for.
-typedef enum next_use { NEXT_CHECK, NEXT_BAKE, NEXT_CHECK_MENDED, NEXT_BAKE_MENDED } next_use;
+typedef enum next_use {
+    NEXT_CHECK,
+    NEXT_CHECK_STARTLESS, ///< without the starts of options
+    NEXT_BAKE,
+    NEXT_CHECK_MENDED,
+    NEXT_BAKE_MENDED
+} next_use;
 
 /// Repeats an option unless it is for this run alone, or for reading a file that the next command
 /// does not read.
@@ -256,9 +286,11 @@ static bool is_repeated(const struct option_given *option, next_use use) {
     static const char *const reading[] = {"map",         "slice",   "layers", "tolerance", "unit",
                                           "threshold",   "sectors", "doors",  "entrance",  "start",
                                           "start-names", "without", NULL};
+    static const char *const starts[] = {"start", "start-names", NULL};
     const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
     if (is_among(option->name, own)) return false;
-    if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;
+    if (use == NEXT_CHECK_STARTLESS && is_among(option->name, starts)) return false;
+    if (is_among(option->name, for_check)) return use != NEXT_BAKE && use != NEXT_BAKE_MENDED;
     if (!mended) return true;
     const bool given = strcmp(option->name, "subdivide") == 0 && *option->argument == 'g';
     return !given && !is_among(option->name, reading);
@@ -324,6 +356,16 @@ static void print_next_entrance(const faults_report *report, next_use use, const
     printf(" --entrance %.4g", found->baked.map.interior.doubtful_width);
 }
 
+/// Whether inside ends at entrances, beyond doubt. No start is needed then: it would go before the
+/// entrances, and leak through them.
+static bool has_entrances(const checked *found) {
+    return found->inside == SL_INSIDE_SURE && found->baked.map.interior.entrances;
+}
+
+static bool needs_start(const checked *found) {
+    return !found->faults.has_starts && found->inside != SL_INSIDE_NONE && !has_entrances(found);
+}
+
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
@@ -332,7 +374,7 @@ static void print_next_of_mended(const faults_report *report) {
         print_next_entrance(report, NEXT_CHECK_MENDED, report->left);
         return;
     }
-    if (!left && !report->left->faults.has_starts) {
+    if (!left && needs_start(report->left)) {
         print_next_start(report, NEXT_CHECK_MENDED, report->left);
         return;
     }
@@ -341,6 +383,16 @@ static void print_next_of_mended(const faults_report *report) {
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
     if (left && !gap_given) printf(" --gap %.6g", report->found->gap);
     if (left) print_name(report, " -o ", "-fixed.png");
+}
+
+/// Whether all leaks are entrances, and only options say where starts are.
+static bool has_startless(const faults_report *report) {
+    const uint32_t leaks = report->found->faults.counts[SL_FAULT_LEAK];
+    size_t given = 0;
+    for (size_t i = 0; i < report->given->count; i++)
+        given += strcmp(report->given->items[i].name, "start") == 0;
+    return leaks && leaks == leaking_entrances(report->found) &&
+           given == report->found->map.start_count;
 }
 
 static void print_next(const faults_report *report) {
@@ -356,8 +408,10 @@ static void print_next(const faults_report *report) {
         print_name(report, " --snap ", "-fixed.map");
     } else if (report->found->inside == SL_INSIDE_OPENING) {
         print_next_entrance(report, NEXT_CHECK, report->found);
-    } else if (!faults->has_starts && report->found->inside != SL_INSIDE_NONE) {
+    } else if (needs_start(report->found)) {
         print_next_start(report, NEXT_CHECK, report->found);
+    } else if (has_startless(report)) {
+        print_command(report, NEXT_CHECK_STARTLESS, 0);
     } else if (grave && !report->picture && !report->found->strays.count) {
         print_command(report, NEXT_CHECK, 0);
         print_name(report, " -o ", "-check.png");
@@ -397,7 +451,9 @@ static void print_inside(const checked *found) {
                interior->doubtful_width, space, name, digits, interior->doubtful.a.x, digits,
                interior->doubtful.a.y, interior->width, space, name);
     else if (found->inside == SL_INSIDE_SMALL)
-        puts("  inside is doubtful: walls enclose less than half of the map, and it has no start");
+        puts("  inside is doubtful: walls enclose less than half of the area among them, and the "
+             "map "
+             "has no start");
     else if (found->inside == SL_INSIDE_FEW)
         puts("  inside is doubtful: most of the area is in rooms that no start leads to");
     else if (found->inside == SL_INSIDE_NONE)
@@ -414,13 +470,14 @@ void faults_print(const faults_report *report) {
            found->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
         print_kind(found, (sl_fault_kind)kind, report->most);
+    print_entrances(found);
     print_strays(report);
     if (faults->welded)
         printf("  %u gap%s up to %.3g wide %s closed on import (by %s); no fault\n",
                (unsigned)faults->welded, faults->welded == 1 ? "" : "s", faults->weld,
                faults->welded == 1 ? "is" : "are", how_welded(report));
     print_inside(found);
-    if (!faults->has_starts)
+    if (needs_start(found))
         puts("  leaks and unreachable rooms are found only from a start: give --start X,Y");
     if (report->mended)
         print_mended(report);

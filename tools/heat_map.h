@@ -3,6 +3,7 @@
 #define HEAT_MAP_H
 
 #include "sightline/draw.h"
+#include "sightline/vga.h"
 
 /// What a picture shows of which map.
 typedef struct heat_map {
@@ -17,6 +18,11 @@ typedef struct heat_map {
 /// options, is "office: area", or "doom.wad E1M1: area" for one of several maps.
 sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
                         sl_field *field);
+
+/// Sets the ends of the colour scale, unless `given`, to those of the values in the plan's large
+/// parts, and notes what lies beyond. `values` and the `sizes` of parts are by point.
+void heat_map_scale(sl_context *context, bool given, const double *values, const uint32_t *sizes,
+                    uint32_t count, double *least, double *most);
 
 /// The name of a measure in words: "visual control".
 void heat_map_words(const char *measure, char *text, size_t size);

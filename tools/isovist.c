@@ -201,6 +201,45 @@ sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *s
     return status;
 }
 
+// --- parts
+
+static uint32_t root_of(uint32_t *parent, uint32_t at) {
+    while (parent[at] != at) at = parent[at] = parent[parent[at]];
+    return at;
+}
+
+static void join_rooms(const sl_outline *o, const uint32_t *room_of, uint32_t *parent) {
+    for (uint32_t i = 0; i < o->side_count; i++)
+        if (sl_side_is_portal(&o->sides[i]))
+            parent[root_of(parent, room_of[i])] = root_of(parent, room_of[o->sides[i].neighbour]);
+}
+
+sl_status isovist_part_sizes(sl_context *context, const sl_outline *outline, const eye_places *eyes,
+                             uint32_t *sizes) {
+    const uint32_t rooms = outline->room_count;
+    const size_t count = eyes->list.count;
+    uint32_t *parent = sl_alloc_array(context, (size_t)rooms + 1, sizeof *parent);
+    uint32_t *points = sl_alloc_array(context, (size_t)rooms + 1, sizeof *points);
+    uint32_t *room_of = sl_alloc_array(context, (size_t)outline->side_count + 1, sizeof *room_of);
+    const bool room = parent && points && room_of;
+    for (uint32_t r = 0; room && r < rooms; r++) {
+        parent[r] = r;
+        for (uint32_t i = outline->first[r]; i < outline->first[r + 1]; i++) room_of[i] = r;
+    }
+    if (room) join_rooms(outline, room_of, parent);
+    for (size_t i = 0; room && i < count; i++) {
+        const sl_point at = eyes->list.items[i].at;
+        const uint32_t cell = sl_space_locate(outline->space, at);
+        sizes[i] = cell == SL_NO_CELL ? rooms : root_of(parent, sl_outline_room(outline, cell, at));
+        points[sizes[i]]++;
+    }
+    for (size_t i = 0; room && i < count; i++) sizes[i] = points[sizes[i]];
+    sl_free(context, parent);
+    sl_free(context, points);
+    sl_free(context, room_of);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
 // --- measures
 
 enum { EYES_A_BUNDLE = 64 };

@@ -71,6 +71,11 @@ typedef struct isovist_scene {
 sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
                        sl_mirrored_region *out);
 
+/// The number of viewpoints in the part of each viewpoint: where rooms join theirs, through doors
+/// that are open.
+sl_status isovist_part_sizes(sl_context *context, const sl_outline *outline, const eye_places *eyes,
+                             uint32_t *sizes);
+
 /// Fills out[0 .. eyes->list.count). Reports stage "isovist".
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                       unsigned threads, isovist_result *out);

@@ -246,7 +246,9 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
     const sl_interior *found = &map->interior;
     const int digits = sl_map_digits(map);
     sl_inside doubt;
+    double enclosed;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    SL_TRY(sl_space_enclosed(context, space, &enclosed));
     if (doubt == SL_INSIDE_OPENING && !found->place_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
@@ -255,12 +257,13 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
                        found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
                        found->doubtful.a.x, digits, found->doubtful.a.y, found->width,
                        found->doubtful_width, or_else);
-    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || shares.inside > FEW_INSIDE)
+    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE)
         return pipeline_note_inside(context, pipeline, map, space);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "the map has no start, and walls enclose only %.2g %% of the area; say where a "
-                   "room is with --start X,Y%s",
-                   100 * shares.inside, or_else);
+    return sl_fail(
+        context, SL_BAD_ARGUMENT,
+        "the map has no start, and walls enclose only %.2g %% of the area among them; say "
+        "where a room is with --start X,Y%s",
+        100 * enclosed, or_else);
 }
 
 /// What to do next about what is inside.

@@ -29,9 +29,11 @@ struct heat_layer {
     unsigned has;       ///< groups that are measured, as of the last job
     bool made, stopped; ///< the graph is there; the last job failed or was stopped
 
-    size_t measure; ///< of the values
-    double *values; ///< by point
-    bool valued;    ///< they are there
+    size_t measure;  ///< of the values
+    double *values;  ///< by point
+    bool valued;     ///< they are there
+    uint32_t *sizes; ///< by point: of the part of the graph that it is in
+    uint32_t beyond; ///< values that are beyond the scale: of small parts
     double least, most;
     uint32_t from;    ///< of steps: the point they begin at
     uint32_t *steps;  ///< by point
@@ -99,6 +101,7 @@ void heat_layer_destroy(sl_context *context, heat_layer *layer) {
     heat_graph_destroy(context, &layer->graph);
     sl_free(context, layer->shut);
     sl_free(context, layer->values);
+    sl_free(context, layer->sizes);
     sl_free(context, layer->steps);
     sl_free(context, layer);
 }
@@ -231,9 +234,23 @@ static sl_status count_steps(app_state *app, heat_layer *layer) {
     layer->from = from;
     layer->least = 0;
     layer->most = layer->deepest;
+    layer->beyond = 0;
     layer->valued = true;
     app->view.heat_choice.stamp++;
     return SL_OK;
+}
+
+/// The sizes of the graph's parts, once.
+static sl_status find_sizes(sl_context *context, heat_layer *layer) {
+    if (layer->sizes) return SL_OK;
+    uint32_t *sizes = sl_alloc_array(context, (size_t)layer->graph.grid.count + 1, sizeof *sizes);
+    if (!sizes) return SL_NO_MEMORY;
+    const sl_status status = sl_vga_part_sizes(context, &layer->graph.graph, NULL, 0, sizes);
+    if (status == SL_OK)
+        layer->sizes = sizes;
+    else
+        sl_free(context, sizes);
+    return status;
 }
 
 static sl_status evaluate(app_state *app, heat_layer *layer) {
@@ -245,13 +262,13 @@ static sl_status evaluate(app_state *app, heat_layer *layer) {
     if (!layer->values) return SL_NO_MEMORY;
     if (!heat_measure_part(measure)) return count_steps(app, layer);
     if (layer->valued) return SL_OK;
-    layer->least = INFINITY;
-    layer->most = -INFINITY;
-    for (uint32_t p = 0; p < count; p++) {
+    SL_TRY(find_sizes(app->context, layer));
+    for (uint32_t p = 0; p < count; p++)
         layer->values[p] = sl_measure_value(measure, &layer->graph.measures[p]);
-        layer->least = fmin(layer->least, layer->values[p]);
-        layer->most = fmax(layer->most, layer->values[p]);
-    }
+    const sl_vga_scale scale = sl_vga_scale_of(layer->values, layer->sizes, count);
+    layer->least = scale.least;
+    layer->most = scale.most;
+    layer->beyond = scale.beyond;
     layer->valued = true;
     app->view.heat_choice.stamp++;
     return SL_OK;
@@ -455,6 +472,10 @@ bool heat_layer_key(const app_state *app, legend_key *key) {
     snprintf(value, sizeof value, "%.3g", g->step);
     legend_key_add(key, "from point to point", value);
     if (app->view.heat_choice.held) legend_key_add(key, "colour scale", "kept");
+    if (app->view.heat->beyond && !app->view.heat_choice.held) {
+        sl_text_count(app->view.heat->beyond, "point", count);
+        legend_key_add(key, "beyond it, in small parts", count);
+    }
     bool blocks = false;
     for (size_t i = 0; i < app->document.object_count; i++) blocks |= app->document.blocks[i];
     if (blocks) legend_key_add(key, "objects", "do not block here");

@@ -147,9 +147,9 @@ void walk_home(app_state *app) {
         app->view.eye.heading = fmod(map->starts[i].heading, 360);
         return;
     }
-    // Where an opening is doubtful, all of the map counts, and the largest cell may be outdoors.
+    // The largest cell may be a courtyard, or outdoors.
     const uint32_t roomiest = sl_space_locate(&d->baked->space, map->interior.roomiest);
-    if (map->interior.doubtful_width > 0 && roomiest != SL_NO_CELL) {
+    if (roomiest != SL_NO_CELL) {
         app->view.eye.at = sl_space_middle(&d->baked->space, roomiest);
         return;
     }

@@ -13,6 +13,7 @@
 /// O(n log n).
 #include "space/faults.h"
 
+#include "geometry/orient.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -330,20 +331,74 @@ static sl_status find_shut_in(sl_context *context, const sl_space *space, const 
     return done ? SL_OK : SL_NO_MEMORY;
 }
 
+static int compare_corners(const void *left, const void *right) {
+    return sli_compare_points(*(const sl_point *)left, *(const sl_point *)right);
+}
+
+/// Keeps the corners of the convex hull of sorted points, counter-clockwise (Andrew 1979: the lower
+/// chain, then the upper one). `hull` has room for twice the points. Exact.
+static size_t find_hull(const sl_point *points, size_t count, sl_point *hull) {
+    size_t kept = 0;
+    for (int chain = 0; chain < 2; chain++) {
+        const size_t first = kept;
+        for (size_t i = 0; i < count; i++) {
+            const sl_point p = points[chain ? count - 1 - i : i];
+            while (kept >= first + 2 && sli_orient(hull[kept - 2], hull[kept - 1], p) <= 0) kept--;
+            hull[kept++] = p;
+        }
+        if (kept) kept--; // the next chain begins there
+    }
+    return kept;
+}
+
+static double area_of(const sl_point *corners, size_t count) {
+    double twice = 0;
+    for (size_t i = 2; i < count; i++) {
+        const sl_point a = corners[0], b = corners[i - 1], c = corners[i];
+        twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    }
+    return twice / 2;
+}
+
+sl_status sl_space_enclosed(sl_context *context, const sl_space *space, double *share) {
+    const sl_box *b = &space->bounds;
+    const double box = (b->max.x - b->min.x) * (b->max.y - b->min.y);
+    const sl_ground_shares shares = sl_space_ground(space);
+    const size_t count = 2 * (size_t)space->wall_count;
+    sl_point *points = sl_alloc_array(context, count + 1, sizeof *points);
+    sl_point *hull = sl_alloc_array(context, 2 * count + 2, sizeof *hull);
+    if (points && hull) {
+        for (uint32_t i = 0; i < space->wall_count; i++) {
+            points[2 * i] = space->walls[i].a;
+            points[2 * i + 1] = space->walls[i].b;
+        }
+        if (count) qsort(points, count, sizeof *points, compare_corners);
+        // What is beyond the hull is not outside, as far as it is not solid.
+        const double beyond = 1 - area_of(hull, find_hull(points, count, hull)) / box;
+        const double outside = fmax(shares.outside - fmax(beyond, 0), 0);
+        *share = shares.inside > 0 ? shares.inside / (shares.inside + outside) : 0;
+    }
+    const bool done = points && hull;
+    sl_free(context, points);
+    sl_free(context, hull);
+    return done ? SL_OK : SL_NO_MEMORY;
+}
+
 /// Without a start: where the border leads to all cells, all of them count as inside; so they do
 /// where nothing is found by the width of entrances.
-static sl_inside doubt_without_start(const sl_map *map, const sl_ground_shares *shares, bool open) {
+static sl_inside doubt_without_start(const sl_map *map, double enclosed, bool open) {
     const sl_interior *found = &map->interior;
     if (found->doubtful_width > 0 && found->by != SL_ENTRANCE_GIVEN) return SL_INSIDE_OPENING;
     if (found->place_count && found->entrances && found->building) return SL_INSIDE_SURE;
     if (found->place_count) open = false; // at an entrance
-    return open || shares->inside < shares->outside ? SL_INSIDE_SMALL : SL_INSIDE_SURE;
+    return open || enclosed < 0.5 ? SL_INSIDE_SMALL : SL_INSIDE_SURE;
 }
 
 sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                           sl_inside *out) {
     border edge;
-    double shut_in = 0;
+    double shut_in = 0, enclosed = 0;
+    SL_TRY(sl_space_enclosed(context, space, &enclosed));
     SL_TRY(read_border(context, space, &edge));
     const bool open = inside_is_open(space, &edge);
     const sl_ground_shares shares = sl_space_ground(space);
@@ -354,7 +409,7 @@ sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space
     *out = SL_INSIDE_SURE;
     if (shut_in > shares.inside) *out = SL_INSIDE_FEW;
     if (map->start_count && open) *out = SL_INSIDE_LEAKS;
-    if (!map->start_count) *out = doubt_without_start(map, &shares, open);
+    if (!map->start_count) *out = doubt_without_start(map, enclosed, open);
     if (!space->inside_count) *out = SL_INSIDE_NONE;
     return SL_OK;
 }
@@ -394,8 +449,10 @@ sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *
                         char text[SL_INSIDE_TEXT]) {
     const sl_ground_shares shares = sl_space_ground(space);
     sl_inside doubt;
+    double enclosed;
     text[0] = '\0';
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    SL_TRY(sl_space_enclosed(context, space, &enclosed));
     if (doubt == SL_INSIDE_SURE) say_entrances(map, text);
     if (doubt == SL_INSIDE_OPENING) say_opening(map, text);
     if (doubt == SL_INSIDE_LEAKS)
@@ -405,9 +462,9 @@ sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *
                  100 * shares.inside);
     if (doubt == SL_INSIDE_SMALL && shares.outside > 0)
         snprintf(text, SL_INSIDE_TEXT,
-                 "the map has no start, and walls enclose only %.0f %% of the area, so inside is "
-                 "doubtful",
-                 100 * shares.inside);
+                 "the map has no start, and walls enclose only %.0f %% of the area among them, so "
+                 "inside is doubtful",
+                 100 * enclosed);
     if (doubt == SL_INSIDE_SMALL && !(shares.outside > 0))
         snprintf(text, SL_INSIDE_TEXT,
                  "the map has no start, and walls enclose nothing, so all of it counts as inside");

@@ -137,8 +137,35 @@ class Entrances(sandbox.ProgramTest):
             self.printed("convert", "a.map", "-o", name, "-q")
             told = self.printed("check", name)
             self.assertTrue(told.endswith(f"next: sightline check {name} --entrance 2\n"), told)
-            told = self.printed("check", name, "--entrance", "2")
-            self.assertNotIn("doubtful", told)
+            told = self.printed("check", name, "--entrance", "2", "--strict")
+            for word in "doubtful", "--start", "leak":
+                self.assertNotIn(word, told)
+            self.assertRegex(told, rf"next: sightline bake {name} --entrance 2\n\Z")
+
+    def test_next_of_usual(self):
+        """No start is proposed that would leak through an entrance of the usual width."""
+        self.write("a.map", 1, 17.3, ["unit m"])
+        told = self.printed("check", "a.map", "--strict")
+        self.assertNotIn("--start", told)
+        self.assertTrue(told.endswith("next: sightline bake a.map\n"), told)
+
+    def test_starts_go_before(self):
+        """A start leaks through an entrance. Without it, inside ends there."""
+        self.write("a.map", 2, 17.3, ["unit m"])
+        x, y = turned(5, 2, 17.3)
+        start = f"--start={x!r},{y!r}"
+        told = self.printed("check", "a.map", "--entrance", "2.5", start)
+        self.assertIn("  1 leak (", told)
+        self.assertIn("  the leak is an entrance up to 2.5 wide, but starts go before entrances: "
+                      "without a start, inside ends there\n", told)
+        self.assertTrue(told.endswith("next: sightline check a.map --entrance 2.5\n"), told)
+        told = self.printed("check", "a.map", "--entrance", "1.5", start)
+        self.assertNotIn("entrances", told)
+        self.write("b.map", 2, 17.3, ["unit m", f"start {x!r} {y!r} 0"])
+        told = self.printed("check", "b.map", "--entrance", "2.5")
+        self.assertIn("the leak is an entrance up to 2.5 wide", told)
+        self.assertTrue(told.endswith("next: sightline check b.map --entrance 2.5 -o b-check.png\n"),
+                        told)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """No command takes much longer for a map because of where its walls lie: test_in_time.py PROGRAM
 
 Rooms with doors, and the same: with one wall far away, as a spot in a large frame, with all walls
-in one place many times, with walls that meet at one point. Times are those of the processor, so
+in one place many times, with walls that meet at one point. Also combs, walls at random, a wall
+through all others, and many walls within the width of a gap. Times are those of the processor, so
 other programs do no harm. A limit is ten times the bake of the map, and a second.
 """
 import math
@@ -44,6 +45,29 @@ def spokes():
     return [(0, 0, 100 * math.cos(a), 100 * math.sin(a)) for a in angles] + frame(120)
 
 
+def growing():
+    """Walls at growing distances: many lie within the width of a gap from the ends of the first."""
+    return [(1.002 ** i, 0, 1.002 ** i, 1.002 ** i) for i in range(WALLS)]
+
+
+def scattered(count):
+    walls, number = [], 1
+    for _ in range(count):
+        values = []
+        for _ in range(3):
+            number = number * 6364136223846793005 + 1442695040888963407 & (1 << 64) - 1
+            values.append((number >> 11) / (1 << 53))
+        x, y, angle = values[0] * count / 10, values[1] * count / 10, values[2] * 7
+        walls.append((x, y, x + 10 * math.cos(angle), y + 10 * math.sin(angle)))
+    return walls + frame(count)
+
+
+def diagonal():
+    """One long wall through many short ones."""
+    short = [(i, i + 0.3, i + 0.6, i - 0.3) for i in range(2 * WALLS)]
+    return [*short, (-5, -5.1, 2 * WALLS + 5, 2 * WALLS + 5.2)]
+
+
 FAR = [(1e7, 1e7, 1e7 + 1, 1e7)]
 MAPS = {
     "rooms": rooms(),
@@ -55,9 +79,15 @@ MAPS = {
     "nested": [(0, 0, i + 1, 0) for i in range(WALLS)],
     "spokes": spokes(),
     "parallel": [(0, i, 1000, i) for i in range(WALLS // 2)] + frame(WALLS),
+    "comb": [*((i, 0, i, 1) for i in range(2 * WALLS)), (-1, 1.5, 2 * WALLS, 1.5),
+             (-1, -1, 2 * WALLS, -1), (-1, -1, -1, 1.5), (2 * WALLS, -1, 2 * WALLS, 1.5)],
+    "scattered": scattered(2 * WALLS),
+    "diagonal": diagonal(),
+    "growing": growing(),
     "few": rooms(600),
     "few_far": rooms(600) + FAR,
 }
+MANY = "comb", "scattered", "diagonal", "growing"
 
 
 class InTime(unittest.TestCase):
@@ -74,7 +104,7 @@ class InTime(unittest.TestCase):
         box.path(f"{name}.map").write_text(text)
 
     def test_check(self):
-        for name in MAPS.keys() - {"parallel", "few", "few_far"}:
+        for name in MAPS.keys() - {"parallel", "few", "few_far", *MANY}:
             with self.subTest(name), sandbox.Sandbox(PROGRAM) as box:
                 self.write(box, name)
                 bake, _ = self.seconds(box, "bake", f"{name}.map", "-o", f"{name}.slv")
@@ -83,6 +113,17 @@ class InTime(unittest.TestCase):
                                 ["convert", f"{name}.map", "--clean", "-o", "c.map"]):
                     took, _ = self.seconds(box, *command)
                     self.assertLess(took, 10 * bake + 1, f"{command}: a bake takes {bake}")
+
+    def test_check_of_many(self):
+        """Maps that are slow to bake: check takes no longer than 20 bakes of rooms."""
+        with sandbox.Sandbox(PROGRAM) as box:
+            self.write(box, "rooms")
+            bake, _ = self.seconds(box, "bake", "rooms.map", "-o", "rooms.slv")
+            for name in MANY:
+                with self.subTest(name):
+                    self.write(box, name)
+                    took, _ = self.seconds(box, "check", f"{name}.map")
+                    self.assertLess(took, 20 * bake + 1, f"a bake of rooms takes {bake}")
 
     def test_a_corner_of_many_portals(self):
         """Each gap between the lines is a portal of the one cell beside them."""

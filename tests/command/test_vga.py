@@ -354,8 +354,33 @@ class Agents(BruteForce):
         self.assertGreater(len(set(counts)), 5)
 
 
+class Scale(sandbox.ProgramTest):
+    """A court that nobody looks into, with a pillar, in a hall with side rooms."""
+
+    def test_small_parts_do_not_set_it(self):
+        self.box.path("court.map").write_text(
+            "sightline 1\nwalls 0 0 40 0 40 30 0 30 0 0\nwalls 18 13 22 13 22 17 18 17 18 13\n"
+            "walls 19.9 15.1 20.1 15.1 20.1 15.3 19.9 15.3 19.9 15.1\n"
+            "wall 10 0 10 12\nwall 10 14 10 30\nwall 30 0 30 12\nwall 30 14 30 30\n")
+        note = (r"note: the colour scale leaves out 9 points in 1 small part, not seen from the rest; .*"
+                r"add --start X,Y there\n")
+        for command, measure, *options in (("vga", "visual_integration_hh"), ("isovist", "area"),
+                                           ("vga", "area", "--measures", "isovist")):
+            with self.subTest(command=command, measure=measure):
+                arguments = [command, "court.map", "--grid", "1", "--measure", measure, *options]
+                told = self.run_well(*arguments, "--picture", "a.svg").stderr
+                self.assertRegex(told, note if command == "vga" else "the colour scale leaves out")
+                told = self.run_well(*arguments, "--picture", "b.svg", "--start", "5,5").stderr
+                self.assertNotIn("the colour scale", told)
+                told = self.run_well(*arguments, "--picture", "c.svg", "--scale", "0,9").stderr
+                self.assertNotIn("the colour scale", told)
+        tables = [self.printed("vga", "court.map", "--grid", "1", "-o", "-", "-q", *picture)
+                  for picture in ([], ["--picture", "d.svg"])]
+        self.assertEqual(*tables)
+
+
 if __name__ == "__main__":
-    PROGRAM = sys.argv[1]
+    sandbox.ProgramTest.program = PROGRAM = sys.argv[1]
     if len(sys.argv) > 3:
         REFERENCE, PLAN = map(pathlib.Path, sys.argv[2:4])
     unittest.main(argv=sys.argv[:1])

@@ -136,6 +136,32 @@ static void test_house(void **state) {
     }
 }
 
+/// How much walls enclose is the same however the plan is turned: a long room, and a small room
+/// beside a long wall.
+static void test_enclosed(void **state) {
+    (void)state;
+    static const double angles[] = {0, 17.3, 45, 90};
+    static const struct {
+        const char *text;
+        double share;
+        sl_inside doubt;
+    } plans[] = {
+        {"walls 0 0 10 0 10 2 0 2 0 0\n", 1, SL_INSIDE_SURE},
+        {"walls 0 0 10 0 10 1 5 1 5 2 0 2 0 0\n", 15 / 17.5, SL_INSIDE_SURE},
+        {"walls 0 0 2 0 2 2 0 2 0 0\nwalls 10 0 10 2\n", 0.2, SL_INSIDE_SMALL},
+    };
+    for (int i = 0; i < 4 * 3; i++) {
+        const turned t = turned_by(angles[i % 4], 1, 100, 1000);
+        double share;
+        plan p;
+        turn_plan(plans[i / 4].text, &t, &p);
+        assert_int_equal(sl_space_enclosed(p.context, &p.space, &share), SL_OK);
+        assert_float_equal(share, plans[i / 4].share, 1e-9);
+        assert_int_equal(doubt_of(&p), plans[i / 4].doubt);
+        close_plan(&p);
+    }
+}
+
 /// A house of one loop, or of four walls that are drawn as rectangles. It has a toilet and a
 /// corridor that thin walls close.
 static void say_thick(const char *first, double e, double t, bool apart, char text[4000]) {
@@ -519,12 +545,13 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_house),       cmocka_unit_test(test_wide_entrance),
-        cmocka_unit_test(test_exact),       cmocka_unit_test(test_disc),
-        cmocka_unit_test(test_outdoors),    cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_again),       cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_units),       cmocka_unit_test(test_corridor),
-        cmocka_unit_test(test_thick_walls), cmocka_unit_test(test_roomiest),
+        cmocka_unit_test(test_house),         cmocka_unit_test(test_enclosed),
+        cmocka_unit_test(test_wide_entrance), cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_disc),          cmocka_unit_test(test_outdoors),
+        cmocka_unit_test(test_closed),        cmocka_unit_test(test_again),
+        cmocka_unit_test(test_memory),        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_corridor),      cmocka_unit_test(test_thick_walls),
+        cmocka_unit_test(test_roomiest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

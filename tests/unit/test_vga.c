@@ -56,6 +56,68 @@ static size_t check_pairs(sl_context *context, const fixture *f) {
     return seen;
 }
 
+static uint32_t part_root(const uint32_t *parts, uint32_t p) {
+    while (parts[p] != p) p = parts[p];
+    return p;
+}
+
+/// The sizes of parts beside sets of points that are joined pair by pair; random directed graphs,
+/// with links.
+static void parts_are_those_of_all_pairs(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    enum { MOST = 200 };
+    uint64_t rows[MOST * 4], seed = 7;
+    uint32_t parts[MOST], sizes[MOST];
+    for (int i = 0; i < 400; i++) {
+        const uint32_t count = 1 + (uint32_t)i % MOST, edges = count * (uint32_t)(i % 7) / 4;
+        sl_vga_graph graph = {.count = count, .words = (count + 63) / 64, .rows = rows};
+        sl_vga_link links[2] = {{0, count - 1}, {count / 2, count / 3}};
+        const size_t link_count = count > 3 ? (size_t)i % 3 : 0;
+        memset(rows, 0, sizeof rows);
+        for (uint32_t p = 0; p < count; p++) parts[p] = p;
+        for (uint32_t k = 0; k < edges + link_count; k++) {
+            seed = seed * 6364136223846793005U + 1442695040888963407U;
+            uint32_t a = (uint32_t)(seed >> 33) % count, b = (uint32_t)(seed >> 48) % count;
+            if (k >= edges) {
+                a = links[k - edges].a;
+                b = links[k - edges].b;
+            } else if (a != b) {
+                sl_bits_add(graph.rows + a * graph.words, b);
+            }
+            parts[part_root(parts, a)] = part_root(parts, b);
+        }
+        assert_ok(context, sl_vga_part_sizes(context, &graph, links, link_count, sizes));
+        for (uint32_t p = 0; p < count; p++) {
+            uint32_t size = 0;
+            for (uint32_t q = 0; q < count; q++) size += part_root(parts, q) == part_root(parts, p);
+            assert_int_equal(sizes[p], size);
+        }
+    }
+    sl_context_destroy(context);
+}
+
+/// A part with less than a tenth of the largest one's points does not set the scale.
+static void small_parts_do_not_set_the_scale(void **state) {
+    (void)state;
+    double values[34];
+    uint32_t sizes[34];
+    for (uint32_t p = 0; p < 34; p++) {
+        sizes[p] = p < 30 ? 30 : p < 33 ? 3 : 1;
+        values[p] = p < 30 ? 2 + p : p < 33 ? 40 : 70;
+    }
+    values[4] = NAN;
+    sl_vga_scale scale = sl_vga_scale_of(values, sizes, 34);
+    assert_true(scale.least == 2 && scale.most == 40);
+    assert_int_equal(scale.small_points, 1);
+    assert_int_equal(scale.small_parts, 1);
+    assert_int_equal(scale.beyond, 1);
+    values[33] = 3;
+    scale = sl_vga_scale_of(values, sizes, 34);
+    assert_true(scale.least == 2 && scale.most == 40);
+    assert_int_equal(scale.beyond, 0);
+}
+
 static void pairs_are_those_of_single_sightlines(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -694,6 +756,8 @@ static void neighbours_that_see_nothing_control_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
+        cmocka_unit_test(parts_are_those_of_all_pairs),
+        cmocka_unit_test(small_parts_do_not_set_the_scale),
         cmocka_unit_test(oblique_pairs_too),
         cmocka_unit_test(measures_are_those_of_brute_force),
         cmocka_unit_test(searches_are_those_of_plain_ones),

@@ -122,11 +122,17 @@ typedef struct sl_ground_shares {
 /// The shares of a space's inside, outside and solid ground.
 SL_API sl_ground_shares sl_space_ground(const sl_space *space);
 
+/// How much of the area among the walls they enclose: the share that is inside, of all that is not
+/// solid in the convex hull of the walls. It does not depend on how the plan is turned, but for
+/// rounding. Solid ground beyond the hull counts as if it were outside there. The corners of the
+/// hull are exact. Time O(n log n).
+SL_API sl_status sl_space_enclosed(sl_context *context, const sl_space *space, double *share);
+
 /// Whether it is in doubt what is inside.
 typedef enum sl_inside {
     SL_INSIDE_SURE,
     SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
-    SL_INSIDE_SMALL, ///< there is no start, and less than half of what is not solid is inside
+    SL_INSIDE_SMALL, ///< there is no start, and sl_space_enclosed is under a half
     SL_INSIDE_FEW,   ///< rooms that no start reaches have more area than those that one reaches
     SL_INSIDE_NONE,  ///< all is solid ground
     /// There is no start, and an opening is a little wider than entrances (sl_interior.doubtful):

@@ -150,6 +150,24 @@ SL_API sl_status sl_vga_depth(sl_context *context, const sl_outline *outline,
                               const sl_vga_link *links, size_t link_count, unsigned parts,
                               const uint32_t *from, size_t from_count, sl_vga_depths *depths);
 
+/// The number of points in the part of each point: all that steps join to it, in either direction,
+/// and links. `sizes` has an entry for each point. Cost: O(points^2 / 64).
+SL_API sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
+                                   const sl_vga_link *links, size_t link_count, uint32_t *sizes);
+
+/// The ends of a colour scale that small parts do not set. A courtyard that nobody looks into may
+/// score many times as high as all rooms of the plan.
+typedef struct sl_vga_scale {
+    double least, most;    ///< of the points in other parts; no value: INFINITY and -INFINITY
+    uint32_t small_points; ///< points in parts with less than a tenth of the largest one's points
+    uint32_t small_parts;
+    uint32_t beyond; ///< values beyond the ends: all are in small parts
+} sl_vga_scale;
+
+/// Finds the scale of a measure. `values` (NAN for none) and `sizes` (sl_vga_part_sizes) are by
+/// point.
+SL_API sl_vga_scale sl_vga_scale_of(const double *values, const uint32_t *sizes, uint32_t count);
+
 /// Agents that walk by sight. Start from sl_vga_agents_default().
 typedef struct sl_vga_agents {
     uint32_t agents, steps; ///< their number, and the steps of each; 1000 by default

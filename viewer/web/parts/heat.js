@@ -41,10 +41,19 @@ export function rampColour(dark, share) {
         encode(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)}`;
 }
 
-/** The least and the most of what is defined. @param {Float64Array} values */
-export function rangeOf(values) {
-    let least = Infinity, most = -Infinity;
-    for (const value of values) {
+/**
+ * The least and the most of what is defined. Small parts of the graph do not count: those with less than
+ * a tenth of the largest part's points (sl_vga_scale_of).
+ * @param {Float64Array} values @param {Float64Array} [sizes] by point: the size of its part
+ */
+export function rangeOf(values, sizes) {
+    let least = Infinity, most = -Infinity, largest = 0;
+    sizes?.forEach((size, i) => {
+        if (!Number.isNaN(values[i])) largest = Math.max(largest, size);
+    });
+    for (let i = 0; i < values.length; i++) {
+        const value = values[i];
+        if (sizes && sizes[i] < largest / 10) continue;
         if (value < least) least = value;
         if (value > most) most = value;
     }

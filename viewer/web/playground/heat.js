@@ -112,12 +112,13 @@ export class HeatMap {
                 this.made = '';
                 this.deepest = 0;
                 this.graph = await this.client.call('graph', wanted);
+                this.sizes = await this.client.call('values', { measure: 'visual_node_count' });
                 this.made = key;
             }
             const values = measure === DEPTH ? null : await this.client.call('values', { measure });
             if (!this.on || !this.app.plan || this.measure !== measure || JSON.stringify(this.wanted()) !== key) return;
             this.say(`${this.graph.count.toLocaleString('en')} points${this.graph.directed ? ', of what a point sees' : ''}`);
-            if (values) this.show(values, rangeOf(values));
+            if (values) this.show(values, rangeOf(values, this.sizes));
             else this.follow();
         } catch (error) {
             // What the message says of the command's options is no help here.

@@ -246,6 +246,10 @@ test('the ramp of heat maps is even in lightness, and values are found by their 
     }
     const heat = { step: 0.5, left: -2, bottom: 0, columns: 2, rows: 3, squares: Uint32Array.of(0, 2, 4), values: Float64Array.of(5, NaN, 7), ...rangeOf(Float64Array.of(5, NaN, 7)) };
     assert.deepEqual([heat.least, heat.most], [5, 7]);
+    // A part with less than a tenth of the points of the largest one does not set the scale.
+    const values = Float64Array.of(...Array(11).fill(5), 6, 70), sizes = Float64Array.of(...Array(12).fill(12), 1);
+    assert.deepEqual(rangeOf(values, sizes), { least: 5, most: 6 });
+    assert.deepEqual(rangeOf(values), { least: 5, most: 70 });
     assert.equal(valueAt(heat, [-1.1, 0.1]), 5);
     assert.ok(Number.isNaN(valueAt(heat, [-1, 1])));
     assert.equal(valueAt(heat, [-0.5, 0.6]), 7);

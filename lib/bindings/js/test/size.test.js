@@ -14,9 +14,9 @@ test('the runtime is at most 21.5 kB', () => {
   assert.ok(bytes <= 21500, `${bytes} bytes`)
 })
 
-test('the whole library is at most 214 kB', () => {
+test('the whole library is at most 218 kB', () => {
   const bytes = size('bake.js', 'arguments.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
-  assert.ok(bytes <= 214000, `${bytes} bytes`)
+  assert.ok(bytes <= 218000, `${bytes} bytes`)
 })
 
 test('visibility graph analysis is at most 136 kB', () => {

@@ -1,0 +1,116 @@
+/// The parts of a visibility graph: points that steps join, in either direction. A search goes from
+/// part to part. Each row takes one operation a word, as points that were found are left out at
+/// once; so the cost is O(points^2 / 64).
+///
+/// Where glass is dark from one side, a search may come to points of another part, which did not
+/// lead here. Then the two parts are one: `parent` has sets of parts.
+#include "sightline/support.h"
+#include "sightline/vga.h"
+
+#include <math.h>
+
+/// Parts with fewer points than this share of the largest one do not set a scale.
+#define SMALL_PART 0.1
+
+typedef struct search {
+    const sl_vga_graph *graph;
+    sl_bits *found, *own; ///< points of all parts so far, and of this one
+    uint32_t *part;       ///< by point: the first point of its search
+    uint32_t *parent;     ///< by point: sets of parts
+    uint32_t *stack, depth;
+} search;
+
+static uint32_t root_of(uint32_t *parent, uint32_t at) {
+    while (parent[at] != at) at = parent[at] = parent[parent[at]];
+    return at;
+}
+
+static void join(search *s, uint32_t a, uint32_t b) {
+    a = root_of(s->parent, a);
+    b = root_of(s->parent, b);
+    s->parent[a > b ? a : b] = a > b ? b : a;
+}
+
+/// Takes the points of a word of a row: new ones, and those of other parts.
+static void take(search *s, uint32_t part, size_t word, sl_bits seen) {
+    const sl_bits fresh = seen & ~s->found[word];
+    sl_bits other = seen & ~s->own[word];
+    s->own[word] |= seen;
+    s->found[word] |= seen;
+    for (uint32_t point = (uint32_t)(64 * word); other; other >>= 1, point++) {
+        if (!(other & 1)) continue;
+        if (!(fresh >> point % 64 & 1)) {
+            join(s, part, s->part[point]);
+            continue;
+        }
+        s->part[point] = part;
+        s->stack[s->depth++] = point;
+    }
+}
+
+static void search_from(search *s, uint32_t first) {
+    const size_t words = s->graph->words;
+    for (size_t w = 0; w < words; w++) s->own[w] = 0;
+    take(s, first, first / 64, (sl_bits)1 << first % 64);
+    while (s->depth) {
+        const sl_bits *row = s->graph->rows + s->stack[--s->depth] * words;
+        for (size_t w = 0; w < words; w++)
+            if (row[w] & ~s->own[w]) take(s, first, w, row[w]);
+    }
+}
+
+/// `sizes` counts by part first: a part has the number of its first point.
+static void count_parts(search *s, uint32_t *sizes) {
+    const uint32_t count = s->graph->count;
+    for (uint32_t p = 0; p < count; p++) sizes[p] = 0;
+    for (uint32_t p = 0; p < count; p++) {
+        s->part[p] = root_of(s->parent, s->part[p]);
+        sizes[s->part[p]]++;
+    }
+    for (uint32_t p = 0; p < count; p++) sizes[p] = sizes[s->part[p]];
+}
+
+sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
+                            const sl_vga_link *links, size_t link_count, uint32_t *sizes) {
+    const uint32_t count = graph->count;
+    for (size_t i = 0; i < link_count; i++)
+        if (links[i].a >= count || links[i].b >= count)
+            return sl_fail(context, SL_BAD_ARGUMENT, "a link joins two points of the grid");
+    search s = {.graph = graph,
+                .found = sl_alloc_array(context, graph->words + 1, sizeof *s.found),
+                .own = sl_alloc_array(context, graph->words + 1, sizeof *s.own),
+                .part = sl_alloc_array(context, (size_t)count + 1, sizeof *s.part),
+                .parent = sl_alloc_array(context, (size_t)count + 1, sizeof *s.parent),
+                .stack = sl_alloc_array(context, (size_t)count + 1, sizeof *s.stack)};
+    const bool room = s.found && s.own && s.part && s.parent && s.stack;
+    if (room) {
+        for (uint32_t p = 0; p < count; p++) s.parent[p] = p;
+        for (uint32_t p = 0; p < count; p++)
+            if (!sl_bits_has(s.found, p)) search_from(&s, p);
+        for (size_t i = 0; i < link_count; i++) join(&s, s.part[links[i].a], s.part[links[i].b]);
+        count_parts(&s, sizes);
+    }
+    void *const arrays[] = {s.found, s.own, s.part, s.parent, s.stack};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(context, arrays[i]);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+sl_vga_scale sl_vga_scale_of(const double *values, const uint32_t *sizes, uint32_t count) {
+    sl_vga_scale scale = {.least = INFINITY, .most = -INFINITY};
+    double largest = 0, parts = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (!isnan(values[i])) largest = fmax(largest, sizes[i]);
+    for (uint32_t i = 0; i < count; i++) {
+        if (sizes[i] < SMALL_PART * largest) {
+            scale.small_points++;
+            parts += 1.0 / sizes[i];
+            continue;
+        }
+        scale.least = fmin(scale.least, values[i]);
+        scale.most = fmax(scale.most, values[i]);
+    }
+    scale.small_parts = (uint32_t)round(parts);
+    for (uint32_t i = 0; i < count; i++)
+        scale.beyond += values[i] < scale.least || values[i] > scale.most;
+    return scale;
+}
