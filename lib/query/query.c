@@ -130,6 +130,26 @@ const sl_space *sl_query_asked(const sl_query *query) {
 
 // --- settings
 
+/// Visible sets of a map with a range know of nothing farther.
+static sl_status check_range(sl_context *context, const sl_query *q,
+                             const sl_visibility *visibility, double range) {
+    const double known = visibility && visibility->pvs.cell_count ? q->map->range : 0;
+    if (!(known > 0) || (range > 0 && range <= known)) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "the map was baked with a view range of %.17g, and nothing farther is known: "
+                   "ask for a range up to that, or bake the map --without range",
+                   known);
+}
+
+sl_status sl_query_set_visibility(sl_context *context, sl_query *query,
+                                  const sl_visibility *visibility) {
+    SL_TRY(check_range(context, query, visibility, query->range));
+    drop_search(context, query);
+    drop_moving(context, query);
+    query->visibility = visibility;
+    return SL_OK;
+}
+
 static sl_status fail_door(sl_context *context, const sl_map *map, const char *name) {
     char names[512] = "none";
     size_t length = 0;
@@ -157,6 +177,10 @@ sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *na
         set_door(context, query, i, !open);
     }
     return found ? SL_OK : fail_door(context, map, name);
+}
+
+void sl_query_set_door_at(sl_context *context, sl_query *query, size_t door, bool open) {
+    set_door(context, query, door, !open);
 }
 
 void sl_query_set_doors(sl_context *context, sl_query *query, bool open) {
@@ -194,16 +218,10 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
 }
 
 sl_status sl_query_set_range(sl_context *context, sl_query *query, double range) {
-    const double known = query->visibility ? query->map->range : 0;
     if (!(range >= 0) || isinf(range))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the range must be 0 or more, and finite; 0: no limit");
-    if (known > 0 && (range == 0 || range > known))
-        return sl_fail(
-            context, SL_BAD_ARGUMENT,
-            "the map was baked with a view range of %.17g, and nothing farther is known: "
-            "ask for a range up to that, or bake the map --without range",
-            known);
+    SL_TRY(check_range(context, query, query->visibility, range));
     query->range = range;
     return SL_OK;
 }
@@ -444,9 +462,25 @@ sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **
     return SL_OK;
 }
 
+sl_status sl_query_copy_space(sl_context *context, sl_query *query, const sl_point *eye,
+                              sl_space *out) {
+    SL_TRY(make_ready(context, query));
+    const sl_filtered_space filtered = {
+        .shut = query->shut, .one_way = !eye, .dark_walls = !eye, .eye = eye};
+    return sl_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
+}
+
 sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out) {
     SL_TRY(make_layers(context, query));
     return make_outline(context, query, out);
+}
+
+sl_status sl_query_mirrors(sl_context *context, sl_query *query, const sl_room_mirrors **out) {
+    const sl_outline *outline;
+    SL_TRY(sl_query_outline(context, query, &outline));
+    SL_TRY(make_mirrors(context, query, outline));
+    *out = query->mirrors;
+    return SL_OK;
 }
 
 sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
@@ -477,19 +511,12 @@ static const sl_eye_method *exact_method(void) {
     return &methods[count - 1];
 }
 
-/// The space for an eye in line with glass: glass that is dark for it is a wall, all other is open.
-static sl_status make_space_in_line(sl_context *context, const sl_query *q, const sl_view *view,
-                                    sl_space *out) {
-    const sl_filtered_space filtered = {.shut = q->shut, .eye = &view->eye};
-    return sl_filtered_space_make(context, q->sight.base, &filtered, NULL, out);
-}
-
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
     sl_space space;
     sl_eye_search *search = NULL;
-    SL_TRY(make_space_in_line(context, q, view, &space));
+    SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
     sl_status status = sl_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
@@ -501,11 +528,11 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
     return status;
 }
 
-static sl_status look_past_in_line(sl_context *context, const sl_query *q, const sl_view *view,
+static sl_status look_past_in_line(sl_context *context, sl_query *q, const sl_view *view,
                                    uint64_t *cells, bool *seen, sl_eye_account *account) {
     sl_space space;
     sl_moving *moving = NULL;
-    SL_TRY(make_space_in_line(context, q, view, &space));
+    SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
     sl_status status = sl_moving_create(context, &space, &q->rows, &moving);
     if (status == SL_OK) status = sl_moving_set_boxes(context, moving, q->boxes, q->box_count);
     if (status == SL_OK) {
@@ -573,10 +600,11 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
     SL_TRY(make_layers(context, query));
     if (!SLI_BOXES || !query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
-    if (lists_will_do(query, view->eye)) return look_by_lists(context, query, view, seen);
+    if (lists_will_do(query, view->eye))
+        return seen ? look_by_lists(context, query, view, seen) : SL_OK;
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->asked), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
-    sl_status status = look_past(context, query, view, false, cells, seen, &account);
+    sl_status status = seen ? look_past(context, query, view, false, cells, seen, &account) : SL_OK;
     if (status == SL_OK && mirrored && has_mirrors(query))
         status = look_past(context, query, view, true, cells, mirrored, &account);
     sl_free(context, cells);
@@ -593,10 +621,7 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
 
 sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
                                    sl_mirrored_region *out) {
-    const sl_outline *outline;
-    SL_TRY(make_layers(context, query));
-    SL_TRY(make_outline(context, query, &outline));
-    SL_TRY(make_mirrors(context, query, outline));
-    return sl_mirrored_region_make(context, query->mirrors, view, query->range, query->mirror_depth,
-                                   out);
+    const sl_room_mirrors *mirrors;
+    SL_TRY(sl_query_mirrors(context, query, &mirrors));
+    return sl_mirrored_region_make(context, mirrors, view, query->range, query->mirror_depth, out);
 }

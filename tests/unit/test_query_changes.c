@@ -170,6 +170,9 @@ static void doors_in_place_answer_as_new_spaces(void **state) {
             const bool open = sl_random_below(&random, 2);
             if (change % 10 == 9)
                 sl_query_set_doors(context, query, open);
+            else if (change % 10 == 7)
+                sl_query_set_door_at(context, query, sl_random_below(&random, map->door_count),
+                                     open);
             else if (change)
                 assert_ok(context, sl_query_set_door(context, query, name, open));
             for (size_t d = 0; d < map->door_count; d++) shut[d] = !sl_query_door_is_open(query, d);
@@ -236,6 +239,80 @@ static void a_space_without_a_bake_is_asked_too(void **state) {
     sl_context_destroy(context);
 }
 
+/// A bake that ends later, and one that is given up: the query is as one that had it from the
+/// start.
+static void visible_sets_may_come_later(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_random random = {1};
+    sl_baked baked = {0};
+    sl_query *query;
+    uint64_t cells[64];
+    bake_rooms(context, 1, true, false, &baked);
+    bool *shut = calloc(baked.map.door_count, sizeof *shut);
+    assert_non_null(shut);
+    const sl_view view = sl_view_all_round(any_point(&random, &baked.space));
+    assert_ok(context, sl_query_over(context, &baked.space, &baked.map, NULL, &query));
+    sl_query_set_doors(context, query, false);
+    for (size_t d = 0; d < baked.map.door_count; d++) shut[d] = true;
+    assert_int_equal(
+        sl_query_look(context, query, &view, sl_eye_methods(&(size_t){0}), cells, NULL),
+        SL_BAD_ARGUMENT);
+    assert_ok(context, sl_query_set_visibility(context, query, &baked.visibility));
+    fresh f;
+    make_fresh(context, &baked, shut, &f);
+    same_answers(context, query, &f, &random);
+    destroy_fresh(context, &f);
+    assert_ok(context, sl_query_set_visibility(context, query, NULL));
+    assert_int_equal(sl_query_row(context, query, 0, false, cells), SL_BAD_ARGUMENT);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    free(shut);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
+/// Copies of the space: one-way, and as an eye finds it. Their outlines show what the query shows.
+static void copies_of_the_space_answer_alike(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    for (uint64_t seed = 1; seed <= MAPS; seed++) {
+        sl_random random = {seed};
+        sl_baked baked = {0};
+        sl_query *query;
+        sl_region region = {0}, other = {0};
+        bake_rooms(context, seed, seed % 2, false, &baked);
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        for (int i = 0; i < 30; i++) {
+            const sl_point eye = any_point(&random, &baked.space);
+            const sl_point *const eyes[] = {NULL, &eye};
+            const sl_view view = sl_query_view(query, eye, 0, 360);
+            sl_query_set_door_at(context, query, sl_random_below(&random, baked.map.door_count),
+                                 i % 2);
+            assert_ok(context, sl_query_region(context, query, &view, &region));
+            for (int k = 0; k < 2; k++) {
+                sl_space space = {0};
+                sl_outline outline = {0};
+                assert_ok(context, sl_query_copy_space(context, query, eyes[k], &space));
+                assert_int_equal(space.cell_count, baked.space.cell_count);
+                assert_ok(context, sl_outline_make(context, &space, &outline));
+                assert_ok(context, sl_region_make(context, &outline, &view, 0, &other));
+                same_region(&region, &other);
+                sl_outline_destroy(context, &outline);
+                sl_space_destroy(context, &space);
+            }
+        }
+        sl_region_destroy(context, &region);
+        sl_region_destroy(context, &other);
+        sl_query_destroy(context, query);
+        sl_baked_destroy(context, &baked);
+    }
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
 /// Backwards, glass is seen through the other way, as in a map with turned glass; and a row has the
 /// cells that see it.
 static void backwards_is_a_map_with_turned_glass(void **state) {
@@ -280,6 +357,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doors_in_place_answer_as_new_spaces),
         cmocka_unit_test(a_space_without_a_bake_is_asked_too),
+        cmocka_unit_test(visible_sets_may_come_later),
+        cmocka_unit_test(copies_of_the_space_answer_alike),
         cmocka_unit_test(backwards_is_a_map_with_turned_glass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
