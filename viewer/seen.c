@@ -78,6 +78,7 @@ static void look(sl_context *context, seen_method *m, const sl_eye_method *metho
     const double seconds = sl_seconds() - before;
     m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
     if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
+    sl_query_drop_far(query, view->eye, m->cells);
     sum_up(document, m->cells, &m->count, &m->area);
 }
 

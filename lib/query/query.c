@@ -575,6 +575,28 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
     return method->cull(context, query->search, view, cells, account);
 }
 
+/// Whether some point of a cell is in range. The nearest one is on a side that faces the eye, or is
+/// the eye.
+static bool is_in_range(const sl_space *space, const sl_cell *cell, sl_point eye, double range) {
+    const sl_point *corners = space->vertices + cell->first_vertex;
+    bool inside = true;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point a = corners[i], b = corners[i + 1 < cell->vertex_count ? i + 1 : 0];
+        if (sli_orient(a, b, eye) >= 0) continue;
+        const sli_glance glance = {.eye.at = eye, .from.at = b, .to.at = a, .right = b, .left = a};
+        if (sli_nearest_compare(&glance, range) <= 0) return true;
+        inside = false;
+    }
+    return inside;
+}
+
+void sl_query_drop_far(const sl_query *query, sl_point eye, uint64_t *cells) {
+    const sl_space *space = query->asked;
+    for (uint32_t c = 0; query->range > 0 && c < space->cell_count; c++)
+        if (sl_eye_sees(cells, c) && !is_in_range(space, &space->cells[c], eye, query->range))
+            cells[c / 64] &= ~((uint64_t)1 << c % 64);
+}
+
 sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                  const sl_eye_method *method, uint64_t *cells,
                                  sl_eye_account *account) {

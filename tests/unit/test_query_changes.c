@@ -9,6 +9,8 @@
 #include "sightline/sees.h"
 #include "sightline/support.h"
 
+#include <math.h>
+
 enum { ROOMS = 5, SIDE = 8, MAPS = 6, CHANGES = 40 };
 
 /// A grid of rooms. Between two of them: a door, glass, glass both ways, a door with glass in it,
@@ -313,6 +315,46 @@ static void copies_of_the_space_answer_alike(void **state) {
     assert_int_equal(memory.live, 0);
 }
 
+/// Cells out of range: none that the exact method keeps, and all that are so by a distance that is
+/// counted with room for rounding.
+static void far_cells_are_dropped(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const double range = 10;
+    sl_random random = {1};
+    sl_baked baked = {0};
+    sl_query *query;
+    size_t dropped = 0;
+    bake_rooms(context, 2, false, false, &baked);
+    const sl_space *space = &baked.space;
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    assert_ok(context, sl_query_set_range(context, query, range));
+    for (int i = 0; i < 100; i++) {
+        const sl_point eye = any_point(&random, space);
+        const sl_view view = sl_query_view(query, eye, 0, 360);
+        uint64_t cells[64] = {0}, exact[64];
+        assert_true(sl_eye_words(space) <= 64);
+        for (uint32_t c = 0; c < space->cell_count; c++) sl_bits_add(cells, c);
+        sl_query_drop_far(query, eye, cells);
+        assert_ok(context, sl_query_look(context, query, &view, NULL, exact, NULL));
+        for (uint32_t c = 0; c < space->cell_count; c++) {
+            // Cells of this map are boxes.
+            const sl_point *at = space->vertices + space->cells[c].first_vertex;
+            const double x = fmax(fmax(at[0].x - eye.x, eye.x - at[2].x), 0);
+            const double y = fmax(fmax(at[0].y - eye.y, eye.y - at[2].y), 0);
+            const double away = hypot(x, y);
+            dropped += !sl_eye_sees(cells, c);
+            if (away < range - 1e-9) assert_true(sl_eye_sees(cells, c));
+            if (away > range + 1e-9) assert_false(sl_eye_sees(cells, c));
+            if (sl_eye_sees(exact, c)) assert_true(sl_eye_sees(cells, c));
+        }
+    }
+    assert_true(dropped > 100);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 /// Backwards, glass is seen through the other way, as in a map with turned glass; and a row has the
 /// cells that see it.
 static void backwards_is_a_map_with_turned_glass(void **state) {
@@ -359,6 +401,7 @@ int main(void) {
         cmocka_unit_test(a_space_without_a_bake_is_asked_too),
         cmocka_unit_test(visible_sets_may_come_later),
         cmocka_unit_test(copies_of_the_space_answer_alike),
+        cmocka_unit_test(far_cells_are_dropped),
         cmocka_unit_test(backwards_is_a_map_with_turned_glass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -140,9 +140,13 @@ SL_API sl_status sl_query_look(sl_context *context, sl_query *query, const sl_vi
                                const sl_eye_method *method, uint64_t *cells,
                                sl_eye_account *account);
 
-/// Likewise the cells that it sees by mirror. Methods other than the exact one give what was baked,
-/// so no more reflections than the bake's. None where the map has no mirror or the depth is 0.
-/// SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
+/// Takes the cells out of a set of which every point is out of range of an eye: methods other than
+/// the exact one keep them. Exact. Nothing without a range.
+SL_API void sl_query_drop_far(const sl_query *query, sl_point eye, uint64_t *cells);
+
+/// The cells that a view sees by mirror, as sl_query_look. Methods other than the exact one give
+/// what was baked, so no more reflections than the bake's. None where the map has no mirror or the
+/// depth is 0. SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
 SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                         const sl_eye_method *method, uint64_t *cells,
                                         sl_eye_account *account);
