@@ -28,13 +28,12 @@ struct bake_job {
     bool begins;            ///< `map` is a new one, and not the open one after a change
     double wanted_weld;     ///< negative: the usual
     uint32_t mirror_depth;
-    sl_map map;         ///< as drawn; filled by the job where it reads
-    sl_map clean;       ///< the job's, to the end
-    sl_baked *baked;    ///< the job's until space_ready, then only its visibility is
-    sl_outline outline; ///< these four as well
+    sl_map map;      ///< as drawn; filled by the job where it reads
+    sl_map clean;    ///< the job's, to the end
+    sl_baked *baked; ///< the job's until space_ready, then only its visibility is
+    sl_query *query; ///< these three as well
     sli_split *splits;
     double *areas;
-    sl_eye_search *search;
     double weld;
     sl_visibility visibility; ///< the job's until seen_ready
     sl_visibility
@@ -78,22 +77,17 @@ static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *wall
     return sl_map_add_walls(context, map, walls, count);
 }
 
-static sl_status add_mirrors(sl_context *context, const sl_map *map, uint32_t depth,
-                             sl_eye_search *search) {
-    return map->mirror_count ? sl_eye_search_add_mirrors(context, search, map, depth) : SL_OK;
-}
-
 /// Makes what the plan, the lessons and the eye need of the space.
 static sl_status measure_space(sl_context *context, bake_job *job) {
     const sl_space *space = &job->baked->space;
+    const sl_outline *outline;
     job->areas = sl_alloc_array(context, space->cell_count, sizeof *job->areas);
     if (!job->areas) return SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < space->cell_count; cell++)
         job->areas[cell] = sl_space_area(space, cell);
-    SL_TRY(sl_outline_make(context, space, &job->outline));
     SL_TRY(sli_splits_make(context, space, &job->splits));
-    SL_TRY(sl_eye_search_create(context, space, &job->baked->visibility, &job->search));
-    return add_mirrors(context, &job->baked->map, job->mirror_depth, job->search);
+    SL_TRY(sl_query_over(context, space, &job->baked->map, NULL, &job->query));
+    return sl_query_outline(context, job->query, &outline); // here, for it takes time
 }
 
 /// A baked file has all but the map as drawn: the walls of its space take its place.
@@ -174,9 +168,8 @@ static sl_status work(sl_context *context, void *data) {
 }
 
 static void free_job(sl_context *context, bake_job *job) {
-    if (!job->taken && job->search) sl_eye_search_destroy(context, job->search);
     if (!job->taken) {
-        sl_outline_destroy(context, &job->outline);
+        sl_query_destroy(context, job->query);
         sl_free(context, job->splits);
         sl_free(context, job->areas);
     }
@@ -346,9 +339,8 @@ static sl_status take_objects(sl_context *context, document_state *document) {
 }
 
 static void drop_baked(sl_context *context, document_state *document) {
-    if (document->search) sl_eye_search_destroy(context, document->search);
-    document->search = NULL;
-    sl_outline_destroy(context, &document->outline);
+    sl_query_destroy(context, document->query);
+    document->query = NULL;
     sl_free(context, document->splits);
     sl_free(context, document->areas);
     document->splits = NULL;
@@ -359,23 +351,6 @@ static void drop_baked(sl_context *context, document_state *document) {
     }
     document->baked = NULL;
     document->has_visibility = false;
-}
-
-sl_status document_add_mirrors(sl_context *context, const document_state *document,
-                               sl_eye_search *search) {
-    return add_mirrors(context, &document->baked->map, document->mirror_depth, search);
-}
-
-static sl_status make_search(sl_context *context, document_state *document) {
-    if (document->search) sl_eye_search_destroy(context, document->search);
-    document->search = NULL;
-    SL_TRY(sl_eye_search_create(context, &document->baked->space, &document->baked->visibility,
-                                &document->search));
-    return document_add_mirrors(context, document, document->search);
-}
-
-sl_status document_renew_search(sl_context *context, document_state *document) {
-    return document->search ? make_search(context, document) : SL_OK;
 }
 
 static void count_cells(document_state *document) {
@@ -393,10 +368,9 @@ static void count_cells(document_state *document) {
 static void take_made(document_state *document, bake_job *job) {
     document->baked = job->baked;
     document->baked_depth = job->mirror_depth;
-    document->outline = job->outline;
+    document->query = job->query;
     document->splits = job->splits;
     document->areas = job->areas;
-    document->search = job->search;
     document->weld = job->weld;
     document->live = job->live;
     document->shown = job->edit;
@@ -424,27 +398,24 @@ static sl_status take_space(sl_context *context, document_state *document) {
     }
     document_touch(document); // doors may have been turned while the job was at work
     count_cells(document);
-    return job->mirror_depth == document->mirror_depth ? SL_OK : make_search(context, document);
+    return SL_OK;
 }
 
 /// Takes over the visible sets. They come a second time, equal but with stab trees.
-static sl_status take_visibility(sl_context *context, document_state *document,
-                                 sl_visibility *from) {
-    if (document->search) sl_eye_search_destroy(context, document->search);
-    document->search = NULL;
+static void take_visibility(sl_context *context, document_state *document, sl_visibility *from) {
     sl_visibility_destroy(context, &document->baked->visibility);
     document->baked->visibility = *from;
     *from = (sl_visibility){0};
     document->version += !document->has_visibility;
     document->has_visibility = true;
-    return make_search(context, document);
+    document->sets++;
 }
 
 static sl_status finish(sl_context *context, document_state *document) {
     bake_job *job = document->job;
-    sl_status status = task_end(context, job->task);
+    const sl_status status = task_end(context, job->task);
     if (status == SL_OK && job->with_trees.pvs.cell_count)
-        status = take_visibility(context, document, &job->with_trees);
+        take_visibility(context, document, &job->with_trees);
     document->job = NULL;
     free_job(context, job);
     return status;
@@ -466,7 +437,7 @@ sl_status document_poll(sl_context *context, document_state *document, bool *cha
     if (job->taken && !job->seen_taken && atomic_load(&job->seen_ready)) {
         *changed = true;
         job->seen_taken = true;
-        SL_TRY(take_visibility(context, document, &job->visibility));
+        take_visibility(context, document, &job->visibility);
     }
     if (!done) return SL_OK;
     *changed = true;
@@ -525,6 +496,7 @@ void document_close(sl_context *context, document_state *document) {
     sl_free(context, document->blocks);
     *document = (document_state){.version = document->version + 1,
                                  .touched = document->touched,
+                                 .sets = document->sets,
                                  .opened = document->opened,
                                  .read = document->read,
                                  .history = document->history,

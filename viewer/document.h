@@ -5,11 +5,10 @@
 
 #include "history.h"
 #include "sightline/bake.h"
-#include "sightline/eye_to_cell.h"
 #include "sightline/faults.h"
 #include "sightline/import.h"
 #include "sightline/map.h"
-#include "sightline/region.h"
+#include "sightline/query.h"
 #include "space/kd_tree.h" // private: a lesson and a layer show the splits
 
 /// How to read a file.
@@ -37,12 +36,11 @@ enum { OBJECTS_MOST = 256, NOTES_TEXT = 2048 };
 /// A document, zeroed to start. Its content stays empty while nothing is open.
 typedef struct document_state {
     document_source source;
-    sl_map map;          ///< as drawn: what is edited and baked
-    sl_baked *baked;     ///< its space may be there before its visibility; NULL while nothing is
-    bool has_visibility; ///< what cells see; stab trees come later, or not
-    sl_outline outline;
-    sli_split *splits; ///< of the kd-tree, by node
-    sl_eye_search *search;
+    sl_map map;            ///< as drawn: what is edited and baked
+    sl_baked *baked;       ///< its space may be there before its visibility; NULL while nothing is
+    bool has_visibility;   ///< what cells see; stab trees come later, or not
+    sl_query *query;       ///< of `baked`; present.h sets what is asked
+    sli_split *splits;     ///< of the kd-tree, by node
     double *areas;         ///< of the cells
     double area;           ///< of all cells that count
     uint32_t counted;      ///< how many there are
@@ -54,6 +52,7 @@ typedef struct document_state {
     size_t object_count;
     bool *blocks;
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
+    uint32_t sets;    ///< grows with visible sets that are taken over
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
     uint32_t read;    ///< the same, and with every file that is read again
@@ -96,13 +95,6 @@ bool document_is_late(const document_state *document);
 
 /// Whether visible sets are there, and hold all that cells see with the present range.
 bool document_has_rows(const document_state *document);
-
-/// Makes the search again after the mirror depth changed.
-sl_status document_renew_search(sl_context *context, document_state *document);
-
-/// Adds the baked mirrors to a search over the cells of the document.
-sl_status document_add_mirrors(sl_context *context, const document_state *document,
-                               sl_eye_search *search);
 
 /// Whether a job is running that has no space yet.
 bool document_awaits_space(const document_state *document);

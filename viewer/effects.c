@@ -232,8 +232,6 @@ void mirror_drop(app_state *app, const drag_state *drag) {
 void mirror_set_depth(app_state *app, uint32_t depth) {
     if (depth == app->document.mirror_depth) return;
     app->document.mirror_depth = depth;
-    app_check(app, document_renew_search(app->context, &app->document));
-    present_drop(app->context, &app->view.present);
     app_after_touch(app);
 }
 
@@ -319,12 +317,14 @@ void object_move(app_state *app, drag_state *drag, sl_point now) {
 void object_toggle(app_state *app, uint32_t object) {
     document_state *document = &app->document;
     if (object >= document->object_count) return;
-    if (!app->view.present.moving && !document->blocks[object]) {
+    document->blocks[object] = !document->blocks[object];
+    app_after_touch(app);
+    if (document->blocks[object] && app->view.present.still) {
+        document->blocks[object] = false;
+        app_after_touch(app);
         ui_say(&app->ui, true, "objects cannot block sight from here");
         return;
     }
-    document->blocks[object] = !document->blocks[object];
-    app_after_touch(app);
     ui_say(&app->ui, false, "%s %s", document->map.objects[object].name,
            document->blocks[object] ? "blocks sight" : "is seen through");
 }

@@ -159,10 +159,7 @@ static sl_status begin(app_state *app) {
     SL_TRY(sl_effects_check_because(app->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
                                     "steps and paths lead straight to points, not to mirror "
                                     "images"));
-    const bool glass = map->oneway_count > 0;
-    const sl_filtered_space filtered = {.shut = layer->shut, .one_way = glass, .dark_walls = glass};
-    SL_TRY(sl_filtered_space_make(app->context, &document->baked->space, &filtered, NULL,
-                                  &layer->graph.space));
+    SL_TRY(sl_query_copy_space(app->context, app->view.present.query, NULL, &layer->graph.space));
     return start(app, layer);
 }
 
@@ -283,7 +280,7 @@ void heat_layer_update(app_state *app, bool wait) {
         return;
     }
     const bool settled = app->document.has_visibility || !(app->document.job || app->document.live);
-    if (!app->view.heat && settled) app_check(app, begin(app));
+    if (!app->view.heat && settled && app->view.present.query) app_check(app, begin(app));
     heat_layer *layer = app->view.heat;
     if (!layer) return;
     if (layer->job && layer->made && !(part & ~layer->has)) end_job(app->context, layer);

@@ -46,7 +46,8 @@ static const sl_walk_method *find_method(const char *name) {
     return &methods[i];
 }
 
-static sl_status fill(sl_context *context, const present_state *present, node_layer *layer) {
+static sl_status fill(sl_context *context, present_state *present, node_layer *layer) {
+    SL_TRY(present_space(context, present));
     const sl_space *space = present->space;
     const sl_walk_options options = sl_walk_options_default();
     layer->version = present->version;

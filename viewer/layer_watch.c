@@ -1,6 +1,6 @@
 /// Who sees the eye. Cells are coloured by who sees whom, and the region shows from where the eye
 /// is seen. A line of sight is the same in both directions except for one-way glass. So this region
-/// is what an eye would see with all glass turned round.
+/// is what an eye would see with all glass turned round: without glass, the query looks forwards.
 #include "layers.h"
 
 #include "app.h"
@@ -53,9 +53,9 @@ static void sort_cells(const app_state *app, watch_layer *layer) {
     const uint32_t eye = app->view.seen.cell;
     memset(layer->counts, 0, sizeof layer->counts);
     if (eye == SL_NO_CELL || !app->view.present.has_rows) return;
-    for (uint32_t cell = 0; cell < app->view.present.space->cell_count; cell++) {
+    for (uint32_t cell = 0; cell < app->document.baked->space.cell_count; cell++) {
         const bool sees = sl_bits_has(app->view.seen.pvs, cell);
-        const bool seen = present_sees(&app->view.present, &app->document, cell, eye);
+        const bool seen = present_sees(app->context, &app->view.present, cell, eye);
         if (cell == eye || !(sees || seen)) continue;
         const kind k = sees && seen ? MUTUAL : sees ? SEES : SEEN;
         sl_bits_add(layer->sets[k], cell);
@@ -66,11 +66,12 @@ static void sort_cells(const app_state *app, watch_layer *layer) {
 static sl_status make(app_state *app, watch_layer *layer) {
     sl_context *context = app->context;
     const sl_view view = sl_view_all_round(app->view.eye.at);
-    SL_TRY(present_update(context, &layer->present, &app->document, app->view.eye.at));
-    SL_TRY(make_sets(context, layer, app->view.present.space));
+    const bool turns = app->document.baked->map.oneway_count;
+    if (turns) SL_TRY(present_update(context, &layer->present, &app->document, app->view.eye.at));
+    SL_TRY(make_sets(context, layer, &app->document.baked->space));
     sort_cells(app, layer);
-    SL_TRY(sl_region_make(context, layer->present.outline, &view, app->document.map.range,
-                          &layer->region));
+    sl_query *query = turns ? layer->present.query : app->view.present.query;
+    SL_TRY(sl_query_region(context, query, &view, &layer->region));
     layer->version = app->view.present.version;
     layer->eye = app->view.eye.at;
     layer->range = app->document.map.range;

@@ -261,7 +261,7 @@ void layer_cull(app_state *app, const sl_frame *frame, int index) {
 static sl_status make_tree_scene(app_state *app, const sl_draw_options *options) {
     const document_state *document = &app->document;
     sl_stab_trees trees;
-    if (!app->view.present.own)
+    if (!present_has_shut(&app->view.present))
         return sl_scene_create(app->context, document->baked, options, NULL, &app->view.tree);
     SL_TRY(present_tree(app->context, &app->view.present, document, options->cell, &trees));
     const sl_status status =

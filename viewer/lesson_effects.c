@@ -264,7 +264,7 @@ static void draw_line(app_state *app, const sl_frame *frame, const effect_step *
         ends[i] =
             (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
     const bool stops =
-        !present_sees(&app->view.present, &app->document, app->tool.lesson.source, s->cell);
+        !present_sees(app->context, &app->view.present, app->tool.lesson.source, s->cell);
     sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, stops);
     sl_dual_make(ends, count, count, &dual);
     if (!dual.corner_count) return;

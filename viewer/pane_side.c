@@ -255,7 +255,7 @@ void pane_describe(const app_state *app, sl_point at, char *text, size_t room) {
     const size_t used = strlen(text);
     if (!both && cell != app->view.seen.cell)
         snprintf(text + used, room - used, " It %s the eye's cell.",
-                 present_sees(&app->view.present, &app->document, cell, app->view.seen.cell)
+                 present_sees(app->context, &app->view.present, cell, app->view.seen.cell)
                      ? "sees"
                      : "does not see");
 }

@@ -30,7 +30,7 @@ bool quiz_is_bent(const quiz_state *q) {
 void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
     quiz_forget(app);
     const document_state *d = &app->document;
-    if (!d->baked || !app->view.present.space || from >= d->baked->space.cell_count ||
+    if (!d->baked || !app->view.present.query || from >= d->baked->space.cell_count ||
         to >= d->baked->space.cell_count)
         return;
     sl_explain_options options = sl_explain_options_default();
@@ -42,10 +42,12 @@ void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
     app->tool.quiz.subject = app->tool.lesson.subject;
     app->tool.quiz.step = app->tool.lesson.at;
     sl_explanation *e = &app->tool.quiz.explanation;
-    sl_status status = sl_explain(app->context, app->view.present.space, &options, from, to, e);
+    sl_status status = present_space(app->context, &app->view.present);
+    const sl_space *space = app->view.present.space;
+    if (status == SL_OK) status = sl_explain(app->context, space, &options, from, to, e);
     if (status == SL_OK && explains_mirrors(app, e))
-        status = sl_explain_by_mirror(app->context, app->view.present.space, &d->baked->map,
-                                      &options, d->mirror_depth, e);
+        status =
+            sl_explain_by_mirror(app->context, space, &d->baked->map, &options, d->mirror_depth, e);
     app->tool.quiz.answered = status == SL_OK;
     app_check(app, status);
 }
@@ -80,7 +82,8 @@ void quiz_ask(app_state *app) {
         for (uint32_t i = 0; i < space->cells[from].directed_count; i++)
             neighbours |= space->directed[space->cells[from].first_directed + i].cell == to;
         if (neighbours && attempt < 3000) continue;
-        if (present_sees(&app->view.present, d, from, to) == wanted || attempt > 2000) break;
+        if (present_sees(app->context, &app->view.present, from, to) == wanted || attempt > 2000)
+            break;
     }
     app->tool.quiz.random = random.state;
     app->tool.quiz.from = from;
@@ -91,7 +94,7 @@ void quiz_ask(app_state *app) {
 void quiz_answer(app_state *app, bool seen) {
     quiz_state *q = &app->tool.quiz;
     if (!q->asked || q->answered) return;
-    const bool is_seen = present_sees(&app->view.present, &app->document, q->from, q->to);
+    const bool is_seen = present_sees(app->context, &app->view.present, q->from, q->to);
     quiz_explain(app, q->from, q->to);
     q->right = is_seen == seen;
     q->said = seen;
@@ -102,13 +105,6 @@ void quiz_answer(app_state *app, bool seen) {
 
 static const sl_sequence *sequence_of(const sl_explanation *e) {
     return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
-}
-
-static bool is_door_shut(const app_state *app) {
-    const present_state *present = &app->view.present;
-    for (size_t i = 0; present->shut && i < app->document.baked->map.door_count; i++)
-        if (present->shut[i]) return true;
-    return false;
 }
 
 /// Effects can decide otherwise than the portals that the line passes.
@@ -122,8 +118,9 @@ static const char *words_of_effects(const app_state *app) {
                                : " It is seen by mirror: the purple line.";
     if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, e->from, e->to))
         return " It is seen by mirror.";
-    const bool sees = present_sees(&app->view.present, d, e->from, e->to);
-    if (!e->seen && !sees && is_door_shut(app) && sl_pvs_sees(&v->pvs, e->from, e->to))
+    const bool sees = present_sees(app->context, &app->view.present, e->from, e->to);
+    if (!e->seen && !sees && present_has_shut(&app->view.present) &&
+        sl_pvs_sees(&v->pvs, e->from, e->to))
         return " With all doors open it would be seen.";
     if (e->seen && !sees) return " But glass is dark that way, or it is out of the view's range.";
     return !e->seen && sees ? " From elsewhere in its cell glass lets it through." : "";
@@ -164,8 +161,8 @@ static void write_words(const app_state *app, char *text, size_t room) {
         snprintf(text, room, "Not found seen after %llu tests.", (unsigned long long)e->tests);
     else if (!sequence)
         snprintf(text, room, "Not seen: %s.",
-                 is_door_shut(app) ? "no open way leads from one to the other"
-                                   : "no portals lead from one to the other");
+                 present_has_shut(&app->view.present) ? "no open way leads from one to the other"
+                                                      : "no portals lead from one to the other");
     else if (e->misses[0].turns)
         snprintf(text, room,
                  "Not seen. The sequence that comes nearest would have to turn back at its last "

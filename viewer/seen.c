@@ -2,7 +2,7 @@
 /// reflection, so a frame takes only what it has time for.
 #include "seen.h"
 
-#include "edit.h"
+#include "sightline/moving.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -23,10 +23,17 @@ static void free_sets(sl_context *context, seen_state *seen) {
     seen->pvs = seen->mirrored = NULL;
 }
 
+static void forget_mirrors(sl_context *context, seen_state *seen) {
+    sl_mirrored_region_destroy(context, &seen->in_mirrors);
+    sl_mirrored_region_destroy(context, &seen->deeper);
+    seen->mirrored_area = 0;
+    seen->depth = 0;
+}
+
 void seen_destroy(sl_context *context, seen_state *seen) {
     free_sets(context, seen);
     sl_region_destroy(context, &seen->region);
-    seen_forget_mirrors(context, seen);
+    forget_mirrors(context, seen);
     if (seen->hurried) sl_context_destroy(seen->hurried);
     *seen = (seen_state){0};
 }
@@ -64,34 +71,14 @@ static void sum_up(const document_state *document, const uint64_t *cells, uint32
     }
 }
 
-static double distance_to_cell(const sl_space *space, uint32_t number, sl_point at) {
-    const sl_cell *cell = &space->cells[number];
-    const sl_point *corners = space->vertices + cell->first_vertex;
-    double nearest = INFINITY;
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        nearest =
-            fmin(nearest, edit_distance(at, corners[i], corners[(i + 1) % cell->vertex_count]));
-    return nearest;
-}
-
-/// Drops cells that are out of range as a whole: methods that know no range keep them.
-static void keep_in_range(const seen_state *seen, const sl_space *space, uint64_t *cells) {
-    if (!(seen->range > 0)) return;
-    for (uint32_t cell = 0; cell < space->cell_count; cell++)
-        if (sl_bits_has(cells, cell) && cell != seen->cell &&
-            distance_to_cell(space, cell, seen->view.eye) > seen->range * (1 + 1e-12))
-            cells[cell / 64] &= ~((sl_bits)1 << cell % 64);
-}
-
-static void look(sl_context *context, const seen_state *seen, seen_method *m,
-                 const sl_eye_method *method, const document_state *document, sl_eye_search *search,
-                 const sl_view *view) {
+static void look(sl_context *context, seen_method *m, const sl_eye_method *method,
+                 const document_state *document, sl_query *query, const sl_view *view) {
     const double before = sl_seconds();
-    m->known = method->cull(context, search, view, m->cells, &m->account) == SL_OK;
+    m->known = sl_query_look(context, query, view, method, m->cells, &m->account) == SL_OK;
     const double seconds = sl_seconds() - before;
     m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
     if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
-    keep_in_range(seen, &document->baked->space, m->cells);
+    sl_query_drop_far(query, view->eye, m->cells);
     sum_up(document, m->cells, &m->count, &m->area);
 }
 
@@ -101,86 +88,49 @@ static bool have_common(const uint64_t *a, const uint64_t *b, size_t words) {
     return false;
 }
 
-/// Finds the objects that are seen. Runs the exact method again if some of them block sight. If
-/// they cannot be put into the space, objects in visible cells count as seen.
-static sl_status look_at_objects(sl_context *context, seen_state *seen,
-                                 const document_state *document, const present_state *present) {
-    const size_t words = sl_eye_words(&document->baked->space);
-    size_t count;
-    sl_eye_methods(&count);
-    seen_method *exact = &seen->methods[count - 1];
-    if (!seen->object_count || !exact->known) return SL_OK;
-    uint64_t *cells = sl_alloc_array(context, words, sizeof *cells);
+/// Objects in visible cells count as seen.
+static sl_status guess_objects(sl_context *context, seen_state *seen,
+                               const document_state *document, const uint64_t *visible) {
+    const sl_space *space = &document->baked->space;
+    uint64_t *cells = sl_alloc_array(context, sl_eye_words(space), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
-    sl_status status = SL_OK;
-    sl_eye_account account;
-    for (size_t i = 0; !present->moving && i < seen->object_count; i++) {
-        sl_cells_of_box(present->space, document->map.objects[i].box, cells);
-        seen->objects[i] = have_common(cells, exact->cells, words);
-    }
-    if (present->moving)
-        status =
-            sl_moving_look(context, present->moving, &seen->view, cells, seen->objects, &account);
-    if (present->moving && present->parents && status == SL_OK) {
-        memcpy(exact->cells, cells, words * sizeof *cells);
-        exact->account = account;
-        sum_up(document, exact->cells, &exact->count, &exact->area);
+    for (size_t i = 0; i < seen->object_count; i++) {
+        sl_cells_of_box(space, document->map.objects[i].box, cells);
+        seen->objects[i] = have_common(cells, visible, sl_eye_words(space));
     }
     sl_free(context, cells);
-    return status;
+    return SL_OK;
 }
 
-static void take_pvs(seen_state *seen, const document_state *document, const present_state *present,
-                     sl_point eye) {
-    const sl_space *space = &document->baked->space;
-    memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
-    memset(seen->mirrored, 0, sl_eye_words(space) * sizeof *seen->mirrored);
-    seen->cell = sl_space_locate(space, eye);
-    if (seen->cell != SL_NO_CELL && space->cells[seen->cell].solid) seen->cell = SL_NO_CELL;
-    if (seen->cell != SL_NO_CELL) present_add_row(present, document, seen->cell, seen->pvs);
-    if (seen->cell != SL_NO_CELL)
-        present_add_mirrored(present, document, seen->cell, seen->mirrored);
-    sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
-}
-
-bool seen_same_view(const sl_view *a, const sl_view *b) {
-    return a->eye.x == b->eye.x && a->eye.y == b->eye.y && a->full == b->full &&
-           (a->full || (a->left.x == b->left.x && a->left.y == b->left.y &&
-                        a->right.x == b->right.x && a->right.y == b->right.y));
-}
-
-sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
-                      const present_state *present, const sl_view *view) {
-    const double range = document->map.range;
-    if (!document->baked || !present->search) {
-        seen->valid = false;
-        return SL_OK;
-    }
-    if (seen->version != present->version || !seen->pvs) {
-        seen->valid = false;
-        SL_TRY(make_sets(context, seen, document));
-    }
-    if (seen->valid && seen->range == range && seen_same_view(&seen->view, view)) return SL_OK;
-    seen->version = present->version;
-    seen->view = *view;
-    seen->range = range;
-    seen->valid = true;
-    take_pvs(seen, document, present, view->eye);
+/// Finds the objects that are seen, or guesses if they cannot be put into the space.
+static sl_status look_at_objects(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present) {
     size_t count;
-    const sl_eye_method *methods = sl_eye_methods(&count);
-    sl_eye_search_set_range(present->search, range);
-    if (present->moving) sl_moving_set_range(present->moving, range);
-    for (size_t i = 0; i < count && i < SEEN_MOST; i++)
-        look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
-    SL_TRY(look_at_objects(context, seen, document, present));
-    const double before = sl_seconds();
-    const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
-    const double seconds = sl_seconds() - before;
-    seen->region_seconds =
-        seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
-    seen->region_area = sl_region_area(&seen->region);
-    SL_TRY(status);
-    return seen_look_into_mirrors(context, seen, document, present);
+    sl_eye_methods(&count);
+    const seen_method *exact = &seen->methods[count - 1];
+    if (!seen->object_count || !exact->known) return SL_OK;
+    sl_status status = SL_UNSUPPORTED;
+    if (!present->still)
+        status = sl_query_boxes_seen(context, present->query, &seen->view, seen->objects, NULL);
+    return status == SL_UNSUPPORTED ? guess_objects(context, seen, document, exact->cells) : status;
+}
+
+static sl_status take_row(sl_context *context, const seen_state *seen, const present_state *present,
+                          bool mirrored, uint64_t *row) {
+    memset(row, 0, sl_eye_words(sl_query_asked(present->query)) * sizeof *row);
+    if (seen->cell == SL_NO_CELL || !present->has_rows) return SL_OK;
+    return sl_query_row(context, present->query, seen->cell, mirrored, row);
+}
+
+static sl_status take_rows(sl_context *context, seen_state *seen, const document_state *document,
+                           const present_state *present) {
+    const sl_space *space = &document->baked->space;
+    seen->cell = sl_query_locate(present->query, seen->view.eye);
+    if (seen->cell != SL_NO_CELL && space->cells[seen->cell].solid) seen->cell = SL_NO_CELL;
+    SL_TRY(take_row(context, seen, present, false, seen->pvs));
+    SL_TRY(take_row(context, seen, present, true, seen->mirrored));
+    sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
+    return SL_OK;
 }
 
 // --- mirrors
@@ -201,24 +151,17 @@ static void give(seen_state *seen, double seconds) {
     seen->until = seen->patient ? INFINITY : sl_seconds() + seconds;
 }
 
-void seen_forget_mirrors(sl_context *context, seen_state *seen) {
-    sl_mirrored_region_destroy(context, &seen->in_mirrors);
-    sl_mirrored_region_destroy(context, &seen->deeper);
-    seen->mirrored_area = 0;
-    seen->depth = 0;
-}
-
-/// What a method sees by mirror. The last one, which is exact, also looks past objects.
-static sl_status look_by_method(seen_state *seen, const document_state *document,
-                                const present_state *present, const sl_eye_method *method,
-                                bool is_last, uint64_t *cells) {
-    sl_eye_account account;
-    if (seen->object_count)
-        memset(seen->objects_mirrored, 0, seen->object_count * sizeof *seen->objects_mirrored);
-    if (is_last && present->parents && document->mirror_depth)
-        return sl_moving_look_mirrored(seen->hurried, present->moving, &seen->view, cells,
-                                       seen->objects_mirrored, &account);
-    return method->mirrored(seen->hurried, present->search, &seen->view, cells, &account);
+/// Finds the objects that are seen by mirror. Only what blocks sight is looked for.
+static sl_status look_at_objects_by_mirror(seen_state *seen, const document_state *document,
+                                           const present_state *present) {
+    const size_t size = seen->object_count * sizeof *seen->objects_mirrored;
+    if (!size) return SL_OK;
+    memset(seen->objects_mirrored, 0, size);
+    if (!present->parents || !document->mirror_depth) return SL_OK;
+    give(seen, CELLS_SECONDS);
+    const sl_status status = sl_query_boxes_seen(seen->hurried, present->query, &seen->view, NULL,
+                                                 seen->objects_mirrored);
+    return status == SL_CANCELLED ? SL_OK : status;
 }
 
 /// Methods are in order from loose to exact. If one has no time, the result of the one before is
@@ -234,8 +177,8 @@ static sl_status look_by_methods(seen_state *seen, const document_state *documen
         sl_status status = SL_CANCELLED;
         give(seen, CELLS_SECONDS);
         if (methods[i].mirrored)
-            status =
-                look_by_method(seen, document, present, &methods[i], i + 1 == count, m->mirrored);
+            status = sl_query_look_mirrored(seen->hurried, present->query, &seen->view, &methods[i],
+                                            m->mirrored, NULL);
         if (status == SL_NO_MEMORY) return status;
         if (status != SL_OK) memcpy(m->mirrored, known, words * sizeof *known);
         known = m->mirrored;
@@ -254,7 +197,7 @@ static sl_status make_parts(sl_context *context, seen_state *seen, const documen
     give(seen, PARTS_SECONDS);
     for (uint32_t depth = seen->patient ? most : 1; depth <= most && most; depth++) {
         const sl_status status = sl_mirrored_region_make(
-            seen->hurried, &present->mirrors, &seen->view, seen->range, depth, &seen->deeper);
+            seen->hurried, present->mirrors, &seen->view, seen->range, depth, &seen->deeper);
         if (status == SL_CANCELLED) break;
         if (status != SL_OK)
             return sl_fail(context, status, "%s", sl_context_message(seen->hurried));
@@ -269,10 +212,12 @@ static sl_status make_parts(sl_context *context, seen_state *seen, const documen
     return SL_OK;
 }
 
-sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
-                                 const document_state *document, const present_state *present) {
+/// Sets what each method sees by mirror, and the parts of the region. If that takes too long, the
+/// cells are those of the bake, and the parts have fewer reflections.
+static sl_status look_into_mirrors(sl_context *context, seen_state *seen,
+                                   const document_state *document, const present_state *present) {
     if (!document->baked->map.mirror_count) {
-        seen_forget_mirrors(context, seen);
+        forget_mirrors(context, seen);
         return SL_OK;
     }
     if (!seen->hurried) {
@@ -281,7 +226,46 @@ sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
         if (!seen->hurried) return SL_NO_MEMORY;
     }
     SL_TRY(look_by_methods(seen, document, present));
-    if (present->mirrors.outline) return make_parts(context, seen, document, present);
-    seen_forget_mirrors(context, seen);
-    return SL_OK;
+    SL_TRY(look_at_objects_by_mirror(seen, document, present));
+    return make_parts(context, seen, document, present);
+}
+
+// --- the whole
+
+bool seen_same_view(const sl_view *a, const sl_view *b) {
+    return a->eye.x == b->eye.x && a->eye.y == b->eye.y && a->full == b->full &&
+           (a->full || (a->left.x == b->left.x && a->left.y == b->left.y &&
+                        a->right.x == b->right.x && a->right.y == b->right.y));
+}
+
+sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
+                      const present_state *present, const sl_view *view) {
+    const double range = document->map.range;
+    if (!document->baked || !present->query) {
+        seen->valid = false;
+        return SL_OK;
+    }
+    if (seen->version != present->version || !seen->pvs) {
+        seen->valid = false;
+        SL_TRY(make_sets(context, seen, document));
+    }
+    if (seen->valid && seen->range == range && seen_same_view(&seen->view, view)) return SL_OK;
+    seen->version = present->version;
+    seen->view = *view;
+    seen->range = range;
+    seen->valid = true;
+    SL_TRY(take_rows(context, seen, document, present));
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    for (size_t i = 0; i < count && i < SEEN_MOST; i++)
+        look(context, &seen->methods[i], &methods[i], document, present->query, view);
+    SL_TRY(look_at_objects(context, seen, document, present));
+    const double before = sl_seconds();
+    const sl_status status = sl_query_region(context, present->query, view, &seen->region);
+    const double seconds = sl_seconds() - before;
+    seen->region_seconds =
+        seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
+    seen->region_area = sl_region_area(&seen->region);
+    SL_TRY(status);
+    return look_into_mirrors(context, seen, document, present);
 }

@@ -49,11 +49,4 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
 bool seen_same_view(const sl_view *a, const sl_view *b);
 void seen_destroy(sl_context *context, seen_state *seen);
 
-/// Sets what each method sees by mirror, and the parts of the region. If that takes too long, the
-/// cells are those of the bake, and the parts have fewer reflections.
-sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
-                                 const document_state *document, const present_state *present);
-
-void seen_forget_mirrors(sl_context *context, seen_state *seen);
-
 #endif

@@ -117,7 +117,7 @@ static void slide(view_state *view, double dx, double dy, double body, uint32_t 
 }
 
 void walk_tick(app_state *app, double seconds) {
-    if (!app->view.present.space || !app->tool.held) return;
+    if (!app->view.present.query || !app->tool.held) return;
     const unsigned held = app->tool.held;
     const double turn = ((held & HOLD_TURN_LEFT) != 0) - ((held & HOLD_TURN_RIGHT) != 0);
     app->view.eye.heading = fmod(app->view.eye.heading + 120 * turn * seconds + 360, 360);
@@ -130,6 +130,8 @@ void walk_tick(app_state *app, double seconds) {
     const double c = cos(app->view.eye.heading * RADIANS), s = sin(app->view.eye.heading * RADIANS);
     const double dx = step * (ahead * c + aside * s), dy = step * (ahead * s - aside * c);
     uint32_t wall;
+    app_check(app, present_space(app->context, &app->view.present));
+    if (!app->view.present.space) return;
     if (!try_move(&app->view, dx, dy, body, &wall)) slide(&app->view, dx, dy, body, wall);
 }
 

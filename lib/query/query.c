@@ -130,6 +130,26 @@ const sl_space *sl_query_asked(const sl_query *query) {
 
 // --- settings
 
+/// Visible sets of a map with a range know of nothing farther.
+static sl_status check_range(sl_context *context, const sl_query *q,
+                             const sl_visibility *visibility, double range) {
+    const double known = visibility && visibility->pvs.cell_count ? q->map->range : 0;
+    if (!(known > 0) || (range > 0 && range <= known)) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "the map was baked with a view range of %.17g, and nothing farther is known: "
+                   "ask for a range up to that, or bake the map --without range",
+                   known);
+}
+
+sl_status sl_query_set_visibility(sl_context *context, sl_query *query,
+                                  const sl_visibility *visibility) {
+    SL_TRY(check_range(context, query, visibility, query->range));
+    drop_search(context, query);
+    drop_moving(context, query);
+    query->visibility = visibility;
+    return SL_OK;
+}
+
 static sl_status fail_door(sl_context *context, const sl_map *map, const char *name) {
     char names[512] = "none";
     size_t length = 0;
@@ -157,6 +177,10 @@ sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *na
         set_door(context, query, i, !open);
     }
     return found ? SL_OK : fail_door(context, map, name);
+}
+
+void sl_query_set_door_at(sl_context *context, sl_query *query, size_t door, bool open) {
+    set_door(context, query, door, !open);
 }
 
 void sl_query_set_doors(sl_context *context, sl_query *query, bool open) {
@@ -194,16 +218,10 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
 }
 
 sl_status sl_query_set_range(sl_context *context, sl_query *query, double range) {
-    const double known = query->visibility ? query->map->range : 0;
     if (!(range >= 0) || isinf(range))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the range must be 0 or more, and finite; 0: no limit");
-    if (known > 0 && (range == 0 || range > known))
-        return sl_fail(
-            context, SL_BAD_ARGUMENT,
-            "the map was baked with a view range of %.17g, and nothing farther is known: "
-            "ask for a range up to that, or bake the map --without range",
-            known);
+    SL_TRY(check_range(context, query, query->visibility, range));
     query->range = range;
     return SL_OK;
 }
@@ -444,6 +462,14 @@ sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **
     return SL_OK;
 }
 
+sl_status sl_query_copy_space(sl_context *context, sl_query *query, const sl_point *eye,
+                              sl_space *out) {
+    SL_TRY(make_ready(context, query));
+    const sl_filtered_space filtered = {
+        .shut = query->shut, .one_way = !eye, .dark_walls = !eye, .eye = eye};
+    return sl_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
+}
+
 sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out) {
     SL_TRY(make_layers(context, query));
     return make_outline(context, query, out);
@@ -452,7 +478,7 @@ sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outlin
 sl_status sl_query_mirrors(sl_context *context, sl_query *query, const sl_room_mirrors **out) {
     const sl_outline *outline;
     *out = NULL;
-    if (!has_mirrors(query)) return SL_OK;
+    if (!query->map->mirror_count) return SL_OK;
     SL_TRY(sl_query_outline(context, query, &outline));
     SL_TRY(make_mirrors(context, query, outline));
     *out = query->mirrors;
@@ -487,18 +513,12 @@ static const sl_eye_method *exact_method(void) {
     return &methods[count - 1];
 }
 
-sl_status sl_query_space_from(sl_context *context, sl_query *query, sl_point eye, sl_space *out) {
-    const sl_filtered_space filtered = {.shut = query->shut, .eye = &eye};
-    SL_TRY(make_layers(context, query));
-    return sl_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
-}
-
 static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *view,
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
     sl_space space;
     sl_eye_search *search = NULL;
-    SL_TRY(sl_query_space_from(context, q, view->eye, &space));
+    SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
     sl_status status = sl_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
@@ -514,7 +534,7 @@ static sl_status look_past_in_line(sl_context *context, sl_query *q, const sl_vi
                                    uint64_t *cells, bool *seen, sl_eye_account *account) {
     sl_space space;
     sl_moving *moving = NULL;
-    SL_TRY(sl_query_space_from(context, q, view->eye, &space));
+    SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
     sl_status status = sl_moving_create(context, &space, &q->rows, &moving);
     if (status == SL_OK) status = sl_moving_set_boxes(context, moving, q->boxes, q->box_count);
     if (status == SL_OK) {
@@ -557,6 +577,28 @@ sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *vie
     return method->cull(context, query->search, view, cells, account);
 }
 
+/// Whether some point of a cell is in range. The nearest one is on a side that faces the eye, or is
+/// the eye.
+static bool is_in_range(const sl_space *space, const sl_cell *cell, sl_point eye, double range) {
+    const sl_point *corners = space->vertices + cell->first_vertex;
+    bool inside = true;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point a = corners[i], b = corners[i + 1 < cell->vertex_count ? i + 1 : 0];
+        if (sli_orient(a, b, eye) >= 0) continue;
+        const sli_glance glance = {.eye.at = eye, .from.at = b, .to.at = a, .right = b, .left = a};
+        if (sli_nearest_compare(&glance, range) <= 0) return true;
+        inside = false;
+    }
+    return inside;
+}
+
+void sl_query_drop_far(const sl_query *query, sl_point eye, uint64_t *cells) {
+    const sl_space *space = query->asked;
+    for (uint32_t c = 0; query->range > 0 && c < space->cell_count; c++)
+        if (sl_eye_sees(cells, c) && !is_in_range(space, &space->cells[c], eye, query->range))
+            cells[c / 64] &= ~((uint64_t)1 << c % 64);
+}
+
 sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                  const sl_eye_method *method, uint64_t *cells,
                                  sl_eye_account *account) {
@@ -582,10 +624,11 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
     SL_TRY(make_layers(context, query));
     if (!SLI_BOXES || !query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
-    if (lists_will_do(query, view->eye)) return look_by_lists(context, query, view, seen);
+    if (lists_will_do(query, view->eye))
+        return seen ? look_by_lists(context, query, view, seen) : SL_OK;
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->asked), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
-    sl_status status = look_past(context, query, view, false, cells, seen, &account);
+    sl_status status = seen ? look_past(context, query, view, false, cells, seen, &account) : SL_OK;
     if (status == SL_OK && mirrored && has_mirrors(query))
         status = look_past(context, query, view, true, cells, mirrored, &account);
     sl_free(context, cells);
@@ -602,10 +645,7 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
 
 sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
                                    sl_mirrored_region *out) {
-    const sl_outline *outline;
-    SL_TRY(make_layers(context, query));
-    SL_TRY(make_outline(context, query, &outline));
-    SL_TRY(make_mirrors(context, query, outline));
-    return sl_mirrored_region_make(context, query->mirrors, view, query->range, query->mirror_depth,
-                                   out);
+    const sl_room_mirrors *mirrors;
+    SL_TRY(sl_query_mirrors(context, query, &mirrors));
+    return sl_mirrored_region_make(context, mirrors, view, query->range, query->mirror_depth, out);
 }

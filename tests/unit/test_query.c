@@ -162,6 +162,13 @@ static void mirrors_show_what_the_depth_allows(void **state) {
     assert_true(sl_eye_sees(cells, sl_query_locate(query, (sl_point){15, 1})));
     assert_ok(context, sl_query_mirrored_region(context, query, &view, &region));
     assert_true(region.part_count > 0);
+    const sl_room_mirrors *mirrors;
+    sl_mirrored_region other = {0};
+    assert_ok(context, sl_query_mirrors(context, query, &mirrors));
+    assert_ok(context, sl_mirrored_region_make(context, mirrors, &view, 0, 1, &other));
+    assert_int_equal(other.part_count, region.part_count);
+    assert_true(sl_mirrored_area(&other) == sl_mirrored_area(&region));
+    sl_mirrored_region_destroy(context, &other);
     assert_ok(context, sl_query_set_mirror_depth(context, query, 0));
     assert_ok(context, sl_query_look_mirrored(context, query, &view, NULL, cells, NULL));
     assert_int_equal(cells[0], 0);
@@ -272,6 +279,12 @@ static void what_a_bake_does_not_know_is_refused(void **state) {
     assert_int_equal(sl_query_set_range(context, query, 9.5), SL_BAD_ARGUMENT);
     assert_non_null(strstr(sl_context_message(context), "range of 9,"));
     assert_ok(context, sl_query_set_range(context, query, 9));
+    const sl_visibility no_rows = {.sight = SL_CLOSED};
+    assert_ok(context, sl_query_set_visibility(context, query, &no_rows));
+    assert_ok(context, sl_query_set_range(context, query, 9.5));
+    assert_int_equal(sl_query_set_visibility(context, query, &baked.visibility), SL_BAD_ARGUMENT);
+    assert_ok(context, sl_query_set_range(context, query, 8));
+    assert_ok(context, sl_query_set_visibility(context, query, &baked.visibility));
     sl_query_destroy(context, query);
     sl_baked_destroy(context, &baked);
     sl_context_destroy(context);

@@ -9,6 +9,8 @@
 #include "sightline/sees.h"
 #include "sightline/support.h"
 
+#include <math.h>
+
 enum { ROOMS = 5, SIDE = 8, MAPS = 6, CHANGES = 40 };
 
 /// A grid of rooms. Between two of them: a door, glass, glass both ways, a door with glass in it,
@@ -170,6 +172,9 @@ static void doors_in_place_answer_as_new_spaces(void **state) {
             const bool open = sl_random_below(&random, 2);
             if (change % 10 == 9)
                 sl_query_set_doors(context, query, open);
+            else if (change % 10 == 7)
+                sl_query_set_door_at(context, query, sl_random_below(&random, map->door_count),
+                                     open);
             else if (change)
                 assert_ok(context, sl_query_set_door(context, query, name, open));
             for (size_t d = 0; d < map->door_count; d++) shut[d] = !sl_query_door_is_open(query, d);
@@ -236,6 +241,120 @@ static void a_space_without_a_bake_is_asked_too(void **state) {
     sl_context_destroy(context);
 }
 
+/// A bake that ends later, and one that is given up: the query is as one that had it from the
+/// start.
+static void visible_sets_may_come_later(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_random random = {1};
+    sl_baked baked = {0};
+    sl_query *query;
+    uint64_t cells[64];
+    bake_rooms(context, 1, true, false, &baked);
+    bool *shut = calloc(baked.map.door_count, sizeof *shut);
+    assert_non_null(shut);
+    const sl_view view = sl_view_all_round(any_point(&random, &baked.space));
+    assert_ok(context, sl_query_over(context, &baked.space, &baked.map, NULL, &query));
+    sl_query_set_doors(context, query, false);
+    for (size_t d = 0; d < baked.map.door_count; d++) shut[d] = true;
+    assert_int_equal(
+        sl_query_look(context, query, &view, sl_eye_methods(&(size_t){0}), cells, NULL),
+        SL_BAD_ARGUMENT);
+    assert_ok(context, sl_query_set_visibility(context, query, &baked.visibility));
+    fresh f;
+    make_fresh(context, &baked, shut, &f);
+    same_answers(context, query, &f, &random);
+    destroy_fresh(context, &f);
+    assert_ok(context, sl_query_set_visibility(context, query, NULL));
+    assert_int_equal(sl_query_row(context, query, 0, false, cells), SL_BAD_ARGUMENT);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    free(shut);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
+/// Copies of the space: one-way, and as an eye finds it. Their outlines show what the query shows.
+static void copies_of_the_space_answer_alike(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    for (uint64_t seed = 1; seed <= MAPS; seed++) {
+        sl_random random = {seed};
+        sl_baked baked = {0};
+        sl_query *query;
+        sl_region region = {0}, other = {0};
+        bake_rooms(context, seed, seed % 2, false, &baked);
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        for (int i = 0; i < 30; i++) {
+            const sl_point eye = any_point(&random, &baked.space);
+            const sl_point *const eyes[] = {NULL, &eye};
+            const sl_view view = sl_query_view(query, eye, 0, 360);
+            sl_query_set_door_at(context, query, sl_random_below(&random, baked.map.door_count),
+                                 i % 2);
+            assert_ok(context, sl_query_region(context, query, &view, &region));
+            for (int k = 0; k < 2; k++) {
+                sl_space space = {0};
+                sl_outline outline = {0};
+                assert_ok(context, sl_query_copy_space(context, query, eyes[k], &space));
+                assert_int_equal(space.cell_count, baked.space.cell_count);
+                assert_ok(context, sl_outline_make(context, &space, &outline));
+                assert_ok(context, sl_region_make(context, &outline, &view, 0, &other));
+                same_region(&region, &other);
+                sl_outline_destroy(context, &outline);
+                sl_space_destroy(context, &space);
+            }
+        }
+        sl_region_destroy(context, &region);
+        sl_region_destroy(context, &other);
+        sl_query_destroy(context, query);
+        sl_baked_destroy(context, &baked);
+    }
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
+/// Cells out of range: none that the exact method keeps, and all that are so by a distance that is
+/// counted with room for rounding.
+static void far_cells_are_dropped(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const double range = 10;
+    sl_random random = {1};
+    sl_baked baked = {0};
+    sl_query *query;
+    size_t dropped = 0;
+    bake_rooms(context, 2, false, false, &baked);
+    const sl_space *space = &baked.space;
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    assert_ok(context, sl_query_set_range(context, query, range));
+    for (int i = 0; i < 100; i++) {
+        const sl_point eye = any_point(&random, space);
+        const sl_view view = sl_query_view(query, eye, 0, 360);
+        uint64_t cells[64] = {0}, exact[64];
+        assert_true(sl_eye_words(space) <= 64);
+        for (uint32_t c = 0; c < space->cell_count; c++) sl_bits_add(cells, c);
+        sl_query_drop_far(query, eye, cells);
+        assert_ok(context, sl_query_look(context, query, &view, NULL, exact, NULL));
+        for (uint32_t c = 0; c < space->cell_count; c++) {
+            // Cells of this map are boxes.
+            const sl_point *at = space->vertices + space->cells[c].first_vertex;
+            const double x = fmax(fmax(at[0].x - eye.x, eye.x - at[2].x), 0);
+            const double y = fmax(fmax(at[0].y - eye.y, eye.y - at[2].y), 0);
+            const double away = hypot(x, y);
+            dropped += !sl_eye_sees(cells, c);
+            if (away < range - 1e-9) assert_true(sl_eye_sees(cells, c));
+            if (away > range + 1e-9) assert_false(sl_eye_sees(cells, c));
+            if (sl_eye_sees(exact, c)) assert_true(sl_eye_sees(cells, c));
+        }
+    }
+    assert_true(dropped > 100);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 /// Backwards, glass is seen through the other way, as in a map with turned glass; and a row has the
 /// cells that see it.
 static void backwards_is_a_map_with_turned_glass(void **state) {
@@ -280,6 +399,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doors_in_place_answer_as_new_spaces),
         cmocka_unit_test(a_space_without_a_bake_is_asked_too),
+        cmocka_unit_test(visible_sets_may_come_later),
+        cmocka_unit_test(copies_of_the_space_answer_alike),
+        cmocka_unit_test(far_cells_are_dropped),
         cmocka_unit_test(backwards_is_a_map_with_turned_glass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -50,10 +50,17 @@ SL_API const sl_map *sl_query_map(const sl_query *query);
 
 // --- settings
 
+/// Replaces the visible sets, for example when a bake ends while its space is being asked. As in
+/// sl_query_over. SL_BAD_ARGUMENT, and no change, where the range is more than they know of.
+SL_API sl_status sl_query_set_visibility(sl_context *context, sl_query *query,
+                                         const sl_visibility *visibility);
+
 /// Opens or shuts all doors of a name. SL_BAD_ARGUMENT, with the names there are, for one that the
 /// map does not have.
 SL_API sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *name,
                                    bool open);
+/// Opens or shuts one door, by its number in the map.
+SL_API void sl_query_set_door_at(sl_context *context, sl_query *query, size_t door, bool open);
 /// All doors at once: open, or shut.
 SL_API void sl_query_set_doors(sl_context *context, sl_query *query, bool open);
 /// Whether a door is open, by its number in the map.
@@ -101,18 +108,22 @@ SL_API sl_status sl_query_row(sl_context *context, sl_query *query, uint32_t cel
 SL_API sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **space,
                                 const uint32_t **parents);
 
-/// The outline that sight goes by, of that space; made when it is first asked for. Valid until a
-/// setting changes.
+/// A copy of the space without its boxes, for methods that outlive the query or want a space alone.
+/// Shut doors are walls. `eye` NULL: the dark sides of glass are walls too, and glass has the
+/// directed portals that are seen through. Else: as one eye finds it, for methods that do not know
+/// one-way glass. Glass that is dark for the eye is a wall then, and other glass is open both ways.
+/// Cells have their numbers. The caller's: sl_space_destroy().
+SL_API sl_status sl_query_copy_space(sl_context *context, sl_query *query, const sl_point *eye,
+                                     sl_space *out);
+
+/// The outline that sight goes by, of the space that the settings make; made when it is first asked
+/// for. Valid until a setting changes.
 SL_API sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out);
 
-/// The mirrors of that outline; NULL where the map has none, or the depth is 0. Valid likewise.
+/// The mirrors of that outline, for sl_mirrored_region_make() with another depth and for
+/// sl_mirror_part_place(); NULL where the map has none. Valid until a setting changes.
 SL_API sl_status sl_query_mirrors(sl_context *context, sl_query *query,
                                   const sl_room_mirrors **out);
-
-/// The space as one eye looks at it straight on, without boxes: doors that are shut are walls, and
-/// so is glass that is dark for the eye; all other glass is open. The caller destroys it.
-SL_API sl_status sl_query_space_from(sl_context *context, sl_query *query, sl_point eye,
-                                     sl_space *out);
 
 /// Whether an eye sees a point directly, past boxes and within range, as sl_sees says with the
 /// sight of the bake.
@@ -130,17 +141,21 @@ SL_API sl_status sl_query_look(sl_context *context, sl_query *query, const sl_vi
                                const sl_eye_method *method, uint64_t *cells,
                                sl_eye_account *account);
 
-/// Likewise the cells that it sees by mirror. Methods other than the exact one give what was baked,
-/// so no more reflections than the bake's. None where the map has no mirror or the depth is 0.
-/// SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
+/// Takes the cells out of a set of which every point is out of range of an eye: methods other than
+/// the exact one keep them. Exact. Nothing without a range.
+SL_API void sl_query_drop_far(const sl_query *query, sl_point eye, uint64_t *cells);
+
+/// The cells that a view sees by mirror, as sl_query_look. Methods other than the exact one give
+/// what was baked, so no more reflections than the bake's. None where the map has no mirror or the
+/// depth is 0. SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
 SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                         const sl_eye_method *method, uint64_t *cells,
                                         sl_eye_account *account);
 
-/// By box, whether it is seen directly, and (`mirrored`, which may be NULL) by mirror, as
-/// sl_moving_look says. If no box blocks, sight is closed, and there is no mirror or range, cells
-/// are not cut. Then 1,000 boxes that move cost a millisecond. A box then also counts if a
-/// sightline ends at a single point of it.
+/// By box, whether it is seen directly (`seen`) and by mirror (`mirrored`), as sl_moving_look says.
+/// Either may be NULL: it then costs nothing. If no box blocks, sight is closed, and there is no
+/// mirror or range, cells are not cut. Then 1,000 boxes that move cost a millisecond. A box then
+/// also counts if a sightline ends at a single point of it.
 SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
                                      bool *seen, bool *mirrored);
 
