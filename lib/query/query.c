@@ -645,7 +645,9 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
 
 sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
                                    sl_mirrored_region *out) {
-    const sl_room_mirrors *mirrors;
-    SL_TRY(sl_query_mirrors(context, query, &mirrors));
-    return sl_mirrored_region_make(context, mirrors, view, query->range, query->mirror_depth, out);
+    const sl_outline *outline;
+    SL_TRY(sl_query_outline(context, query, &outline));
+    SL_TRY(make_mirrors(context, query, outline));
+    return sl_mirrored_region_make(context, query->mirrors, view, query->range, query->mirror_depth,
+                                   out);
 }

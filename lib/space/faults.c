@@ -373,9 +373,10 @@ sl_status sl_space_enclosed(sl_context *context, const sl_space *space, double *
             points[2 * i + 1] = space->walls[i].b;
         }
         if (count) qsort(points, count, sizeof *points, compare_corners);
-        // What is beyond the hull is not outside, as far as it is not solid.
-        const double beyond = 1 - area_of(hull, find_hull(points, count, hull)) / box;
-        const double outside = fmax(shares.outside - fmax(beyond, 0), 0);
+        // What is beyond the hull is not outside. Differences of shares of the hull alone: it may
+        // be a sliver of the bounds.
+        const double within = area_of(hull, find_hull(points, count, hull)) / box;
+        const double outside = fmax(within - shares.inside - shares.solid, 0);
         *share = shares.inside > 0 ? shares.inside / (shares.inside + outside) : 0;
     }
     const bool done = points && hull;
