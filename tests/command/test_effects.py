@@ -4,7 +4,6 @@ test_effects.py PROGRAM [OPTIONS]          checks the table of tools/EFFECTS.md
 test_effects.py PROGRAM [OPTIONS] --print  prints the table, to be put there
 
 --runtime RUNTIME_EFFECTS  with the rows of the runtime header: tests/command/runtime_effects.c
---viewer VIEWER_EFFECTS    with the rows of the viewer: tests/viewer/effects.c
 --site SITE                with the rows of the playground: its built site; needs node
 --only                     without those of the program
 Without an option its rows are not checked.
@@ -159,12 +158,10 @@ class Matrix:
         return [row for row in rows(methods) if re.search(rf"^  {row[1][0]} ", known, re.M)]
 
     def ask_others(self, base):
-        """The rows of the runtime header, the viewer and the playground, one column of them."""
+        """The rows of the runtime header and the playground, one column of them."""
         found = []
         if OPTIONS.runtime:
             found += rows_of_lines([OPTIONS.runtime], self.box.path(base + ".slv"))
-        if OPTIONS.viewer:
-            found += rows_of_lines([OPTIONS.viewer], self.box.path(base + ".map"))
         if OPTIONS.site:
             found += rows_of_site(OPTIONS.site, self.box, base)
         for name, sign, reasons in found:
@@ -222,12 +219,12 @@ class Effects(unittest.TestCase):
         text = DOCUMENT.read_text()
         stored = text[text.index(BEGIN) + len(BEGIN):text.index(END)]
         self.maxDiff = None
-        if OPTIONS.runtime and OPTIONS.viewer and OPTIONS.site:
+        if OPTIONS.runtime and OPTIONS.site:
             self.assertEqual(stored.strip(), made.strip(),
                              "the table is out of date: put in what --print prints")
         have, now = spelled_out(stored), spelled_out(made)
         self.assertGreater(len(now), 1)
-        given = {"runtime": OPTIONS.runtime, "viewer": OPTIONS.viewer, "playground": OPTIONS.site}
+        given = {"runtime": OPTIONS.runtime, "playground": OPTIONS.site}
         for name, row in have.items():
             if given.get(name.split(":")[0], not OPTIONS.only):
                 self.assertEqual(row, now.get(name), f"{name} is out of date: put in what --print "
@@ -239,12 +236,11 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--runtime", type=pathlib.Path)
-    parser.add_argument("--viewer", type=pathlib.Path)
     parser.add_argument("--site", type=pathlib.Path)
     parser.add_argument("--only", action="store_true")
     parser.add_argument("--print", action="store_true")
     OPTIONS = parser.parse_args()
-    for given_path in ("runtime", "viewer", "site"):
+    for given_path in ("runtime", "site"):
         if getattr(OPTIONS, given_path):
             setattr(OPTIONS, given_path, getattr(OPTIONS, given_path).resolve())
     PROGRAM = pathlib.Path(OPTIONS.program).resolve()
