@@ -43,8 +43,9 @@ SL_API sl_status sl_query_over(sl_context *context, const sl_space *space, const
 /// Frees a query. NULL is allowed.
 SL_API void sl_query_destroy(sl_context *context, sl_query *query);
 
-/// What is asked: the space and the map, as they were given.
+/// The space that is asked, as it was given.
 SL_API const sl_space *sl_query_asked(const sl_query *query);
+/// Its map, as it was given.
 SL_API const sl_map *sl_query_map(const sl_query *query);
 
 // --- settings
