@@ -154,19 +154,19 @@ static void write_cells(sli_sight_space *s, const sli_sight_portal *p) {
     for (unsigned side = 0; side < 2; side++) write_cell(s, s->base->portals[p->portal].cell[side]);
 }
 
-/// The walls of shut portals run from right to left as crossed from cell[0]; those of glass have
-/// the dark side at their left.
-static void add_walls(sli_sight_space *s) {
+/// Puts the walls of a portal where they are walls now: the door's from right to left as crossed
+/// from cell[0], glass with the dark side at its left. A wall that does not stand has no length, at
+/// the end of another one: for who reads all walls, it is not there.
+static void stand_walls(sli_sight_space *s, const sli_sight_portal *p) {
     const sl_space *base = s->base;
-    for (uint32_t i = 0; i < s->portal_count; i++) {
-        const sli_sight_portal *p = &s->portals[i];
-        const sl_portal *at = &base->portals[p->portal];
-        s->space.walls[p->door] = (sl_wall){.a = at->right, .b = at->left};
-        if (p->dark == SL_NO_CELL) continue;
-        const sl_directed_portal *directed = &base->directed[p->blocked];
-        s->space.walls[p->dark] = (sl_wall){.a = directed->right, .b = directed->left};
-    }
-    s->space.wall_count += s->portal_count + s->dark_count;
+    const sl_portal *at = &base->portals[p->portal];
+    const sl_point none = base->wall_count ? base->walls[0].a : at->right;
+    sl_wall *walls = s->space.walls;
+    walls[p->door] = (sl_wall){.a = p->shut ? at->right : none, .b = p->shut ? at->left : none};
+    if (p->dark == SL_NO_CELL) return;
+    const sl_directed_portal *directed = &base->directed[p->blocked];
+    walls[p->dark] =
+        (sl_wall){.a = p->shut ? none : directed->right, .b = p->shut ? none : directed->left};
 }
 
 static sl_status copy_changing(sl_context *context, sli_sight_space *s) {
@@ -196,10 +196,11 @@ static sl_status make(sl_context *context, sli_sight_space *s, const bool *shut,
     SL_TRY(find_specials(context, s));
     SL_TRY(list_doors(context, s, door_count));
     SL_TRY(copy_changing(context, s));
-    add_walls(s);
+    s->space.wall_count += s->portal_count + s->dark_count;
     for (uint32_t i = 0; i < s->portal_count; i++) {
         sli_sight_portal *p = &s->portals[i];
         p->shut = p->sealed || is_shut(s->base, p->portal, shut);
+        stand_walls(s, p);
         if (p->shut || p->blocked != SL_NO_CELL) write_cells(s, p);
     }
     return SL_OK;
@@ -251,7 +252,7 @@ static sl_status find_sides(sl_context *context, sli_sight_space *s) {
         const sl_side *side = &o->sides[i];
         if (side->neighbour < first || side->neighbour >= SL_SIDE_BORDER) continue;
         sli_sight_portal *p = &s->portals[side->neighbour - first];
-        p->sides[sli_same_point(side->start, s->space.walls[p->door].a) ? 0 : 1] = i;
+        p->sides[sli_same_point(side->start, s->base->portals[p->portal].right) ? 0 : 1] = i;
     }
     for (uint32_t i = 0; i < s->portal_count; i++)
         if (s->portals[i].sides[0] == SL_NO_CELL || s->portals[i].sides[1] == SL_NO_CELL)
@@ -313,6 +314,7 @@ void sli_sight_space_set_door(sli_sight_space *s, size_t door, const bool *shut)
     for (uint32_t i = s->first_of_door[door]; i < s->first_of_door[door + 1]; i++) {
         sli_sight_portal *p = &s->portals[s->of_door[i]];
         p->shut = p->sealed || is_shut(s->base, p->portal, shut);
+        stand_walls(s, p);
         write_cells(s, p);
         if (s->outline.sides) link_sides(s, p);
     }

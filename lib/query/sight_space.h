@@ -18,7 +18,8 @@ typedef struct sli_sight_portal {
 
 /// Zeroed, it is empty. `space` borrows from the base what never changes. Its cells, vertices and
 /// portals have the numbers of the base. Portals that are shut have no directed portals. After the
-/// walls of the base come those of shut portals, then the dark sides of glass.
+/// walls of the base come those of doors and glass, then the dark sides of glass; those that do not
+/// stand have no length.
 typedef struct sli_sight_space {
     const sl_space *base;
     sl_space space;
