@@ -115,6 +115,16 @@ static void same_region(const sl_region *a, const sl_region *b) {
     }
 }
 
+/// The walls that stand are those of the space made anew.
+static void same_walls(sl_context *context, sl_query *query, const sl_space *wanted) {
+    const sl_space *space;
+    uint32_t standing = 0;
+    assert_ok(context, sl_query_space(context, query, &space, NULL));
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        standing += memcmp(&space->walls[i].a, &space->walls[i].b, sizeof(sl_point)) != 0;
+    assert_int_equal(standing, wanted->wall_count);
+}
+
 static void same_answers(sl_context *context, sl_query *query, const fresh *f, sl_random *random) {
     const sl_space *space = sl_query_asked(query);
     const size_t words = sl_eye_words(space);
@@ -182,6 +192,7 @@ static void doors_in_place_answer_as_new_spaces(void **state) {
             fresh f;
             make_fresh(context, &baked, shut, &f);
             same_answers(context, query, &f, &random);
+            same_walls(context, query, &f.space);
             destroy_fresh(context, &f);
         }
         sl_query_destroy(context, query);
