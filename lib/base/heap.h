@@ -8,6 +8,7 @@
 /// `item`. `is_before(a, b)`, of pointers to items, says which one leaves the heap first. Where it
 /// says so of neither, the same pushes and pops give the same order again. A heap that is popped
 /// must not be empty.
+// NOLINTBEGIN(bugprone-macro-parentheses): names and types cannot stand in parentheses
 #define SLI_HEAP(name, item, is_before)                                                            \
     typedef SL_ARRAY(item) name;                                                                   \
     static inline sl_status name##_push(sl_context *context, name *heap, item pushed) {            \
@@ -31,5 +32,6 @@
         items[i] = moved;                                                                          \
         return first;                                                                              \
     }
+// NOLINTEND(bugprone-macro-parentheses)
 
 #endif
