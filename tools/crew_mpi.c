@@ -25,7 +25,7 @@ static bool failed;
 
 static struct {
     MPI_Comm talk; ///< of signals alone
-    bool over;     ///< nothing more is told
+    bool over;     ///< no more messages are sent
     int told;      ///< signals: a message for each went to each other process
     int heard;     ///< messages
     double last;   ///< when it listened, by sl_seconds()
