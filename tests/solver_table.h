@@ -3,7 +3,7 @@
 #define SL_TESTS_SOLVER_TABLE_H
 
 #include "oracle/oracle.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 
 #ifdef SIGHTLINE_TESTS_GLPK
 #include "sightline/glpk.h"

@@ -7,7 +7,7 @@
 #include "pipeline.h"
 #include "report.h"
 #include "sightline/region.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>

@@ -6,8 +6,8 @@
 #include "json_print.h"
 #include "options.h"
 #include "sightline/draw.h"
+#include "sightline/eye_to_cell.h"
 #include "sightline/geojson.h"
-#include "sightline/moving.h"
 #include "sightline/query.h"
 
 /// The answer of one method.

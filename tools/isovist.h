@@ -5,7 +5,7 @@
 
 #include "names.h"
 #include "sightline/geojson.h"
-#include "sightline/mirrored.h"
+#include "sightline/region.h"
 #include "sightline/support.h"
 
 /// A place to look from, with its heading and view cone in degrees.

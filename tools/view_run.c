@@ -1,7 +1,7 @@
 #include "view_run.h"
 
 #include "sightline/io.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 /// A picture over the map's bounds: the lighter a pixel, the likelier is a viewpoint there.

@@ -12,7 +12,7 @@
 /// simpler than to mend the old space.
 #include "document.h"
 
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 #include "task.h"
 

@@ -1,7 +1,7 @@
 #include "quiz.h"
 
 #include "sightline/canvas.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

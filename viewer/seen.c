@@ -2,7 +2,6 @@
 /// reflection, so a frame takes only what it has time for.
 #include "seen.h"
 
-#include "sightline/moving.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /// From a map to a baked result, in the order of the stages: clean, subdivide, see.
 #include "sightline/bake.h"
 
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 enum { MIRROR_DEPTH_MOST = 16 };

@@ -4,6 +4,7 @@
 /// the doors as they are. The map adds names: which doors stand on the way. All members of the JSON
 /// are written in one pass, so that nothing is kept in memory but a flag for each door.
 #include "sightline/explained.h"
+#include "cell_to_cell/pvs_rows.h"
 
 #include "sightline/json_write.h"
 #include "sightline/support.h"
@@ -15,7 +16,7 @@ sl_said sl_explained_said(const sl_explained *a) {
     const sl_explanation *e = &a->e.now;
     if (!sl_pvs_count(&v->pvs, e->from)) return SL_SAID_NOTHING;
     return sl_pvs_sees(&v->pvs, e->from, e->to) &&
-                   sl_door_sets_open(&v->doors, e->from, e->to, a->shut)
+                   sli_door_sets_open(&v->doors, e->from, e->to, a->shut)
                ? SL_SAID_SEEN
                : SL_SAID_HIDDEN;
 }

@@ -4,6 +4,7 @@
 /// double.
 #include "bake/export.h"
 #include "base/base.h"
+#include "cell_to_cell/view_rows.h"
 #include "sightline/json_write.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
@@ -407,7 +408,7 @@ static sl_status print_views(printer *out, const sl_view_rows *views, uint32_t c
     for (uint32_t i = 0; begin_item(out, i, views->view_cell_count); i++) {
         SL_TRY(sl_check_cancelled(out->context));
         memset(seen, 0, sl_bits_words(cells) * sizeof *seen);
-        sl_view_rows_add_to(views, i, seen);
+        sli_view_rows_add_to(views, i, seen);
         sl_json_put_list(&out->json);
         for (uint32_t k = 0; k < cells; k++)
             if (sl_bits_has(seen, k)) sl_json_put_integer(&out->json, k);

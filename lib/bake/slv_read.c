@@ -3,6 +3,8 @@
 #include "base/base.h"
 #include "base/bits.h"
 #include "base/size.h"
+#include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/view_rows.h"
 #include "effects/mirrors.h"
 #include "map/scan.h"
 #include "space/index.h"
@@ -286,7 +288,7 @@ static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *
     if (offsets != (uint64_t)cells + 1 || pvs->offsets[cells] != bytes)
         return fail_file(r, "damaged: not one visible set a cell");
     pvs->cell_count = cells;
-    return in_file(r, sl_pvs_check(r->context, pvs));
+    return in_file(r, sli_pvs_check(r->context, pvs));
 }
 
 static sl_status load_doors(const reader *r, const char *offsets_tag, const char *bytes_tag,
@@ -309,7 +311,7 @@ static sl_status load_doors(const reader *r, const char *offsets_tag, const char
 static sl_status load_effects(const reader *r) {
     sl_visibility *v = &r->out->visibility;
     SL_TRY(load_pvs(r, "MIRO", "MIRB", true, &v->mirrored));
-    v->account.mirrored_pairs = sl_pvs_pairs(&v->mirrored);
+    v->account.mirrored_pairs = sli_pvs_pairs(&v->mirrored);
     SL_TRY(load_doors(r, "DORO", "DORB", &v->doors));
     return load_doors(r, "MDOO", "MDOB", &v->mirrored_doors);
 }
@@ -395,7 +397,7 @@ static sl_status load_views(const reader *r) {
         return fail_file(r, "damaged: sections VCIN, VCEL and VCPA do not fit");
     views->view_cell_count = told.view_cell_count;
     views->node_count = told.node_count;
-    return in_file(r, sl_view_rows_check(r->context, views));
+    return in_file(r, sli_view_rows_check(r->context, views));
 }
 
 static sl_status load_map(const reader *r) {
@@ -456,8 +458,8 @@ static sl_status check_partial_effects(const reader *r) {
         (partial->mirrored.cell_count > 0) != mirrors ||
         (partial->mirrored_doors.cell_count > 0) != (doors && mirrors))
         return fail_file(r, "damaged: what was found so far does not fit the effects of the map");
-    SL_TRY(in_file(r, sl_door_sets_check(r->context, &partial->doors, map->door_count)));
-    return in_file(r, sl_door_sets_check(r->context, &partial->mirrored_doors, map->door_count));
+    SL_TRY(in_file(r, sli_door_sets_check(r->context, &partial->doors, map->door_count)));
+    return in_file(r, sli_door_sets_check(r->context, &partial->mirrored_doors, map->door_count));
 }
 
 static sl_status load_partial(const reader *r) {
@@ -506,8 +508,8 @@ static sl_status load_seen(const reader *r) {
     if (!visibility->pvs.cell_count) SL_TRY(load_by_views(r));
     SL_TRY(check_rows(r, &visibility->pvs));
     SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
-    if (sl_pvs_pairs(&visibility->pvs) != visibility->account.pairs ||
-        sl_pvs_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
+    if (sli_pvs_pairs(&visibility->pvs) != visibility->account.pairs ||
+        sli_pvs_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
         return fail_file(r, "damaged: the visible sets do not hold as many pairs as they should");
     return SL_OK;
 }
@@ -525,8 +527,8 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_trees(r));
     const sl_visibility *visibility = &r->out->visibility;
     const size_t doors = r->out->map.door_count;
-    SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->doors, doors)));
-    SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->mirrored_doors, doors)));
+    SL_TRY(in_file(r, sli_door_sets_check(r->context, &visibility->doors, doors)));
+    SL_TRY(in_file(r, sli_door_sets_check(r->context, &visibility->mirrored_doors, doors)));
     SL_TRY(check_partial_effects(r));
     return check_seams(r);
 }

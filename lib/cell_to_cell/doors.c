@@ -7,14 +7,14 @@
 #include "cell_to_cell/door_table.h"
 
 #include "base/bits.h"
-#include "sightline/doors.h"
+#include "sightline/pvs.h"
 #include "sightline/support.h"
 
 #include <string.h>
 
 // --- reading rows of door sets
 
-void sl_door_sets_destroy(sl_context *context, sl_door_sets *sets) {
+void sli_door_sets_destroy(sl_context *context, sl_door_sets *sets) {
     sl_free(context, sets->offsets);
     sl_free(context, sets->bytes);
     *sets = (sl_door_sets){0};
@@ -60,7 +60,7 @@ bool sl_door_pairs_next(sl_door_pairs *pairs, const bool *shut) {
     return true;
 }
 
-bool sl_door_sets_open(const sl_door_sets *sets, uint32_t from, uint32_t to, const bool *shut) {
+bool sli_door_sets_open(const sl_door_sets *sets, uint32_t from, uint32_t to, const bool *shut) {
     for (sl_door_pairs p = sl_door_pairs_begin(sets, from); sl_door_pairs_next(&p, shut);)
         if (p.cell >= to) return p.cell > to || p.open;
     return true;
@@ -125,7 +125,7 @@ static bool row_is_sound(const sl_door_sets *sets, uint32_t row, size_t door_cou
     return true;
 }
 
-sl_status sl_door_sets_check(sl_context *context, const sl_door_sets *sets, size_t door_count) {
+sl_status sli_door_sets_check(sl_context *context, const sl_door_sets *sets, size_t door_count) {
     bool sound = !sets->cell_count || sets->offsets[0] == 0;
     for (uint32_t i = 0; i < sets->cell_count && sound; i++)
         sound = sets->offsets[i] <= sets->offsets[i + 1] &&

@@ -13,7 +13,7 @@
 #include "cell_to_cell/portal_search.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 #include "space/index.h"
 #include "stab/funnel.h"

@@ -140,7 +140,7 @@ static sl_status hold_against_range(sl_context *context, const flood *all, sl_vi
     SL_TRY(sli_pvs_within(context, all->space, &out->pvs, range, SLI_SOME_WITHIN, &within));
     sl_pvs_destroy(context, &out->pvs);
     out->pvs = within;
-    out->account.pairs = sl_pvs_pairs(&within);
+    out->account.pairs = sli_pvs_pairs(&within);
     return SL_OK;
 }
 
@@ -157,7 +157,7 @@ sl_status sli_see_flood(sl_context *context, const sl_space *space, const sl_see
     if (status == SL_OK) status = hold_against_range(context, &all, &visibility);
     if (status == SL_OK && options->plan && options->plan->effects & SL_EFFECT_MIRROR) {
         status = sli_mirrored_bound(context, space, options, &visibility.pvs, &visibility.mirrored);
-        visibility.account.mirrored_pairs = sl_pvs_pairs(&visibility.mirrored);
+        visibility.account.mirrored_pairs = sli_pvs_pairs(&visibility.mirrored);
     }
     sl_space_destroy(context, &open);
     sli_bit_rows_destroy(context, &all.rows);

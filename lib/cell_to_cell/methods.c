@@ -1,7 +1,8 @@
 /// The table of cell-to-cell methods, their default options, and what maps they can serve.
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/pvs_rows.h"
 
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <string.h>
@@ -19,8 +20,8 @@ void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {
     sl_pvs_destroy(context, &visibility->pvs);
     sl_pvs_destroy(context, &visibility->doubtful);
     sl_pvs_destroy(context, &visibility->mirrored);
-    sl_door_sets_destroy(context, &visibility->doors);
-    sl_door_sets_destroy(context, &visibility->mirrored_doors);
+    sli_door_sets_destroy(context, &visibility->doors);
+    sli_door_sets_destroy(context, &visibility->mirrored_doors);
     sl_free(context, visibility->trees.offsets);
     sl_free(context, visibility->trees.nodes);
     *visibility = (sl_visibility){0};

@@ -23,8 +23,8 @@ void sl_partial_destroy(sl_context *context, sl_partial *partial) {
     sl_pvs_destroy(context, &partial->sure);
     sl_pvs_destroy(context, &partial->doubtful);
     sl_pvs_destroy(context, &partial->mirrored);
-    sl_door_sets_destroy(context, &partial->doors);
-    sl_door_sets_destroy(context, &partial->mirrored_doors);
+    sli_door_sets_destroy(context, &partial->doors);
+    sli_door_sets_destroy(context, &partial->mirrored_doors);
     *partial = (sl_partial){0};
 }
 
@@ -330,7 +330,7 @@ static sl_status finish(sl_context *context, const sl_space *space, const sl_see
         status = sli_dfs_effects_settle(context, plan, partial, &visibility);
     if (status == SL_OK && !sl_partial_complete(partial))
         status = finish_open(context, space, options, &m, &visibility);
-    visibility.account.mirrored_pairs = sl_pvs_pairs(&visibility.mirrored);
+    visibility.account.mirrored_pairs = sli_pvs_pairs(&visibility.mirrored);
     if (status == SL_OK)
         *out = visibility;
     else

@@ -55,7 +55,7 @@ uint32_t sl_pvs_count(const sl_pvs *pvs, uint32_t cell) {
     return count;
 }
 
-uint64_t sl_pvs_pairs(const sl_pvs *pvs) {
+uint64_t sli_pvs_pairs(const sl_pvs *pvs) {
     uint64_t pairs = 0;
     for (uint32_t cell = 0; cell < pvs->cell_count; cell++) pairs += sl_pvs_count(pvs, cell);
     return pairs;
@@ -75,7 +75,7 @@ static bool row_is_sound(const sl_pvs *pvs, uint32_t cell) {
     return true;
 }
 
-sl_status sl_pvs_check(sl_context *context, const sl_pvs *pvs) {
+sl_status sli_pvs_check(sl_context *context, const sl_pvs *pvs) {
     if (pvs->cell_count && pvs->offsets[0] != 0)
         return sl_fail(context, SL_BAD_INPUT, "the visible sets do not start at their first byte");
     for (uint32_t cell = 0; cell < pvs->cell_count; cell++) {

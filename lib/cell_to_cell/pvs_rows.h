@@ -50,6 +50,22 @@ sl_status sli_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out)
 sl_status sli_visibility_finish(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
                                 bool mutual, sl_visibility *out);
 
+uint64_t sli_pvs_pairs(const sl_pvs *pvs); ///< of all rows
+
+/// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.
+sl_status sli_pvs_check(sl_context *context, const sl_pvs *pvs);
+
+// --- sets of doors
+
+void sli_door_sets_destroy(sl_context *context, sl_door_sets *sets); ///< and zeroes it
+
+/// Whether a pair that is seen with all doors open is seen while some are shut: `shut` by door of
+/// the map. Time: the length of the row.
+bool sli_door_sets_open(const sl_door_sets *sets, uint32_t from, uint32_t to, const bool *shut);
+
+/// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.
+sl_status sli_door_sets_check(sl_context *context, const sl_door_sets *sets, size_t door_count);
+
 // --- a PVS in the making
 
 typedef struct sli_pvs_maker {

@@ -4,7 +4,7 @@
 
 #include "cell_to_cell/directions.h"
 #include "cell_to_cell/portal_search.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 /// A cell on the way from the source.

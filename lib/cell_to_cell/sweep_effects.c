@@ -15,7 +15,7 @@
 
 #include "cell_to_cell/dfs.h"
 #include "cell_to_cell/methods.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 
 #include <string.h>
 

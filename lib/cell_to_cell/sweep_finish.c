@@ -122,7 +122,7 @@ static sl_status bound_open(sl_context *context, const sl_space *space,
         sl_pvs_destroy(context, &out->pvs);
         out->pvs = bound;
         bound = (sl_pvs){0};
-        out->account.pairs = sl_pvs_pairs(&out->pvs);
+        out->account.pairs = sli_pvs_pairs(&out->pvs);
     }
     sl_pvs_destroy(context, &bound);
     sli_fans_destroy(context, &fans);

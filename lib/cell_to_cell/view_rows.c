@@ -2,6 +2,7 @@
 /// and what its readers need. How rows are made: view_cells/rows.c.
 ///
 /// A lookup unites the rows on the way from a view cell to the root. Cost: O(depth) rows.
+#include "cell_to_cell/view_rows.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
 
@@ -12,23 +13,23 @@ void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows) {
     *rows = (sl_view_rows){0};
 }
 
-uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *space, sl_point point) {
+uint32_t sli_view_rows_locate(const sl_view_rows *rows, const sl_space *space, sl_point point) {
     const uint32_t cell = sl_space_locate(space, point);
     return cell == SL_NO_CELL || !rows->view_cells ? SL_NO_VIEW_CELL : rows->view_cells[cell];
 }
 
-void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits) {
+void sli_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits) {
     for (uint32_t node = view_cell; node != SL_NO_VIEW_CELL; node = rows->parents[node])
         sli_row_add_to(&rows->rows, node, bits);
 }
 
-bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell) {
+bool sli_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell) {
     for (uint32_t node = view_cell; node != SL_NO_VIEW_CELL; node = rows->parents[node])
         if (sl_pvs_sees(&rows->rows, node, cell)) return true;
     return false;
 }
 
-sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows) {
+sl_status sli_view_rows_check(sl_context *context, const sl_view_rows *rows) {
     const uint32_t cells = rows->rows.cell_count;
     if (!rows->view_cell_count || rows->view_cell_count > rows->node_count ||
         rows->node_count > cells)
@@ -42,7 +43,7 @@ sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows) {
              rows->parents[i] >= rows->node_count))
             return sl_fail(context, SL_BAD_INPUT, "node %u of the view cells' rows hangs nowhere",
                            i);
-    return sl_pvs_check(context, &rows->rows);
+    return sli_pvs_check(context, &rows->rows);
 }
 
 sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,

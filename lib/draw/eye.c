@@ -2,6 +2,7 @@
 /// eye with its cone, boxes that move, and a key with the methods' counts.
 #include "draw/marks.h"
 #include "draw/page.h"
+#include "eye_to_cell/cone.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -313,7 +314,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
     if (layer_count > SL_EYE_LAYERS_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "%zu layers: only %d have colours of their own",
                        layer_count, SL_EYE_LAYERS_MOST);
-    if (!sl_view_usable(view))
+    if (!sli_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT, "the view to be drawn is none");
     SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;

@@ -284,8 +284,9 @@ void sli_eye_meet_boxes(sli_eye_query *query, const sli_eye_step *at, bool first
     }
 }
 
-sl_status sli_eye_boxes_seen(sl_context *context, sl_eye_search *search, const sli_box_lists *lists,
-                             const sl_view *view, uint64_t *cells, bool *seen) {
+sl_status sli_eye_boxes_seen(sl_context *context, sli_eye_search *search,
+                             const sli_box_lists *lists, const sl_view *view, uint64_t *cells,
+                             bool *seen) {
     sl_eye_account account;
     if (lists->count) memset(seen, 0, lists->count * sizeof *seen);
     search->boxes = lists;

@@ -245,7 +245,7 @@ sl_view sl_view_cone(sl_point eye, double heading, double fov, double reach) {
     return fov >= 360 || (fov > 180 && closed) ? sl_view_all_round(eye) : cone;
 }
 
-bool sl_view_usable(const sl_view *view) {
+bool sli_view_usable(const sl_view *view) {
     if (!isfinite(view->eye.x) || !isfinite(view->eye.y)) return false;
     if (view->full) return true;
     return isfinite(view->left.x) && isfinite(view->left.y) && isfinite(view->right.x) &&
@@ -253,19 +253,19 @@ bool sl_view_usable(const sl_view *view) {
            !sli_same_point(view->eye, view->right);
 }
 
-bool sl_view_holds(const sl_view *view, sl_point point) {
+bool sli_view_holds(const sl_view *view, sl_point point) {
     sli_pivot pivot = {.eye = view->eye};
     const sli_cone cone = sli_cone_of(&pivot, view);
     return cone_holds(&pivot, &cone, point);
 }
 
-bool sl_view_meets_segment(const sl_view *view, sl_segment segment) {
+bool sli_view_meets_segment(const sl_view *view, sl_segment segment) {
     sli_pivot pivot = {.eye = view->eye};
     const sli_cone cone = sli_cone_of(&pivot, view);
     return sli_cone_meets_segment(&pivot, &cone, segment.a, segment.b);
 }
 
-bool sl_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count) {
+bool sli_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count) {
     sli_pivot pivot = {.eye = view->eye};
     const sli_cone cone = sli_cone_of(&pivot, view);
     return sli_cone_meets_polygon(&pivot, &cone, corners, count);

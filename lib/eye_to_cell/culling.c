@@ -22,7 +22,7 @@
 
 // --- no culling
 
-static sl_status cell_to_cell(sl_context *context, sl_eye_search *search, const sl_view *view,
+static sl_status cell_to_cell(sl_context *context, sli_eye_search *search, const sl_view *view,
                               uint64_t *cells, sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
@@ -35,7 +35,7 @@ static sl_status cell_to_cell(sl_context *context, sl_eye_search *search, const 
     return SL_OK;
 }
 
-static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *search,
+static sl_status cell_to_cell_mirrored(sl_context *context, sli_eye_search *search,
                                        const sl_view *view, uint64_t *cells,
                                        sl_eye_account *account) {
     sli_eye_query query;
@@ -53,7 +53,7 @@ static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *searc
 
 // --- disjoint cell
 
-static sl_status disjoint_cell(sl_context *context, sl_eye_search *search, const sl_view *view,
+static sl_status disjoint_cell(sl_context *context, sli_eye_search *search, const sl_view *view,
                                uint64_t *cells, sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
@@ -107,7 +107,7 @@ static bool meets_cell(sli_eye_query *query, const sl_directed_portal *portal) {
     return sli_eye_meets_cell(query, portal->cell);
 }
 
-static sl_status connected_component(sl_context *context, sl_eye_search *search,
+static sl_status connected_component(sl_context *context, sli_eye_search *search,
                                      const sl_view *view, uint64_t *cells,
                                      sl_eye_account *account) {
     sli_eye_query query;
@@ -117,7 +117,7 @@ static sl_status connected_component(sl_context *context, sl_eye_search *search,
     return SL_OK;
 }
 
-static sl_status incident_portals(sl_context *context, sl_eye_search *search, const sl_view *view,
+static sl_status incident_portals(sl_context *context, sli_eye_search *search, const sl_view *view,
                                   uint64_t *cells, sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));

@@ -19,7 +19,7 @@ static unsigned sides_of(const sli_arc *ray) {
 }
 
 /// A number for a ray that no cell has been marked with.
-static uint32_t new_ray(sl_eye_search *search) {
+static uint32_t new_ray(sli_eye_search *search) {
     if (++search->ray_count == 0) {
         memset(search->rays, 0,
                SLI_RAY_SIDES * (size_t)search->space->cell_count * sizeof(uint32_t));
@@ -28,7 +28,7 @@ static uint32_t new_ray(sl_eye_search *search) {
     return search->ray_count;
 }
 
-bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_step *to) {
+bool sli_eye_is_new(sli_eye_search *search, const sli_eye_step *from, sli_eye_step *to) {
     if (to->arcs[0].span != SLI_SPAN_RAY) return true;
     to->ray = from->ray ? from->ray : new_ray(search);
     uint32_t *mark = &search->rays[SLI_RAY_SIDES * (size_t)to->at.cell + sides_of(&to->arcs[0])];
@@ -91,7 +91,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, vo
 
 static sl_status search_portals(sl_context *context, sli_eye_query *query, uint32_t fan) {
     static const sli_portal_visitor visitor = {.step_size = sizeof(sli_eye_step), .cross = cross};
-    sl_eye_search *search = query->search;
+    sli_eye_search *search = query->search;
     exact_job job = {.query = query,
                      .way = {.space = query->space,
                              .steps = search->steps,
@@ -105,7 +105,7 @@ static sl_status search_portals(sl_context *context, sli_eye_query *query, uint3
     return status;
 }
 
-sl_status sli_eye_exact(sl_context *context, sl_eye_search *search, const sl_view *view,
+sl_status sli_eye_exact(sl_context *context, sli_eye_search *search, const sl_view *view,
                         uint64_t *cells, sl_eye_account *account) {
     sli_eye_query query;
     SL_TRY(sli_eye_begin(context, search, view, false, cells, &query));

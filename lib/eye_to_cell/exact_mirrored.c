@@ -11,7 +11,7 @@ typedef struct step {
     uint32_t depth, mirror;
 } step;
 
-struct sl_eye_mirrors {
+struct sli_eye_mirrors {
     const sl_map *map;
     uint32_t depth;
     sli_mirror_sides sides;
@@ -20,10 +20,10 @@ struct sl_eye_mirrors {
     uint64_t rounded;
 };
 
-typedef struct sl_eye_mirrors mirrors;
+typedef struct sli_eye_mirrors mirrors;
 
-sl_status sl_eye_search_add_mirrors(sl_context *context, sl_eye_search *search, const sl_map *map,
-                                    uint32_t depth) {
+sl_status sli_eye_search_add_mirrors(sl_context *context, sli_eye_search *search, const sl_map *map,
+                                     uint32_t depth) {
     mirrors *m = sl_alloc_array(context, 1, sizeof *m);
     if (!m) return SL_NO_MEMORY;
     m->map = map;
@@ -145,7 +145,7 @@ static sl_status search(sl_context *context, sli_eye_query *query, uint32_t fan)
     return sli_portal_search_run(context, &m->way, &visitor, query);
 }
 
-sl_status sli_eye_exact_mirrored(sl_context *context, sl_eye_search *s, const sl_view *view,
+sl_status sli_eye_exact_mirrored(sl_context *context, sli_eye_search *s, const sl_view *view,
                                  uint64_t *cells, sl_eye_account *account) {
     if (!s->mirrors)
         return sl_fail(context, SL_BAD_ARGUMENT, "the search was given no mirrors to look into");

@@ -19,9 +19,9 @@ static sl_status check_fits(sl_context *context, uint32_t cells, const sl_visibi
 }
 
 static sl_status create(sl_context *context, const sl_space *space, const sli_boxed_space *boxed,
-                        const sl_visibility *visibility, uint32_t row_cells, sl_eye_search **out) {
+                        const sl_visibility *visibility, uint32_t row_cells, sli_eye_search **out) {
     SL_TRY(check_fits(context, row_cells, visibility));
-    sl_eye_search *search = sl_alloc_array(context, 1, sizeof *search);
+    sli_eye_search *search = sl_alloc_array(context, 1, sizeof *search);
     if (!search) return SL_NO_MEMORY;
     const size_t count = space->cell_count;
     search->space = space;
@@ -33,25 +33,25 @@ static sl_status create(sl_context *context, const sl_space *space, const sli_bo
     search->steps = sl_alloc_array(context, count + 3, sizeof *search->steps);
     search->rays = sl_alloc_array(context, SLI_RAY_SIDES * count, sizeof *search->rays);
     if (!search->row || !search->queue || !search->steps || !search->rays) {
-        sl_eye_search_destroy(context, search);
+        sli_eye_search_destroy(context, search);
         return SL_NO_MEMORY;
     }
     *out = search;
     return SL_OK;
 }
 
-sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
-                               const sl_visibility *visibility, sl_eye_search **out) {
+sl_status sli_eye_search_create(sl_context *context, const sl_space *space,
+                                const sl_visibility *visibility, sli_eye_search **out) {
     return create(context, space, NULL, visibility, space->cell_count, out);
 }
 
 sl_status sli_eye_search_create_cut(sl_context *context, const sli_boxed_space *boxed,
                                     const sl_visibility *visibility, uint32_t row_cells,
-                                    sl_eye_search **out) {
+                                    sli_eye_search **out) {
     return create(context, &boxed->space, boxed, visibility, row_cells, out);
 }
 
-void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
+void sli_eye_search_destroy(sl_context *context, sli_eye_search *search) {
     if (!search) return;
     sl_free(context, search->row);
     sl_free(context, search->queue);
@@ -62,7 +62,7 @@ void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
 }
 
 /// Adds a cell's visible set to the row; false where it has none, not even itself.
-static bool add_row(sl_eye_search *search, uint32_t cell) {
+static bool add_row(sli_eye_search *search, uint32_t cell) {
     const sl_visibility *v = search->visibility;
     sli_row_add_open_to(&v->pvs, &v->doors, cell, search->shut, search->row);
     return sl_bits_has(search->row, cell);
@@ -70,7 +70,7 @@ static bool add_row(sl_eye_search *search, uint32_t cell) {
 
 /// Adds the visible sets of all cells of the ground that a cell has a part of; false where it has
 /// none.
-static bool add_rows(sl_eye_search *search, uint32_t cell) {
+static bool add_rows(sli_eye_search *search, uint32_t cell) {
     const sli_boxed_space *boxed = search->boxed;
     bool found = add_row(search, boxed ? boxed->parents[cell] : cell);
     if (boxed && boxed->first_share)
@@ -84,7 +84,7 @@ static bool is_on(sl_point a, sl_point b, sl_point eye) {
            eye.y <= fmax(a.y, b.y) && sli_orient(a, b, eye) == 0;
 }
 
-uint32_t sl_eye_cells(const sl_space *space, sl_point eye, uint32_t *cells, uint64_t *marks) {
+uint32_t sli_eye_cells(const sl_space *space, sl_point eye, uint32_t *cells, uint64_t *marks) {
     uint32_t count = 0;
     cells[0] = sli_eye_cell(space, eye);
     if (cells[0] == SL_NO_CELL) return 0;
@@ -130,9 +130,9 @@ bool sli_eye_leads_into(sli_eye_query *query, uint32_t number) {
            sli_cone_clip(&query->pivot, &query->cone, &inward, pieces) > 0;
 }
 
-sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
+sl_status sli_eye_begin(sl_context *context, sli_eye_search *search, const sl_view *view,
                         bool needs_pvs, uint64_t *cells, sli_eye_query *out) {
-    if (!sl_view_usable(view))
+    if (!sli_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the view is none: its points must be finite, the cone's not the eye");
     if (needs_pvs && !search->has_pvs)
@@ -141,7 +141,7 @@ sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_vie
     memset(cells, 0, words * sizeof *cells);
     *out = (sli_eye_query){
         .search = search, .space = search->space, .pivot = {.eye = view->eye}, .cells = cells};
-    const uint32_t count = sl_eye_cells(search->space, view->eye, search->queue, cells);
+    const uint32_t count = sli_eye_cells(search->space, view->eye, search->queue, cells);
     if (!count) return SL_OK;
     if (search->has_pvs) {
         const size_t row_words = sl_bits_words(search->visibility->pvs.cell_count);
@@ -212,7 +212,7 @@ static bool reaches(const sli_pivot *pivot, const sli_arc *arc, const sl_directe
     return sight == SL_OPEN ? sign < 0 : sign <= 0;
 }
 
-void sl_eye_search_set_range(sl_eye_search *search, double range) {
+void sli_eye_search_set_range(sli_eye_search *search, double range) {
     search->range = range;
 }
 

@@ -15,7 +15,8 @@
 ///
 /// Images and rays are kept as sums of two doubles (effects/mirrors.h), so behind axial mirrors all
 /// is exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
-#include "sightline/mirrored.h"
+#include "eye_to_cell/room_mirrors.h"
+#include "sightline/region.h"
 
 #include "effects/mirrors.h"
 #include "eye_to_cell/region_parts.h"
@@ -82,8 +83,8 @@ static sl_status find(finder *f, uint32_t *first) {
     return SL_OK;
 }
 
-sl_status sl_room_mirrors_make(sl_context *context, const sl_outline *outline, const sl_map *map,
-                               sl_room_mirrors *out) {
+sl_status sli_room_mirrors_make(sl_context *context, const sl_outline *outline, const sl_map *map,
+                                sl_room_mirrors *out) {
     finder f = {.context = context, .outline = outline, .map = map};
     uint32_t *first = sl_alloc_array(context, (size_t)outline->side_count + 1, sizeof *first);
     const sl_status status = first ? find(&f, first) : SL_NO_MEMORY;
@@ -96,7 +97,7 @@ sl_status sl_room_mirrors_make(sl_context *context, const sl_outline *outline, c
     return status;
 }
 
-void sl_room_mirrors_destroy(sl_context *context, sl_room_mirrors *mirrors) {
+void sli_room_mirrors_destroy(sl_context *context, sl_room_mirrors *mirrors) {
     sl_free(context, mirrors->first);
     sl_free(context, mirrors->pieces);
     *mirrors = (sl_room_mirrors){0};

@@ -13,7 +13,7 @@
 ///     |   [box]   |    ->    |   +---+   |    each side of the box is a target of the
 ///     |           |          |   |   |   |    cell beside it
 ///     +-----------+          +---+---+---+
-#include "sightline/moving.h"
+#include "eye_to_cell/moving.h"
 
 #include "eye_to_cell/eye_search.h"
 #include "geometry/crossing.h"
@@ -27,18 +27,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells) {
-    memset(cells, 0, sl_eye_words(space) * sizeof *cells);
-    if (!space->neighbour) {
-        for (uint32_t i = 0; i < space->cell_count; i++)
-            if (sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
-        return;
-    }
-    sli_cell_grid_range r = sli_cell_grid_range_of(space, box);
-    for (uint32_t i; sli_cell_grid_next(&space->grid, &r, &i);)
-        if (!sl_bits_has(cells, i) && sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
-}
 
 // --- targets: the pieces of boxes' sides on the boundaries of cells
 
@@ -222,7 +210,7 @@ typedef struct moving_settings {
     bool one_way;          ///< glass counts
 } moving_settings;
 
-struct sl_moving {
+struct sli_moving {
     moving_settings set;
     sl_moving_box *boxes;
     size_t count;
@@ -231,15 +219,15 @@ struct sl_moving {
     bool outlined;
     box_targets targets;
     bool *met; ///< by box
-    sl_eye_search *search;
+    sli_eye_search *search;
     uint64_t *cells; ///< of the space with boxes
 };
 
 // --- placing
 
 /// Frees all that was made for the boxes.
-static void drop(sl_context *context, sl_moving *m) {
-    sl_eye_search_destroy(context, m->search);
+static void drop(sl_context *context, sli_moving *m) {
+    sli_eye_search_destroy(context, m->search);
     sl_outline_destroy(context, &m->outline);
     if (m->boxed) sli_boxed_space_destroy(context, m->boxed);
     sl_free(context, m->boxed);
@@ -247,7 +235,7 @@ static void drop(sl_context *context, sl_moving *m) {
     destroy_targets(context, &m->targets);
     sl_free(context, m->met);
     sl_free(context, m->cells);
-    *m = (sl_moving){.set = m->set};
+    *m = (sli_moving){.set = m->set};
 }
 
 /// Makes glass of the space with boxes one-way. Boxes are put in first: a box cuts both sides.
@@ -276,7 +264,7 @@ sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes
 }
 
 /// Makes all that follows from the boxes of `m`.
-static sl_status place(sl_context *context, sl_moving *m) {
+static sl_status place(sl_context *context, sli_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
     if (!m->boxed) return SL_NO_MEMORY;
     SL_TRY(sli_boxes_put(context, &m->set.ground, m->boxes, m->count, m->boxed));
@@ -288,18 +276,18 @@ static sl_status place(sl_context *context, sl_moving *m) {
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
-    sl_eye_search_set_range(m->search, m->set.range);
+    sli_eye_search_set_range(m->search, m->set.range);
     m->search->shut = m->set.shut;
     if (m->set.mirrors)
-        SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->set.mirrors, m->set.depth));
+        SL_TRY(sli_eye_search_add_mirrors(context, m->search, m->set.mirrors, m->set.depth));
     m->search->targets = (sli_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
 
-sl_status sl_moving_set_boxes(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
-                              size_t count) {
+sl_status sli_moving_set_boxes(sl_context *context, sli_moving *moving, const sl_moving_box *boxes,
+                               size_t count) {
     SL_TRY(sli_moving_boxes_check(context, boxes, count));
-    sl_moving made = {.set = moving->set, .count = count};
+    sli_moving made = {.set = moving->set, .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
     if (count) memcpy(made.boxes, boxes, count * sizeof *boxes);
@@ -309,21 +297,21 @@ sl_status sl_moving_set_boxes(sl_context *context, sl_moving *moving, const sl_m
     return status;
 }
 
-sl_status sl_moving_create(sl_context *context, const sl_space *space,
-                           const sl_visibility *visibility, sl_moving **out) {
-    sl_moving *moving = sl_alloc_array(context, 1, sizeof *moving);
+sl_status sli_moving_create(sl_context *context, const sl_space *space,
+                            const sl_visibility *visibility, sli_moving **out) {
+    sli_moving *moving = sl_alloc_array(context, 1, sizeof *moving);
     if (!moving) return SL_NO_MEMORY;
     moving->set.visibility = visibility;
     sl_status status = sli_box_ground_create(context, space, &moving->set.ground);
-    if (status == SL_OK) status = sl_moving_set_boxes(context, moving, NULL, 0);
+    if (status == SL_OK) status = sli_moving_set_boxes(context, moving, NULL, 0);
     if (status == SL_OK)
         *out = moving;
     else
-        sl_moving_destroy(context, moving);
+        sli_moving_destroy(context, moving);
     return status;
 }
 
-void sl_moving_destroy(sl_context *context, sl_moving *moving) {
+void sli_moving_destroy(sl_context *context, sli_moving *moving) {
     if (!moving) return;
     drop(context, moving);
     sli_box_ground_destroy(context, &moving->set.ground);
@@ -332,12 +320,12 @@ void sl_moving_destroy(sl_context *context, sl_moving *moving) {
 
 // --- asking
 
-const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents) {
+const sl_space *sli_moving_space(const sli_moving *moving, const uint32_t **parents) {
     if (parents) *parents = moving->boxed->parents;
     return &moving->boxed->space;
 }
 
-sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out) {
+sl_status sli_moving_outline(sl_context *context, sli_moving *moving, const sl_outline **out) {
     if (!moving->outlined)
         SL_TRY(sl_outline_make(context, &moving->boxed->space, &moving->outline));
     moving->outlined = true;
@@ -345,12 +333,12 @@ sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_out
     return SL_OK;
 }
 
-void sl_moving_set_range(sl_moving *moving, double range) {
+void sli_moving_set_range(sli_moving *moving, double range) {
     moving->set.range = range;
-    sl_eye_search_set_range(moving->search, range);
+    sli_eye_search_set_range(moving->search, range);
 }
 
-void sli_moving_set_shut(sl_moving *moving, const bool *shut) {
+void sli_moving_set_shut(sli_moving *moving, const bool *shut) {
     moving->set.shut = moving->search->shut = shut;
 }
 
@@ -359,27 +347,27 @@ static bool holds(sl_box box, sl_point p) {
 }
 
 /// Whether a box that is one point is seen.
-static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view *view,
+static sl_status see_point(sl_context *context, sli_moving *moving, const sl_view *view,
                            sl_point point, bool *seen) {
     const sl_outline *outline;
     *seen = false;
-    if (!sl_view_holds(view, point)) return SL_OK;
+    if (!sli_view_holds(view, point)) return SL_OK;
     if (moving->set.range > 0 && sli_distance_compare(view->eye, point, moving->set.range) > 0)
         return SL_OK;
-    SL_TRY(sl_moving_outline(context, moving, &outline));
+    SL_TRY(sli_moving_outline(context, moving, &outline));
     return sl_sees(context, outline, view->eye, point, moving->set.visibility->sight, seen);
 }
 
 /// Maps the cells that are seen to the cells of the space without boxes.
-static void write_cells(const sl_moving *moving, uint64_t *cells) {
+static void write_cells(const sli_moving *moving, uint64_t *cells) {
     const sli_boxed_space *boxed = moving->boxed;
     memset(cells, 0, sl_eye_words(moving->set.ground.space) * sizeof *cells);
     for (uint32_t c = 0; c < boxed->space.cell_count; c++)
         if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, boxed->parents[c]);
 }
 
-sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
-                         uint64_t *cells, bool *seen, sl_eye_account *account) {
+sl_status sli_moving_look(sl_context *context, sli_moving *moving, const sl_view *view,
+                          uint64_t *cells, bool *seen, sl_eye_account *account) {
     const sl_space *space = &moving->boxed->space;
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
     SL_TRY(sli_eye_exact(context, moving->search, view, moving->cells, account));
@@ -394,20 +382,20 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
     return SL_OK;
 }
 
-sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
-                                uint32_t depth) {
-    SL_TRY(sl_eye_search_add_mirrors(context, moving->search, map, depth));
+sl_status sli_moving_add_mirrors(sl_context *context, sli_moving *moving, const sl_map *map,
+                                 uint32_t depth) {
+    SL_TRY(sli_eye_search_add_mirrors(context, moving->search, map, depth));
     moving->set.mirrors = map;
     moving->set.depth = depth;
     return SL_OK;
 }
 
-sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving) {
+sl_status sli_moving_add_glass(sl_context *context, sli_moving *moving) {
     sl_moving_box *boxes = moving->boxes;
     const bool was = moving->set.one_way;
     moving->boxes = NULL;
     moving->set.one_way = true;
-    const sl_status status = sl_moving_set_boxes(context, moving, boxes, moving->count);
+    const sl_status status = sli_moving_set_boxes(context, moving, boxes, moving->count);
     if (status == SL_OK) {
         sl_free(context, boxes);
     } else {
@@ -417,8 +405,8 @@ sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving) {
     return status;
 }
 
-sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving, const sl_view *view,
-                                  uint64_t *cells, bool *seen, sl_eye_account *account) {
+sl_status sli_moving_look_mirrored(sl_context *context, sli_moving *moving, const sl_view *view,
+                                   uint64_t *cells, bool *seen, sl_eye_account *account) {
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
     SL_TRY(sli_eye_exact_mirrored(context, moving->search, view, moving->cells, account));
     if (moving->count) memcpy(seen, moving->met, moving->count * sizeof *seen);

@@ -23,9 +23,10 @@
 /// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
+#include "sightline/region.h"
+#include "eye_to_cell/cone.h"
 #include "eye_to_cell/region_parts.h"
 #include "geometry/length.h"
-#include "sightline/mirrored.h"
 
 #include <math.h>
 
@@ -427,7 +428,7 @@ static sl_status see_from_gap(expansion *x, const sli_eye_ray *left, uint32_t st
     if (stop == UINT32_MAX) {
         const bool touches =
             sli_eye_turn(&m->eye, &start, left) == 0 && same_direction(&start, left);
-        return sl_view_holds(view, start.at) && !touches ? see_all_round(x) : SL_OK;
+        return sli_view_holds(view, start.at) && !touches ? see_all_round(x) : SL_OK;
     }
     SL_TRY(start_open(x));
     for (uint32_t k = 0; k < stop; k++) SL_TRY(see_fan(x, k, NULL, NULL));

@@ -9,14 +9,15 @@
 /// changes the cells and sides that it touches, and of the visible sets nothing: which pairs are
 /// hidden is looked up with each row.
 #include "sightline/query.h"
+#include "eye_to_cell/room_mirrors.h"
 
 #include "cell_to_cell/pvs_rows.h"
 #include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/moving.h"
 #include "geometry/crossing.h"
 #include "query/query.h"
 #include "query/sight_space.h"
 #include "sightline/effects.h"
-#include "sightline/moving.h"
 #include "sightline/sees.h"
 #include "sightline/support.h"
 
@@ -46,9 +47,9 @@ struct sl_query {
     sl_visibility rows;    ///< borrowed, without stab trees where the space has other portals
 
     // What answers; NULL where it is not made.
-    sl_eye_search *search;
+    sli_eye_search *search;
     sli_box_lists lists; ///< of the boxes; `first` NULL if not made
-    sl_moving *moving;
+    sli_moving *moving;
     sl_space moving_ground;   ///< with walls in doors; empty where all are open
     sl_room_mirrors *mirrors; ///< of the outline that is looked at
 };
@@ -56,7 +57,7 @@ struct sl_query {
 // --- making and letting go
 
 static void drop_mirrors(sl_context *context, sl_query *q) {
-    if (q->mirrors) sl_room_mirrors_destroy(context, q->mirrors);
+    if (q->mirrors) sli_room_mirrors_destroy(context, q->mirrors);
     sl_free(context, q->mirrors);
     q->mirrors = NULL;
 }
@@ -65,14 +66,14 @@ static void drop_mirrors(sl_context *context, sl_query *q) {
 static void drop_moving(sl_context *context, sl_query *q) {
     if (!SLI_BOXES || !q->moving) return;
     drop_mirrors(context, q);
-    sl_moving_destroy(context, q->moving);
+    sli_moving_destroy(context, q->moving);
     sl_space_destroy(context, &q->moving_ground);
     q->moving = NULL;
     q->boxes_placed = false;
 }
 
 static void drop_search(sl_context *context, sl_query *q) {
-    if (q->search) sl_eye_search_destroy(context, q->search);
+    if (q->search) sli_eye_search_destroy(context, q->search);
     q->search = NULL;
 }
 
@@ -309,19 +310,19 @@ static bool has_mirrors(const sl_query *q) {
 
 static sl_status make_search(sl_context *context, sl_query *q) {
     if (!q->search) {
-        sl_eye_search *search;
-        SL_TRY(sl_eye_search_create(context, &q->sight.space, &q->rows, &search));
+        sli_eye_search *search;
+        SL_TRY(sli_eye_search_create(context, &q->sight.space, &q->rows, &search));
         const sl_status status =
-            has_mirrors(q) ? sl_eye_search_add_mirrors(context, search, q->map, q->mirror_depth)
+            has_mirrors(q) ? sli_eye_search_add_mirrors(context, search, q->map, q->mirror_depth)
                            : SL_OK;
         if (status != SL_OK) {
-            sl_eye_search_destroy(context, search);
+            sli_eye_search_destroy(context, search);
             return status;
         }
         q->search = search;
     }
     q->search->shut = shut_of(q);
-    sl_eye_search_set_range(q->search, q->range);
+    sli_eye_search_set_range(q->search, q->range);
     return SL_OK;
 }
 
@@ -329,19 +330,19 @@ static sl_status make_search(sl_context *context, sl_query *q) {
 /// ways until the boxes stand.
 static sl_status create_moving(sl_context *context, sl_query *q) {
     const sl_filtered_space filtered = {.shut = q->shut};
-    sl_moving *moving;
+    sli_moving *moving;
     if (q->shut_count)
         SL_TRY(sl_filtered_space_make(context, q->sight.base, &filtered, NULL, &q->moving_ground));
-    sl_status status = sl_moving_create(context, q->shut_count ? &q->moving_ground : q->sight.base,
-                                        &q->rows, &moving);
+    sl_status status = sli_moving_create(context, q->shut_count ? &q->moving_ground : q->sight.base,
+                                         &q->rows, &moving);
     if (status != SL_OK) {
         sl_space_destroy(context, &q->moving_ground);
         return status;
     }
     sli_moving_set_shut(moving, shut_of(q));
-    status = q->map->oneway_count ? sl_moving_add_glass(context, moving) : SL_OK;
+    status = q->map->oneway_count ? sli_moving_add_glass(context, moving) : SL_OK;
     if (status == SL_OK && has_mirrors(q))
-        status = sl_moving_add_mirrors(context, moving, q->map, q->mirror_depth);
+        status = sli_moving_add_mirrors(context, moving, q->map, q->mirror_depth);
     q->moving = moving;
     if (status != SL_OK) drop_moving(context, q);
     return status;
@@ -349,9 +350,9 @@ static sl_status create_moving(sl_context *context, sl_query *q) {
 
 static sl_status make_moving(sl_context *context, sl_query *q) {
     if (!q->moving) SL_TRY(create_moving(context, q));
-    if (!q->boxes_placed) SL_TRY(sl_moving_set_boxes(context, q->moving, q->boxes, q->box_count));
+    if (!q->boxes_placed) SL_TRY(sli_moving_set_boxes(context, q->moving, q->boxes, q->box_count));
     q->boxes_placed = true;
-    sl_moving_set_range(q->moving, q->range);
+    sli_moving_set_range(q->moving, q->range);
     return SL_OK;
 }
 
@@ -386,7 +387,7 @@ static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *
 static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
     if (has_blocks(q)) {
         SL_TRY(make_moving(context, q));
-        return sl_moving_outline(context, q->moving, out);
+        return sli_moving_outline(context, q->moving, out);
     }
     return sli_sight_space_outline(context, &q->sight, out);
 }
@@ -396,7 +397,7 @@ static sl_status make_mirrors(sl_context *context, sl_query *q, const sl_outline
     drop_mirrors(context, q);
     sl_room_mirrors *mirrors = sl_alloc_array(context, 1, sizeof *mirrors);
     if (!mirrors) return SL_NO_MEMORY;
-    const sl_status status = sl_room_mirrors_make(context, outline, q->map, mirrors);
+    const sl_status status = sli_room_mirrors_make(context, outline, q->map, mirrors);
     if (status != SL_OK) {
         sl_free(context, mirrors);
         return status;
@@ -415,7 +416,7 @@ uint32_t sl_query_locate(const sl_query *query, sl_point point) {
 static bool row_holds(const sl_query *q, const sl_pvs *pvs, const sl_door_sets *doors,
                       uint32_t from, uint32_t to) {
     return sl_pvs_sees(pvs, from, to) &&
-           (!q->shut_count || !doors->cell_count || sl_door_sets_open(doors, from, to, q->shut));
+           (!q->shut_count || !doors->cell_count || sli_door_sets_open(doors, from, to, q->shut));
 }
 
 static sl_status check_rows(sl_context *context, const sl_query *q, uint32_t from, uint32_t to) {
@@ -458,7 +459,7 @@ sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **
     *space = &query->sight.space;
     if (!has_blocks(query)) return SL_OK;
     SL_TRY(make_moving(context, query));
-    *space = sl_moving_space(query->moving, parents);
+    *space = sli_moving_space(query->moving, parents);
     return SL_OK;
 }
 
@@ -517,15 +518,15 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
                               const sl_eye_method *method, uint64_t *cells,
                               sl_eye_account *account) {
     sl_space space;
-    sl_eye_search *search = NULL;
+    sli_eye_search *search = NULL;
     SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
-    sl_status status = sl_eye_search_create(context, &space, &q->rows, &search);
+    sl_status status = sli_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
-        sl_eye_search_set_range(search, q->range);
+        sli_eye_search_set_range(search, q->range);
         status = method->cull(context, search, view, cells, account);
     }
-    sl_eye_search_destroy(context, search);
+    sli_eye_search_destroy(context, search);
     sl_space_destroy(context, &space);
     return status;
 }
@@ -533,16 +534,16 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
 static sl_status look_past_in_line(sl_context *context, sl_query *q, const sl_view *view,
                                    uint64_t *cells, bool *seen, sl_eye_account *account) {
     sl_space space;
-    sl_moving *moving = NULL;
+    sli_moving *moving = NULL;
     SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
-    sl_status status = sl_moving_create(context, &space, &q->rows, &moving);
-    if (status == SL_OK) status = sl_moving_set_boxes(context, moving, q->boxes, q->box_count);
+    sl_status status = sli_moving_create(context, &space, &q->rows, &moving);
+    if (status == SL_OK) status = sli_moving_set_boxes(context, moving, q->boxes, q->box_count);
     if (status == SL_OK) {
         sli_moving_set_shut(moving, shut_of(q));
-        sl_moving_set_range(moving, q->range);
-        status = sl_moving_look(context, moving, view, cells, seen, account);
+        sli_moving_set_range(moving, q->range);
+        status = sli_moving_look(context, moving, view, cells, seen, account);
     }
-    sl_moving_destroy(context, moving);
+    sli_moving_destroy(context, moving);
     sl_space_destroy(context, &space);
     return status;
 }
@@ -558,9 +559,9 @@ static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view
     if (in_line)
         status = look_past_in_line(context, q, view, cells, all, account);
     else if (mirrored)
-        status = sl_moving_look_mirrored(context, q->moving, view, cells, all, account);
+        status = sli_moving_look_mirrored(context, q->moving, view, cells, all, account);
     else
-        status = sl_moving_look(context, q->moving, view, cells, all, account);
+        status = sli_moving_look(context, q->moving, view, cells, all, account);
     if (!seen) sl_free(context, all);
     return status;
 }

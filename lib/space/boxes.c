@@ -18,6 +18,8 @@
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
+#include "sightline/support.h"
+#include "space/index.h"
 #include "space/kd_tree.h"
 
 #include <math.h>
@@ -139,6 +141,18 @@ bool sli_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
         over &= v[i].y > box.max.y;
     }
     return !left && !right && !under && !over;
+}
+
+void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells) {
+    memset(cells, 0, sl_bits_words(space->cell_count) * sizeof *cells);
+    if (!space->neighbour) {
+        for (uint32_t i = 0; i < space->cell_count; i++)
+            if (sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
+        return;
+    }
+    sli_cell_grid_range r = sli_cell_grid_range_of(space, box);
+    for (uint32_t i; sli_cell_grid_next(&space->grid, &r, &i);)
+        if (!sl_bits_has(cells, i) && sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
 }
 
 // --- the ground

@@ -19,7 +19,7 @@ sl_point sl_dual_point(const sl_dual *dual, sl_point point) {
     return turn(dual, point);
 }
 
-sl_point sl_dual_point_back(const sl_dual *dual, sl_point p) {
+static sl_point turn_back(const sl_dual *dual, sl_point p) {
     const double x = p.x * dual->scale, y = p.y * dual->scale;
     return (sl_point){dual->origin.x + x * dual->along.x - y * dual->along.y,
                       dual->origin.y + x * dual->along.y + y * dual->along.x};
@@ -27,8 +27,8 @@ sl_point sl_dual_point_back(const sl_dual *dual, sl_point p) {
 
 sl_line sl_dual_line_at(const sl_dual *dual, sl_dual_line line, double from, double to) {
     return (sl_line){
-        sl_dual_point_back(dual, (sl_point){from, line.slope * from + line.height}),
-        sl_dual_point_back(dual, (sl_point){to, line.slope * to + line.height}),
+        turn_back(dual, (sl_point){from, line.slope * from + line.height}),
+        turn_back(dual, (sl_point){to, line.slope * to + line.height}),
     };
 }
 

@@ -21,7 +21,7 @@
 #include "stab/funnel.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -3,7 +3,6 @@
 #define SL_FUNNEL_H
 
 #include "geometry/orient.h"
-#include "sightline/solvers.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 

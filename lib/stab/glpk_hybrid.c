@@ -8,7 +8,7 @@
 /// through all. Where neither proof holds (margins near zero, above all) the exact solver decides
 /// on the whole.
 #include "sightline/glpk.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 
 #include "sightline/support.h"
 #include "stab/funnel.h"

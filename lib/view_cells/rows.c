@@ -12,6 +12,7 @@
 ///
 /// Cost: O(rows x words).
 #include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/view_rows.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 #include "view_cells/tree.h"
@@ -199,7 +200,7 @@ static sl_status add_costs(sl_context *context, coster *c, const sl_space *space
         SL_TRY(sl_check_cancelled(context));
         memset(c->seen, 0, words * sizeof *c->seen);
         memset(c->homes_seen, 0, home_words * sizeof *c->homes_seen);
-        sl_view_rows_add_to(rows, v, c->seen);
+        sli_view_rows_add_to(rows, v, c->seen);
         for (uint32_t i = 0; i < space->cell_count; i++)
             if (sl_bits_has(c->seen, i) && c->homes[i] != SL_NO_CELL)
                 sl_bits_add(c->homes_seen, c->homes[i]);

@@ -17,6 +17,7 @@
 ///
 /// Invariant: distances are rounded down, so a state is never kept too long. Cost: O(occluders x
 /// corners) for a node, and a few dozen operations for each frame in which the bound holds.
+#include "eye_to_cell/cone.h"
 #include "geometry/length.h"
 #include "walk/walk_parts.h"
 
@@ -219,7 +220,7 @@ double sli_walk_witness_bound(sl_walk *w, const sli_node_view *seen, sl_point *w
             at.x += PULL * (corner.x - middle.x);
             at.y += PULL * (corner.y - middle.y);
         }
-        if (!sl_view_holds(&w->view, at) || !holds_inside(shape, at)) continue;
+        if (!sli_view_holds(&w->view, at) || !holds_inside(shape, at)) continue;
         const sli_shape point = {&at, 1, {at, at}, false};
         const double bound = seen_bound(w, &point, NULL, fmax(best, w->moved));
         if (bound > best) {

@@ -15,6 +15,7 @@
 /// Cost of a frame: one node visibility test for each node reached and not skipped; a test takes
 /// about the logarithm of the number of occluders.
 #include "sightline/walk.h"
+#include "eye_to_cell/cone.h"
 #include "walk/walk_parts.h"
 
 #include <string.h>
@@ -303,7 +304,7 @@ static bool still_holds(const sl_walk *w, const sli_walk_memory *m) {
 /// Whether a node in the cone is known to be in view, and in which state.
 static bool stays_seen(const sl_walk *w, const sli_node_view *seen, sli_walk_memory *m) {
     if (!still_holds(w, m) || m->known == SLI_WALK_HIDDEN ||
-        (m->known == SLI_WALK_WITNESS && !sl_view_holds(&w->view, m->witness)))
+        (m->known == SLI_WALK_WITNESS && !sli_view_holds(&w->view, m->witness)))
         return false;
     m->state = m->known == SLI_WALK_IN_VIEW && !seen->cut ? SL_NODE_VISIBLE : SL_NODE_PARTIAL;
     return true;
@@ -473,7 +474,7 @@ static sl_status choose(sl_context *context, sl_walk *w, const sl_view *view) {
 }
 
 sl_status sl_walk_step(sl_context *context, sl_walk *w, const sl_view *view, sl_walk_frame *out) {
-    if (!sl_view_usable(view))
+    if (!sli_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the eye and the borders of its cone must be finite, and not one point");
     SL_TRY(sl_check_cancelled(context));

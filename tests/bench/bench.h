@@ -6,8 +6,8 @@
 #include "sightline/bake.h"
 #include "sightline/generate.h"
 #include "sightline/io.h"
-#include "sightline/solvers.h"
 #include "sightline/space.h"
+#include "sightline/stab.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 // CSV: machine, sets of doors kept of a pair at most, what was measured, its value, and times the
 // value of the line that it is held against (the one before, where the last column names none).
 #include "bench.h"
+#include "cell_to_cell/pvs_rows.h"
 
 #include "bake/slv.h"
 #include "sightline/sightline.h"
@@ -89,7 +90,7 @@ static uint64_t ask_library_open(bench *b, size_t i) {
 static uint64_t ask_library(bench *b, size_t i) {
     const sl_visibility *v = &b->baked.visibility;
     return sl_pvs_sees(&v->pvs, b->from[i], b->to[i]) &&
-           sl_door_sets_open(&v->doors, b->from[i], b->to[i], b->shut_flags);
+           sli_door_sets_open(&v->doors, b->from[i], b->to[i], b->shut_flags);
 }
 
 static uint64_t look_open(bench *b, size_t i) {

@@ -5,10 +5,12 @@
 //                                    of that it shows which DEEPEST reflections show, images
 //                                    rounded
 #include "bench.h"
+#include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/room_mirrors.h"
 
 #include "sightline/draw.h"
 #include "sightline/io.h"
-#include "sightline/mirrored.h"
+#include "sightline/region.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -42,7 +44,7 @@ static void read_scene(scene *s, const char *path) {
     bench_must(s->context,
                sl_subdivision_for(&s->map)->subdivide(s->context, &s->map, NULL, &s->space));
     bench_must(s->context, sl_outline_make(s->context, &s->space, &s->outline));
-    bench_must(s->context, sl_room_mirrors_make(s->context, &s->outline, &s->map, &s->mirrors));
+    bench_must(s->context, sli_room_mirrors_make(s->context, &s->outline, &s->map, &s->mirrors));
     sl_random random = {7};
     const sl_box *b = &s->space.bounds;
     for (int i = 0; i < EYES;) {
@@ -83,13 +85,13 @@ static figure see_cells(const scene *s, uint32_t depth) {
     const size_t words = sl_eye_words(&s->space);
     uint64_t *sets = calloc(2 * words, sizeof *sets);
     if (!sets) abort();
-    sl_eye_search *search;
+    sli_eye_search *search;
     sl_eye_account account;
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
     figure out = {0};
-    bench_must(s->context, sl_eye_search_create(s->context, &s->space, &bare, &search));
-    bench_must(s->context, sl_eye_search_add_mirrors(s->context, search, &s->map, depth));
+    bench_must(s->context, sli_eye_search_create(s->context, &s->space, &bare, &search));
+    bench_must(s->context, sli_eye_search_add_mirrors(s->context, search, &s->map, depth));
     for (int i = 0; i < EYES; i++) {
         const sl_view view = sl_view_all_round(s->eyes[i]);
         bench_must(s->context, exact->cull(s->context, search, &view, sets, &account));
@@ -98,7 +100,7 @@ static figure see_cells(const scene *s, uint32_t depth) {
         for (uint32_t c = 0; c < s->space.cell_count; c++)
             out.shown += sl_eye_sees(sets, c) || sl_eye_sees(sets + words, c);
     }
-    sl_eye_search_destroy(s->context, search);
+    sli_eye_search_destroy(s->context, search);
     free(sets);
     return out;
 }
@@ -199,7 +201,7 @@ int main(int argc, char **argv) {
         }
     }
     draw(&s, figures, argv[2]);
-    sl_room_mirrors_destroy(s.context, &s.mirrors);
+    sli_room_mirrors_destroy(s.context, &s.mirrors);
     sl_outline_destroy(s.context, &s.outline);
     sl_space_destroy(s.context, &s.space);
     sl_map_destroy(s.context, &s.map);

@@ -8,7 +8,7 @@
 
 #include "bake/slv.h"
 #include "sightline/bake.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 
 #include <zlib.h>
 

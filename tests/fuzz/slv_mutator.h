@@ -6,10 +6,11 @@
 #ifndef SL_SLV_MUTATOR_H
 #define SL_SLV_MUTATOR_H
 
+#include "cell_to_cell/pvs_rows.h"
 #include "fuzz.h"
 
 #include "bake/slv.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -247,7 +248,7 @@ static uint64_t count_pairs(parts *all, const char *offsets_tag, const char *byt
     if (pvs.offsets[pvs.cell_count] != bytes->size) return 0;
     uint64_t pairs = 0;
     sl_context *context = fuzz_context();
-    if (sl_pvs_check(context, &pvs) == SL_OK)
+    if (sli_pvs_check(context, &pvs) == SL_OK)
         for (uint32_t cell = 0; cell < pvs.cell_count; cell++) pairs += sl_pvs_count(&pvs, cell);
     sl_context_destroy(context);
     return pairs;

@@ -6,7 +6,7 @@
 
 #include "bake/slv.h"
 #include "runtime/sightline_runtime.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -25,9 +25,9 @@ static void rows_keep_their_sets(void **state) {
         }
         sl_pvs pvs, transposed;
         assert_ok(context, sli_pvs_join(context, rows, count, &pvs));
-        assert_ok(context, sl_pvs_check(context, &pvs));
+        assert_ok(context, sli_pvs_check(context, &pvs));
         assert_ok(context, sli_pvs_transpose(context, &pvs, &transposed));
-        assert_ok(context, sl_pvs_check(context, &transposed));
+        assert_ok(context, sli_pvs_check(context, &transposed));
         for (uint32_t i = 0; i < count; i++) {
             uint32_t members = 0;
             for (uint32_t j = 0; j < count; j++) {
@@ -245,7 +245,7 @@ static void halves_need_no_account(void **state) {
     assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), &map));
     assert_ok(context, sl_bake_space(context, &map, &options, &baked, NULL));
     assert_ok(context, sl_bake_see(context, &options, &baked, NULL));
-    assert_true(sl_pvs_pairs(&baked.visibility.pvs) > baked.space.cell_count);
+    assert_true(sli_pvs_pairs(&baked.visibility.pvs) > baked.space.cell_count);
     sl_baked_destroy(context, &baked);
     sl_context_destroy(context);
 }

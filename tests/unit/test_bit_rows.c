@@ -86,7 +86,7 @@ static void check_rows(sl_context *context, uint32_t count, uint32_t members, sl
     mirror(truth, mirroring);
     sl_visibility seen = {0};
     assert_ok(context, sli_bit_rows_encode(context, &rows, &seen));
-    assert_ok(context, sl_pvs_check(context, &seen.pvs));
+    assert_ok(context, sli_pvs_check(context, &seen.pvs));
     compare(&seen, truth);
     sl_visibility_destroy(context, &seen);
     sli_bit_rows_destroy(context, &rows);

@@ -47,7 +47,7 @@ static void compare(sl_context *context, const baked_file *f, const bool *shut) 
         for (uint32_t b = 0; b < space->cell_count; b++) {
             const bool sees = sl_pvs_sees(&fresh.pvs, a, b);
             assert_int_equal(sees, sl_pvs_sees(&v->pvs, a, b) &&
-                                       sl_door_sets_open(&v->doors, a, b, shut));
+                                       sli_door_sets_open(&v->doors, a, b, shut));
             assert_int_equal(sees, sl_runtime_can_see_past(&f->runtime, a, b, bytes));
         }
     sl_visibility_destroy(context, &fresh);
@@ -71,7 +71,7 @@ static void compare_alternatives(const baked_file *f, const bool *shut) {
                 assert_true(any);
                 open |= good;
             }
-            assert_int_equal(open, sl_door_sets_open(sets, a, b, shut));
+            assert_int_equal(open, sli_door_sets_open(sets, a, b, shut));
         }
 }
 
@@ -115,8 +115,8 @@ static void what_is_beyond_the_limit_counts_as_seen(void **state) {
     for (int i = 0; i < DOORS; i += 2) shut[i] = true;
     for (uint32_t a = 0; a < few.pvs.cell_count; a++)
         for (uint32_t b = 0; b < few.pvs.cell_count; b++)
-            if (sl_door_sets_open(&f.baked.visibility.doors, a, b, shut))
-                assert_true(sl_door_sets_open(&few.doors, a, b, shut));
+            if (sli_door_sets_open(&f.baked.visibility.doors, a, b, shut))
+                assert_true(sli_door_sets_open(&few.doors, a, b, shut));
     sl_visibility_destroy(context, &few);
     sl_baked_destroy(context, &f.baked);
     free(f.bytes);
@@ -230,7 +230,7 @@ static void damaged_sets_are_refused(void **state) {
         uint8_t bytes[6];
         memcpy(bytes, rows[i].bytes, sizeof bytes);
         const sl_door_sets sets = {.cell_count = 2, .offsets = offsets, .bytes = bytes};
-        assert_int_equal(sl_door_sets_check(context, &sets, 3),
+        assert_int_equal(sli_door_sets_check(context, &sets, 3),
                          rows[i].sound ? SL_OK : SL_BAD_INPUT);
     }
     sl_context_destroy(context);

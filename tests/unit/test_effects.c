@@ -1,5 +1,6 @@
 /// Effects against an oracle that knows them, on random maps with all their combinations; doors
 /// against bakes with walls in those that are shut.
+#include "cell_to_cell/pvs_rows.h"
 #include "testing.h"
 
 #include "oracle/effects.h"
@@ -84,7 +85,7 @@ static void compare(const trial *t, const oracle_ways *ways, const sl_see_method
         for (uint32_t b = 0; b < n; b++) {
             const truth *expected = &truths[a * n + b];
             const bool seen =
-                pvs->cell_count && sl_pvs_sees(pvs, a, b) && sl_door_sets_open(doors, a, b, state);
+                pvs->cell_count && sl_pvs_sees(pvs, a, b) && sli_door_sets_open(doors, a, b, state);
             if (seen ? expected->possible || method->guarantee == SL_CONSERVATIVE
                      : !expected->sure || method->guarantee == SL_AGGRESSIVE)
                 continue;
@@ -219,7 +220,7 @@ static void compare_shut(const trial *t, const sl_visibility *by_dfs, const bool
     for (uint32_t a = 0; a < n; a++)
         for (uint32_t b = 0; b < n; b++)
             if (sl_pvs_sees(&fresh.pvs, a, b) !=
-                (sl_pvs_sees(&by_dfs->pvs, a, b) && sl_door_sets_open(&by_dfs->doors, a, b, shut)))
+                (sl_pvs_sees(&by_dfs->pvs, a, b) && sli_door_sets_open(&by_dfs->doors, a, b, shut)))
                 fail_msg("seed %llu: cells %u and %u with doors shut", (unsigned long long)t->seed,
                          a, b);
     sl_visibility_destroy(t->context, &fresh);
@@ -260,7 +261,7 @@ static void compare_with_walls(const trial *t, const sl_visibility *all_open, co
     for (uint32_t a = 0; a < t->space.cell_count; a++)
         for (uint32_t b = 0; b < t->space.cell_count; b++)
             if (sl_pvs_sees(&fresh.pvs, a, b) != (sl_pvs_sees(&all_open->pvs, a, b) &&
-                                                  sl_door_sets_open(&all_open->doors, a, b, shut)))
+                                                  sli_door_sets_open(&all_open->doors, a, b, shut)))
                 fail_msg("seed %llu: cells %u and %u", (unsigned long long)t->seed, a, b);
     sl_visibility_destroy(t->context, &fresh);
     sl_space_destroy(t->context, &walled);

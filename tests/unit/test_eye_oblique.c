@@ -1,5 +1,6 @@
 /// What one viewpoint sees among oblique walls, by all that tells of it, beside sightlines that
 /// touch no wall: none may be lost, and the answers go together.
+#include "eye_to_cell/eye_search.h"
 #include "testing.h"
 
 #include "oracle/random_oblique.h"
@@ -62,10 +63,10 @@ static void cull(trial *t, const sl_view *view, uint64_t *cells) {
     const size_t words = sl_eye_words(&t->space);
     uint64_t *before = calloc(words, sizeof *before);
     assert_non_null(before);
-    sl_eye_search *with = NULL, *without = NULL;
+    sli_eye_search *with = NULL, *without = NULL;
     sl_eye_account account;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &t->seen, &with));
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &t->bare, &without));
+    assert_ok(t->context, sli_eye_search_create(t->context, &t->space, &t->seen, &with));
+    assert_ok(t->context, sli_eye_search_create(t->context, &t->space, &t->bare, &without));
     for (size_t m = 0; m < count; m++) {
         assert_ok(t->context, methods[m].cull(t->context, with, view, cells, &account));
         for (uint32_t c = 0; m && c < t->space.cell_count; c++)
@@ -75,8 +76,8 @@ static void cull(trial *t, const sl_view *view, uint64_t *cells) {
     }
     assert_ok(t->context, methods[count - 1].cull(t->context, without, view, before, &account));
     assert_memory_equal(before, cells, words * sizeof *before);
-    sl_eye_search_destroy(t->context, with);
-    sl_eye_search_destroy(t->context, without);
+    sli_eye_search_destroy(t->context, with);
+    sli_eye_search_destroy(t->context, without);
     free(before);
 }
 
@@ -102,7 +103,7 @@ static void try_eye(trial *t, uint64_t *cells) {
         view.full = false;
         view.right = oblique_random_point(&t->random, &t->map, t->space.bounds);
         view.left = oblique_random_point(&t->random, &t->map, t->space.bounds);
-        if (!sl_view_usable(&view)) view.full = true;
+        if (!sli_view_usable(&view)) view.full = true;
     }
     cull(t, &view, cells);
     for (uint32_t c = 0; c < t->space.cell_count; c++)
@@ -116,7 +117,7 @@ static void try_eye(trial *t, uint64_t *cells) {
         check_ray(t, eye, p);
         // A cone without an inside sees nothing with open sight.
         if (!view.full && t->sight == SL_OPEN) continue;
-        if (sl_view_holds(&view, p) && !sl_eye_sees(cells, cell))
+        if (sli_view_holds(&view, p) && !sl_eye_sees(cells, cell))
             complain(t, eye, cell, "a free sightline is lost");
     }
 }

@@ -1,6 +1,7 @@
 // Exact eye-to-cell culling against brute force on random maps, cell by cell: closed and open
 // sight, with visible sets, with stab trees and without either, eyes on all places that are
 // special. SIGHTLINE_SEEDS in the environment: how many maps (60 by default).
+#include "eye_to_cell/eye_search.h"
 #include "testing.h"
 
 #include "oracle/eye.h"
@@ -82,13 +83,13 @@ static void complain(const trial *t, const sl_view *view, uint32_t cell, const c
 static void ask(trial *t, const sl_visibility *visibility, const char *who, const sl_view *view,
                 const bool *expected) {
     uint64_t cells[CELLS_MOST / 64 + 1];
-    sl_eye_search *search;
+    sli_eye_search *search;
     sl_eye_account account;
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, visibility, &search));
+    assert_ok(t->context, sli_eye_search_create(t->context, &t->space, visibility, &search));
     assert_ok(t->context, exact->cull(t->context, search, view, cells, &account));
-    sl_eye_search_destroy(t->context, search);
+    sli_eye_search_destroy(t->context, search);
     for (uint32_t c = 0; c < t->space.cell_count; c++) {
         if (sl_eye_sees(cells, c) != expected[c]) complain(t, view, c, who, !expected[c]);
         t->seen += expected[c];

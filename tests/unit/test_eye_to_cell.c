@@ -1,5 +1,6 @@
 // Eye-to-cell culling: each method within the one before, on every map of maps/ and on random ones,
 // for eyes and cones of all kinds; what an eye on a portal, a wall, a corner sees; what is refused.
+#include "eye_to_cell/eye_search.h"
 #include "map_files.h"
 
 #include "oracle/random_map.h"
@@ -11,7 +12,7 @@ typedef struct world {
     sl_map map;
     sl_space space;
     sl_visibility visibility;
-    sl_eye_search *search;
+    sli_eye_search *search;
 } world;
 
 static void see(world *w, sl_sight sight, bool trees, bool inside_only) {
@@ -23,11 +24,11 @@ static void see(world *w, sl_sight sight, bool trees, bool inside_only) {
     options.inside_only = inside_only;
     assert_ok(w->context,
               sl_see_methods(&count)->see(w->context, &w->space, &options, &w->visibility));
-    assert_ok(w->context, sl_eye_search_create(w->context, &w->space, &w->visibility, &w->search));
+    assert_ok(w->context, sli_eye_search_create(w->context, &w->space, &w->visibility, &w->search));
 }
 
 static void forget(world *w) {
-    sl_eye_search_destroy(w->context, w->search);
+    sli_eye_search_destroy(w->context, w->search);
     sl_visibility_destroy(w->context, &w->visibility);
     w->search = NULL;
 }
@@ -156,7 +157,7 @@ static void check_views(const world *w, uint64_t seed, int count, const char *wh
             check_view(w, &view, where);
             // through a corner of some cell
             view.right = w->space.vertices[sl_random_below(&random, w->space.vertex_count)];
-            if (!view.full && sl_view_usable(&view)) check_view(w, &view, where);
+            if (!view.full && sli_view_usable(&view)) check_view(w, &view, where);
         }
     }
 }
@@ -309,7 +310,7 @@ static void without_visible_sets(void **state) {
     sl_eye_account account;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const sl_view view = sl_view_all_round((sl_point){5, 5});
-    assert_ok(w.context, sl_eye_search_create(w.context, &w.space, &w.visibility, &w.search));
+    assert_ok(w.context, sli_eye_search_create(w.context, &w.space, &w.visibility, &w.search));
     uint64_t *cells = new_set(&w);
     for (size_t i = 0; i < count; i++) {
         const sl_status status = methods[i].cull(w.context, w.search, &view, cells, &account);
@@ -348,7 +349,7 @@ static void a_diagonal_does_not_explode(void **state) {
                                      line, line, i, line, i);
     world w = open_world(text);
     assert_int_equal(w.space.cell_count, SIDE * SIDE);
-    assert_ok(w.context, sl_eye_search_create(w.context, &w.space, &w.visibility, &w.search));
+    assert_ok(w.context, sli_eye_search_create(w.context, &w.space, &w.visibility, &w.search));
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
     uint64_t *cells = new_set(&w);
@@ -407,7 +408,7 @@ static void views_that_are_none(void **state) {
     const sl_eye_method *methods = sl_eye_methods(&count);
     uint64_t *cells = new_set(&w);
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
-        assert_false(sl_view_usable(&views[v]));
+        assert_false(sli_view_usable(&views[v]));
         for (size_t i = 0; i < count; i++)
             assert_int_equal(methods[i].cull(w.context, w.search, &views[v], cells, &account),
                              SL_BAD_ARGUMENT);
@@ -419,9 +420,9 @@ static void views_that_are_none(void **state) {
 static void sets_of_another_space(void **state) {
     (void)state;
     world w = open_world(rooms), other = open_world("walls 0 0 1 0 1 1 0 1 0 0\n");
-    sl_eye_search *search = NULL;
+    sli_eye_search *search = NULL;
     see(&w, SL_CLOSED, false, false);
-    assert_int_equal(sl_eye_search_create(other.context, &other.space, &w.visibility, &search),
+    assert_int_equal(sli_eye_search_create(other.context, &other.space, &w.visibility, &search),
                      SL_BAD_ARGUMENT);
     assert_null(search);
     close_world(&w);
@@ -442,16 +443,16 @@ static void a_space_that_no_map_has(void **state) {
                             .directed = directed};
     const sl_visibility none = {.sight = SL_CLOSED};
     sl_context *context = testing_context(NULL);
-    sl_eye_search *search;
+    sli_eye_search *search;
     uint64_t set;
     size_t count;
     sl_eye_account account;
     const sl_view view = sl_view_all_round((sl_point){0, 0.5});
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
-    assert_ok(context, sl_eye_search_create(context, &space, &none, &search));
+    assert_ok(context, sli_eye_search_create(context, &space, &none, &search));
     assert_int_equal(exact->cull(context, search, &view, &set, &account), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "twice"));
-    sl_eye_search_destroy(context, search);
+    sli_eye_search_destroy(context, search);
     sl_context_destroy(context);
 }
 
@@ -464,12 +465,12 @@ static void memory_that_fails(void **state) {
     long failures = 0;
     sl_status status = SL_NO_MEMORY;
     for (; status == SL_NO_MEMORY; failures++) {
-        sl_eye_search *search = NULL;
+        sli_eye_search *search = NULL;
         memory.calls = 0;
         memory.fail_at = failures + 1;
-        status = sl_eye_search_create(context, &w.space, &w.visibility, &search);
+        status = sli_eye_search_create(context, &w.space, &w.visibility, &search);
         assert_true((status == SL_OK) == (search != NULL));
-        sl_eye_search_destroy(context, search);
+        sli_eye_search_destroy(context, search);
         assert_int_equal(memory.live, live);
     }
     assert_int_equal(status, SL_OK);

@@ -6,7 +6,7 @@
 #include "geometry/orient.h"
 #include "oracle/margin.h"
 #include "oracle/random_sequence.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 #include "solver_table.h"
 

@@ -1,5 +1,6 @@
 // Solid ground against an oracle of its own: squares of grids, and polygons in integers. Nothing
 // here asks the library what is solid but the cells that it makes.
+#include "cell_to_cell/pvs_rows.h"
 #include "testing.h"
 
 #include "geometry/orient.h"
@@ -885,7 +886,7 @@ static void test_all_rock(void **state) {
     assert_ok(context, sl_baked_write(context, &baked, path));
     assert_ok(context, sl_baked_read(context, path, &back));
     assert_true(sl_baked_same_space(&baked.space, &back.space));
-    assert_int_equal(sl_pvs_pairs(&back.visibility.pvs), 0);
+    assert_int_equal(sli_pvs_pairs(&back.visibility.pvs), 0);
     sl_baked_destroy(context, &baked);
     sl_baked_destroy(context, &back);
     remove(path);

@@ -1,5 +1,6 @@
 /// Meshes of random maps, oblique, degenerate, turned and moved: cells tile the bounds, exact
 /// methods agree, no free sightline is lost, and what is set among walls is as tight as they are.
+#include "eye_to_cell/eye_search.h"
 #include "unit/grid_walls.h"
 #include "unit/mesh_scene.h"
 
@@ -433,15 +434,15 @@ static bool eye_sees(const scene *s, const sl_space *space, sl_point eye, sl_poi
     const sl_visibility none = {.sight = SL_CLOSED};
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    sl_eye_search *search = NULL;
+    sli_eye_search *search = NULL;
     sl_eye_account account;
     uint64_t *cells = calloc(sl_eye_words(space), sizeof *cells);
     assert_non_null(cells);
-    assert_ok(s->context, sl_eye_search_create(s->context, space, &none, &search));
+    assert_ok(s->context, sli_eye_search_create(s->context, space, &none, &search));
     const sl_view view = sl_view_all_round(eye);
     assert_ok(s->context, methods[count - 1].cull(s->context, search, &view, cells, &account));
     const bool seen = sl_eye_sees(cells, sl_space_locate(space, point));
-    sl_eye_search_destroy(s->context, search);
+    sli_eye_search_destroy(s->context, search);
     free(cells);
     return seen;
 }

@@ -1,11 +1,12 @@
 /// Stab trees of maps with mirrors: what they hold, that eyes are not misled by them, and their
 /// baked file.
+#include "eye_to_cell/eye_search.h"
 #include "slv_file.h"
 
 #include "effects/mirrors.h"
 #include "oracle/random_effects.h"
 #include "sightline/eye_to_cell.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 
 enum { MAPS = 96, EYES = 4, CELLS_MOST = 128 };
 
@@ -113,10 +114,10 @@ static void check_eye(trial *t, const sl_visibility *baked) {
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
     for (int i = 0; i < 2; i++) {
-        sl_eye_search *search;
-        assert_ok(t->context, sl_eye_search_create(t->context, &t->space, of[i], &search));
+        sli_eye_search *search;
+        assert_ok(t->context, sli_eye_search_create(t->context, &t->space, of[i], &search));
         assert_ok(t->context, exact->cull(t->context, search, &view, i ? without : with, &account));
-        sl_eye_search_destroy(t->context, search);
+        sli_eye_search_destroy(t->context, search);
     }
     for (uint32_t c = 0; c < t->space.cell_count; c++)
         assert_int_equal(sl_eye_sees(with, c), sl_eye_sees(without, c));

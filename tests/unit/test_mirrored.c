@@ -1,6 +1,10 @@
 /// What one viewpoint sees by mirror, cell by cell and as a region, against brute force: random
 /// axial maps with all combinations of effects, on a grid where images are doubles and on one where
 /// they are not. SIGHTLINE_SEEDS in the environment: how many maps (96 by default).
+#include "cell_to_cell/pvs_rows.h"
+#include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/moving.h"
+#include "eye_to_cell/room_mirrors.h"
 #include "testing.h"
 
 #include "oracle/mirrored.h"
@@ -102,13 +106,13 @@ static void ask_cells(const trial *t, const sl_view *view, const oracle_mirrored
                       sl_sight sight) {
     const sl_visibility bare = {.sight = sight};
     uint64_t cells[CELLS_MOST / 64 + 1];
-    sl_eye_search *search;
+    sli_eye_search *search;
     sl_eye_account account;
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &bare, &search));
-    assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, t->depth));
-    sl_eye_search_set_range(search, t->map.range);
+    assert_ok(t->context, sli_eye_search_create(t->context, &t->space, &bare, &search));
+    assert_ok(t->context, sli_eye_search_add_mirrors(t->context, search, &t->map, t->depth));
+    sli_eye_search_set_range(search, t->map.range);
     assert_ok(t->context, exact->mirrored(t->context, search, view, cells, &account));
     assert_int_equal(account.rounded, 0);
     compare_cells(t, view, cells, sight == SL_OPEN ? truth->open : truth->closed, sight,
@@ -116,7 +120,7 @@ static void ask_cells(const trial *t, const sl_view *view, const oracle_mirrored
     assert_ok(t->context, exact->cull(t->context, search, view, cells, &account));
     compare_cells(t, view, cells, sight == SL_OPEN ? truth->direct_open : truth->direct_closed,
                   sight, "directly");
-    sl_eye_search_destroy(t->context, search);
+    sli_eye_search_destroy(t->context, search);
 }
 
 static size_t chain_of(const trial *t, const sl_mirrored_region *region, uint32_t part) {
@@ -167,7 +171,7 @@ static void ask_region(const trial *t, const sl_space *space, const sl_view *vie
     double *areas = calloc(chains, sizeof *areas);
     assert_non_null(areas);
     assert_ok(t->context, sl_outline_make(t->context, space, &outline));
-    assert_ok(t->context, sl_room_mirrors_make(t->context, &outline, &t->map, &mirrors));
+    assert_ok(t->context, sli_room_mirrors_make(t->context, &outline, &t->map, &mirrors));
     assert_ok(t->context,
               sl_mirrored_region_make(t->context, &mirrors, view, t->map.range, t->depth, &region));
     areas[0] = sl_region_area(&region.direct);
@@ -190,7 +194,7 @@ static void ask_region(const trial *t, const sl_space *space, const sl_view *vie
         complain(t, view, text);
     }
     sl_mirrored_region_destroy(t->context, &region);
-    sl_room_mirrors_destroy(t->context, &mirrors);
+    sli_room_mirrors_destroy(t->context, &mirrors);
     sl_outline_destroy(t->context, &outline);
     free(areas);
 }
@@ -285,7 +289,7 @@ static void past_glass(void **state) {
             const sl_visibility bare = {.sight = SL_OPEN};
             uint64_t cells[CELLS_MOST / 64 + 1];
             sl_eye_account account;
-            sl_eye_search *search;
+            sli_eye_search *search;
             trial past = t, all = t, open = t;
             // Of what the glass itself says, and of its being a wall.
             const sl_filtered_space one_way = {.one_way = true};
@@ -300,11 +304,11 @@ static void past_glass(void **state) {
             oracle_mirrored truth = oracle_mirrored_of(&all.space, &t.map, &view, t.map.range, 0);
             if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
             compare_outlines(&open, &past.space, &view);
-            assert_ok(t.context, sl_eye_search_create(t.context, &past.space, &bare, &search));
-            sl_eye_search_set_range(search, t.map.range);
+            assert_ok(t.context, sli_eye_search_create(t.context, &past.space, &bare, &search));
+            sli_eye_search_set_range(search, t.map.range);
             assert_ok(t.context, exact->cull(t.context, search, &view, cells, &account));
             compare_cells(&all, &view, cells, truth.direct_open, SL_OPEN, "past glass");
-            sl_eye_search_destroy(t.context, search);
+            sli_eye_search_destroy(t.context, search);
             darkened += past.space.wall_count > t.whole.wall_count;
             oracle_mirrored_free(&truth);
             sl_space_destroy(t.context, &past.space);
@@ -348,10 +352,10 @@ static bool is_plain(const trial *t, sl_box box, sl_point eye) {
 }
 
 /// The oracle's word on a space with boxes, in cells of the space without them.
-static void compare_past(const trial *t, sl_moving *moving, const sl_view *view, sl_sight sight,
+static void compare_past(const trial *t, sli_moving *moving, const sl_view *view, sl_sight sight,
                          const oracle_mirrored *truth, const uint64_t *cells) {
     const uint32_t *parents;
-    const sl_space *boxed = sl_moving_space(moving, &parents);
+    const sl_space *boxed = sli_moving_space(moving, &parents);
     bool expected[CELLS_MOST] = {false};
     for (uint32_t c = 0; c < boxed->cell_count; c++)
         expected[parents[c]] |= sight == SL_OPEN ? truth->open[c] : truth->closed[c];
@@ -363,23 +367,23 @@ static oracle_mirrored ask_past(const trial *t, const sl_moving_box *boxes, size
                                 const sl_view *view) {
     const sl_visibility bare = {.sight = SL_OPEN};
     const sl_filtered_space one_way = {.one_way = true};
-    sl_moving *moving;
+    sli_moving *moving;
     sl_space dark;
-    assert_ok(t->context, sl_moving_create(t->context, &t->shut, &bare, &moving));
-    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, boxes, count));
-    assert_ok(t->context, sl_filtered_space_make(t->context, sl_moving_space(moving, NULL),
+    assert_ok(t->context, sli_moving_create(t->context, &t->shut, &bare, &moving));
+    assert_ok(t->context, sli_moving_set_boxes(t->context, moving, boxes, count));
+    assert_ok(t->context, sl_filtered_space_make(t->context, sli_moving_space(moving, NULL),
                                                  &one_way, NULL, &dark));
     oracle_mirrored truth = oracle_mirrored_of(&dark, &t->map, view, t->map.range, t->depth);
     sl_space_destroy(t->context, &dark);
-    sl_moving_destroy(t->context, moving);
+    sli_moving_destroy(t->context, moving);
     return truth;
 }
 
 /// Whether a cell within a box is seen by mirror, with nothing of the box in the way.
-static bool is_entered(const trial *t, sl_moving *moving, sl_box box, const sl_view *view) {
+static bool is_entered(const trial *t, sli_moving *moving, sl_box box, const sl_view *view) {
     const sl_moving_box glass = {box, false};
-    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, &glass, 1));
-    const sl_space *boxed = sl_moving_space(moving, NULL);
+    assert_ok(t->context, sli_moving_set_boxes(t->context, moving, &glass, 1));
+    const sl_space *boxed = sli_moving_space(moving, NULL);
     oracle_mirrored truth = ask_past(t, &glass, 1, view);
     bool entered = false;
     for (uint32_t c = 0; c < boxed->cell_count; c++) {
@@ -395,21 +399,22 @@ static void try_boxes(trial *t, sl_sight sight, size_t *seen, size_t *hidden) {
     const sl_visibility bare = {.sight = sight};
     const sl_view view = random_view(t);
     sl_moving_box boxes[BOXES];
-    sl_moving *moving;
+    sli_moving *moving;
     uint64_t cells[CELLS_MOST / 64 + 1];
     bool met[BOXES];
     sl_eye_account account;
     const size_t count = sight == SL_OPEN ? 1 : 1 + sl_random_below(&t->random, BOXES);
     for (size_t i = 0; i < count; i++) boxes[i] = random_box(t);
-    assert_ok(t->context, sl_moving_create(t->context, &t->shut, &bare, &moving));
+    assert_ok(t->context, sli_moving_create(t->context, &t->shut, &bare, &moving));
     if (t->effects & SL_EFFECT_ONEWAY)
-        assert_ok(t->context, sl_moving_add_glass(t->context, moving));
-    assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &t->map, t->depth));
-    sl_moving_set_range(moving, t->map.range);
-    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, boxes, count));
-    const sl_space *boxed = sl_moving_space(moving, NULL);
+        assert_ok(t->context, sli_moving_add_glass(t->context, moving));
+    assert_ok(t->context, sli_moving_add_mirrors(t->context, moving, &t->map, t->depth));
+    sli_moving_set_range(moving, t->map.range);
+    assert_ok(t->context, sli_moving_set_boxes(t->context, moving, boxes, count));
+    const sl_space *boxed = sli_moving_space(moving, NULL);
     oracle_mirrored truth = ask_past(t, boxes, count, &view);
-    assert_ok(t->context, sl_moving_look_mirrored(t->context, moving, &view, cells, met, &account));
+    assert_ok(t->context,
+              sli_moving_look_mirrored(t->context, moving, &view, cells, met, &account));
     compare_past(t, moving, &view, sight, &truth, cells);
     trial past = *t;
     past.space = *boxed;
@@ -422,7 +427,7 @@ static void try_boxes(trial *t, sl_sight sight, size_t *seen, size_t *hidden) {
             complain(t, &view, met[0] ? "a box is seen by mirror, but hidden" : "a box is hidden");
         *(met[0] ? seen : hidden) += 1;
     }
-    sl_moving_destroy(t->context, moving);
+    sli_moving_destroy(t->context, moving);
 }
 
 static void past_boxes(void **state) {
@@ -482,7 +487,7 @@ static bool bake_sees(const trial *t, const bakes *b, unsigned without, bool mir
     const sl_visibility *v = &b->seen[without];
     if (!sl_pvs_sees(mirrored ? &v->mirrored : &v->pvs, from, to)) return false;
     return without & SL_EFFECT_DOOR ||
-           sl_door_sets_open(mirrored ? &v->mirrored_doors : &v->doors, from, to, t->is_shut);
+           sli_door_sets_open(mirrored ? &v->mirrored_doors : &v->doors, from, to, t->is_shut);
 }
 
 /// The effect that is said to decide is the one without which a bake sees the pair.

@@ -4,6 +4,9 @@
 /// move, and boxes on the way are found. Against single rays in rationals, on random maps with
 /// walls, mirrors and one-way glass in any direction. SIGHTLINE_SEEDS in the environment: how many
 /// maps (60 by default).
+#include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/moving.h"
+#include "eye_to_cell/room_mirrors.h"
 #include "testing.h"
 
 #include "oracle/mirror_ray.h"
@@ -99,13 +102,13 @@ static void begin(trial *t, uint64_t seed) {
     const sl_filtered_space one_way = {.one_way = true, .dark_walls = true};
     assert_ok(t->context, sl_filtered_space_make(t->context, &t->space, &one_way, NULL, &t->dark));
     assert_ok(t->context, sl_outline_make(t->context, &t->dark, &t->outline));
-    assert_ok(t->context, sl_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
+    assert_ok(t->context, sli_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
     bake(t);
 }
 
 static void end(trial *t) {
     sl_visibility_destroy(t->context, &t->baked);
-    sl_room_mirrors_destroy(t->context, &t->mirrors);
+    sli_room_mirrors_destroy(t->context, &t->mirrors);
     sl_outline_destroy(t->context, &t->outline);
     sl_space_destroy(t->context, &t->space);
     sl_space_destroy(t->context, &t->dark);
@@ -253,20 +256,20 @@ static void check_eye(trial *t, sl_point eye) {
     const sl_view view = sl_view_all_round(eye);
     uint64_t *cells = calloc(sl_eye_words(&t->space), sizeof *cells);
     assert_non_null(cells);
-    sl_eye_search *search;
+    sli_eye_search *search;
     sl_eye_account account;
     sl_mirrored_region region = {0};
     size_t count;
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->dark, &bare, &search));
-    assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, DEPTH));
+    assert_ok(t->context, sli_eye_search_create(t->context, &t->dark, &bare, &search));
+    assert_ok(t->context, sli_eye_search_add_mirrors(t->context, search, &t->map, DEPTH));
     assert_ok(t->context, exact->mirrored(t->context, search, &view, cells, &account));
     assert_ok(t->context,
               sl_mirrored_region_make(t->context, &t->mirrors, &view, 0, DEPTH, &region));
     check_rays(t, eye, cells, &region);
     for (uint32_t i = 0; i < region.part_count; i++) check_part(t, eye, &region, i);
     sl_mirrored_region_destroy(t->context, &region);
-    sl_eye_search_destroy(t->context, search);
+    sli_eye_search_destroy(t->context, search);
     free(cells);
 }
 
@@ -344,7 +347,7 @@ static void check_boxes(trial *t, sl_point eye) {
     const sl_map map = t->map;
     uint64_t *cells = calloc(sl_eye_words(&t->space), sizeof *cells);
     assert_non_null(cells);
-    sl_moving *moving;
+    sli_moving *moving;
     sl_eye_account account;
     const sl_outline *outline;
     sl_room_mirrors mirrors = {0};
@@ -352,14 +355,14 @@ static void check_boxes(trial *t, sl_point eye) {
     t->box_count = BOXES;
     for (size_t i = 0; i < BOXES; i++)
         t->boxes[i] = (sl_moving_box){random_box(t), sl_random_below(&t->random, 2)};
-    assert_ok(t->context, sl_moving_create(t->context, &t->space, &bare, &moving));
-    assert_ok(t->context, sl_moving_add_glass(t->context, moving));
-    assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &map, DEPTH));
-    assert_ok(t->context, sl_moving_set_boxes(t->context, moving, t->boxes, BOXES));
+    assert_ok(t->context, sli_moving_create(t->context, &t->space, &bare, &moving));
+    assert_ok(t->context, sli_moving_add_glass(t->context, moving));
+    assert_ok(t->context, sli_moving_add_mirrors(t->context, moving, &map, DEPTH));
+    assert_ok(t->context, sli_moving_set_boxes(t->context, moving, t->boxes, BOXES));
     assert_ok(t->context,
-              sl_moving_look_mirrored(t->context, moving, &view, cells, t->seen, &account));
-    assert_ok(t->context, sl_moving_outline(t->context, moving, &outline));
-    assert_ok(t->context, sl_room_mirrors_make(t->context, outline, &map, &mirrors));
+              sli_moving_look_mirrored(t->context, moving, &view, cells, t->seen, &account));
+    assert_ok(t->context, sli_moving_outline(t->context, moving, &outline));
+    assert_ok(t->context, sli_room_mirrors_make(t->context, outline, &map, &mirrors));
     assert_ok(t->context, sl_mirrored_region_make(t->context, &mirrors, &view, 0, DEPTH, &region));
     add_box_walls(t, &map);
     check_rays(t, eye, cells, &region);
@@ -369,8 +372,8 @@ static void check_boxes(trial *t, sl_point eye) {
     t->map = map;
     t->box_count = 0;
     sl_mirrored_region_destroy(t->context, &region);
-    sl_room_mirrors_destroy(t->context, &mirrors);
-    sl_moving_destroy(t->context, moving);
+    sli_room_mirrors_destroy(t->context, &mirrors);
+    sli_moving_destroy(t->context, moving);
     free(cells);
 }
 

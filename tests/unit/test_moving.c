@@ -1,6 +1,8 @@
 /// Boxes that move, against brute force on spaces that are subdivided anew with the boxes in them,
 /// on random maps; and by hand where they touch, overlap, hold the eye or have no area.
 /// SIGHTLINE_SEEDS in the environment: how many maps (16 by default).
+#include "eye_to_cell/cone.h"
+#include "eye_to_cell/moving.h"
 #include "testing.h"
 
 #include "oracle/eye.h"
@@ -20,7 +22,7 @@ typedef struct trial {
     sl_visibility baked;
     sl_moving_box boxes[BOXES];
     size_t count;
-    sl_moving *moving;
+    sli_moving *moving;
     sl_space fresh; ///< subdivided anew; cells end where those of `space` and the boxes do
     size_t cells_seen, cells_asked, boxes_seen, boxes_asked;
 } trial;
@@ -202,7 +204,7 @@ static void compare_region(trial *t, const sl_view *view) {
     const sl_outline *outline;
     sl_region region = {0};
     const oracle_isovist isovist = oracle_isovist_of(&t->fresh, view);
-    assert_ok(t->context, sl_moving_outline(t->context, t->moving, &outline));
+    assert_ok(t->context, sli_moving_outline(t->context, t->moving, &outline));
     assert_ok(t->context, sl_region_make(t->context, outline, view, 0, &region));
     const double area = sl_region_area(&region);
     if (!(fabs(area - isovist.area) <= 1e-9 * isovist.area)) {
@@ -229,7 +231,7 @@ static sl_view random_view(trial *t, sl_point eye, bool full) {
     while (!full && view.full) {
         const sl_view cone = {eye, false, t->space.vertices[below(t, t->space.vertex_count)],
                               t->space.vertices[below(t, t->space.vertex_count)]};
-        if (sl_view_usable(&cone)) view = cone;
+        if (sli_view_usable(&cone)) view = cone;
     }
     return view;
 }
@@ -246,13 +248,13 @@ static void try_eye(trial *t) {
     do eye = random_eye(t);
     while (sl_space_locate(&t->space, eye) == SL_NO_CELL);
     const bool by_cut = t->baked.sight == SL_CLOSED && is_on_border(t, eye);
-    const sl_space *cut = by_cut ? sl_moving_space(t->moving, NULL) : &t->fresh;
+    const sl_space *cut = by_cut ? sli_moving_space(t->moving, NULL) : &t->fresh;
     for (int i = 0; i < VIEWS; i++) {
         const sl_view view = random_view(t, eye, i == 0);
         uint64_t cells[CELLS_MOST / 64 + 1];
         bool seen[BOXES];
         sl_eye_account account;
-        assert_ok(t->context, sl_moving_look(t->context, t->moving, &view, cells, seen, &account));
+        assert_ok(t->context, sli_moving_look(t->context, t->moving, &view, cells, seen, &account));
         compare_cells(t, cut, &view, cells);
         if (i == 0) compare_region(t, &view);
         for (size_t k = 0; k < t->count && i == 0 && !by_cut; k++)
@@ -276,8 +278,8 @@ static void try_boxes(trial *t) {
     for (size_t i = 0; i < t->count; i++)
         t->boxes[i] = (sl_moving_box){random_box(t), below(t, 3) > 0};
     if (t->count > 1 && below(t, 4) == 0) t->boxes[1].box = t->boxes[0].box;
-    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
-    assert_ok(t->context, sl_space_check(t->context, sl_moving_space(t->moving, NULL)));
+    assert_ok(t->context, sli_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sl_space_check(t->context, sli_moving_space(t->moving, NULL)));
     subdivide_anew(t, SIZE_MAX, &t->fresh);
     if (t->fresh.cell_count <= CELLS_MOST)
         for (int i = 0; i < EYES; i++) try_eye(t);
@@ -294,9 +296,9 @@ static void try_map(trial *t, sl_sight sight) {
         assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
     if (t->space.cell_count && t->space.cell_count <= CELLS_MOST) {
         bake(t, sight);
-        assert_ok(t->context, sl_moving_create(t->context, &t->space, &t->baked, &t->moving));
+        assert_ok(t->context, sli_moving_create(t->context, &t->space, &t->baked, &t->moving));
         for (int i = 0; i < 2; i++) try_boxes(t); // placed, and placed anew
-        sl_moving_destroy(t->context, t->moving);
+        sli_moving_destroy(t->context, t->moving);
     }
     sl_visibility_destroy(t->context, &t->baked);
     sl_space_destroy(t->context, &t->space);
@@ -331,17 +333,17 @@ typedef struct room {
     sl_map map;
     sl_space space;
     sl_visibility bare;
-    sl_moving *moving;
+    sli_moving *moving;
 } room;
 
 static void enter(room *r, const char *statements) {
     *r = (room){.context = testing_context(NULL), .bare = {.sight = SL_CLOSED}};
     testing_space(r->context, statements, &r->map, &r->space);
-    assert_ok(r->context, sl_moving_create(r->context, &r->space, &r->bare, &r->moving));
+    assert_ok(r->context, sli_moving_create(r->context, &r->space, &r->bare, &r->moving));
 }
 
 static void leave(room *r) {
-    sl_moving_destroy(r->context, r->moving);
+    sli_moving_destroy(r->context, r->moving);
     sl_space_destroy(r->context, &r->space);
     sl_map_destroy(r->context, &r->map);
     sl_context_destroy(r->context);
@@ -353,9 +355,9 @@ static int look(room *r, sl_point eye, const sl_moving_box *boxes, size_t count)
     uint64_t cells[16];
     bool seen[8];
     sl_eye_account account;
-    assert_ok(r->context, sl_moving_set_boxes(r->context, r->moving, boxes, count));
-    assert_ok(r->context, sl_space_check(r->context, sl_moving_space(r->moving, NULL)));
-    assert_ok(r->context, sl_moving_look(r->context, r->moving, &view, cells, seen, &account));
+    assert_ok(r->context, sli_moving_set_boxes(r->context, r->moving, boxes, count));
+    assert_ok(r->context, sl_space_check(r->context, sli_moving_space(r->moving, NULL)));
+    assert_ok(r->context, sli_moving_look(r->context, r->moving, &view, cells, seen, &account));
     int digits = 0;
     for (size_t i = 0; i < count; i++)
         if (seen[i]) digits = 10 * digits + (int)i + 1;
@@ -415,7 +417,7 @@ static void from_within_a_box(void **state) {
     const sl_outline *outline;
     sl_region region = {0};
     const sl_view view = sl_view_all_round((sl_point){2, 5});
-    assert_ok(r.context, sl_moving_outline(r.context, r.moving, &outline));
+    assert_ok(r.context, sli_moving_outline(r.context, r.moving, &outline));
     assert_ok(r.context, sl_region_make(r.context, outline, &view, 0, &region));
     assert_true(fabs(sl_region_area(&region) - 3.5) < 1e-12);
     sl_region_destroy(r.context, &region);
@@ -470,10 +472,10 @@ static void wrong_boxes(void **state) {
                                  {{{1e-200, 1}, {2, 2}}, true},
                                  {{{1, 1}, {1e200, 2}}, true}};
     assert_int_equal(look(&r, (sl_point){5, 5}, &good, 1), 1);
-    const uint32_t cells = sl_moving_space(r.moving, NULL)->cell_count;
+    const uint32_t cells = sli_moving_space(r.moving, NULL)->cell_count;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        assert_int_equal(sl_moving_set_boxes(r.context, r.moving, &bad[i], 1), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_moving_space(r.moving, NULL)->cell_count, cells);
+        assert_int_equal(sli_moving_set_boxes(r.context, r.moving, &bad[i], 1), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_moving_space(r.moving, NULL)->cell_count, cells);
     leave(&r);
 }
 
@@ -489,14 +491,14 @@ static void no_memory(void **state) {
     const long before = memory.live;
     sl_status status = SL_NO_MEMORY;
     for (long fail = 1; status != SL_OK; fail++) {
-        sl_moving *moving = NULL;
+        sli_moving *moving = NULL;
         memory.calls = 0;
         memory.fail_at = fail;
-        status = sl_moving_create(context, &space, &bare, &moving);
-        if (status == SL_OK) status = sl_moving_set_boxes(context, moving, boxes, 2);
+        status = sli_moving_create(context, &space, &bare, &moving);
+        if (status == SL_OK) status = sli_moving_set_boxes(context, moving, boxes, 2);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         memory.fail_at = 0;
-        sl_moving_destroy(context, moving);
+        sli_moving_destroy(context, moving);
         assert_int_equal(memory.live, before);
     }
     sl_space_destroy(context, &space);

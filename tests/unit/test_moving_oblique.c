@@ -6,6 +6,7 @@
 /// is held against brute force in integers. And where walls as they are and walls as bent agree on
 /// what is free or hidden between two points, by rationals, so must the space. SIGHTLINE_SEEDS in
 /// the environment: how many maps (50 by default).
+#include "eye_to_cell/moving.h"
 #include "testing.h"
 
 #include "oracle/blockers.h"
@@ -41,7 +42,7 @@ typedef struct trial {
     sl_visibility baked;
     sl_moving_box boxes[4 * BOXES];
     size_t count;
-    sl_moving *moving;
+    sli_moving *moving;
     segments straight; ///< the map's walls, and the sides of boxes that block
     segments bent;     ///< the same as the space with boxes has them
     double size;
@@ -89,7 +90,7 @@ static void add_segment(segments *s, sl_point a, sl_point b) {
 }
 
 static void gather_segments(trial *t) {
-    const sl_space *boxed = sl_moving_space(t->moving, NULL);
+    const sl_space *boxed = sli_moving_space(t->moving, NULL);
     t->straight.count = t->bent.count = 0;
     for (size_t i = 0; i < t->map.wall_count; i++)
         add_segment(&t->straight, t->map.walls[i].a, t->map.walls[i].b);
@@ -158,7 +159,7 @@ static sl_box box_around(sl_point a, sl_point b, double more) {
 /// A corner within a wall: on a line of a box, and no farther from the wall than a step of doubles;
 /// within a box's side, on it. Where walls are steps of doubles apart they bend each other too.
 static bool is_on_wall(const trial *t, uint32_t wall, sl_point p) {
-    const sl_wall *w = &sl_moving_space(t->moving, NULL)->walls[wall];
+    const sl_wall *w = &sli_moving_space(t->moving, NULL)->walls[wall];
     bool on_box = false;
     for (size_t i = 0; i < t->count; i++) {
         const sl_box b = t->boxes[i].box;
@@ -172,7 +173,7 @@ static bool is_on_wall(const trial *t, uint32_t wall, sl_point p) {
 /// How much of a wall other walls cover, of which parts have become one with parts of it: sides of
 /// cells within steps of doubles of it, from one end on.
 static double covered(const trial *t, uint32_t wall) {
-    const sl_space *boxed = sl_moving_space(t->moving, NULL);
+    const sl_space *boxed = sli_moving_space(t->moving, NULL);
     const sl_segment w = {boxed->walls[wall].a, boxed->walls[wall].b};
     double sum = 0;
     for (size_t i = 0; i < t->bent.count; i++) {
@@ -190,7 +191,7 @@ static double covered(const trial *t, uint32_t wall) {
 /// The walls: those of the map and sides of boxes, by their numbers; parts of them go from end to
 /// end.
 static void check_walls(trial *t) {
-    const sl_space *boxed = sl_moving_space(t->moving, NULL);
+    const sl_space *boxed = sli_moving_space(t->moving, NULL);
     double *lengths = calloc(boxed->wall_count, sizeof *lengths);
     assert_non_null(lengths);
     gather_segments(t);
@@ -290,7 +291,7 @@ static void judge_point(trial *t, sl_point eye, sl_point p, const sl_outline *ou
 
 /// What brute force sees in the space with boxes, of which bent walls are taken as they are.
 static void ask_oracle(trial *t, const sl_view *view, bool *sees) {
-    sl_space space = *sl_moving_space(t->moving, NULL);
+    sl_space space = *sli_moving_space(t->moving, NULL);
     sl_wall walls[SEGMENTS_MOST];
     bool closed[ORACLE_CELLS], open[ORACLE_CELLS];
     gather_segments(t);
@@ -306,7 +307,7 @@ static void ask_oracle(trial *t, const sl_view *view, bool *sees) {
 
 static void judge_cells(trial *t, const sl_view *view, const uint64_t *cells) {
     const uint32_t *parents;
-    const sl_space *boxed = sl_moving_space(t->moving, &parents);
+    const sl_space *boxed = sli_moving_space(t->moving, &parents);
     bool sees[ORACLE_CELLS], expected[ORACLE_CELLS] = {false};
     ask_oracle(t, view, sees);
     for (uint32_t c = 0; c < boxed->cell_count; c++) expected[parents[c]] |= sees[c];
@@ -336,8 +337,8 @@ static void judge_box(trial *t, const sl_view *view, size_t number, bool said) {
     const bool blocks = t->boxes[number].blocks;
     bool sees[ORACLE_CELLS], expected = false;
     t->boxes[number].blocks = false;
-    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
-    const sl_space *boxed = sl_moving_space(t->moving, NULL);
+    assert_ok(t->context, sli_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
+    const sl_space *boxed = sli_moving_space(t->moving, NULL);
     if (boxed->cell_count <= ORACLE_CELLS) {
         ask_oracle(t, view, sees);
         for (uint32_t c = 0; c < boxed->cell_count; c++) {
@@ -359,7 +360,7 @@ static void judge_box(trial *t, const sl_view *view, size_t number, bool said) {
 
 /// Anywhere, near walls, or in special places: corners of cells, and on walls and boxes.
 static sl_point random_eye(trial *t) {
-    const sl_space *boxed = sl_moving_space(t->moving, NULL);
+    const sl_space *boxed = sli_moving_space(t->moving, NULL);
     const sl_box box = t->boxes[below(t, t->count)].box;
     const sl_wall *wall = &boxed->walls[below(t, boxed->wall_count)];
     switch (below(t, 8)) {
@@ -383,8 +384,8 @@ static void try_eye(trial *t) {
     const sl_point eye = random_eye(t);
     const sl_view view = sl_view_all_round(eye);
     if (sl_space_locate(&t->space, eye) == SL_NO_CELL) return;
-    assert_ok(t->context, sl_moving_look(t->context, t->moving, &view, cells, seen, &account));
-    assert_ok(t->context, sl_moving_outline(t->context, t->moving, &outline));
+    assert_ok(t->context, sli_moving_look(t->context, t->moving, &view, cells, seen, &account));
+    assert_ok(t->context, sli_moving_outline(t->context, t->moving, &outline));
     assert_ok(t->context, sl_region_make(t->context, outline, &view, 0, &region));
     gather_segments(t);
     t->straight.blockers = blockers_create(t->straight.items, t->straight.count);
@@ -395,11 +396,11 @@ static void try_eye(trial *t) {
     blockers_destroy(t->straight.blockers);
     blockers_destroy(t->bent.blockers);
     sl_region_destroy(t->context, &region);
-    if (sl_moving_space(t->moving, NULL)->cell_count > ORACLE_CELLS) return;
+    if (sli_moving_space(t->moving, NULL)->cell_count > ORACLE_CELLS) return;
     judge_cells(t, &view, cells);
     for (size_t i = 0; i < t->count; i++)
         if (can_judge(t, i, eye)) judge_box(t, &view, i, seen[i]);
-    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sli_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
 }
 
 // --- random maps
@@ -408,8 +409,8 @@ static void try_boxes(trial *t) {
     t->count = 1 + below(t, BOXES);
     for (size_t i = 0; i < t->count; i++)
         t->boxes[i] = (sl_moving_box){random_box(t), below(t, 3) > 0};
-    assert_ok(t->context, sl_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
-    assert_ok(t->context, sl_space_check(t->context, sl_moving_space(t->moving, NULL)));
+    assert_ok(t->context, sli_moving_set_boxes(t->context, t->moving, t->boxes, t->count));
+    assert_ok(t->context, sl_space_check(t->context, sli_moving_space(t->moving, NULL)));
     if (t->coarse) return;
     check_walls(t);
     for (int i = 0; i < EYES; i++) try_eye(t);
@@ -440,9 +441,9 @@ static void try_map(trial *t, sl_sight sight) {
     measure(t);
     assert_true(t->space.cell_count <= CELLS_MOST);
     bake(t, sight);
-    assert_ok(t->context, sl_moving_create(t->context, &t->space, &t->baked, &t->moving));
+    assert_ok(t->context, sli_moving_create(t->context, &t->space, &t->baked, &t->moving));
     for (int i = 0; i < 2; i++) try_boxes(t); // placed, and placed anew
-    sl_moving_destroy(t->context, t->moving);
+    sli_moving_destroy(t->context, t->moving);
     sl_visibility_destroy(t->context, &t->baked);
     sl_space_destroy(t->context, &t->space);
 }
@@ -560,17 +561,17 @@ static void crowds(void **state) {
         assert_true(status == SL_OK || status == SL_UNSUPPORTED); // for lack of a tolerance
         measure(&t);
         if (status == SL_OK)
-            assert_ok(t.context, sl_moving_create(t.context, &t.space, &t.baked, &t.moving));
+            assert_ok(t.context, sli_moving_create(t.context, &t.space, &t.baked, &t.moving));
         for (int k = 0; k < 4 && status == SL_OK; k++) {
             t.count = 4 * BOXES;
             for (size_t i = 0; i < t.count; i++)
                 t.boxes[i] = (sl_moving_box){random_box(&t), below(&t, 3) > 0};
-            assert_ok(t.context, sl_moving_set_boxes(t.context, t.moving, t.boxes, t.count));
-            assert_ok(t.context, sl_space_check(t.context, sl_moving_space(t.moving, NULL)));
+            assert_ok(t.context, sli_moving_set_boxes(t.context, t.moving, t.boxes, t.count));
+            assert_ok(t.context, sl_space_check(t.context, sli_moving_space(t.moving, NULL)));
             if (grid < OBLIQUE_SCALES) check_walls(&t);
             placed++;
         }
-        if (status == SL_OK) sl_moving_destroy(t.context, t.moving);
+        if (status == SL_OK) sli_moving_destroy(t.context, t.moving);
         sl_space_destroy(t.context, &t.space);
         sl_map_destroy(t.context, &t.map);
     }
@@ -637,7 +638,7 @@ typedef struct room {
     sl_map map;
     sl_space space;
     sl_visibility bare;
-    sl_moving *moving;
+    sli_moving *moving;
 } room;
 
 /// A square of 8 with a wall askew and a seam that goes on from it.
@@ -653,7 +654,7 @@ static void enter(room *r, testing_memory *memory) {
 }
 
 static void leave(room *r) {
-    sl_moving_destroy(r->context, r->moving);
+    sli_moving_destroy(r->context, r->moving);
     sl_space_destroy(r->context, &r->space);
     sl_map_destroy(r->context, &r->map);
     sl_context_destroy(r->context);
@@ -665,9 +666,9 @@ static void cells_keep_their_numbers(void **state) {
     enter(&r, NULL);
     const uint32_t *parents;
     const sl_moving_box boxes[] = {{{{1, 2}, {3, 5}}, true}};
-    assert_ok(r.context, sl_moving_create(r.context, &r.space, &r.bare, &r.moving));
-    assert_ok(r.context, sl_moving_set_boxes(r.context, r.moving, boxes, 1));
-    const sl_space *boxed = sl_moving_space(r.moving, &parents);
+    assert_ok(r.context, sli_moving_create(r.context, &r.space, &r.bare, &r.moving));
+    assert_ok(r.context, sli_moving_set_boxes(r.context, r.moving, boxes, 1));
+    const sl_space *boxed = sli_moving_space(r.moving, &parents);
     assert_true(boxed->cell_count > r.space.cell_count);
     for (uint32_t i = 0; i < r.space.cell_count; i++) assert_int_equal(parents[i], i);
     for (double x = 0.25; x < 8; x += 0.5)
@@ -686,14 +687,14 @@ static void no_memory(void **state) {
     const long before = memory.live;
     sl_status status = SL_NO_MEMORY;
     for (long fail = 1; status != SL_OK; fail++) {
-        sl_moving *moving = NULL;
+        sli_moving *moving = NULL;
         memory.calls = 0;
         memory.fail_at = fail;
-        status = sl_moving_create(r.context, &r.space, &r.bare, &moving);
-        if (status == SL_OK) status = sl_moving_set_boxes(r.context, moving, boxes, 2);
+        status = sli_moving_create(r.context, &r.space, &r.bare, &moving);
+        if (status == SL_OK) status = sli_moving_set_boxes(r.context, moving, boxes, 2);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         memory.fail_at = 0;
-        sl_moving_destroy(r.context, moving);
+        sli_moving_destroy(r.context, moving);
         assert_int_equal(memory.live, before);
     }
     leave(&r);

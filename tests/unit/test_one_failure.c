@@ -5,7 +5,7 @@
 #include "sightline/bake.h"
 #include "sightline/faults.h"
 #include "sightline/geojson.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 
 #include <dirent.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
 // What fails once in what compares, measures, draws up and converts, at any allocation.
+#include "eye_to_cell/eye_search.h"
 #include "one_failure.h"
 
 #include "map_same.h"
@@ -9,7 +10,7 @@
 #include "sightline/generate.h"
 #include "sightline/io.h"
 #include "sightline/sees.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/steps.h"
 #include "sightline/vga.h"
 #include "sightline/view_cells.h"
@@ -48,10 +49,10 @@ static sl_status outline_of(sl_context *context, one_failure *on) {
 
 /// Each culling method, by mirror too where it knows mirrors.
 static sl_status cull(sl_context *context, one_failure *on) {
-    sl_eye_search *search = NULL;
+    sli_eye_search *search = NULL;
     sl_status status =
-        sl_eye_search_create(context, &on->baked.space, &on->baked.visibility, &search);
-    if (status == SL_OK) status = sl_eye_search_add_mirrors(context, search, &on->map, 2);
+        sli_eye_search_create(context, &on->baked.space, &on->baked.visibility, &search);
+    if (status == SL_OK) status = sli_eye_search_add_mirrors(context, search, &on->map, 2);
     const sl_view view = sl_view_cone((sl_point){1, 1}, 30, 90, 20);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
@@ -65,7 +66,7 @@ static sl_status cull(sl_context *context, one_failure *on) {
         if (status == SL_OK) MIX(on, cells);
     }
     one_failure_ends(on);
-    sl_eye_search_destroy(context, search);
+    sli_eye_search_destroy(context, search);
     return status;
 }
 

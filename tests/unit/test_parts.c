@@ -1,5 +1,6 @@
 /// Work in parts: shards, what is stopped and gone on with, and what is taken over from a map
 /// before it was changed all come to what is found in one go; what is stopped never misses a pair.
+#include "cell_to_cell/pvs_rows.h"
 #include "testing.h"
 
 #include "oracle/random_effects.h"
@@ -155,8 +156,8 @@ static void assert_rows_miss_nothing(const sl_pvs *part, const sl_door_sets *par
                                      const bool *shut) {
     for (uint32_t a = 0; a < plain->cell_count; a++)
         for (uint32_t b = 0; b < plain->cell_count; b++)
-            if (sl_pvs_sees(plain, a, b) && sl_door_sets_open(plain_doors, a, b, shut))
-                assert_true(sl_pvs_sees(part, a, b) && sl_door_sets_open(part_doors, a, b, shut));
+            if (sl_pvs_sees(plain, a, b) && sli_door_sets_open(plain_doors, a, b, shut))
+                assert_true(sl_pvs_sees(part, a, b) && sli_door_sets_open(part_doors, a, b, shut));
 }
 
 static void assert_misses_nothing(const sl_visibility *part, const sl_visibility *plain,

@@ -1,6 +1,7 @@
 /// Doors open and shut in place: after any changes a query answers as spaces do that are made anew,
 /// with walls in the shut doors and on the dark sides of glass, and with rows that are cut to what
 /// is left. Also a query over a space without visible sets, and one that looks backwards.
+#include "eye_to_cell/eye_search.h"
 #include "testing.h"
 
 #include "sightline/bake.h"
@@ -72,7 +73,7 @@ typedef struct fresh {
     sl_space shut, space;
     sl_visibility rows;
     sl_outline outline;
-    sl_eye_search *search;
+    sli_eye_search *search;
 } fresh;
 
 static void make_fresh(sl_context *context, const sl_baked *baked, const bool *shut, fresh *f) {
@@ -81,11 +82,11 @@ static void make_fresh(sl_context *context, const sl_baked *baked, const bool *s
     assert_ok(context, sl_baked_shut(context, baked, shut, &f->shut, &f->rows));
     assert_ok(context, sl_filtered_space_make(context, &f->shut, &glass, NULL, &f->space));
     assert_ok(context, sl_outline_make(context, &f->space, &f->outline));
-    assert_ok(context, sl_eye_search_create(context, &f->space, &f->rows, &f->search));
+    assert_ok(context, sli_eye_search_create(context, &f->space, &f->rows, &f->search));
 }
 
 static void destroy_fresh(sl_context *context, fresh *f) {
-    sl_eye_search_destroy(context, f->search);
+    sli_eye_search_destroy(context, f->search);
     sl_outline_destroy(context, &f->outline);
     sl_visibility_destroy(context, &f->rows);
     sl_space_destroy(context, &f->space);

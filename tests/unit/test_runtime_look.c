@@ -1,6 +1,7 @@
 // Eye-to-cell of the runtime against an oracle: what one eye sees is told by its lines through the
 // ends of portals and along the cone's borders, each followed by itself through the cells.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "eye_to_cell/cone.h"
 #include "runtime_maps.h"
 
 #include "geometry/orient.h"
@@ -27,7 +28,7 @@ static bool leaves_by(sl_point eye, sl_point through, const sl_directed_portal *
     const sl_view ray = {.eye = eye, .left = through, .right = through};
     const sl_view to_left = {.eye = eye, .left = directed->left, .right = directed->left};
     return testing_same_point(eye, directed->left) || testing_same_point(eye, directed->right) ||
-           !sl_view_holds(&to_left, directed->right) || sl_view_holds(&ray, directed->right);
+           !sli_view_holds(&to_left, directed->right) || sli_view_holds(&ray, directed->right);
 }
 
 enum { CROSSED_LEFT = 1, CROSSED_RIGHT = 2, CROSSED_BOTH = 3, STATES = 4 };
@@ -92,12 +93,12 @@ static void look_from_cell(trial *t, const sl_view *view, uint32_t cell) {
     t->is_own[cell] = true;
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         const sl_point corner = s->vertices[c->first_vertex + i];
-        if (!testing_same_point(corner, view->eye) && sl_view_holds(view, corner))
+        if (!testing_same_point(corner, view->eye) && sli_view_holds(view, corner))
             t->is_seen[cell] = true;
     }
     for (uint32_t i = 0; i < 2 * s->portal_count; i++) {
         const sl_point end = i % 2 ? s->portals[i / 2].left : s->portals[i / 2].right;
-        if (!testing_same_point(end, view->eye) && sl_view_holds(view, end))
+        if (!testing_same_point(end, view->eye) && sli_view_holds(view, end))
             follow(t, view->eye, cell, end);
     }
     if (!view->full) {

@@ -1,6 +1,7 @@
 /// The runtime's eye past shut doors and within a range, against the library's eye in a space with
 /// walls in those doors and against the visible region.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "eye_to_cell/eye_search.h"
 #include "runtime_maps.h"
 
 #include "sightline/support.h"
@@ -100,14 +101,14 @@ static uint32_t look(const trial *t, const sl_view *view, double range, bool *sa
 /// What the library sees within a range.
 static void see(const trial *t, const sl_view *view, double range, uint64_t *seen) {
     const sl_visibility bare = {.sight = SL_CLOSED};
-    sl_eye_search *search;
+    sli_eye_search *search;
     sl_eye_account account;
     size_t methods;
     const sl_eye_method *exact = sl_eye_methods(&methods) + methods - 1;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->walled, &bare, &search));
-    sl_eye_search_set_range(search, range);
+    assert_ok(t->context, sli_eye_search_create(t->context, &t->walled, &bare, &search));
+    sli_eye_search_set_range(search, range);
     assert_ok(t->context, exact->cull(t->context, search, view, seen, &account));
-    sl_eye_search_destroy(t->context, search);
+    sli_eye_search_destroy(t->context, search);
 }
 
 static void try_eye(trial *t) {

@@ -6,6 +6,7 @@
 // runtime's look is the library's culling, and has those of the eye's cells that the cone leads
 // into. SIGHTLINE_SEEDS in the environment: how many maps (200 by default).
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "eye_to_cell/eye_search.h"
 #include "runtime_maps.h"
 
 #include "oracle/two_points.h"
@@ -375,7 +376,7 @@ static bool leads_into(const sl_space *s, uint32_t number, const sl_view *view) 
     bool between = true;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point a = v[i], b = v[(i + 1) % cell->vertex_count];
-        if (!testing_same_point(a, eye) && sl_view_holds(view, a)) return true;
+        if (!testing_same_point(a, eye) && sli_view_holds(view, a)) return true;
         if (sl_orient(a, b, eye) == 0) between &= sl_orient(a, b, view->right) >= 0;
     }
     return between;
@@ -391,7 +392,7 @@ static void check_own_cells(trial *t, const sl_view *view) {
         if (sl_eye_sees(t->seen, c) && sli_cell_holds(s, c, view->eye) && !leads_into(s, c, view))
             complain_of_cell(t, view, c, "the cell that the cone leaves", true);
     memset(t->looser, 0, sl_eye_words(s) * sizeof *t->looser);
-    const uint32_t own = sl_eye_cells(s, view->eye, t->cells, t->looser);
+    const uint32_t own = sli_eye_cells(s, view->eye, t->cells, t->looser);
     for (uint32_t i = 0; i < own; i++) {
         const bool enters = leads_into(s, t->cells[i], view);
         if (walls_alone && enters && !sl_eye_sees(t->seen, t->cells[i]))

@@ -3,7 +3,7 @@
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "space/index.h"
 
 #include <math.h>

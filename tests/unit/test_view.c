@@ -1,4 +1,5 @@
 /// The view cone: which points it holds, at every width.
+#include "eye_to_cell/cone.h"
 #include "testing.h"
 
 #include "sightline/view.h"
@@ -10,28 +11,29 @@ static void quarter_turns(void **state) {
     const sl_point eye = {3, -2};
     const sl_point east = {9, -2}, north = {3, 5}, west = {-1, -2}, south = {3, -7};
     const sl_view up = sl_view_cone(eye, 90, 180, 10);
-    assert_true(sl_view_holds(&up, east) && sl_view_holds(&up, north) && sl_view_holds(&up, west));
-    assert_false(sl_view_holds(&up, south));
+    assert_true(sli_view_holds(&up, east) && sli_view_holds(&up, north) &&
+                sli_view_holds(&up, west));
+    assert_false(sli_view_holds(&up, south));
     const sl_view most = sl_view_cone(eye, 90, 270, 10);
-    assert_true(sl_view_holds(&most, north) && sl_view_holds(&most, east));
-    assert_false(sl_view_holds(&most, south));
+    assert_true(sli_view_holds(&most, north) && sli_view_holds(&most, east));
+    assert_false(sli_view_holds(&most, south));
     const sl_view ray = sl_view_cone(eye, 0, 0, 10);
-    assert_true(sl_view_holds(&ray, east));
-    assert_false(sl_view_holds(&ray, west));
-    assert_false(sl_view_holds(&ray, (sl_point){9, nextafter(-2, 0)}));
+    assert_true(sli_view_holds(&ray, east));
+    assert_false(sli_view_holds(&ray, west));
+    assert_false(sli_view_holds(&ray, (sl_point){9, nextafter(-2, 0)}));
 }
 
 static void the_border_belongs_to_the_cone(void **state) {
     (void)state;
     const sl_view view = {.eye = {0, 0}, .left = {1, 3}, .right = {3, 1}};
-    assert_true(sl_view_holds(&view, (sl_point){0.5, 1.5}));
-    assert_true(sl_view_holds(&view, (sl_point){1.5, 0.5}));
-    assert_false(sl_view_holds(&view, (sl_point){1.5, nextafter(0.5, 0)}));
-    assert_false(sl_view_holds(&view, (sl_point){-0.5, -1.5}));
-    assert_true(sl_view_holds(&view, view.eye));
+    assert_true(sli_view_holds(&view, (sl_point){0.5, 1.5}));
+    assert_true(sli_view_holds(&view, (sl_point){1.5, 0.5}));
+    assert_false(sli_view_holds(&view, (sl_point){1.5, nextafter(0.5, 0)}));
+    assert_false(sli_view_holds(&view, (sl_point){-0.5, -1.5}));
+    assert_true(sli_view_holds(&view, view.eye));
     const sl_view rest = {.eye = {0, 0}, .left = {3, 1}, .right = {1, 3}};
-    assert_true(sl_view_holds(&rest, (sl_point){1.5, nextafter(0.5, 0)}));
-    assert_false(sl_view_holds(&rest, (sl_point){1, 1}));
+    assert_true(sli_view_holds(&rest, (sl_point){1.5, nextafter(0.5, 0)}));
+    assert_false(sli_view_holds(&rest, (sl_point){1, 1}));
 }
 
 static void all_round(void **state) {
@@ -41,8 +43,8 @@ static void all_round(void **state) {
     const sl_view nearly = sl_view_cone((sl_point){1, 1}, 17, nextafter(360, 0), 10);
     for (int i = 0; i < 360; i += 15) {
         const sl_view ray = sl_view_cone((sl_point){1, 1}, i, 0, 7);
-        assert_true(sl_view_holds(&given, ray.left));
-        assert_true(sl_view_holds(&nearly, ray.left));
+        assert_true(sli_view_holds(&given, ray.left));
+        assert_true(sli_view_holds(&nearly, ray.left));
     }
 }
 
@@ -114,7 +116,7 @@ static void segments_on_a_grid(void **state) {
                 for (int b = 0; b < 25; b++) {
                     const bool expected = meets_by_integers(nth(r), nth(l), nth(a), nth(b));
                     const sl_segment segment = {on_grid(nth(a)), on_grid(nth(b))};
-                    if (sl_view_meets_segment(&view, segment) != expected)
+                    if (sli_view_meets_segment(&view, segment) != expected)
                         fail_msg("right %d left %d segment %d %d", r, l, a, b);
                     met += expected;
                     all++;
@@ -138,7 +140,7 @@ static void polygons_on_a_grid(void **state) {
                         for (int i = 0; i < 3; i++)
                             expected |= meets_by_integers(nth(r), nth(l), v[i], v[(i + 1) % 3]);
                         const sl_point corners[3] = {on_grid(v[0]), on_grid(v[1]), on_grid(v[2])};
-                        if (sl_view_meets_polygon(&view, corners, 3) != expected)
+                        if (sli_view_meets_polygon(&view, corners, 3) != expected)
                             fail_msg("right %d left %d corners %d %d %d", r, l, a, b, c);
                     }
         }

@@ -8,7 +8,7 @@
 #include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"
-#include "sightline/solvers.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 #include "view_cells/pieces.h"
 

@@ -1,5 +1,6 @@
 /// Exact sets of view cells: location beside the tree's own, rows beside the union of what their
 /// cells see, compressed and not.
+#include "cell_to_cell/view_rows.h"
 #include "view_cells_maps.h"
 
 #include "cell_to_cell/pvs_rows.h"
@@ -70,16 +71,16 @@ static void check_location(const seen *s, const sl_view_rows *rows, bool axial) 
         uint32_t expected = SL_NO_VIEW_CELL;
         if (s->space.cells[cell].inside && leaf < s->tree.cell_count)
             expected = s->view_cells[leaf];
-        assert_int_equal(sl_view_rows_locate(rows, &s->space, p), expected);
+        assert_int_equal(sli_view_rows_locate(rows, &s->space, p), expected);
     }
-    assert_int_equal(sl_view_rows_locate(rows, &s->space, (sl_point){NAN, 0}), SL_NO_VIEW_CELL);
+    assert_int_equal(sli_view_rows_locate(rows, &s->space, (sl_point){NAN, 0}), SL_NO_VIEW_CELL);
 }
 
 static uint64_t check_rows(sl_context *context, const seen *s, bool compressed, bool axial) {
     sl_view_rows rows;
     assert_ok(context, sl_view_rows_make(context, &s->space, &s->visibility.pvs, &s->tree,
                                          &s->hierarchy, s->cells, compressed, &rows));
-    assert_ok(context, sl_view_rows_check(context, &rows));
+    assert_ok(context, sli_view_rows_check(context, &rows));
     assert_int_equal(rows.view_cell_count, s->cells);
     const size_t words = sl_bits_words(s->space.cell_count);
     sl_bits *expected = calloc(words, sizeof *expected), *found = calloc(words, sizeof *found);
@@ -88,15 +89,15 @@ static uint64_t check_rows(sl_context *context, const seen *s, bool compressed, 
         memset(found, 0, words * sizeof *found);
         for (uint32_t c = 0; c < s->space.cell_count; c++)
             if (rows.view_cells[c] == v) sli_row_add_to(&s->visibility.pvs, c, expected);
-        sl_view_rows_add_to(&rows, v, found);
+        sli_view_rows_add_to(&rows, v, found);
         assert_memory_equal(expected, found, words * sizeof *found);
         for (uint32_t c = 0; c < s->space.cell_count; c++)
-            assert_int_equal(sl_view_rows_sees(&rows, v, c), sl_bits_has(expected, c));
+            assert_int_equal(sli_view_rows_sees(&rows, v, c), sl_bits_has(expected, c));
     }
     free(expected);
     free(found);
     check_location(s, &rows, axial);
-    uint64_t references = sl_pvs_pairs(&rows.rows);
+    uint64_t references = sli_pvs_pairs(&rows.rows);
     sl_view_rows_destroy(context, &rows);
     return references;
 }
@@ -153,18 +154,18 @@ static void samples_see_no_more_than_there_is(void **state) {
         sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy, s.cells, &exact),
         SL_BAD_ARGUMENT);
     // Rows that a file could hold, each with one fault.
-    assert_ok(context, sl_view_rows_check(context, &rows));
+    assert_ok(context, sli_view_rows_check(context, &rows));
     const uint32_t parent = rows.parents[0], of = rows.view_cells[0], count = rows.view_cell_count;
     rows.parents[0] = 0;
-    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    assert_int_equal(sli_view_rows_check(context, &rows), SL_BAD_INPUT);
     rows.parents[0] = rows.node_count;
-    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    assert_int_equal(sli_view_rows_check(context, &rows), SL_BAD_INPUT);
     rows.parents[0] = parent;
     rows.view_cells[0] = count;
-    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    assert_int_equal(sli_view_rows_check(context, &rows), SL_BAD_INPUT);
     rows.view_cells[0] = of;
     rows.view_cell_count = 0;
-    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    assert_int_equal(sli_view_rows_check(context, &rows), SL_BAD_INPUT);
     rows.view_cell_count = count;
     sl_view_rows_destroy(context, &rows);
     drop(context, &s);

@@ -1,6 +1,7 @@
 /// View cells in the runtime: merged ones, that need not be convex, are found and looked up right.
 ///   test_view_runtime [POINTS]    so many random points instead of some thousands
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "cell_to_cell/view_rows.h"
 #include "view_cells_maps.h"
 
 #include "bake/slv.h"
@@ -135,7 +136,7 @@ static void check_points(const viewed *v, const sl_runtime *rt) {
     sl_bits *own = calloc(words, sizeof *own);
     unsigned char *unpacked = calloc(b->space.cell_count / 8 + 1, 1);
     for (uint32_t i = 0; i < b->views.view_cell_count; i++) {
-        sl_view_rows_add_to(&b->views, i, rows + i * words);
+        sli_view_rows_add_to(&b->views, i, rows + i * words);
         sl_runtime_view_bits(rt, i, unpacked);
         for (uint32_t c = 0; c < b->space.cell_count; c++)
             assert_int_equal(unpacked[c / 8] >> c % 8 & 1, sl_bits_has(rows + i * words, c));
@@ -148,7 +149,7 @@ static void check_points(const viewed *v, const sl_runtime *rt) {
         if (i % 5 == 0) p = (sl_point){floor(p.x), floor(p.y)};
         const uint32_t cell = sl_runtime_locate(rt, p.x, p.y);
         const uint32_t view = sl_runtime_view_cell(rt, cell);
-        assert_int_equal(view, sl_view_rows_locate(&b->views, &b->space, p));
+        assert_int_equal(view, sli_view_rows_locate(&b->views, &b->space, p));
         const sl_point q = {box.min.x + (box.max.x - box.min.x) * sl_random_unit(&random),
                             box.min.y + (box.max.y - box.min.y) * sl_random_unit(&random)};
         free_ways += check_alone(v, rt, p, q, view);
@@ -222,7 +223,7 @@ static void bake_by_views(sl_context *context, const char *name, uint32_t cells,
             if (sl_pvs_sees(&exact, a, b)) assert_true(sl_pvs_sees(&seen->pvs, a, b));
             assert_int_equal(sl_pvs_sees(&seen->pvs, a, b),
                              view != SL_NO_VIEW_CELL &&
-                                 sl_view_rows_sees(&v->baked.views, view, b));
+                                 sli_view_rows_sees(&v->baked.views, view, b));
         }
     sl_pvs_destroy(context, &exact);
     seen->guarantee = SL_CONSERVATIVE;
@@ -259,7 +260,7 @@ static void view_cells_stand_for_their_cells(void **state) {
     for (int fault = 0; fault < 2; fault++) {
         const uint32_t kept = fault ? v.baked.views.parents[0] : 0;
         while (!fault && (view_cells[first] == SL_NO_VIEW_CELL ||
-                          sl_view_rows_sees(&v.baked.views, 0, first)))
+                          sli_view_rows_sees(&v.baked.views, 0, first)))
             first++;
         const uint32_t own = view_cells[first];
         if (fault)

@@ -1,5 +1,6 @@
 /// Walks on random maps: nothing that is seen is missed, by any method with any test, and those
 /// that should agree do.
+#include "eye_to_cell/eye_search.h"
 #include "testing.h"
 
 #include "geometry/orient.h"
@@ -20,7 +21,7 @@ typedef struct world {
     sl_outline outline;
     sl_hierarchy hierarchy;
     sl_visibility none; ///< no visible sets: exact culling then searches the whole space
-    sl_eye_search *search;
+    sli_eye_search *search;
     sl_region region;
     uint64_t *seen; ///< cells, by exact culling or by points of the visible region
     sl_walk *walks[MOST_WALKS];
@@ -38,7 +39,7 @@ static void open_world(world *w, const sl_walk_options *like) {
     assert_ok(context, sl_hierarchy_make(context, &w->space, &w->hierarchy));
     w->none.sight = SL_OPEN;
     w->cheap = like->cheap > 0;
-    assert_ok(context, sl_eye_search_create(context, &w->space, &w->none, &w->search));
+    assert_ok(context, sli_eye_search_create(context, &w->space, &w->none, &w->search));
     w->seen = calloc(sl_eye_words(&w->space), sizeof *w->seen);
     assert_non_null(w->seen);
     for (size_t m = 0; m < methods_count; m++)
@@ -56,7 +57,7 @@ static void close_world(world *w) {
     for (size_t i = 0; i < w->walk_count; i++) sl_walk_destroy(w->context, w->walks[i]);
     free(w->seen);
     sl_region_destroy(w->context, &w->region);
-    sl_eye_search_destroy(w->context, w->search);
+    sli_eye_search_destroy(w->context, w->search);
     sl_hierarchy_destroy(w->context, &w->hierarchy);
     sl_outline_destroy(w->context, &w->outline);
     sl_space_destroy(w->context, &w->space);

@@ -2,7 +2,6 @@
 #ifndef SIGHTLINE_CELL_TO_CELL_H
 #define SIGHTLINE_CELL_TO_CELL_H
 
-#include "sightline/doors.h"
 #include "sightline/effects.h"
 #include "sightline/pvs.h"
 #include "sightline/space.h"

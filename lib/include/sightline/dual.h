@@ -48,8 +48,6 @@ SL_API void sl_dual_make(const sl_portal_ends *portals, uint32_t count, uint32_t
 
 /// The half-plane of an end: lines with height <= y' - slope x' (left ends) or >= (right ends).
 SL_API sl_point sl_dual_point(const sl_dual *dual, sl_point point); ///< in the turned frame
-/// The point of the map that is `turned` in the turned frame.
-SL_API sl_point sl_dual_point_back(const sl_dual *dual, sl_point turned);
 
 /// Two points of a line, in the map, at x' = from and x' = to.
 SL_API sl_line sl_dual_line_at(const sl_dual *dual, sl_dual_line line, double from, double to);

@@ -34,10 +34,44 @@ SL_API bool sl_pvs_next(sl_pvs_run *run);
 SL_API bool sl_pvs_sees(const sl_pvs *pvs, uint32_t from, uint32_t to);
 /// How many cells are in a row.
 SL_API uint32_t sl_pvs_count(const sl_pvs *pvs, uint32_t cell);
-SL_API uint64_t sl_pvs_pairs(const sl_pvs *pvs); ///< of all rows
+// --- doors
 
-/// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.
-SL_API sl_status sl_pvs_check(sl_context *context, const sl_pvs *pvs);
+/// For each pair that depends on doors its alternatives: the smallest sets of doors that some
+/// sightline passes. The pair is seen exactly if of one of them no door is shut. Pairs that some
+/// sightline joins without a door are not there, nor those that needed more alternatives than the
+/// limit: they count as seen whatever is shut (counted by sl_see_account.door_fallbacks).
+/// Alternatives of fewer doors come first, of as many those with lower doors.
+///
+/// A row is bytes[offsets[cell] .. offsets[cell + 1]): numbers in LEB128, for each pair in turn the
+/// cells passed over since the last one, how many alternatives, and for each of them how many
+/// doors, then the doors passed over since the last one. Zeroed: no rows.
+typedef struct sl_door_sets {
+    uint32_t cell_count;
+    uint64_t *offsets; ///< cell_count + 1
+    uint8_t *bytes;
+} sl_door_sets;
+
+/// Bytes of all rows.
+SL_API uint64_t sl_door_sets_bytes(const sl_door_sets *sets);
+
+/// One of a pair's alternatives, `which` counted from 0: sets those of `doors` (by door of the map)
+/// that it is made of, and leaves the others; NULL to ask only. False where there is none of that
+/// number. Time: the length of the row.
+SL_API bool sl_door_sets_alternative(const sl_door_sets *sets, uint32_t from, uint32_t to,
+                                     uint32_t which, bool *doors);
+
+/// A walk over a row's pairs: for (sl_door_pairs p = sl_door_pairs_begin(sets, cell);
+/// sl_door_pairs_next(&p, shut);) p.cell, p.open.
+typedef struct sl_door_pairs {
+    uint32_t cell, alternatives;
+    bool open;                  ///< seen, with what is shut
+    const uint8_t *next, *stop; ///< the walk's own
+} sl_door_pairs;
+
+/// Starts a walk over the pairs of a cell's row.
+SL_API sl_door_pairs sl_door_pairs_begin(const sl_door_sets *sets, uint32_t cell);
+/// Goes on to the next pair; false behind the last.
+SL_API bool sl_door_pairs_next(sl_door_pairs *pairs, const bool *shut);
 
 // --- rows of view cells
 
@@ -59,17 +93,6 @@ typedef struct sl_view_rows {
 SL_API sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,
                                      uint64_t *pairs);
 SL_API void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows); ///< and zeroes it
-
-/// The view cell of a point: that of its cell in the space. SL_NO_VIEW_CELL for none.
-SL_API uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *space,
-                                    sl_point point);
-/// Sets bit c % 64 of word c / 64 for each cell c that a view cell sees; other bits stay.
-SL_API void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits);
-/// Whether a view cell sees a cell.
-SL_API bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell);
-
-/// Checks rows from an untrusted file. SL_BAD_INPUT.
-SL_API sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows);
 
 #ifdef __cplusplus
 }

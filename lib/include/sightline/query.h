@@ -20,7 +20,6 @@
 #define SIGHTLINE_QUERY_H
 
 #include "sightline/eye_to_cell.h"
-#include "sightline/mirrored.h"
 #include "sightline/region.h"
 
 #ifdef __cplusplus
@@ -70,16 +69,24 @@ SL_API bool sl_query_door_is_open(const sl_query *query, size_t door);
 /// other way. Methods that need visible sets refuse then where there is glass.
 SL_API void sl_query_set_backwards(sl_context *context, sl_query *query, bool backwards);
 
-/// Boxes that block sight or are to be seen themselves (sightline/moving.h), in place of those
-/// before. They are copied. The next question fails as sl_moving_set_boxes does. If some box
-/// blocks, it cuts the cells at the sides of all boxes, and copies the rest of the space.
+/// Boxes that block sight or are to be seen themselves, in place of those before. They are copied.
+/// The next question fails with SL_BAD_ARGUMENT for boxes whose corners are not in order, or whose
+/// coordinates sl_coordinate_usable refuses; with SL_UNSUPPORTED for a loose space, and where walls
+/// run along each other within steps of doubles and bend each other without end. If some box
+/// blocks, the cells are cut at the sides of all boxes, and the rest of the space is copied.
+///
+/// Where a side of a box crosses an oblique wall, the wall is bent to the nearest representable
+/// point on that side; all else is exact. In a space of axial walls no coordinate is computed.
 /// SL_UNSUPPORTED in a build without boxes (SIGHTLINE_BOXES).
 SL_API sl_status sl_query_set_boxes(sl_context *context, sl_query *query,
                                     const sl_moving_box *boxes, size_t count);
 
-/// How far is seen, in map units; 0 for no limit. SL_BAD_ARGUMENT for less and for values that are
-/// not finite; and for more than the map's own range, where it has one: the visible sets know of
-/// nothing farther.
+/// How far is seen, in map units; 0 for no limit. The distance of a cell is that of the nearest
+/// place that the eye sees of it, along the sightline with its reflections. It is compared exactly:
+/// a place at just that distance is seen with closed sight, and not with open sight. Images in
+/// mirrors that are rounded count from where they are. SL_BAD_ARGUMENT for less and for values that
+/// are not finite; and for more than the map's own range, where it has one: the visible sets know
+/// of nothing farther.
 SL_API sl_status sl_query_set_range(sl_context *context, sl_query *query, double range);
 
 /// How often mirrors reflect a sightline at most: 0 to 16, else SL_BAD_ARGUMENT.
@@ -145,16 +152,29 @@ SL_API sl_status sl_query_look(sl_context *context, sl_query *query, const sl_vi
 /// the exact one keep them. Exact. Nothing without a range.
 SL_API void sl_query_drop_far(const sl_query *query, sl_point eye, uint64_t *cells);
 
-/// The cells that a view sees by mirror, as sl_query_look. Methods other than the exact one give
-/// what was baked, so no more reflections than the bake's. None where the map has no mirror or the
-/// depth is 0. SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
+/// The cells that a view sees by mirror, as sl_query_look. A sightline crosses a mirror as it would
+/// cross a portal, by the same rules: it must cross all of them strictly forwards, in mirrored
+/// space. So an eye on a mirror looks into it. Behind axial mirrors answers are exact. They are
+/// rounded where sums of two doubles do not hold the place of an image (coordinates that are more
+/// than about 30 digits apart) and behind oblique mirrors; the account counts those. They are then
+/// exact for an eye and a cone that each reflection moves by a few units in the last place of the
+/// largest coordinates.
+///
+/// Methods other than the exact one give what was baked, so no more reflections than the bake's.
+/// None where the map has no mirror or the depth is 0. SL_UNSUPPORTED where the method does not
+/// know mirrors (sl_eye_method.mirrored).
 SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                         const sl_eye_method *method, uint64_t *cells,
                                         sl_eye_account *account);
 
-/// By box, whether it is seen directly (`seen`) and by mirror (`mirrored`), as sl_moving_look says.
-/// Either may be NULL: it then costs nothing. If no box blocks, sight is closed, and there is no
-/// mirror or range, cells are not cut. Then 1,000 boxes that move cost a millisecond. A box then
+/// By box, whether it is seen directly (`seen`) and by mirror (`mirrored`). A box is seen if it
+/// holds the eye, or if a sightline crosses one of its sides or ends there; with closed sight also
+/// if it touches a side or runs along it. A side that a wall covers is not seen. A box that is one
+/// point is seen where sl_query_sees says so, and not by mirror. By mirror, the box that holds the
+/// eye is seen where a sightline comes back to it. Boxes that block also hide each other.
+///
+/// Either may be NULL: it then costs nothing. If no box blocks, sight is closed, and there is
+/// no mirror or range, cells are not cut. Then 1,000 boxes that move cost a millisecond. A box then
 /// also counts if a sightline ends at a single point of it.
 SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
                                      bool *seen, bool *mirrored);

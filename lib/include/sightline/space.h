@@ -107,8 +107,8 @@ typedef struct sl_space {
     uint32_t tree_depth; ///< nodes on the longest way down
     uint32_t loose;     ///< 1 for a space from a file of version 1 with oblique walls: by rounding,
                         ///< cells may overlap or leave gaps
-    uint32_t cut_walls; ///< 1 for a mesh with boxes (sightline/moving.h): a wall may be several
-                        ///< sides of cells, end to end, and bent by rounding between them
+    uint32_t cut_walls; ///< 1 for a mesh with boxes: a wall may be several sides of cells, end to
+                        ///< end, and bent by rounding between them
     uint32_t seam_count, seam_portal_count;
     sl_node *nodes; ///< a parent before its children; none for a mesh
     sl_cell *cells;
@@ -233,13 +233,17 @@ SL_API bool sl_space_is_inside(const sl_space *space, sl_point point);
 /// the way to the middle of the cell. False where nothing is inside. Time O(cells).
 SL_API bool sl_space_nearest_inside(const sl_space *space, sl_point point, sl_point *out);
 
-/// A box that is put into a space for a while (sightline/moving.h). It may have no width or height.
-/// Boxes may overlap; they may touch walls, each other and the eye; and they may lie outside the
-/// bounds.
+/// A box that is put into a space for a while. It may have no width or height. Boxes may overlap;
+/// they may touch walls, each other and the eye; and they may lie outside the bounds.
 typedef struct sl_moving_box {
     sl_box box;
     bool blocks; ///< its four sides are walls; if false, it is seen through
 } sl_moving_box;
+
+/// Sets the bits of the cells in which a box lies, and of those that it only touches
+/// (sl_eye_words() words). Exact. Time: all cells in a kd-tree's space, the cells in nearby buckets
+/// in a mesh.
+SL_API void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells);
 
 /// The seams that a portal lies on, *count of them; NULL for none.
 SL_API const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t portal,

@@ -98,6 +98,11 @@ typedef struct sl_solver {
     void (*leave_thread)(void);
 } sl_solver;
 
+/// The core library's own solver (those that need GLPK are in glpk.h), "funnel": the incremental
+/// exact solver. SL_EXACT for all finite coordinates, whatever their size. Its witness passes
+/// strictly between the ends where doubles can express such a line, and else goes through two ends.
+SL_API const sl_solver *sl_funnel(void);
+
 #ifdef __cplusplus
 }
 #endif

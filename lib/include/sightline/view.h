@@ -1,9 +1,9 @@
 /// A view: where an eye is and which way it looks.
 ///
 /// An eye stands in the cell that sl_space_locate gives, and in each cell that portals at the eye
-/// join with it: it is on the portal, or on its end, and so on from cell to cell. (sl_eye_cells
-/// lists them.) It sees what it sees from any of these cells. All that asks what an eye sees keeps
-/// to this: the region, the culling methods, sl_sees, boxes, queries and the runtime header. So:
+/// join with it: it is on the portal, or on its end, and so on from cell to cell. It sees what it
+/// sees from any of these cells. All that asks what an eye sees keeps to this: the region, the
+/// culling methods, boxes, queries and the runtime header. So:
 ///
 /// - An eye on a portal, or where portals meet, sees to all sides.
 /// - At the end of a wall, and at a corner of solid ground, it sees all around, but for what lies
@@ -47,20 +47,6 @@ SL_API sl_view sl_view_all_round(sl_point eye);
 /// where 360 and more is all round. The border points are rounded and lie about `reach` from the
 /// eye. Pass the map's size, so that they differ from the eye.
 SL_API sl_view sl_view_cone(sl_point eye, double heading, double fov, double reach);
-
-/// Whether a view is usable: its points are finite, and the cone's points differ from the eye. All
-/// functions that take a view need that.
-SL_API bool sl_view_usable(const sl_view *view);
-
-/// Whether a point is within the cone, its border included. The eye itself always is. Exact.
-SL_API bool sl_view_holds(const sl_view *view, sl_point point);
-
-/// Whether any point of a closed segment is within the cone, its border included. Exact.
-SL_API bool sl_view_meets_segment(const sl_view *view, sl_segment segment);
-
-/// Whether any point of a polygon of three corners or more is within the cone. Its border decides:
-/// a cone has no end. Exact.
-SL_API bool sl_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count);
 
 #ifdef __cplusplus
 }

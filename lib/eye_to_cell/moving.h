@@ -1,30 +1,20 @@
-/// Things that move at run time: boxes that are culled, and boxes that block sight. The space and
-/// the visible sets are baked without them, and no new bake is made when they move.
-#ifndef SIGHTLINE_MOVING_H
-#define SIGHTLINE_MOVING_H
+/// A space with boxes that block sight cut into it.
+#ifndef SL_MOVING_H
+#define SL_MOVING_H
 
 #include "sightline/eye_to_cell.h"
 #include "sightline/outline.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/// Sets the bits of the cells in which a box lies, and of those that it only touches
-/// (sl_eye_words() words). Exact. Time: all cells in a kd-tree's space, the cells in nearby buckets
-/// in a mesh.
-SL_API void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells);
-
 /// A space with boxes in it. For one thread at a time.
-typedef struct sl_moving sl_moving;
+typedef struct sli_moving sli_moving;
 
 /// Creates it without boxes. The space and the visible sets must outlive it. `visibility` is as for
-/// sl_eye_search_create; stab trees are not used. SL_UNSUPPORTED for a loose space, and for one in
-/// which a portal lacks a direction: glass is added by sl_moving_add_glass().
-SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
-                                  const sl_visibility *visibility, sl_moving **out);
-/// Frees what sl_moving_create gave; NULL is fine.
-SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
+/// sli_eye_search_create; stab trees are not used. SL_UNSUPPORTED for a loose space, and for one in
+/// which a portal lacks a direction: glass is added by sli_moving_add_glass().
+sl_status sli_moving_create(sl_context *context, const sl_space *space,
+                            const sl_visibility *visibility, sli_moving **out);
+/// Frees what sli_moving_create gave; NULL is fine.
+void sli_moving_destroy(sl_context *context, sli_moving *moving);
 
 /// Replaces the boxes by these. Only cells that sides of boxes touch are cut; the rest of the space
 /// is copied. SL_BAD_ARGUMENT for boxes whose corners are not in order, or whose coordinates
@@ -34,18 +24,18 @@ SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 /// Where a side of a box crosses an oblique wall, the wall is bent to the nearest representable
 /// point on that side; all else is exact. In a space of axial walls no coordinate is computed.
 /// (Borders between cells are bent in the same way; that neither hides nor shows anything.)
-SL_API sl_status sl_moving_set_boxes(sl_context *context, sl_moving *moving,
-                                     const sl_moving_box *boxes, size_t count);
+sl_status sli_moving_set_boxes(sl_context *context, sli_moving *moving, const sl_moving_box *boxes,
+                               size_t count);
 
-/// Sets how far is seen, as sl_eye_search_set_range does, until it is set again.
-SL_API void sl_moving_set_range(sl_moving *moving, double range);
+/// Sets how far is seen, as sli_eye_search_set_range does, until it is set again.
+void sli_moving_set_range(sli_moving *moving, double range);
 
-/// Makes queries use mirrors, as sl_eye_search_add_mirrors does. The map must outlive it.
-SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
-                                       uint32_t depth);
+/// Makes queries use mirrors, as sli_eye_search_add_mirrors does. The map must outlive it.
+sl_status sli_moving_add_mirrors(sl_context *context, sli_moving *moving, const sl_map *map,
+                                 uint32_t depth);
 
 /// Makes one-way glass of the space count, which else is open both ways.
-SL_API sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving);
+sl_status sli_moving_add_glass(sl_context *context, sli_moving *moving);
 
 /// The space with the boxes: cells are cut along the boxes' sides, which are walls where they
 /// block. Cell c of it is cell parents[c] of the space without boxes, or a part of it. Cells and
@@ -53,11 +43,11 @@ SL_API sl_status sl_moving_add_glass(sl_context *context, sl_moving *moving);
 /// takes its number. In a mesh, a crossed wall is several sides of cells (sl_space.cut_walls). With
 /// glass it has walls on the dark sides (sl_filtered_space.dark_walls). Valid until boxes are
 /// placed again.
-SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
+const sl_space *sli_moving_space(const sli_moving *moving, const uint32_t **parents);
 
-/// Its outline, for sl_region_make, sl_sees, sl_ray_cast and sl_room_mirrors_make. Made by the
+/// Its outline, for sl_region_make, sl_sees, sl_ray_cast and sli_room_mirrors_make. Made by the
 /// first call.
-SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out);
+sl_status sli_moving_outline(sl_context *context, sli_moving *moving, const sl_outline **out);
 
 /// What an eye sees past the boxes, by exact eye-to-cell culling within the visible set of its
 /// cell.
@@ -70,19 +60,14 @@ SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const
 ///
 /// `account`, which may be NULL, is set, in cells of the space with boxes. Errors are those of the
 /// method "exact".
-SL_API sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
-                                uint64_t *cells, bool *seen, sl_eye_account *account);
+sl_status sli_moving_look(sl_context *context, sli_moving *moving, const sl_view *view,
+                          uint64_t *cells, bool *seen, sl_eye_account *account);
 
 /// The same for what is seen by mirror, with at least one reflection. Boxes block sightlines before
 /// and behind mirrors, and are seen in them. The box that holds the eye is seen where a sightline
 /// comes back to it. A box that is one point is not seen. SL_BAD_ARGUMENT where no mirrors were
 /// added.
-SL_API sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving,
-                                         const sl_view *view, uint64_t *cells, bool *seen,
-                                         sl_eye_account *account);
-
-#ifdef __cplusplus
-}
-#endif
+sl_status sli_moving_look_mirrored(sl_context *context, sli_moving *moving, const sl_view *view,
+                                   uint64_t *cells, bool *seen, sl_eye_account *account);
 
 #endif
