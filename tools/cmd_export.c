@@ -30,13 +30,13 @@ static void print_formats(void) {
 /// Refuses options for formats that do not take them.
 static sl_status check_options(sl_context *context, const sl_export_format *format,
                                const sl_export_options *given) {
-    if (!format->takes_wad && (given->wad || given->map))
+    if (!(format->takes & SL_EXPORT_TAKES_WAD) && (given->wad || given->map))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the format %s has no use for it",
                        given->wad ? "wad" : "map", format->name);
-    if (given->json_version && format->write != sl_export_json)
+    if (given->json_version && !(format->takes & SL_EXPORT_TAKES_VERSION))
         return sl_fail(context, SL_BAD_ARGUMENT, "--json-version: the format %s has no use for it",
                        format->name);
-    if (given->prefix && format->write != sl_export_c)
+    if (given->prefix && !(format->takes & SL_EXPORT_TAKES_PREFIX))
         return sl_fail(context, SL_BAD_ARGUMENT, "--prefix: the format %s has no use for it",
                        format->name);
     return SL_OK;

@@ -3,7 +3,7 @@
 #include "json_print.h"
 #include "options.h"
 #include "outputs.h"
-#include "sightline/reject.h"
+#include "sightline/io.h"
 #include "sightline/support.h"
 #include "system.h"
 

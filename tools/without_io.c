@@ -45,7 +45,7 @@ static const sl_map_format foreign = {
 
 static const sl_export_format exports[] = {
     {.name = "png", .what = WHAT, .write = refuse_export},
-    {.name = "reject", .what = WHAT, .takes_wad = true, .write = refuse_export},
+    {.name = "reject", .what = WHAT, .takes = SL_EXPORT_TAKES_WAD, .write = refuse_export},
 };
 
 sl_status built_use_formats(sl_context *context) {

@@ -465,8 +465,8 @@ static sl_status print_json(printer *out, const sl_baked *baked, int version) {
     return SL_OK;
 }
 
-sl_status sl_export_json(sl_context *context, const sl_baked *baked,
-                         const sl_export_options *options, const char *path) {
+sl_status sli_export_json(sl_context *context, const sl_baked *baked,
+                          const sl_export_options *options, const char *path) {
     const unsigned version = options->json_version ? options->json_version : SL_JSON_VERSION;
     if (version > SL_JSON_VERSION)
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no JSON version %u; the newest is %d",
@@ -524,8 +524,8 @@ static sl_status print_pairs(sl_context *context, const sl_pvs *pvs, FILE *strea
     return SL_OK;
 }
 
-sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
-                        const sl_export_options *options, const char *path) {
+sl_status sli_export_csv(sl_context *context, const sl_baked *baked,
+                         const sl_export_options *options, const char *path) {
     (void)options;
     const sl_visibility *seen = &baked->visibility;
     sl_output output;
@@ -541,20 +541,22 @@ sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
 static const sl_export_format formats[] = {
     {.name = "json",
      .what = "everything: walls, cells, portals, visible sets, doors, mirrors, starts",
+     .takes = SL_EXPORT_TAKES_VERSION,
      .shows_mirrors = true,
-     .write = sl_export_json},
+     .write = sli_export_json},
     {.name = "geojson",
      .what = "cells, portals, walls, doors and starts for maps in a GIS",
      .shows_mirrors = true,
-     .write = sl_export_geojson},
+     .write = sli_export_geojson},
     {.name = "csv",
      .what = "a line for each ordered pair seen",
      .shows_mirrors = true,
-     .write = sl_export_csv},
+     .write = sli_export_csv},
     {.name = "c",
      .what = "a C header: cells, portals, doors, starts, and a bit for each pair",
+     .takes = SL_EXPORT_TAKES_PREFIX,
      .shows_mirrors = true,
-     .write = sl_export_c},
+     .write = sli_export_c},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 

@@ -1,4 +1,4 @@
-/// What the exports of a baked file share: the effects on a portal.
+/// The exports that stand in the table (export.c), and what they share: the effects on a portal.
 #ifndef SL_EXPORT_H
 #define SL_EXPORT_H
 
@@ -19,5 +19,23 @@ sli_glass_way sli_portal_glass(const sl_space *space, uint32_t portal);
 
 /// "from", "to" or "none"; NULL where no glass is.
 const char *sli_glass_name(sli_glass_way way);
+
+// --- what stands in the table of exports
+
+/// "json": one object with all that a baked file holds, but for stab trees and notes.
+/// SL_UNSUPPORTED for a map with mirrors in version 1.
+sl_status sli_export_json(sl_context *context, const sl_baked *baked,
+                          const sl_export_options *options, const char *path);
+/// "geojson": a FeatureCollection of cells, portals, walls, doors, mirrors, one-way glass and
+/// starts, in the map's own coordinates. Its writer is in sightline/geojson.h.
+sl_status sli_export_geojson(sl_context *context, const sl_baked *baked,
+                             const sl_export_options *options, const char *path);
+/// "csv": a line "from,to" for each ordered pair seen.
+sl_status sli_export_csv(sl_context *context, const sl_baked *baked,
+                         const sl_export_options *options, const char *path);
+/// "c": a C header with tables: cells, portals, doors by name, starts, and a bit for each pair that
+/// is seen. SL_BAD_ARGUMENT for a prefix that is no C identifier.
+sl_status sli_export_c(sl_context *context, const sl_baked *baked, const sl_export_options *options,
+                       const char *path);
 
 #endif

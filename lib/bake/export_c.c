@@ -347,8 +347,8 @@ static sl_status put_all(const printer *out) {
     return SL_OK;
 }
 
-sl_status sl_export_c(sl_context *context, const sl_baked *baked, const sl_export_options *options,
-                      const char *path) {
+sl_status sli_export_c(sl_context *context, const sl_baked *baked, const sl_export_options *options,
+                       const char *path) {
     printer out = {.context = context,
                    .baked = baked,
                    .name = options->prefix ? options->prefix : SL_PREFIX_DEFAULT};

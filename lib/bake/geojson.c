@@ -232,8 +232,8 @@ static sl_status put_all(sl_context *context, const sl_baked *baked, FILE *strea
     return sl_check_cancelled(context);
 }
 
-sl_status sl_export_geojson(sl_context *context, const sl_baked *baked,
-                            const sl_export_options *options, const char *path) {
+sl_status sli_export_geojson(sl_context *context, const sl_baked *baked,
+                             const sl_export_options *options, const char *path) {
     (void)options;
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));

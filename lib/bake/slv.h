@@ -116,8 +116,4 @@ void sli_slv_order_entry(sli_slv_section *entry);  ///< likewise
 sl_status sli_slv_read_back(sl_context *context, const char *name, const sl_map *map,
                             sli_again *again);
 
-/// Writes the file to a stream that is open already. Whether the stream took all is the caller's to
-/// ask.
-sl_status sli_slv_print(sl_context *context, const sl_baked *baked, FILE *stream);
-
 #endif

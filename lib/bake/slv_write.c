@@ -234,21 +234,36 @@ static void lay_out(plan *p) {
     header->checksum = sli_checksum_value(&sum);
 }
 
+/// Where the file goes: a stream, or memory.
+typedef struct target {
+    FILE *stream; ///< NULL: memory, from `at` on
+    char *at;
+} target;
+
 /// Refused writes are left to the stream's error flag, which the commit asks.
-static sl_status write_plan(sl_context *context, const void *user, FILE *stream) {
-    const plan *p = user;
+static void put(target *to, const void *bytes, size_t size) {
+    if (!size) return;
+    if (to->stream) {
+        fwrite(bytes, 1, size, to->stream);
+        return;
+    }
+    memcpy(to->at, bytes, size);
+    to->at += size;
+}
+
+static sl_status put_plan(sl_context *context, const plan *p, target *to) {
     static const char zeros[8] = {0};
     const sli_slv_header header = ordered_header(p);
-    fwrite(&header, sizeof header, 1, stream);
+    put(to, &header, sizeof header);
     for (uint32_t i = 0; i < p->header.section_count; i++) {
         const sli_slv_section entry = ordered_entry(p, i);
-        fwrite(&entry, sizeof entry, 1, stream);
+        put(to, &entry, sizeof entry);
     }
     for (uint32_t i = 0; i < p->header.section_count; i++) {
         SL_TRY(sl_check_cancelled(context));
         const uint64_t bytes = section_bytes(&p->sections[i]);
-        if (bytes) fwrite(p->contents[i], 1, sli_size(bytes), stream);
-        fwrite(zeros, 1, (size_t)(padded(bytes) - bytes), stream);
+        put(to, p->contents[i], sli_size(bytes));
+        put(to, zeros, (size_t)(padded(bytes) - bytes));
         sl_report(context, "write", "bytes", p->sections[i].offset + bytes, p->header.file_bytes);
     }
     return SL_OK;
@@ -278,6 +293,10 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     return SL_OK;
 }
 
+static sl_status write_plan(sl_context *context, const void *user, FILE *stream) {
+    return put_plan(context, user, &(target){.stream = stream});
+}
+
 static sl_status read_back(sl_context *context, const void *user, const char *name,
                            sli_again *again) {
     const plan *p = user;
@@ -290,11 +309,27 @@ static void destroy_plan(sl_context *context, plan *p) {
     free(p->map_text);
 }
 
-sl_status sli_slv_print(sl_context *context, const sl_baked *baked, FILE *stream) {
+/// The bytes of a plan; `out` stays as it was on failure.
+static sl_status print_plan(sl_context *context, const plan *p, sl_bytes *out) {
+    if (p->header.file_bytes >= SIZE_MAX) return sl_fail_memory(context);
+    const size_t size = (size_t)p->header.file_bytes;
+    char *data = sl_alloc(context, size + 1);
+    if (!data) return SL_NO_MEMORY;
+    const sl_status status = put_plan(context, p, &(target){.at = data});
+    if (status != SL_OK) {
+        sl_free(context, data);
+        return status;
+    }
+    data[size] = 0;
+    *out = (sl_bytes){data, size};
+    return SL_OK;
+}
+
+sl_status sl_baked_print(sl_context *context, const sl_baked *baked, sl_bytes *out) {
     plan p = {0};
     const sli_slv_info info = make_info(baked);
     sl_status status = make_plan(context, baked, &info, &p);
-    if (status == SL_OK) status = write_plan(context, &p, stream);
+    if (status == SL_OK) status = print_plan(context, &p, out);
     destroy_plan(context, &p);
     return status;
 }

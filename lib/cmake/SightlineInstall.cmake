@@ -40,7 +40,7 @@ endfunction()
 
 # The headers of a part come with it; all others belong to the core.
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
-set(io_headers io.h reject.h)
+set(io_headers io.h)
 set(study_headers from_region.h generate.h view_cells.h walk.h)
 set(glpk_headers glpk.h)
 set(draw_headers canvas.h draw.h)

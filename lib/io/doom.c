@@ -6,6 +6,7 @@
 /// 5, as its document "Specification for GL Nodes" has them: GL_VERT, GL_SEGS and GL_SSECT; the
 /// tree of GL_NODES is not needed).
 #include "geometry/orient.h"
+#include "io/formats.h"
 #include "io/wad.h"
 #include "sightline/io.h"
 
@@ -395,8 +396,8 @@ sl_status sli_doom_make_map(sl_context *context, const sli_wad *wad, const sli_w
     return status;
 }
 
-sl_status sl_map_read_wad(sl_context *context, const char *name, const char *text, size_t size,
-                          const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_wad(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
     sli_wad wad;
     sli_wad_map chosen;
     sli_doom_level level = {0};
@@ -414,8 +415,8 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
     return status;
 }
 
-sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text, size_t size,
-                          sl_map_list *list) {
+sl_status sli_map_list_wad(sl_context *context, const char *name, const char *text, size_t size,
+                           sl_map_list *list) {
     sli_wad wad;
     sli_wad_map map;
     SL_TRY(sli_wad_open(context, name, text, size, &wad));

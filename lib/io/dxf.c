@@ -4,6 +4,7 @@
 /// say what was taken.
 #include "io/dxf.h"
 
+#include "io/formats.h"
 #include "map/unit.h"
 
 // --- names for walls
@@ -175,8 +176,8 @@ static void drawing_destroy(sli_dxf *dxf) {
     sl_free(dxf->context, dxf->walls);
 }
 
-sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
-                          const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     sli_dxf dxf = {.context = context,
                    .name = name,

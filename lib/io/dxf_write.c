@@ -3,6 +3,7 @@
 /// "sightline-door-open-NAME", "sightline-path-NAME". A start is a POINT, its heading the angle of
 /// the point's axis (group 50). The last entity is followed by a comment with the sum of all
 /// digits, by which the reader sees that nobody has edited the numbers. y is as in the map.
+#include "io/formats.h"
 #include "io/layers.h"
 #include "map/unit.h"
 #include "sightline/io.h"
@@ -128,7 +129,7 @@ static sl_status write_layers(sl_context *context, const dxf_writer *writer) {
     return SL_OK;
 }
 
-sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream) {
     dxf_writer writer = {.stream = stream, .map = map};
     const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
     char mark[SLI_MARK_TEXT];

@@ -3,6 +3,7 @@
 ///
 /// A map with mirrors takes two bits per pixel: black is seen directly, dark grey directly and by
 /// mirror, light grey by mirror alone, white not at all.
+#include "io/formats.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -75,8 +76,8 @@ static sl_status write_picture(const picture *p) {
     return status;
 }
 
-sl_status sl_export_png(sl_context *context, const sl_baked *baked,
-                        const sl_export_options *options, const char *path) {
+sl_status sli_export_png(sl_context *context, const sl_baked *baked,
+                         const sl_export_options *options, const char *path) {
     (void)options;
     picture p = {
         .context = context, .pvs = &baked->visibility.pvs, .mirrored = &baked->visibility.mirrored};

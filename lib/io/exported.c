@@ -9,6 +9,7 @@
 /// border of the map.
 #include "geometry/orient.h"
 #include "io/document.h"
+#include "io/formats.h"
 #include "map/ground.h"
 #include "map/scan.h"
 #include "sightline/bake.h"
@@ -334,8 +335,8 @@ static sl_status read_all(export_reader *reader, const sli_json *root) {
     return SL_OK;
 }
 
-sl_status sl_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
-                             const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
+                              const sl_import_options *options, sl_map *map) {
     (void)options;
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));

@@ -2,6 +2,7 @@
 /// numbers, and the map.yaml of ROS' map_server, which names a picture, the size of its pixels,
 /// where it lies, and from which occupancy a pixel is an obstacle. Walls run along the edges
 /// between solid pixels and others.
+#include "io/formats.h"
 #include "io/limits.h"
 #include "io/names.h"
 #include "io/shapes.h"
@@ -191,8 +192,8 @@ static sl_status image_add_walls(sl_context *context, const sl_image *image, con
     return status;
 }
 
-sl_status sl_map_read_image(sl_context *context, const char *name, const char *text, size_t size,
-                            const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_image(sl_context *context, const char *name, const char *text, size_t size,
+                             const sl_import_options *options, sl_map *map) {
     sl_image image = {0};
     sl_map read = {0};
     size_t solid;
@@ -405,8 +406,8 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     return status;
 }
 
-sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text, size_t size,
-                          const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_ros(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     ros_map m = {.context = context, .name = name, .free = 0.196};
     const sl_status status = read_map(&m, options, text, size, &read);

@@ -1,6 +1,7 @@
 /// LDtk projects and separate level files: JSON (https://ldtk.io/json). Of a level's layers those
 /// of type IntGrid give walls: a whole number a cell, 0 for none. Entities give starts and doors.
 #include "io/document.h"
+#include "io/formats.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "io/things.h"
@@ -486,8 +487,8 @@ static sl_status list_all(sl_context *context, const sli_json *root, sl_map_list
     return !count && list->count > 1 ? sl_map_list_add(context, list, "all", 3) : SL_OK;
 }
 
-sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *text, size_t size,
-                           sl_map_list *list) {
+sl_status sli_map_list_ldtk(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map_list *list) {
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     const sli_json root = sli_json_root(&file);
@@ -497,8 +498,8 @@ sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *te
     return status;
 }
 
-sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text, size_t size,
-                           const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *text, size_t size,
+                            const sl_import_options *options, sl_map *map) {
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};

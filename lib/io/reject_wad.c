@@ -2,6 +2,7 @@
 /// here. Maps are baked beside each other, each by one thread, the largest first: so none is left
 /// to one thread at the end.
 #include "base/base.h"
+#include "io/formats.h"
 #include "io/wad.h"
 #include "sightline/io.h"
 
@@ -35,8 +36,8 @@ static sl_status compare_map(const reject_export *export, bool cells, bool *same
     const sl_import_options options = {
         .map = export->map.name, .cells = cells, .sectors = export->baked->map.seam_count > 0};
     sl_map map = {0};
-    SL_TRY(sl_map_read_wad(export->context, export->wad.name, (const char *)export->wad.bytes,
-                           export->wad.size, &options, &map));
+    SL_TRY(sli_map_read_wad(export->context, export->wad.name, (const char *)export->wad.bytes,
+                            export->wad.size, &options, &map));
     const sl_status status = sl_map_clean(export->context, &map, NULL, NULL);
     *same = has_walls(&export->baked->space, &map);
     sl_map_destroy(export->context, &map);
@@ -116,8 +117,8 @@ static sl_status export_map(reject_export *export, const char *path) {
     return write_reject(export, path);
 }
 
-sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
-                           const sl_export_options *options, const char *path) {
+sl_status sli_export_reject(sl_context *context, const sl_baked *baked,
+                            const sl_export_options *options, const char *path) {
     if (!options->wad || !options->map)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "a REJECT is written into a copy of its WAD: give --wad IN.wad and --map "
@@ -181,7 +182,7 @@ static sl_status choose_maps(wad_job *job) {
     if (job->options->map_count) return SL_OK;
     sl_map_list list = {0};
     sl_status status =
-        sl_map_list_wad(job->context, job->wad.name, job->bytes.data, job->bytes.size, &list);
+        sli_map_list_wad(job->context, job->wad.name, job->bytes.data, job->bytes.size, &list);
     for (size_t i = 0; i < list.count && status == SL_OK; i++) status = add_map(job, list.names[i]);
     sl_map_list_destroy(job->context, &list);
     SL_TRY(status);

@@ -3,6 +3,7 @@
 /// out. A use draws another element once more, so depth and work are bounded. Groups whose names
 /// begin with "sightline-" hold doors, solid ground and so on (layers.h).
 #include "io/document.h"
+#include "io/formats.h"
 #include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
@@ -836,8 +837,8 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     return SL_OK;
 }
 
-sl_status sl_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
-                          const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     svg s = {
         .context = context,

@@ -7,6 +7,7 @@
 ///     cells data-sightline-digits                of the last element: the sum of all digits, by
 ///     which the
 ///                                          reader sees that nobody has edited the numbers
+#include "io/formats.h"
 #include "io/layers.h"
 #include "sightline/io.h"
 
@@ -121,7 +122,7 @@ static void write_head(const svg_writer *writer, const sl_map *map) {
     fputs(">\n", writer->stream);
 }
 
-sl_status sl_map_print_svg(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_svg(sl_context *context, const sl_map *map, FILE *stream) {
     const sl_box page = sli_page_of(map);
     svg_writer writer = {.stream = stream,
                          .top = sli_choose_top(map),

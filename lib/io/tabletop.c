@@ -3,6 +3,7 @@
 /// tabletop_write.c says.
 #include "geometry/orient.h"
 #include "io/document.h"
+#include "io/formats.h"
 #include "io/names.h"
 #include "io/shapes.h"
 #include "io/things.h"
@@ -281,8 +282,8 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     return SL_OK;
 }
 
-sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text, size_t size,
-                           const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_uvtt(sl_context *context, const char *name, const char *text, size_t size,
+                            const sl_import_options *options, sl_map *map) {
     sli_json_file file;
     sl_map read = {0};
     uvtt reader = {.context = context, .options = options, .map = &read};
@@ -591,8 +592,8 @@ static sl_status read_foundry(foundry *reader, const sli_json *root) {
     return read_tokens(reader, root);
 }
 
-sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
-                              const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
+                               const sl_import_options *options, sl_map *map) {
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};

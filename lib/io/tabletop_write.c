@@ -5,6 +5,7 @@
 /// a scene, where Foundry keeps what modules add. They say which y is 0 in the map, the names of
 /// doors, and the sum of all digits, by which the reader sees that nobody has edited the numbers.
 /// In a scene, walls also say whether they are mirrors or seams, and starts are friendly tokens.
+#include "io/formats.h"
 #include "io/layers.h"
 #include "sightline/io.h"
 #include "sightline/json_write.h"
@@ -171,7 +172,7 @@ static tabletop_writer writer_of(sl_context *context, const sl_map *map, FILE *s
                              .top = sli_choose_top(map)};
 }
 
-sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream) {
     /// A white pixel, as PNG: programs that show such files need a picture.
     static const char picture[] =
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEA"
@@ -333,7 +334,7 @@ static void tell_rounding(const tabletop_writer *writer) {
                 writer->rounded == 1 ? " is" : "s are");
 }
 
-sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream) {
     const sl_box page = sli_page_of(map);
     tabletop_writer writer = writer_of(context, map, stream);
     writer.pixels = pixels_of(map);

@@ -6,6 +6,7 @@
 /// diamonds are squares (tiled_lattice.c), and projected onto the screen at the end.
 #include "io/tiled.h"
 #include "geometry/length.h"
+#include "io/formats.h"
 #include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
@@ -622,29 +623,29 @@ static sl_status list_tree(sl_context *context, sli_json_file *file, sl_map_list
     return status;
 }
 
-sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text, size_t size,
-                          const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_tmx(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
     sli_json_file file;
     SL_TRY(sli_tiled_from_xml(context, name, "map", text, size, &file));
     return read_tree(context, &file, options, map);
 }
 
-sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text, size_t size,
-                          const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_tmj(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     return read_tree(context, &file, options, map);
 }
 
-sl_status sl_map_layers_tmx(sl_context *context, const char *name, const char *text, size_t size,
-                            sl_map_list *list, bool *unsaid) {
+sl_status sli_map_layers_tmx(sl_context *context, const char *name, const char *text, size_t size,
+                             sl_map_list *list, bool *unsaid) {
     sli_json_file file;
     SL_TRY(sli_tiled_from_xml(context, name, "map", text, size, &file));
     return list_tree(context, &file, list, unsaid);
 }
 
-sl_status sl_map_layers_tmj(sl_context *context, const char *name, const char *text, size_t size,
-                            sl_map_list *list, bool *unsaid) {
+sl_status sli_map_layers_tmj(sl_context *context, const char *name, const char *text, size_t size,
+                             sl_map_list *list, bool *unsaid) {
     sli_json_file file;
     SL_TRY(sli_json_open(context, name, text, size, &file));
     return list_tree(context, &file, list, unsaid);

@@ -5,6 +5,7 @@
 ///
 /// An object has a place, and points from there. The place is the first point where all points read
 /// back exactly so, else 0,0.
+#include "io/formats.h"
 #include "io/layers.h"
 #include "sightline/io.h"
 
@@ -113,7 +114,7 @@ static void write_head(const tiled_writer *writer, const sl_map *map) {
     fputs(" </properties>\n", writer->stream);
 }
 
-sl_status sl_map_print_tmx(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_tmx(sl_context *context, const sl_map *map, FILE *stream) {
     tiled_writer writer = {.stream = stream, .top = sli_choose_top(map)};
     const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
     SL_TRY(sli_check_xml_names(context, map));

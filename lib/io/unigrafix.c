@@ -1,5 +1,6 @@
 // UniGrafix text (Séquin & Smith, U.C. Berkeley): "v name x y z ;", "f name (v v v) ... colour ;",
 // comments in nested braces.
+#include "io/formats.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 
@@ -391,8 +392,8 @@ static void free_model(ug_model *model) {
     sl_free(model->context, model->notes.items);
 }
 
-sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
-                                size_t size, const sl_import_options *options, sl_map *map) {
+sl_status sli_map_read_unigrafix(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     ug_model model = {
         .context = context, .name = name, .map = &read, .lowest = HUGE_VAL, .highest = -HUGE_VAL};
@@ -405,8 +406,8 @@ sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const cha
     return status;
 }
 
-sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
-                                   size_t size, double *lowest, double *highest) {
+sl_status sli_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
+                                    size_t size, double *lowest, double *highest) {
     ug_model model = {.context = context, .name = name, .lowest = HUGE_VAL, .highest = -HUGE_VAL};
     const sl_status status = read_points(&model, text, size);
     free_model(&model);

@@ -5,9 +5,9 @@
 #define SL_WAD_H
 
 #include "sightline/import.h"
+#include "sightline/io.h"
 #include "sightline/map.h"
 #include "sightline/pvs.h"
-#include "sightline/reject.h"
 #include "sightline/space.h"
 #include "sightline/support.h"
 

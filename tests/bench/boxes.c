@@ -6,7 +6,7 @@
 // frames.
 #include "bench.h"
 
-#include "bake/slv.h"
+#include "baked_bytes.h"
 #include "sightline/bake.h"
 #include "sightline/support.h"
 
@@ -134,9 +134,7 @@ static cost ask_runtime(bench *b, const frame *f, size_t boxes, size_t eyes) {
 
 static void open_runtime(bench *b) {
     size_t size;
-    FILE *stream = open_memstream(&b->bytes, &size);
-    if (!stream || sli_slv_print(b->context, &b->baked, stream) != SL_OK || fclose(stream) != 0)
-        bench_fail("out of memory");
+    b->bytes = baked_bytes(b->context, &b->baked, &size);
     if (sl_runtime_open(b->bytes, size, &b->runtime) != SL_RUNTIME_OK)
         bench_fail("the bake is damaged");
     b->memory = room(sl_runtime_boxes_count(&b->runtime, BOXES, ROOM), sizeof *b->memory);

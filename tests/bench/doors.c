@@ -5,7 +5,7 @@
 #include "bench.h"
 #include "cell_to_cell/pvs_rows.h"
 
-#include "bake/slv.h"
+#include "baked_bytes.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -59,11 +59,8 @@ static void bake(bench *b) {
     sl_plan plan = sl_plan_make(&b->baked.map);
     plan.door_limit = b->limit;
     see(b, &b->baked.space, &plan, &b->baked.visibility);
-    FILE *stream = open_memstream(&b->bytes, &b->size);
-    if (!stream) exit(1);
-    bench_must(b->context, sli_slv_print(b->context, &b->baked, stream));
-    if (fclose(stream) != 0 || sl_runtime_open(b->bytes, b->size, &b->runtime) != SL_RUNTIME_OK)
-        exit(1);
+    b->bytes = baked_bytes(b->context, &b->baked, &b->size);
+    if (sl_runtime_open(b->bytes, b->size, &b->runtime) != SL_RUNTIME_OK) exit(1);
     b->scratch = calloc(sl_runtime_scratch_count(&b->runtime), sizeof *b->scratch);
     b->cells = calloc(b->runtime.cell_count, sizeof *b->cells);
     if (!b->scratch || !b->cells) exit(1);

@@ -6,7 +6,7 @@
 // CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
 #include "bench.h"
 
-#include "bake/slv.h"
+#include "baked_bytes.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -22,10 +22,7 @@
 static char *bake(sl_context *context, const char *name, const char *slice, size_t *size) {
     sl_baked baked;
     bench_bake(context, name, slice, &baked);
-    char *bytes = NULL;
-    FILE *stream = open_memstream(&bytes, size);
-    if (!stream || sli_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
-        bench_fail("out of memory");
+    char *bytes = baked_bytes(context, &baked, size);
     sl_baked_destroy(context, &baked);
     return bytes;
 }

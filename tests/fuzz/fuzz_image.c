@@ -1,10 +1,11 @@
 // Pictures: whatever is read is written as map text and read back the same.
 #include "fuzz.h"
+#include "io/formats.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();
     const sl_import_options options = sl_import_options_default();
-    fuzz_read(context, data, size, sl_map_read_image, &options, NULL);
+    fuzz_read(context, data, size, sli_map_read_image, &options, NULL);
     sl_context_destroy(context);
     return 0;
 }

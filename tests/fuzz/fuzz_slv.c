@@ -1,4 +1,5 @@
 // The baked file: whatever is read is sound, and is written and read back the same.
+#include "bake/export.h"
 #include "slv_mutator.h"
 
 static void check_trees(const sl_baked *baked) {
@@ -42,7 +43,7 @@ static void check_baked(sl_context *context, const sl_baked *baked) {
     }
     check_trees(baked);
     const sl_export_options none = {0};
-    FUZZ_CHECK(sl_export_json(context, baked, &none, "/dev/null") == SL_OK);
+    FUZZ_CHECK(sli_export_json(context, baked, &none, "/dev/null") == SL_OK);
 }
 
 /// Parses the file; true with its bytes as they are written again, for free(), where it is sound.
@@ -52,7 +53,7 @@ static bool parse(const uint8_t *data, size_t size, char **bytes, size_t *writte
     const sl_status status = sl_baked_parse(context, "input", data, size, &baked);
     if (status == SL_OK) {
         check_baked(context, &baked);
-        *bytes = printed(context, &baked, written);
+        *bytes = baked_bytes(context, &baked, written);
     } else {
         const sl_baked empty = {0};
         fuzz_refused(context, status, &baked.map);

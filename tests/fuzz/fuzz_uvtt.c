@@ -1,8 +1,9 @@
 // Universal VTT, with doors and without: whatever is read is written as map text and read back the
 // same.
 #include "fuzz.h"
+#include "io/formats.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    fuzz_tabletop(data, size, sl_map_read_uvtt);
+    fuzz_tabletop(data, size, sli_map_read_uvtt);
     return 0;
 }

@@ -7,6 +7,7 @@
 #include "runtime_calls.h"
 
 #include "bake/slv.h"
+#include "baked_bytes.h"
 #include "sightline/bake.h"
 #include "sightline/stab.h"
 
@@ -23,12 +24,9 @@ static original originals[KINDS];
 static size_t original_count;
 
 static void keep(sl_context *context, const sl_baked *baked) {
-    char *bytes = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&bytes, &size);
-    FUZZ_CHECK(stream);
-    FUZZ_CHECK(sli_slv_print(context, baked, stream) == SL_OK);
-    FUZZ_CHECK(fclose(stream) == 0 && size < MOST_SIZE && original_count < KINDS);
+    size_t size;
+    char *bytes = baked_bytes(context, baked, &size);
+    FUZZ_CHECK(size < MOST_SIZE && original_count < KINDS);
     originals[original_count++] = (original){(uint8_t *)bytes, size};
 }
 

@@ -10,6 +10,7 @@
 #include "fuzz.h"
 
 #include "bake/slv.h"
+#include "baked_bytes.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 
@@ -134,16 +135,6 @@ static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_
     return SL_OK;
 }
 
-/// The baked file's bytes, for free().
-static char *printed(sl_context *context, const sl_baked *baked, size_t *size) {
-    char *bytes = NULL;
-    FILE *stream = open_memstream(&bytes, size);
-    FUZZ_CHECK(stream);
-    FUZZ_CHECK(sli_slv_print(context, baked, stream) == SL_OK);
-    FUZZ_CHECK(fclose(stream) == 0);
-    return bytes;
-}
-
 /// What a map text bakes to, for free(); NULL where it does not.
 static char *baked_text(const uint8_t *text, size_t text_size, size_t *size) {
     int patience = 2000;
@@ -154,7 +145,7 @@ static char *baked_text(const uint8_t *text, size_t text_size, size_t *size) {
     char *bytes = NULL;
     if (bake(context, text, text_size, &baked) == SL_OK) {
         patience = 2000;
-        bytes = printed(context, &baked, size);
+        bytes = baked_bytes(context, &baked, size);
     }
     sl_baked_destroy(context, &baked);
     sl_context_destroy(context);

@@ -41,7 +41,7 @@ HEADERS = {"context": "base", "json_write": "base", "measures": "base", "support
            "mirrored": "eye_to_cell", "moving": "eye_to_cell", "overlay": "eye_to_cell",
            "region": "eye_to_cell", "sees": "eye_to_cell", "view": "eye_to_cell",
            "vga": "visibility_graph",
-           "explained": "bake", "geojson": "bake", "reject": "io", "canvas": "draw"}
+           "explained": "bake", "geojson": "bake", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.

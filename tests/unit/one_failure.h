@@ -10,7 +10,7 @@
 
 #include "testing.h"
 
-#include "bake/slv.h"
+#include "baked_bytes.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
@@ -54,12 +54,8 @@ static inline void one_failure_mix(one_failure *on, const void *bytes, size_t si
 /// All that a baked file holds.
 static inline void one_failure_mix_baked(sl_context *context, one_failure *on,
                                          const sl_baked *baked) {
-    char *bytes = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&bytes, &size);
-    assert_non_null(stream);
-    assert_ok(context, sli_slv_print(context, baked, stream));
-    assert_int_equal(fclose(stream), 0);
+    size_t size;
+    char *bytes = baked_bytes(context, baked, &size);
     one_failure_mix(on, bytes, size);
     free(bytes);
 }

@@ -2,9 +2,9 @@
 #ifndef SL_RUNTIME_MAPS_H
 #define SL_RUNTIME_MAPS_H
 
+#include "baked_bytes.h"
 #include "map_files.h"
 
-#include "bake/slv.h"
 #include "runtime/sightline_runtime.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
@@ -33,10 +33,7 @@ static inline void baked_file_make(sl_context *context, baked_file *f, bool insi
     options.inside_only = inside_only;
     size_t count;
     assert_ok(context, sl_see_methods(&count)->see(context, &b->space, &options, &b->visibility));
-    FILE *stream = open_memstream(&f->bytes, &f->size);
-    assert_non_null(stream);
-    assert_ok(context, sli_slv_print(context, b, stream));
-    assert_int_equal(fclose(stream), 0);
+    f->bytes = baked_bytes(context, b, &f->size);
     baked_file_open(f);
 }
 

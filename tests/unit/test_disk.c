@@ -7,6 +7,8 @@
 // Linux has what that needs.
 #include "testing.h"
 
+#include "bake/export.h"
+#include "io/formats.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
@@ -166,12 +168,12 @@ static sl_status save_baked(sl_context *context, const saved *what) {
 
 static sl_status save_json(sl_context *context, const saved *what) {
     const sl_export_options options = {0};
-    return sl_export_json(context, &what->baked, &options, target);
+    return sli_export_json(context, &what->baked, &options, target);
 }
 
 static sl_status save_png(sl_context *context, const saved *what) {
     const sl_export_options options = {0};
-    return sl_export_png(context, &what->baked, &options, target);
+    return sli_export_png(context, &what->baked, &options, target);
 }
 
 static save *const saves[] = {save_text, save_baked, save_json, save_png};

@@ -1,6 +1,7 @@
 /// Doors of a large plan: every state of them is seen as a bake is that has walls in those that are
 /// shut, by the library and by the runtime for games.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "baked_bytes.h"
 #include "runtime_maps.h"
 
 #include "cell_to_cell/door_table.h"
@@ -24,10 +25,7 @@ static void bake(sl_context *context, baked_file *f) {
     options.plan = &plan;
     assert_ok(context, testing_method("prune")->see(context, &b->space, &options, &b->visibility));
     assert_int_equal(b->visibility.account.door_fallbacks, 0);
-    FILE *stream = open_memstream(&f->bytes, &f->size);
-    assert_non_null(stream);
-    assert_ok(context, sli_slv_print(context, b, stream));
-    assert_int_equal(fclose(stream), 0);
+    f->bytes = baked_bytes(context, b, &f->size);
     baked_file_open(f);
     assert_int_equal(f->runtime.door_count, DOORS);
 }

@@ -1,6 +1,7 @@
 // GL nodes of a WAD as cells: each version, and each way in which they can be broken.
 #include "testing.h"
 
+#include "io/formats.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
 #include "wad_make.h"
@@ -91,7 +92,7 @@ static sl_status read_cells(sl_context *context, int version, const spoil *wrong
     char *copy = malloc(wad.size + 1);
     assert_non_null(copy);
     memcpy(copy, wad.bytes, wad.size);
-    const sl_status status = sl_map_read_wad(context, "in.wad", copy, wad.size, &options, map);
+    const sl_status status = sli_map_read_wad(context, "in.wad", copy, wad.size, &options, map);
     free(copy);
     free(wad.bytes);
     return status;
@@ -144,7 +145,7 @@ static void test_reject(void **state) {
         sl_see_options see = sl_see_options_default();
         assert_ok(context,
                   testing_method("sweep")->see(context, &baked.space, &see, &baked.visibility));
-        const sl_status status = sl_export_reject(context, &baked, &options, "/dev/null");
+        const sl_status status = sli_export_reject(context, &baked, &options, "/dev/null");
         assert_int_equal(status, with_cells ? SL_OK : SL_BAD_INPUT);
         sl_baked_destroy(context, &baked);
         sl_map_destroy(context, &map);

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "sightline/io.h"
 
 #include <math.h>
@@ -12,11 +13,11 @@
 static void assert_walls(const char *entities, const char *expected) {
     char text[4096];
     snprintf(text, sizeof text, HEAD "%s" TAIL, entities);
-    assert_walls_of(sl_map_read_dxf, NULL, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_dxf, NULL, text, strlen(text), expected);
 }
 
 static void assert_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_dxf, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_dxf, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 #define LINE(x0, y0, x1, y1)                                                                       \
@@ -55,7 +56,7 @@ static void assert_round(const char *entities, double tolerance, sl_point centre
     sl_import_options options = sl_import_options_default();
     options.tolerance = tolerance;
     sl_map map = {0};
-    assert_ok(context, sl_map_read_dxf(context, "f", text, strlen(text), &options, &map));
+    assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
     double turned = 0;
     for (size_t i = 0; i < map.wall_count; i++) {
         const sl_point a = map.walls[i].a, b = map.walls[i].b;
@@ -108,7 +109,7 @@ static void test_blocks(void **state) {
                                                    "0\nINSERT\n2\nb\n10\n0\n20\n0\n41\n-3\n42\n1\n"
                                                    "0\nINSERT\n2\nb\n70\n2\n71\n2\n44\n10\n45\n20\n"
                                                    "0\nINSERT\n2\na\n10\n100\n20\n0\n" TAIL;
-    assert_walls_of(sl_map_read_dxf, NULL, text, sizeof text - 1,
+    assert_walls_of(sli_map_read_dxf, NULL, text, sizeof text - 1,
                     "wall 7 8 8 8\nwall 0 0 -3 0\n"
                     "wall 0 0 1 0\nwall 10 0 11 0\nwall 0 20 1 20\nwall 10 20 11 20\n"
                     "wall 105 0 105 1\n");
@@ -124,13 +125,13 @@ static void test_layers(void **state) {
                  "0\nSECTION\n2\nBLOCKS\n" BLOCK("b", 0, 0, ON("0", 8)) "0\nENDSEC\n" HEAD ON(
                      "Walls", 1) ON("off", 2) ON("frozen", 3)
                      ON("0", 4) "0\nINSERT\n2\nb\n8\noff\n0\nLINE\n67\n1\n10\n9\n20\n9\n" TAIL;
-    assert_walls_of(sl_map_read_dxf, NULL, text, sizeof text - 1, "wall 1 0 1 1\nwall 4 0 4 1\n");
+    assert_walls_of(sli_map_read_dxf, NULL, text, sizeof text - 1, "wall 1 0 1 1\nwall 4 0 4 1\n");
     sl_import_options options = sl_import_options_default();
     options.layers = "OFF, frozen";
-    assert_walls_of(sl_map_read_dxf, &options, text, sizeof text - 1,
+    assert_walls_of(sli_map_read_dxf, &options, text, sizeof text - 1,
                     "wall 2 0 2 1\nwall 3 0 3 1\nwall 8 0 8 1\n");
     options.layers = "walls,doors";
-    assert_refused_of(sl_map_read_dxf, &options, text, sizeof text - 1, SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_dxf, &options, text, sizeof text - 1, SL_BAD_ARGUMENT,
                       "f: there is no layer 'doors' in the drawing; it has walls, off, frozen");
 }
 
@@ -170,29 +171,29 @@ static void test_units(void **state) {
     sl_import_options options = sl_import_options_default();
     const char *const feet = IN(2) HEAD LINE(0, 10, 100, 0) TAIL;
     options.unit = "m";
-    assert_walls_of(sl_map_read_dxf, &options, feet, strlen(feet), "wall 0 3.048 30.48 0\n");
+    assert_walls_of(sli_map_read_dxf, &options, feet, strlen(feet), "wall 0 3.048 30.48 0\n");
     options.unit = "ft";
-    assert_walls_of(sl_map_read_dxf, &options, feet, strlen(feet), "wall 0 10 100 0\n");
-    assert_unit_of(sl_map_read_dxf, &options, feet, "ft");
+    assert_walls_of(sli_map_read_dxf, &options, feet, strlen(feet), "wall 0 10 100 0\n");
+    assert_unit_of(sli_map_read_dxf, &options, feet, "ft");
     options.unit = "mm";
-    assert_unit_of(sl_map_read_dxf, &options, feet, "mm");
-    assert_unit_of(sl_map_read_dxf, NULL, feet, "ft");
-    assert_unit_of(sl_map_read_dxf, NULL, IN(13) HEAD LINE(0, 10, 100, 0) TAIL, "\xc2\xb5m");
-    assert_unit_of(sl_map_read_dxf, NULL, IN(0) HEAD LINE(0, 10, 100, 0) TAIL, "");
-    assert_unit_of(sl_map_read_dxf, NULL, IN(99) HEAD LINE(0, 10, 100, 0) TAIL, "");
-    assert_unit_of(sl_map_read_dxf, NULL, HEAD LINE(0, 10, 100, 0) TAIL, "");
+    assert_unit_of(sli_map_read_dxf, &options, feet, "mm");
+    assert_unit_of(sli_map_read_dxf, NULL, feet, "ft");
+    assert_unit_of(sli_map_read_dxf, NULL, IN(13) HEAD LINE(0, 10, 100, 0) TAIL, "\xc2\xb5m");
+    assert_unit_of(sli_map_read_dxf, NULL, IN(0) HEAD LINE(0, 10, 100, 0) TAIL, "");
+    assert_unit_of(sli_map_read_dxf, NULL, IN(99) HEAD LINE(0, 10, 100, 0) TAIL, "");
+    assert_unit_of(sli_map_read_dxf, NULL, HEAD LINE(0, 10, 100, 0) TAIL, "");
     options.unit = "mi";
-    assert_refused_of(sl_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
                       "there is no unit 'mi'; choose from mm, cm, m, km, in, ft, yd");
     options.unit = "ell";
-    assert_refused_of(sl_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
                       "there is no unit 'ell'; choose from mm, cm, m, km, in, ft, yd");
     options.unit = "m";
     const char *const untold = HEAD LINE(0, 10, 100, 0) TAIL;
-    assert_refused_of(sl_map_read_dxf, &options, untold, strlen(untold), SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_dxf, &options, untold, strlen(untold), SL_BAD_ARGUMENT,
                       "f: the drawing's own unit is unknown, so it cannot be turned into metres");
     const char *const strange = IN(99) HEAD LINE(0, 10, 100, 0) TAIL;
-    assert_refused_of(sl_map_read_dxf, &options, strange, strlen(strange), SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_dxf, &options, strange, strlen(strange), SL_BAD_ARGUMENT,
                       "f: the drawing's own unit is unusual, so it cannot be turned into metres");
 }
 

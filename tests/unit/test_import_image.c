@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "sightline/io.h"
 
 #include <png.h>
@@ -10,11 +11,11 @@
 static void assert_walls(const char *text, size_t size, double threshold, const char *expected) {
     sl_import_options options = sl_import_options_default();
     options.threshold = threshold;
-    assert_walls_of(sl_map_read_image, &options, text, size, expected);
+    assert_walls_of(sli_map_read_image, &options, text, size, expected);
 }
 
 static void assert_refused(const char *text, size_t size, const char *message) {
-    assert_refused_of(sl_map_read_image, NULL, text, size, SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_image, NULL, text, size, SL_BAD_INPUT, message);
 }
 
 // The two lower pixels of the left column of 3 x 3, and the one in the upper right corner.
@@ -41,7 +42,7 @@ static void assert_shape(const char *bytes, size_t size, double threshold, bool 
     sl_import_options options = sl_import_options_default();
     options.threshold = threshold;
     sl_map map = {0};
-    assert_ok(context, sl_map_read_image(context, "f", bytes, size, &options, &map));
+    assert_ok(context, sli_map_read_image(context, "f", bytes, size, &options, &map));
     char *text = map_walls_text(&map), expected[] = SHAPE;
     sort_lines(text + strlen("sightline 1\n"));
     sort_lines(expected);
@@ -119,7 +120,7 @@ static void read_ros(const char *yaml, double threshold, const char *expected,
     sl_import_options options = sl_import_options_default();
     options.threshold = threshold;
     sl_map map = {0};
-    const sl_status status = sl_map_read_ros(context, path, yaml, strlen(yaml), &options, &map);
+    const sl_status status = sli_map_read_ros(context, path, yaml, strlen(yaml), &options, &map);
     if (expected) {
         assert_ok(context, status);
         char *text = map_walls_text(&map);
@@ -177,10 +178,10 @@ static void test_ros(void **state) {
 static void test_ros_without_a_picture(void **state) {
     (void)state;
     static const char yaml[] = "resolution: 1\nimage: /nowhere/m.pgm\n";
-    assert_refused_of(sl_map_read_ros, NULL, yaml, sizeof yaml - 1, SL_BAD_INPUT,
+    assert_refused_of(sli_map_read_ros, NULL, yaml, sizeof yaml - 1, SL_BAD_INPUT,
                       "f:2: image: there is no picture '/nowhere/m.pgm'");
     static const char device[] = "resolution: 1\nimage: /dev/zero\n";
-    assert_refused_of(sl_map_read_ros, NULL, device, sizeof device - 1, SL_BAD_INPUT,
+    assert_refused_of(sli_map_read_ros, NULL, device, sizeof device - 1, SL_BAD_INPUT,
                       "f:2: image: there is no picture '/dev/zero'");
 }
 

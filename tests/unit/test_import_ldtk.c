@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "sightline/io.h"
 
 #include <unistd.h>
@@ -25,17 +26,17 @@
 static void assert_walls(const char *text, const char *name, const char *layers,
                          const char *expected) {
     const sl_import_options options = {.map = name, .layers = layers};
-    assert_walls_of(sl_map_read_ldtk, &options, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_ldtk, &options, text, strlen(text), expected);
 }
 
 static void assert_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_ldtk, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_ldtk, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 static void assert_no_such(const char *text, const char *name, const char *layers,
                            const char *message) {
     const sl_import_options options = {.map = name, .layers = layers};
-    assert_refused_of(sl_map_read_ldtk, &options, text, strlen(text), SL_BAD_ARGUMENT, message);
+    assert_refused_of(sli_map_read_ldtk, &options, text, strlen(text), SL_BAD_ARGUMENT, message);
 }
 
 static void test_values(void **state) {
@@ -129,7 +130,7 @@ static void assert_list(const char *text, const char *expected) {
     sl_context *context = testing_context(&memory);
     sl_map_list list = {0};
     char names[256] = "";
-    assert_ok(context, sl_map_list_ldtk(context, "f", text, strlen(text), &list));
+    assert_ok(context, sli_map_list_ldtk(context, "f", text, strlen(text), &list));
     for (size_t i = 0; i < list.count; i++) {
         strcat(names, list.names[i]);
         strcat(names, " ");
@@ -150,7 +151,8 @@ static void test_list(void **state) {
                 "A W V ");
     sl_context *context = testing_context(NULL);
     sl_map_list list = {0};
-    assert_int_equal(sl_map_list_ldtk(context, "f", "{\"levels\": [{}]}", 16, &list), SL_BAD_INPUT);
+    assert_int_equal(sli_map_list_ldtk(context, "f", "{\"levels\": [{}]}", 16, &list),
+                     SL_BAD_INPUT);
     assert_string_equal(sl_context_message(context),
                         "f: levels[0].identifier: expected text, found nothing");
     assert_null(list.names);

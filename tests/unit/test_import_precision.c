@@ -1,6 +1,7 @@
 // Drawings whose corners miss each other by their last digit are closed; honest gaps stay.
 #include "testing.h"
 
+#include "io/formats.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -118,11 +119,11 @@ static const struct format {
     write_line *write;
     const char *head, *tail;
 } formats[] = {
-    {sl_map_read_dxf, write_dxf, "0\nSECTION\n2\nENTITIES\n", "0\nENDSEC\n0\nEOF\n"},
-    {sl_map_read_svg, write_svg, "<svg>\n", "</svg>\n"},
-    {sl_map_read_uvtt, write_uvtt,
+    {sli_map_read_dxf, write_dxf, "0\nSECTION\n2\nENTITIES\n", "0\nENDSEC\n0\nEOF\n"},
+    {sli_map_read_svg, write_svg, "<svg>\n", "</svg>\n"},
+    {sli_map_read_uvtt, write_uvtt,
      "{\"format\":0.3,\"resolution\":{\"map_size\":{\"x\":64,\"y\":64}},\"line_of_sight\":[", "]}"},
-    {sl_map_read_foundry, write_foundry, "[", "]"},
+    {sli_map_read_foundry, write_foundry, "[", "]"},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
@@ -239,7 +240,7 @@ static void test_tiny(void **state) {
     static const char text[] = "<svg><path d=\"M0,0L1.28001e-147,0\"/></svg>";
     sl_context *context = sl_context_create(NULL);
     sl_map map = {0};
-    assert_ok(context, sl_map_read_svg(context, "tiny", text, sizeof text - 1, &options, &map));
+    assert_ok(context, sli_map_read_svg(context, "tiny", text, sizeof text - 1, &options, &map));
     assert_int_equal(map.wall_count, 1);
     assert_true(map.precision == 0);
     sl_map_destroy(context, &map);
@@ -249,7 +250,7 @@ static void test_tiny(void **state) {
 /// The finest digit counts, in the map's unit.
 static void test_precision(void **state) {
     (void)state;
-    import_reader *const svg = sl_map_read_svg;
+    import_reader *const svg = sli_map_read_svg;
     assert_precision(svg, "<svg><path d='M0 0L20.50 1'/></svg>", 0.05);
     assert_precision(svg, "<svg><line x2='20' y2='12.5e-2'/></svg>", 0.005);
     assert_precision(svg, "<svg><polyline points='0,0 2000,3'/></svg>", 5);
@@ -264,12 +265,12 @@ static void test_precision(void **state) {
 #define DXF(blocks, entities)                                                                      \
     "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n" blocks        \
     "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
-    assert_precision(sl_map_read_dxf, DXF("", LINE(" 30.000 ")), 0.005);
+    assert_precision(sli_map_read_dxf, DXF("", LINE(" 30.000 ")), 0.005);
     assert_precision(
-        sl_map_read_dxf,
+        sli_map_read_dxf,
         DXF("0\nBLOCK\n2\nb\n" LINE("30.000") "0\nENDBLK\n", "0\nINSERT\n2\nb\n41\n4\n42\n4\n"),
         0.02);
-    assert_precision(sl_map_read_foundry, "[{\"c\":[0,0,2000,0]},{\"c\":[0,0,7.25,1]}]", 0.05);
+    assert_precision(sli_map_read_foundry, "[{\"c\":[0,0,2000,0]},{\"c\":[0,0,7.25,1]}]", 0.05);
 }
 
 /// A short wall is not eaten: the tolerance stays below half of it.

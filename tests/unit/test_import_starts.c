@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "io/names.h"
 #include "sightline/io.h"
 
@@ -124,11 +125,11 @@ static void assert_things(import_reader *read, const char *input, const char *st
 }
 
 static void assert_tmx(const char *plan, const char *more, const char *expected) {
-    assert_things(sl_map_read_tmx, tmx_of(plan, more), NULL, expected);
+    assert_things(sli_map_read_tmx, tmx_of(plan, more), NULL, expected);
 }
 
 static void assert_ldtk(const char *plan, const char *entities, const char *expected) {
-    assert_things(sl_map_read_ldtk, ldtk_of(plan, entities), NULL, expected);
+    assert_things(sli_map_read_ldtk, ldtk_of(plan, entities), NULL, expected);
 }
 
 /// A note of the reading contains the text.
@@ -223,16 +224,16 @@ static void test_starts_and_walls(void **state) {
     const sl_import_options options = sl_import_options_default();
     const char *input = tmx_of(ROOM, OBJECTS(POINT("player", AT("4", "8")) POINT(
                                          "start", AT("-20", "9")) POINT("spawn", AT("12", "12"))));
-    assert_things(sl_map_read_tmx, input, NULL, "start 12 28 0\n");
-    assert_note(sl_map_read_tmx, input, &options,
+    assert_things(sli_map_read_tmx, input, NULL, "start 12 28 0\n");
+    assert_note(sli_map_read_tmx, input, &options,
                 "f:3: start 'player' at 4 8 in the file is left out: it stands on solid ground\n");
-    assert_note(sl_map_read_tmx, input, &options,
+    assert_note(sli_map_read_tmx, input, &options,
                 "f:3: start 'start' at -20 9 in the file is left out: it is outside the map\n");
-    assert_note(sl_map_read_tmx, input, &options, "f: taken: 1 start, from 'spawn'\n");
+    assert_note(sli_map_read_tmx, input, &options, "f: taken: 1 start, from 'spawn'\n");
     // Starts of a solid layer are no walls.
     size_t walls;
     char things[MOST_TEXT];
-    read_things(sl_map_read_tmx,
+    read_things(sli_map_read_tmx,
                 tmx_of(ROOM, "<objectgroup name='walls'>" NAMED(
                                  "player", SIZED("12", "12", "4", "4")) "</objectgroup>"),
                 &options, things, &walls, NULL);
@@ -240,7 +241,7 @@ static void test_starts_and_walls(void **state) {
     assert_int_equal(walls, 4);
     // A map without tiles: its walls say how far it goes.
     assert_things(
-        sl_map_read_tmx,
+        sli_map_read_tmx,
         "<map width='9' height='5' tilewidth='8' tileheight='8'><objectgroup "
         "name='walls'><object x='8' y='8' width='30' height='20'/>" POINT("player", AT("10", "10"))
             POINT("player", AT("2", "2")) "</objectgroup></map>",
@@ -251,26 +252,26 @@ static void test_start_names(void **state) {
     (void)state;
     const char *text = tmx_of(ROOM, OBJECTS(POINT("Player", AT("12", "20")) POINT(
                                         "guard", AT("20", "20")) POINT("", AT("20", "28"))));
-    assert_things(sl_map_read_tmx, text, "Guard", "start 20 20 0\n");
-    assert_things(sl_map_read_tmx, text, "guard, player", "start 12 20 0\nstart 20 20 0\n");
-    assert_things(sl_map_read_tmx, text, "", "");
-    assert_things(sl_map_read_tmx, text, "none", "");
+    assert_things(sli_map_read_tmx, text, "Guard", "start 20 20 0\n");
+    assert_things(sli_map_read_tmx, text, "guard, player", "start 12 20 0\nstart 20 20 0\n");
+    assert_things(sli_map_read_tmx, text, "", "");
+    assert_things(sli_map_read_tmx, text, "none", "");
     sl_import_options options = with_doors("guard,thief");
-    assert_refused_of(sl_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT,
                       "--start-names: f has no object 'thief'; its objects: 'Player', 'guard'");
     text = tmx_of(ROOM, "");
-    assert_refused_of(sl_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT,
                       "--start-names: f has no object 'guard'; its objects: none has a name");
     text = ldtk_of(ROOM, ENTITY("Guard", "12,20", "0,0", EIGHT, ""));
-    assert_things(sl_map_read_ldtk, text, "guard", "start 16 16 0\n");
-    assert_refused_of(sl_map_read_ldtk, &options, text, strlen(text), SL_BAD_ARGUMENT,
+    assert_things(sli_map_read_ldtk, text, "guard", "start 16 16 0\n");
+    assert_refused_of(sli_map_read_ldtk, &options, text, strlen(text), SL_BAD_ARGUMENT,
                       "--start-names: f has no object 'thief'; its objects: 'Guard'");
 }
 
 static void test_starts_of_chunks(void **state) {
     (void)state;
 #define CHUNK(x, y, data) "<chunk x='" x "' y='" y "' width='2' height='2'>" data "</chunk>"
-    assert_things(sl_map_read_tmx,
+    assert_things(sli_map_read_tmx,
                   "<map infinite='1' width='2' height='2' tilewidth='8' tileheight='8'>"
                   "<layer name='walls' width='2' height='2'><data encoding='csv'>" CHUNK("-4", "-2",
                                                                                          "0,0,0,1")
@@ -294,7 +295,7 @@ static void test_starts_of_ldtk(void **state) {
     assert_ldtk(ROOM, ENTITY("EnemySpawn", "12,20", "0,0", EIGHT, ""), "");
     assert_ldtk(ROOM, ENTITY("Player", "100,20", "0,0", EIGHT, ""), "");
     const char *text = ldtk_of(ROOM, "{\"__identifier\": \"Player\"}");
-    assert_refused_of(sl_map_read_ldtk, NULL, text, strlen(text), SL_BAD_INPUT,
+    assert_refused_of(sli_map_read_ldtk, NULL, text, strlen(text), SL_BAD_INPUT,
                       "f: levels[0].layerInstances[0].entityInstances[0].px: expected two numbers");
 }
 
@@ -313,10 +314,10 @@ static void test_starts_of_worlds(void **state) {
     sl_import_options options = with_doors(NULL);
     char things[MOST_TEXT];
     options.map = "B";
-    read_things(sl_map_read_ldtk, text, &options, things, NULL, NULL);
+    read_things(sli_map_read_ldtk, text, &options, things, NULL, NULL);
     assert_string_equal(things, "start 9 6 0\n");
     options.map = "all";
-    read_things(sl_map_read_ldtk, text, &options, things, NULL, NULL);
+    read_things(sli_map_read_ldtk, text, &options, things, NULL, NULL);
     assert_string_equal(things, "start 9 14 0\nstart 25 6 0\n");
 }
 
@@ -330,13 +331,13 @@ static void test_tokens_of_foundry(void **state) {
     const char *text = SCENE("{\"size\": 50}",
                              TOKEN("Ann", "50", "100", "1", ", \"rotation\": 90") "," TOKEN(
                                  "Wolf", "0", "0", "-1", "") "," TOKEN("Far", "500", "0", "1", ""));
-    assert_things(sl_map_read_foundry, text, NULL, "start 75 175 180\n");
-    assert_things(sl_map_read_foundry, text, "wolf", "start 25 275 270\n");
-    assert_things(sl_map_read_foundry, text, "none", "");
+    assert_things(sli_map_read_foundry, text, NULL, "start 75 175 180\n");
+    assert_things(sli_map_read_foundry, text, "wolf", "start 25 275 270\n");
+    assert_things(sli_map_read_foundry, text, "none", "");
     text = SCENE("100", TOKEN("Gate", "100", "100", "1", ", \"width\": 2, \"height\": 1"));
-    assert_things(sl_map_read_foundry, text, NULL, "start 200 150 270\n");
+    assert_things(sli_map_read_foundry, text, NULL, "start 200 150 270\n");
     text = SCENE("100", TOKEN("Ann", "\"1\"", "100", "1", ""));
-    assert_refused_of(sl_map_read_foundry, NULL, text, strlen(text), SL_BAD_INPUT,
+    assert_refused_of(sli_map_read_foundry, NULL, text, strlen(text), SL_BAD_INPUT,
                       "f: tokens[0].x: expected a number");
 }
 
@@ -406,16 +407,16 @@ static void test_doors_on_solid_squares(void **state) {
                "door Door 27 16 27 24 open\n");
     // The door's tile is in the layer of walls.
     const char *text = tmx_of("#######\n#..#..#\n#..X..#\n#..#..#\n#######", "");
-    read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
+    read_things(sli_map_read_tmx, text, &options, things, &walls, NULL);
     assert_string_equal(things, door);
     assert_int_equal(walls, 12);
     // Also where nobody asks for doors.
     options.doors = false;
-    read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
+    read_things(sli_map_read_tmx, text, &options, things, &walls, NULL);
     assert_string_equal(things, door);
-    assert_note(sl_map_read_tmx, text, &options, "f: taken: 1 open door\n");
+    assert_note(sli_map_read_tmx, text, &options, "f: taken: 1 open door\n");
     text = tmx_of(NO_WAY, OBJECTS(NAMED("shut door", SIZED("24", "16", "8", "8"))));
-    read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
+    read_things(sli_map_read_tmx, text, &options, things, &walls, NULL);
     assert_string_equal(things, "door shut_door 28 16 28 24 shut\n");
     assert_int_equal(walls, 12);
     // A thick wall: through its middle.
@@ -433,18 +434,18 @@ static void test_notes_about_doors(void **state) {
     "<object name='Big Door' x='16' y='16' width='8' height='8'><properties><property name='" name \
     "' value='" value "'/></properties></object>"
     const char *text = tmx_of(gap, OBJECTS(STATE("state", "closed")));
-    assert_things(sl_map_read_tmx, text, NULL, "door Big_Door 20 16 20 24 shut\n");
-    assert_note(sl_map_read_tmx, text, &options,
+    assert_things(sli_map_read_tmx, text, NULL, "door Big_Door 20 16 20 24 shut\n");
+    assert_note(sli_map_read_tmx, text, &options,
                 "f: door 'Big Door' is named Big_Door here: names are one word each\n");
-    assert_things(sl_map_read_tmx, tmx_of(gap, OBJECTS(STATE("status", "opened"))), NULL,
+    assert_things(sli_map_read_tmx, tmx_of(gap, OBJECTS(STATE("status", "opened"))), NULL,
                   "door Big_Door 20 16 20 24 open\n");
-    assert_note(sl_map_read_tmx, tmx_of(gap, OBJECTS(STATE("state", "ajar"))), &options,
+    assert_note(sli_map_read_tmx, tmx_of(gap, OBJECTS(STATE("state", "ajar"))), &options,
                 "f: property 'state' of door 'Big Door' is not understood\n");
-    assert_note(sl_map_read_tmx, tmx_of(gap, OBJECTS(STATE("locked", "by a key"))), &options,
+    assert_note(sli_map_read_tmx, tmx_of(gap, OBJECTS(STATE("locked", "by a key"))), &options,
                 "f: property 'locked' of door 'Big Door' is not understood\n");
     text = tmx_of(gap, OBJECTS(NAMED("crate", SIZED("8", "8", "8", "8"))
                                    NAMED("door of the hall", SIZED("16", "16", "8", "8"))));
-    assert_note(sl_map_read_tmx, text, &options,
+    assert_note(sli_map_read_tmx, text, &options,
                 "f: objects left out: 'crate', 'door of the hall'; name or type 'door' what is a "
                 "door: 'door of the hall'\n");
 }
@@ -457,10 +458,10 @@ static void test_doors_without_passage(void **state) {
     // The front of a house: behind the door all is solid. Its square stays so.
     const char *text =
         tmx_of("#####\n#...#\n#...#\n#####", OBJECTS(NAMED("Door", SIZED("16", "0", "8", "8"))));
-    read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
+    read_things(sli_map_read_tmx, text, &options, things, &walls, NULL);
     assert_string_equal(things, "");
     assert_int_equal(walls, 4);
-    assert_note(sl_map_read_tmx, text, &options,
+    assert_note(sli_map_read_tmx, text, &options,
                 "f:3: door 'Door' at 20 4 in the file is left out: no passage is found there\n");
     // In the open, a square door does not say which way it goes; a longer one does.
     assert_tmx(ROOM, OBJECTS(NAMED("Door", SIZED("16", "16", "8", "8"))), "");
@@ -472,22 +473,22 @@ static void test_doors_without_passage(void **state) {
     assert_tmx(ROOM, OBJECTS(LINE("Door", AT("8", "10"), "0,0 0,10")), "");
     assert_tmx(ROOM, OBJECTS(NAMED("Door", SIZED("14", "7", "8", "2"))), "");
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", SIZED("80", "16", "8", "8"))));
-    assert_note(sl_map_read_tmx, text, &options,
+    assert_note(sli_map_read_tmx, text, &options,
                 "door 'Door' at 84 20 in the file is left out: it is outside the map\n");
     // An object of a solid layer stays what it would be without its name.
     text = "<map width='9' height='5' tilewidth='8' tileheight='8'><objectgroup name='walls'>"
            "<object name='door' x='8' y='8' width='8' height='8'/>"
            "<object x='40' y='8' width='8' height='8'/></objectgroup></map>";
-    read_things(sl_map_read_tmx, text, &options, things, &walls, NULL);
+    read_things(sli_map_read_tmx, text, &options, things, &walls, NULL);
     assert_int_equal(walls, 8);
-    assert_note(sl_map_read_tmx, text, &options,
+    assert_note(sli_map_read_tmx, text, &options,
                 "f:1: door 'door' at 12 12 in the file is taken as a wall: no passage is found "
                 "there\n");
     // More than a few are counted.
     text = tmx_of(ROOM, OBJECTS(NAMED("Door", AT("1", "1")) NAMED("Door", AT("1", "2"))
                                     NAMED("Door", AT("1", "3")) NAMED("Door", AT("1", "4"))
                                         NAMED("Door", AT("1", "5")) NAMED("Door", AT("1", "6"))));
-    assert_note(sl_map_read_tmx, text, &options, "f: so is 1 more door\n");
+    assert_note(sli_map_read_tmx, text, &options, "f: so is 1 more door\n");
 }
 
 /// Walls that are objects tell too, if they stand at two opposite sides of the door.
@@ -497,14 +498,14 @@ static void test_doors_between_shapes(void **state) {
     "<map width='9' height='5' tilewidth='8' tileheight='8'><objectgroup name='walls'>"            \
     "<object x='0' y='16' width='20' height='8'/><object x='30' y='16' width='20' height='8'/>"    \
     "</objectgroup><objectgroup name='doors'>" door "</objectgroup></map>"
-    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("20", "16", "10", "10"))), NULL,
+    assert_things(sli_map_read_tmx, SHAPES(NAMED("door", SIZED("20", "16", "10", "10"))), NULL,
                   "door door 20 19 30 19 open\n");
-    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "16", "8", "8"))), NULL,
+    assert_things(sli_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "16", "8", "8"))), NULL,
                   "door door 20 20 30 20 open\n");
-    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "16", "8", "9"))), NULL,
+    assert_things(sli_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "16", "8", "9"))), NULL,
                   "door door 20 19.5 30 19.5 open\n");
-    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "0", "8", "8"))), NULL, "");
-    assert_things(sl_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "0", "8", "6"))), NULL,
+    assert_things(sli_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "0", "8", "8"))), NULL, "");
+    assert_things(sli_map_read_tmx, SHAPES(NAMED("door", SIZED("21", "0", "8", "6"))), NULL,
                   "door door 21 37 29 37 open\n");
 }
 
@@ -607,7 +608,7 @@ static void test_doors_of_ldtk(void **state) {
                        FIELD("name", "\"hall\"") "," FIELD("state", "\"Closed\"")),
                 "door hall 28 16 28 24 shut\n");
     const sl_import_options options = sl_import_options_default();
-    assert_note(sl_map_read_ldtk, ldtk_of(TWO_ROOMS, ENTITY("Guard", "12,20", "0,0", EIGHT, "")),
+    assert_note(sli_map_read_ldtk, ldtk_of(TWO_ROOMS, ENTITY("Guard", "12,20", "0,0", EIGHT, "")),
                 &options, ": objects left out: 'Guard'\n");
     assert_ldtk("#######\n#..#..#\n#..D..#\n#..#..#\n#######", "", door);
     assert_ldtk("####\n#..#\n####\n#.D#\n####", "", "");
@@ -656,7 +657,7 @@ static void test_doors_of_plans(void **state) {
             snprintf(object, sizeof object,
                      OBJECTS("<object name='door' x='%zu' y='%zu' width='8' height='8'/>"),
                      8 * column, 8 * row);
-            read_things(sl_map_read_tmx, tmx_of(plan, object), &options, things, NULL, NULL);
+            read_things(sli_map_read_tmx, tmx_of(plan, object), &options, things, NULL, NULL);
             if (strcmp(things, expected) != 0)
                 fail_msg("%s\n(%zu,%zu): '%s' is not '%s'", plan, column, row, things, expected);
         }
@@ -690,12 +691,12 @@ static void test_templates(void **state) {
                                "<object template='player.tj' rotation='0' " AT("12", "12") "/>"),
                "start 12 20 180\nstart 12 28 0\n");
     const sl_import_options options = sl_import_options_default();
-    assert_note(sl_map_read_tmx,
+    assert_note(sli_map_read_tmx,
                 tmx_of(TWO_ROOMS, OBJECTS("<object template='no.tx' " AT("12", "20") "/>")),
                 &options, "f: its template 'no.tx' cannot be read\n");
     import_write_file("bad.tx", "<template>");
     const char *text = tmx_of(TWO_ROOMS, OBJECTS("<object template='bad.tx'/>"));
-    assert_refused_of(sl_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, "bad.tx:1: XML");
+    assert_refused_of(sli_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, "bad.tx:1: XML");
     assert_int_equal(unlink("door.tx") + unlink("player.tj") + unlink("bad.tx"), 0);
     assert_int_equal(chdir(cwd), 0);
     assert_int_equal(rmdir(folder), 0);
@@ -707,12 +708,12 @@ static void test_memory(void **state) {
     (void)state;
     const sl_import_options options = with_doors("player");
     assert_memory_of(
-        sl_map_read_tmx, &options,
+        sli_map_read_tmx, &options,
         tmx_of("#######\n#..#..#\n#..X..#\n#..#..#\n#######",
                OBJECTS(POINT("player", AT("12", "12")) LINE("door", AT("12", "9"), "0,0 4,4")
                            NAMED(" door", SIZED("9", "9", "3", "5"))
                                NAMED("door", SIZED("9", "9", "3", "5")))));
-    assert_memory_of(sl_map_read_ldtk, &options,
+    assert_memory_of(sli_map_read_ldtk, &options,
                      ldtk_of(TWO_ROOMS, ENTITY("Door", "24,16", "0,0", EIGHT, "") "," ENTITY(
                                             "Player", "12,12", "0,0", EIGHT, "")));
 }

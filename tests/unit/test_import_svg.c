@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "sightline/io.h"
 
 #include <math.h>
@@ -10,11 +11,11 @@
 
 /// y is turned up: the box's lower edge, at y 10, is at 0.
 static void assert_walls(const char *text, const char *expected) {
-    assert_walls_of(sl_map_read_svg, NULL, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_svg, NULL, text, strlen(text), expected);
 }
 
 static void assert_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_svg, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_svg, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 static void test_shapes(void **state) {
@@ -71,7 +72,7 @@ static void assert_circle(const char *data, double sweep) {
     sl_context *context = testing_context(NULL);
     const sl_import_options options = sl_import_options_default();
     sl_map map = {0};
-    assert_ok(context, sl_map_read_svg(context, "f", text, strlen(text), &options, &map));
+    assert_ok(context, sli_map_read_svg(context, "f", text, strlen(text), &options, &map));
     double turned = 0;
     for (size_t i = 0; i < map.wall_count; i++) {
         const sl_point u = {map.walls[i].a.x - 5, map.walls[i].a.y - 5};
@@ -99,7 +100,7 @@ static void test_arcs(void **state) {
     options.tolerance = 0.01;
     sl_map map = {0};
     const char *const text = PATH("M0 10Q5 0 10 10T20 10");
-    assert_ok(context, sl_map_read_svg(context, "f", text, strlen(text), &options, &map));
+    assert_ok(context, sli_map_read_svg(context, "f", text, strlen(text), &options, &map));
     double highest = -9, lowest = 9;
     for (size_t i = 0; i < map.wall_count; i++) {
         const sl_point at = map.walls[i].b;
@@ -124,11 +125,11 @@ static void test_layers(void **state) {
     assert_walls(text, "wall 0 10 1 10\nwall 0 10 3 10\nwall 0 10 4 10\n");
     sl_import_options options = sl_import_options_default();
     options.layers = "Furniture";
-    assert_walls_of(sl_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 3 10\n");
+    assert_walls_of(sli_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 3 10\n");
     options.layers = " walls,";
-    assert_walls_of(sl_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 1 10\n");
+    assert_walls_of(sli_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 1 10\n");
     options.layers = "walls,x";
-    assert_refused_of(sl_map_read_svg, &options, text, sizeof text - 1, SL_BAD_ARGUMENT,
+    assert_refused_of(sli_map_read_svg, &options, text, sizeof text - 1, SL_BAD_ARGUMENT,
                       "f: there is no layer 'x' in the drawing; it has walls, Furniture");
 }
 
@@ -213,15 +214,15 @@ static void test_refused(void **state) {
 static void test_units(void **state) {
     (void)state;
 #define SIZED(size) "<svg " size "><line x2='1'/></svg>"
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20mm' viewBox='0 0 20 10'"), "mm");
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20' viewBox='0 0 20 10'"), "px");
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20cm' height='10cm'"), "px");
-    assert_unit_of(sl_map_read_svg, NULL, SIZED(""), "px");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20mm' viewBox='0 0 20 10'"), "mm");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20' viewBox='0 0 20 10'"), "px");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20cm' height='10cm'"), "px");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED(""), "px");
     // A user unit is another length here.
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='21mm' viewBox='0 0 20 10'"), "");
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20%' viewBox='0 0 20 10'"), "");
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("width='20ell' viewBox='0 0 20 10'"), "");
-    assert_unit_of(sl_map_read_svg, NULL, SIZED("viewBox='0 0 20 10'"), "");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("width='21mm' viewBox='0 0 20 10'"), "");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20%' viewBox='0 0 20 10'"), "");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20ell' viewBox='0 0 20 10'"), "");
+    assert_unit_of(sli_map_read_svg, NULL, SIZED("viewBox='0 0 20 10'"), "");
 }
 
 int main(void) {

@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "sightline/io.h"
 
 static const sl_import_options with_doors = {.doors = true};
@@ -21,11 +22,11 @@ static const sl_import_options with_doors = {.doors = true};
 #define UVTT(body) "{" SIZE body "}"
 
 static void assert_uvtt(const sl_import_options *options, const char *text, const char *expected) {
-    assert_walls_of(sl_map_read_uvtt, options, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_uvtt, options, text, strlen(text), expected);
 }
 
 static void assert_uvtt_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_uvtt, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_uvtt, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 static void test_uvtt(void **state) {
@@ -39,8 +40,8 @@ static void test_uvtt(void **state) {
     const sl_import_options objects = {.layers = "objects_line_of_sight"};
     assert_uvtt(&objects, UVTT(LINES "," OBJECTS "," PORTALS), "wall 1 9 2.5 7\n");
     const sl_import_options unknown = {.layers = "walls"};
-    assert_refused_of(sl_map_read_uvtt, &unknown, UVTT(LINES), strlen(UVTT(LINES)), SL_BAD_ARGUMENT,
-                      "f: there is no layer 'walls'");
+    assert_refused_of(sli_map_read_uvtt, &unknown, UVTT(LINES), strlen(UVTT(LINES)),
+                      SL_BAD_ARGUMENT, "f: there is no layer 'walls'");
 }
 
 static void test_uvtt_refused(void **state) {
@@ -80,11 +81,11 @@ static void test_uvtt_refused(void **state) {
 
 static void assert_foundry(const sl_import_options *options, const char *text,
                            const char *expected) {
-    assert_walls_of(sl_map_read_foundry, options, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_foundry, options, text, strlen(text), expected);
 }
 
 static void assert_foundry_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_foundry, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_foundry, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 static void test_foundry_walls(void **state) {
@@ -183,9 +184,9 @@ static void test_foundry_refused(void **state) {
 static void test_export(void **state) {
     (void)state;
     static const char text[] = "{\"format\": \"sightline\", \"walls\": [[0, 1, 2.5, 1]]}";
-    assert_walls_of(sl_map_read_export, NULL, text, strlen(text), "wall 0 1 2.5 1\n");
+    assert_walls_of(sli_map_read_export, NULL, text, strlen(text), "wall 0 1 2.5 1\n");
     static const char broken[] = "{\"format\": \"sightline\", \"walls\": [[0, 1, 2.5]]}";
-    assert_refused_of(sl_map_read_export, NULL, broken, strlen(broken), SL_BAD_INPUT,
+    assert_refused_of(sli_map_read_export, NULL, broken, strlen(broken), SL_BAD_INPUT,
                       "f: walls[0]: expected 4 numbers");
 }
 
@@ -204,11 +205,11 @@ static void test_export(void **state) {
            "\"objects\": [{\"name\": \"box\", \"box\": [3, 2, 1, 4]}], \"later\": {}")
 
 static void assert_export(const char *text, const char *expected) {
-    assert_walls_of(sl_map_read_export, NULL, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_export, NULL, text, strlen(text), expected);
 }
 
 static void assert_export_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_export, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_export, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 /// Stretches of a door that go on in one line are one door again.
@@ -232,7 +233,7 @@ static void test_export_ground(void **state) {
     assert_export(text, "wall 0 0 8 0\nwall 8 0 8 4\n");
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
-    assert_ok(context, sl_map_read_export(context, "f", text, strlen(text), NULL, &map));
+    assert_ok(context, sli_map_read_export(context, "f", text, strlen(text), NULL, &map));
     assert_int_equal(map.walls[0].ground, SL_SOLID_LEFT);
     assert_int_equal(map.walls[1].ground, SL_SOLID_LEFT | SL_SOLID_RIGHT);
     sl_map_destroy(context, &map);
@@ -283,10 +284,10 @@ static void test_export_refused(void **state) {
 static void test_memory(void **state) {
     (void)state;
     const sl_import_options options = {.doors = true};
-    assert_memory_of(sl_map_read_uvtt, &options, UVTT(LINES "," OBJECTS "," PORTALS));
-    assert_memory_of(sl_map_read_foundry, &options, DOORS);
-    assert_memory_of(sl_map_read_export, &options, EVERYTHING);
-    assert_memory_of(sl_map_read_export, &options, EXPORT(SOLIDS));
+    assert_memory_of(sli_map_read_uvtt, &options, UVTT(LINES "," OBJECTS "," PORTALS));
+    assert_memory_of(sli_map_read_foundry, &options, DOORS);
+    assert_memory_of(sli_map_read_export, &options, EVERYTHING);
+    assert_memory_of(sli_map_read_export, &options, EXPORT(SOLIDS));
 }
 
 int main(void) {

@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/formats.h"
 #include "io/names.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
@@ -30,29 +31,29 @@
 #define FRAME "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n"
 
 static void assert_walls(const char *text, const char *expected) {
-    assert_walls_of(sl_map_read_tmx, NULL, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_tmx, NULL, text, strlen(text), expected);
 }
 
 static void assert_walls_json(const char *text, const char *expected) {
-    assert_walls_of(sl_map_read_tmj, NULL, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_tmj, NULL, text, strlen(text), expected);
 }
 
 static void assert_chosen(const char *layers, const char *text, const char *expected) {
     const sl_import_options options = {.layers = layers};
-    assert_walls_of(sl_map_read_tmx, &options, text, strlen(text), expected);
+    assert_walls_of(sli_map_read_tmx, &options, text, strlen(text), expected);
 }
 
 static void assert_refused(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 static void assert_refused_json(const char *text, const char *message) {
-    assert_refused_of(sl_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
+    assert_refused_of(sli_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
 static void assert_not_chosen(const char *layers, const char *text, const char *message) {
     const sl_import_options options = {.layers = layers};
-    assert_refused_of(sl_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT, message);
+    assert_refused_of(sli_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT, message);
 }
 
 static void test_encodings(void **state) {
@@ -240,7 +241,7 @@ static void test_ellipses(void **state) {
     for (int i = 0; i < 2; i++) {
         const sl_import_options options = {.tolerance = i ? 0.001 : 0};
         sl_map map = {0};
-        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
         assert_true(map.wall_count >= (i ? 60 : 16) && map.wall_count <= 400);
         for (size_t k = 0; k < map.wall_count; k++) {
             const double x = (map.walls[k].a.x - 7) / 4, y = (map.walls[k].a.y - 14) / 2;
@@ -299,7 +300,7 @@ static void assert_one_inside(const char *text) {
     const sl_import_options options = sl_import_options_default();
     sl_map map = {0};
     sl_space space = {0};
-    assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+    assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
     assert_ok(context, sl_subdivide_mesh(context, &map, &space));
     assert_int_equal(space.inside_count, 1);
     sl_space_destroy(context, &space);
@@ -328,7 +329,7 @@ static void test_rings(void **state) {
         const sl_import_options options = sl_import_options_default();
         sl_map map = {0};
         const char *text = cases[i].text;
-        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
         char *whole = map_text(&map), expected[128];
         snprintf(expected, sizeof expected, "sightline 1\nopen %s\n", cases[i].corners);
         assert_string_equal(whole, expected);
@@ -408,7 +409,7 @@ static void test_random_lattices(void **state) {
         sl_context *context = testing_context(NULL);
         const sl_import_options options = sl_import_options_default();
         sl_map map = {0};
-        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
         assert_true(open_area_of(&map) == (double)open * cases[i % 9].area);
         sl_map_destroy(context, &map);
         sl_context_destroy(context);
@@ -420,7 +421,7 @@ static void assert_reads(const char *text, const char *expected) {
     sl_context *context = testing_context(NULL);
     const sl_import_options options = sl_import_options_default();
     sl_map map = {0};
-    assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+    assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
     char *whole = map_walls_text(&map);
     bool same = strlen(whole) == strlen("sightline 1\n") + strlen(expected);
     for (const char *at = expected; same && *at; at = strchr(at, '\n') + 1) {
@@ -547,7 +548,7 @@ static void test_tile_shapes_on_lattices(void **state) {
         const sl_import_options options = sl_import_options_default();
         const char *text = cases[i].text;
         sl_map map = {0};
-        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
         char *whole = map_walls_text(&map);
         if (strncmp(whole + 12, cases[i].wall, strlen(cases[i].wall)) != 0)
             fail_msg("%zu: %s", i, whole);
@@ -717,7 +718,7 @@ static void test_entities_are_not_followed(void **state) {
     sl_context *context = testing_context(NULL);
     const sl_import_options options = sl_import_options_default();
     sl_map map = {0};
-    const sl_status status = sl_map_read_tmx(context, "f", text, strlen(text), &options, &map);
+    const sl_status status = sli_map_read_tmx(context, "f", text, strlen(text), &options, &map);
     // libxml2 may refuse the nested entities by itself, or they are passed over.
     assert_true(status == SL_OK || status == SL_BAD_INPUT);
     assert_null(strstr(sl_context_message(context), "root:"));
@@ -828,14 +829,14 @@ static void test_tilesets_beside(void **state) {
 static void test_memory(void **state) {
     (void)state;
     assert_memory_of(
-        sl_map_read_tmx, NULL,
+        sli_map_read_tmx, NULL,
         MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
                 LAYER("a", DATA("encoding='base64' compression='zlib'",
                                 ZLIB)) "<objectgroup "
                                        "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>"));
-    assert_memory_of(sl_map_read_tmx, NULL, WITH_OBJECTS("isometric", "3", START("12", "10")));
-    assert_memory_of(sl_map_read_tmx, NULL, TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"));
-    assert_memory_of(sl_map_read_tmx, NULL, WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16")));
+    assert_memory_of(sli_map_read_tmx, NULL, WITH_OBJECTS("isometric", "3", START("12", "10")));
+    assert_memory_of(sli_map_read_tmx, NULL, TILE_DOOR(STAGGERED("y"), "2", "0,1,2,1,1,0"));
+    assert_memory_of(sli_map_read_tmx, NULL, WITH_OBJECTS(HEXAGONAL("x"), "3", START("12", "16")));
 }
 
 int main(void) {

@@ -1,6 +1,7 @@
 // UniGrafix: what is cut, what is kept, what is refused and where.
 #include "testing.h"
 
+#include "io/formats.h"
 #include "map_same.h"
 #include "sightline/io.h"
 
@@ -8,7 +9,7 @@
 
 static sl_status cut(sl_context *context, const char *text, double slice, sl_map *map) {
     const sl_import_options options = {.has_slice = true, .slice = slice};
-    return sl_map_read_unigrafix(context, "m.ug", text, strlen(text), &options, map);
+    return sli_map_read_unigrafix(context, "m.ug", text, strlen(text), &options, map);
 }
 
 static void assert_cut(sl_context *context, const char *model, double slice, const char *expected) {
@@ -39,9 +40,9 @@ static void test_cut(void **state) {
     sl_map_destroy(context, &box);
     double lowest = 9, highest = 9;
     assert_ok(context,
-              sl_map_heights_unigrafix(context, "m.ug", BOX, strlen(BOX), &lowest, &highest));
+              sli_map_heights_unigrafix(context, "m.ug", BOX, strlen(BOX), &lowest, &highest));
     assert_true(lowest == 0 && highest == 4);
-    assert_int_equal(sl_map_heights_unigrafix(context, "m.ug", "", 0, &lowest, &highest),
+    assert_int_equal(sli_map_heights_unigrafix(context, "m.ug", "", 0, &lowest, &highest),
                      SL_BAD_INPUT);
     // A vertex in the plane counts as above it: the top edge is cut, the bottom edge is not.
     assert_cut(context, BOX, 4, BOX_CUT);
@@ -176,7 +177,7 @@ static void test_slice(void **state) {
     sl_context *context = testing_context(NULL);
     const sl_import_options options = sl_import_options_default();
     sl_map map = {0};
-    assert_int_equal(sl_map_read_unigrafix(context, "m.ug", BOX, strlen(BOX), &options, &map),
+    assert_int_equal(sli_map_read_unigrafix(context, "m.ug", BOX, strlen(BOX), &options, &map),
                      SL_BAD_ARGUMENT);
     assert_string_equal(sl_context_message(context),
                         "m.ug: a 3D model: give --slice Z, the height of the cut: the model's z "
@@ -232,7 +233,7 @@ static void test_refusals(void **state) {
     const char nul[] = "v a 0 0 0;\nv \0 0 0 0;";
     const sl_import_options options = {.has_slice = true};
     sl_map map = {0};
-    assert_int_equal(sl_map_read_unigrafix(context, "m.ug", nul, sizeof nul - 1, &options, &map),
+    assert_int_equal(sli_map_read_unigrafix(context, "m.ug", nul, sizeof nul - 1, &options, &map),
                      SL_BAD_INPUT);
     assert_string_equal(sl_context_message(context),
                         "m.ug:2: a NUL byte: expected plain text (ASCII or UTF-8)");

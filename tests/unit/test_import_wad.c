@@ -2,6 +2,7 @@
 // text format; and each way in which a WAD can be broken.
 #include "testing.h"
 
+#include "io/formats.h"
 #include "sightline/io.h"
 #include "unit/map_same.h"
 #include "wad_make.h"
@@ -23,7 +24,7 @@ static sl_status read_wad(sl_context *context, const wad_made *wad, const char *
     char *copy = malloc(wad->size + 1);
     assert_non_null(copy);
     memcpy(copy, wad->bytes, wad->size);
-    const sl_status status = sl_map_read_wad(context, "in.wad", copy, wad->size, &options, map);
+    const sl_status status = sli_map_read_wad(context, "in.wad", copy, wad->size, &options, map);
     free(copy);
     return status;
 }
@@ -115,7 +116,7 @@ static void test_list(void **state) {
     wad_two_rooms(&wad, "E1M1", 0, 0, 0, "SECTORS");
     wad_end(&wad);
     sl_map_list list = {0};
-    assert_ok(context, sl_map_list_wad(context, "in.wad", (char *)wad.bytes, wad.size, &list));
+    assert_ok(context, sli_map_list_wad(context, "in.wad", (char *)wad.bytes, wad.size, &list));
     assert_int_equal(list.count, 3);
     assert_string_equal(list.names[0], "E1M1");
     assert_string_equal(list.names[1], "E1M2");

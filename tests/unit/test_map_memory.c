@@ -1,6 +1,7 @@
 // Readers, the cleaning and the writers, with an allocator that gives out after N calls.
 #include "testing.h"
 
+#include "io/formats.h"
 #include "map_same.h"
 #include "sightline/io.h"
 
@@ -36,12 +37,12 @@ static sl_status read_plan(sl_context *context, sl_map *map) {
 
 static sl_status read_model(sl_context *context, sl_map *map) {
     const sl_import_options options = {.has_slice = true, .slice = 1};
-    return sl_map_read_unigrafix(context, "t", model, sizeof model - 1, &options, map);
+    return sli_map_read_unigrafix(context, "t", model, sizeof model - 1, &options, map);
 }
 
 static sl_status read_large_model(sl_context *context, sl_map *map) {
     const sl_import_options options = {.has_slice = true, .slice = 1};
-    return sl_map_read_unigrafix(context, "t", large_model, strlen(large_model), &options, map);
+    return sli_map_read_unigrafix(context, "t", large_model, strlen(large_model), &options, map);
 }
 
 static sl_status read_file(sl_context *context, sl_map *map) {

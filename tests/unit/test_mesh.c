@@ -1,8 +1,8 @@
 /// Meshes: what walls part stays parted, what locates a point is right, and the check of a space
 /// refuses one that was damaged.
+#include "baked_bytes.h"
 #include "unit/mesh_scene.h"
 
-#include "bake/slv.h"
 #include "geometry/orient.h"
 #include "oracle/blockers.h"
 
@@ -510,12 +510,8 @@ static void a_baked_space_reads_back(void **state) {
     s.space = (sl_space){0};
     snprintf(baked.method, sizeof baked.method, "dfs");
     snprintf(baked.solver, sizeof baked.solver, "funnel");
-    char *bytes = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&bytes, &size);
-    assert_non_null(stream);
-    assert_ok(s.context, sli_slv_print(s.context, &baked, stream));
-    assert_int_equal(fclose(stream), 0);
+    size_t size;
+    char *bytes = baked_bytes(s.context, &baked, &size);
     assert_ok(s.context, sl_baked_parse(s.context, "test", bytes, size, &again));
     assert_memory_equal(again.space.neighbour, baked.space.neighbour,
                         baked.space.vertex_count * sizeof *baked.space.neighbour);

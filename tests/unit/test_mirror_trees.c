@@ -1,5 +1,6 @@
 /// Stab trees of maps with mirrors: what they hold, that eyes are not misled by them, and their
 /// baked file.
+#include "baked_bytes.h"
 #include "eye_to_cell/eye_search.h"
 #include "slv_file.h"
 
@@ -158,12 +159,7 @@ static void bake(sl_context *context, sl_baked *baked) {
 }
 
 static char *print(sl_context *context, const sl_baked *baked, size_t *size) {
-    char *bytes = NULL;
-    FILE *stream = open_memstream(&bytes, size);
-    assert_non_null(stream);
-    assert_ok(context, sli_slv_print(context, baked, stream));
-    assert_int_equal(fclose(stream), 0);
-    return bytes;
+    return baked_bytes(context, baked, size);
 }
 
 static void a_file_keeps_them(void **state) {

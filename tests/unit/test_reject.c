@@ -3,9 +3,9 @@
 // the WAD that it goes into is otherwise the same.
 #include "testing.h"
 
+#include "io/formats.h"
 #include "oracle/sectors.h"
 #include "sightline/io.h"
-#include "sightline/reject.h"
 #include "sightline/support.h"
 #include "wad_make.h"
 
@@ -120,7 +120,7 @@ static void bake_map(sl_context *context, const wad_made *wad, sl_baked *baked) 
     const sl_subdivide_options rules = sl_subdivide_options_default();
     sl_map map = {0};
     assert_ok(context,
-              sl_map_read_wad(context, "in.wad", (char *)wad->bytes, wad->size, &options, &map));
+              sli_map_read_wad(context, "in.wad", (char *)wad->bytes, wad->size, &options, &map));
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     assert_ok(context, sl_subdivide_kd(context, &map, &rules, &baked->space));
     sl_map_destroy(context, &map);
@@ -203,7 +203,7 @@ static void hides_nothing_that_is_seen(void **state) {
         make_wad(&map, &wad, round % 2);
         write_file(in, wad.bytes, wad.size);
         bake_map(context, &wad, &baked);
-        assert_ok(context, sl_export_reject(context, &baked, &options, out));
+        assert_ok(context, sli_export_reject(context, &baked, &options, out));
         assert_ok(context, sl_file_read(context, out, &written));
         const sli_lump reject = lump_of(context, &written, "REJECT");
         hidden += check_reject(context, &wad, &reject, &random);
@@ -287,19 +287,19 @@ static void refuses_what_it_cannot_promise(void **state) {
     write_file(in, wad.bytes, wad.size);
     const sl_export_options good = {.wad = in, .map = "MAP01"};
     const sl_export_options no_map = {.wad = in}, other_map = {.wad = in, .map = "MAP02"};
-    assert_ok(context, sl_export_reject(context, &baked, &good, "/dev/null"));
-    assert_int_equal(sl_export_reject(context, &baked, &no_map, "/dev/null"), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_export_reject(context, &baked, &other_map, "/dev/null"), SL_BAD_INPUT);
+    assert_ok(context, sli_export_reject(context, &baked, &good, "/dev/null"));
+    assert_int_equal(sli_export_reject(context, &baked, &no_map, "/dev/null"), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_export_reject(context, &baked, &other_map, "/dev/null"), SL_BAD_INPUT);
     baked.visibility.guarantee = SL_AGGRESSIVE;
-    assert_int_equal(sl_export_reject(context, &baked, &good, "/dev/null"), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_export_reject(context, &baked, &good, "/dev/null"), SL_BAD_ARGUMENT);
     baked.visibility.guarantee = SL_EXACT;
     baked.space.walls[0].a.x += 1;
-    assert_int_equal(sl_export_reject(context, &baked, &good, "/dev/null"), SL_BAD_INPUT);
+    assert_int_equal(sli_export_reject(context, &baked, &good, "/dev/null"), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "has other walls than the baked file"));
     baked.space.walls[0].a.x -= 1;
     const sl_segment door = {{0, 0}, {0, 1}};
     assert_ok(context, sl_map_add_door(context, &baked.map, "door", door, true, 0));
-    assert_int_equal(sl_export_reject(context, &baked, &good, "/dev/null"), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_export_reject(context, &baked, &good, "/dev/null"), SL_BAD_ARGUMENT);
     sl_baked_destroy(context, &baked);
     free(wad.bytes);
     remove(in);

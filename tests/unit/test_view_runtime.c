@@ -1,10 +1,10 @@
 /// View cells in the runtime: merged ones, that need not be convex, are found and looked up right.
 ///   test_view_runtime [POINTS]    so many random points instead of some thousands
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "baked_bytes.h"
 #include "cell_to_cell/view_rows.h"
 #include "view_cells_maps.h"
 
-#include "bake/slv.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "runtime/sightline_runtime.h"
 #include "sightline/bake.h"
@@ -71,10 +71,7 @@ static void bake(sl_context *context, const char *name, uint32_t cells, viewed *
     snprintf(b->method, sizeof b->method, "sweep");
     assert_ok(context, sl_view_rows_make(context, &b->space, &b->visibility.pvs, &v->tree,
                                          &v->hierarchy, cells, true, &b->views));
-    FILE *stream = open_memstream(&v->bytes, &v->size);
-    assert_non_null(stream);
-    assert_ok(context, sli_slv_print(context, b, stream));
-    fclose(stream);
+    v->bytes = baked_bytes(context, b, &v->size);
 }
 
 static void drop(sl_context *context, viewed *v) {
@@ -201,10 +198,7 @@ static void view_cells_are_found_and_looked_up(void **state) {
 
 static void print_again(sl_context *context, viewed *v) {
     free(v->bytes);
-    FILE *stream = open_memstream(&v->bytes, &v->size);
-    assert_non_null(stream);
-    assert_ok(context, sli_slv_print(context, &v->baked, stream));
-    fclose(stream);
+    v->bytes = baked_bytes(context, &v->baked, &v->size);
 }
 
 /// As `bake`, without what cells see.
@@ -292,11 +286,8 @@ static void damaged_view_cells_are_refused(void **state) {
                                       : &views->parents[views->node_count - 1];
         const uint32_t before = *word;
         *word = fault == 2 ? views->node_count + 1 : fault == 3 ? 0 : views->node_count;
-        char *bytes;
         size_t size;
-        FILE *stream = open_memstream(&bytes, &size);
-        assert_ok(context, sli_slv_print(context, &v.baked, stream));
-        fclose(stream);
+        char *bytes = baked_bytes(context, &v.baked, &size);
         sl_runtime rt;
         sl_baked again = {0};
         assert_int_equal(sl_runtime_open(bytes, size, &rt), SL_RUNTIME_ROW);

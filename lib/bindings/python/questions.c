@@ -58,7 +58,7 @@ size_t slp_names(const void *handle, const char *list, char *text, size_t room) 
     } else if (strcmp(list, "exports") == 0) {
         const sl_export_format *all = sl_export_formats(context, &count);
         for (size_t i = 0; i < count; i++)
-            if (!all[i].takes_wad) n = put_name(text, room, n, all[i].name);
+            if (!(all[i].takes & SL_EXPORT_TAKES_WAD)) n = put_name(text, room, n, all[i].name);
     } else if (strcmp(list, "measures") == 0) {
         n = put_measures(text, room, n, SL_ISOVIST, SL_OF_REGION);
         n = put_measures(text, room, n, SL_VGA, SL_OF_GRAPH);

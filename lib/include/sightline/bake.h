@@ -110,6 +110,10 @@ SL_API sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const
 /// for each cell, or a name that is none. Reports stage "write".
 SL_API sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path);
 
+/// The same bytes in memory, which sl_baked_parse() reads. Fails as sl_baked_write() does, but for
+/// SL_IO; `out` is untouched on failure.
+SL_API sl_status sl_baked_print(sl_context *context, const sl_baked *baked, sl_bytes *out);
+
 /// Reads and checks everything: the checksum, every count, offset and index, the whole graph.
 /// SL_BAD_INPUT, naming the file, on any fault, and for a shard. `out` must be empty; on failure it
 /// stays so.
@@ -148,39 +152,35 @@ typedef struct sl_export_options {
 /// The newest version of "json" (lib/bake/EXPORT.md).
 #define SL_JSON_VERSION 2
 
+/// Which options a format takes.
+typedef enum sl_export_takes {
+    SL_EXPORT_TAKES_WAD = 1, ///< `wad` and `map`
+    SL_EXPORT_TAKES_VERSION = 2,
+    SL_EXPORT_TAKES_PREFIX = 4,
+} sl_export_takes;
+
 /// An export for other programs.
 typedef struct sl_export_format {
     const char *name, *what;
-    bool takes_wad;     ///< the options `wad` and `map` are for it
+    unsigned takes;     ///< bits of sl_export_takes
     bool shows_mirrors; ///< it has a place for mirrors and what they show
     sl_status (*write)(sl_context *context, const sl_baked *baked, const sl_export_options *options,
                        const char *path);
 } sl_export_format;
 
-/// The formats that the context knows; the first is the default. By itself it knows those below;
-/// sl_io_use() of sightline/io.h adds others.
+/// The formats that the context knows; the first is the default. By itself it knows "json" (all
+/// that a baked file holds, but for stab trees and notes), "geojson" (a FeatureCollection in the
+/// map's own coordinates), "csv" (a line for each ordered pair seen) and "c" (a C header with
+/// tables). lib/bake/EXPORT.md describes them. sl_io_use() of sightline/io.h adds others.
+///
+/// Writing fails with SL_UNSUPPORTED where a format has no place for what the map has (mirrors in
+/// version 1 of "json"), and with SL_BAD_ARGUMENT for options that make no sense.
 /// The table stays until formats are next added.
 SL_API const sl_export_format *sl_export_formats(const sl_context *context, size_t *count);
 
 /// Adds formats, which are copied; one whose name is there already is passed over.
 SL_API sl_status sl_export_formats_add(sl_context *context, const sl_export_format *more,
                                        size_t count);
-
-/// "json": one object with all that a baked file holds, but for stab trees and notes.
-/// SL_UNSUPPORTED for a map with mirrors in version 1.
-SL_API sl_status sl_export_json(sl_context *context, const sl_baked *baked,
-                                const sl_export_options *options, const char *path);
-/// "geojson": a FeatureCollection of cells, portals, walls, doors, mirrors, one-way glass and
-/// starts, in the map's own coordinates. Its writer is in sightline/geojson.h.
-SL_API sl_status sl_export_geojson(sl_context *context, const sl_baked *baked,
-                                   const sl_export_options *options, const char *path);
-/// "csv": a line "from,to" for each ordered pair seen.
-SL_API sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
-                               const sl_export_options *options, const char *path);
-/// "c": a C header with tables: cells, portals, doors by name, starts, and a bit for each pair that
-/// is seen. SL_BAD_ARGUMENT for a prefix that is no C identifier.
-SL_API sl_status sl_export_c(sl_context *context, const sl_baked *baked,
-                             const sl_export_options *options, const char *path);
 
 #ifdef __cplusplus
 }

@@ -42,6 +42,12 @@ typedef enum sl_status {
     SL_IO,          ///< the system refused to read or write
 } sl_status;
 
+/// The bytes of a file, as read or made. Who is given them frees them: sl_free(context, data).
+typedef struct sl_bytes {
+    char *data; ///< `size` bytes and a 0 behind them
+    size_t size;
+} sl_bytes;
+
 /// How far a stage has come. `total` is 0 while it is not known.
 typedef struct sl_progress {
     const char *stage; ///< "read", "subdivide", "cell_to_cell", "write"

@@ -8,55 +8,22 @@
 
 #include "sightline/bake.h"
 #include "sightline/import.h"
+#include "sightline/stab.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/// Adds all formats of this header to those that the context reads and writes. SL_NO_MEMORY.
+/// Adds all formats of maps and exports that lib/io/FORMATS.md tells of to those that the context
+/// reads and writes (sl_map_formats, sl_export_formats). SL_NO_MEMORY.
 SL_API sl_status sl_io_use(sl_context *context);
 
-// --- exports, as sl_export_format has them
-
-/// "png": one bit a pixel: row a, column b is black where cell a sees cell b. SL_UNSUPPORTED for
-/// more cells than such a picture can have.
-SL_API sl_status sl_export_png(sl_context *context, const sl_baked *baked,
-                               const sl_export_options *options, const char *path);
-
-/// "reject": a copy of options->wad in which the REJECT of options->map says which sectors never
-/// see each other: those of which no cells do. Nothing is hidden that a sightline joins: a cell
-/// counts for each sector that it reaches into. SL_BAD_INPUT where the map's walls are not those of
-/// the baked file; SL_BAD_ARGUMENT where that was baked by a method that may miss something, or
-/// with doors. sightline/reject.h has the way for whole WADs.
-SL_API sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
-                                  const sl_export_options *options, const char *path);
-
-/// The endings of all formats below, with spaces between.
+/// The endings of all their files, with spaces between.
 #define SL_IO_ENDINGS                                                                              \
     ".ug .dxf .svg .png .pgm .pbm .yaml .yml .tmx .json .tmj .ldtk .ldtkl .dd2vtt .uvtt .df2vtt "  \
     ".wad"
 
-// --- readers of maps, as sl_map_format has them. `name` is what messages call the file. The map
-// --- must be empty, and stays so on failure: SL_BAD_INPUT for a broken file, with "NAME: " or
-// --- "NAME:LINE: " first. Walls without length are left out. A file without walls is read; a bake
-// --- of it fails.
-
-/// Cuts a UniGrafix model at a height: every face that crosses the plane gives walls. Faces in the
-/// plane give none; comments that surround the model are kept as notes. What was taken is noted.
-SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
-                                       size_t size, const sl_import_options *options, sl_map *map);
-
-/// Between which heights a UniGrafix model lies, for sl_import_options.slice.
-SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
-                                          size_t size, double *lowest, double *highest);
-
-/// The lines, polylines with bulges, arcs, circles, ellipses and plain splines (degree up to 3, no
-/// weights) of an ASCII DXF drawing, in blocks as inserted, on layers that are on and not frozen or
-/// on those asked for. Layers named "sightline-..." hold doors, solid ground and so on
-/// (lib/io/FORMATS.md). What was taken is noted. SL_BAD_ARGUMENT where a unit is asked for and
-/// there is none of that name, or the drawing does not name its own.
-SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
+// --- what there is in a drawing
 
 /// A layer of a drawing.
 typedef struct sl_drawing_layer {
@@ -72,109 +39,18 @@ typedef struct sl_drawing_layers {
 } sl_drawing_layers;
 
 /// Lists the layers of a DXF drawing; `out` is empty, and stays so on failure. SL_BAD_INPUT where
-/// sl_map_read_dxf() fails too.
+/// sl_map_read() fails too.
 SL_API sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const char *text,
                                        size_t size, sl_drawing_layers *out);
 SL_API void sl_drawing_layers_destroy(sl_context *context,
                                       sl_drawing_layers *layers); ///< zeroes it
 
-/// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
-/// or label, also those named "sightline-...". What was taken is noted.
-SL_API sl_status sl_map_read_svg(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// A picture (PNG, PGM, PBM): pixels are unit squares, dark ones solid (threshold: the usual is
-/// 0.5), the lower left one's corner at the origin. What was taken is noted.
-SL_API sl_status sl_map_read_image(sl_context *context, const char *name, const char *text,
-                                   size_t size, const sl_import_options *options, sl_map *map);
-
-/// A map.yaml of ROS with its picture, found from the folder of `name`. Unit: metres.
-SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// A map of Tiled, as XML (.tmx) or JSON (.tmj): orthogonal, isometric, staggered or hexagonal,
-/// fixed or without bounds, with its tilesets, those in files beside it too. Solid is what the
-/// layers asked for hold; else what the layers, tiles and objects themselves say
-/// (lib/io/FORMATS.md). Objects named as starts or doors are taken as such; a door runs from solid
-/// square to solid square. Unit: pixels, as Tiled draws the map. What was taken is noted.
-/// SL_BAD_ARGUMENT where options->layers or options->start_names has a name that the map has not.
-SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-/// As sl_map_read_tmx, from JSON.
-SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// Lists the layers of tiles and objects of a map of Tiled into an empty list. *unsaid is set where
-/// nothing in the map says what is solid.
-SL_API sl_status sl_map_layers_tmx(sl_context *context, const char *name, const char *text,
-                                   size_t size, sl_map_list *list, bool *unsaid);
-/// As sl_map_layers_tmx, from JSON.
-SL_API sl_status sl_map_layers_tmj(sl_context *context, const char *name, const char *text,
-                                   size_t size, sl_map_list *list, bool *unsaid);
-
-/// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
-/// the world's name): the cells of its IntGrid layers, and entities named as starts or doors. Unit:
-/// pixels. What was taken is noted. SL_BAD_ARGUMENT as sl_map_read_tmx.
-SL_API sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text,
-                                  size_t size, const sl_import_options *options, sl_map *map);
-/// Lists the levels of an LDtk project into an empty list.
-SL_API sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *text,
-                                  size_t size, sl_map_list *list);
-
-/// A Universal VTT file: walls and portals. Unit: squares of its grid. What was taken is noted.
-SL_API sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text,
-                                  size_t size, const sl_import_options *options, sl_map *map);
-
-/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Friendly tokens are
-/// starts, or those of options->start_names. Unit: pixels. What was taken is noted.
-SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text,
-                                     size_t size, const sl_import_options *options, sl_map *map);
-
-/// The map in our own JSON export, version 1 or 2: walls, solid ground, doors, mirrors, one-way
-/// glass, seams, starts, paths, objects, range. SL_BAD_INPUT, naming the place, for other versions.
-SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
-                                    size_t size, const sl_import_options *options, sl_map *map);
+// --- lines and pictures
 
 /// Drawn lines of GeoJSON, as walls: lines, and outlines of polygons. It is no map, so sl_map_read
 /// does not read it. Coordinates are taken as they are, in a plane.
 SL_API sl_status sl_lines_read_geojson(sl_context *context, const char *name, const char *text,
                                        size_t size, sl_map *map);
-
-/// Reads a map of a Doom WAD: lumps of Doom's or Hexen's records, or a TEXTMAP (UDMF). Lines with
-/// one side are walls; those with two are seen through, and so are doors, shut ones too: what a
-/// player may open hides nothing. With options->doors each line between a door sector (one whose
-/// ceiling meets the floor when the map begins, or that a door special of a line moves) and another
-/// is a door, named "sector_" and its number, open where there is room under the ceiling. The
-/// starts of players 1 to 4 are kept, else those of a deathmatch. What was taken is noted. Messages
-/// name the lump, and the line in a TEXTMAP.
-SL_API sl_status sl_map_read_wad(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-/// Its maps, each name once, in the order of the directory.
-SL_API sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text,
-                                 size_t size, sl_map_list *list);
-
-// --- writers of maps, as sl_map_format has them; sl_map_write() in sightline/import.h calls them.
-// --- Numbers read back to the same doubles, y too: each writer finds a place where turning y
-// --- rounds nothing. Notes say what another program may do to the file; sl_map_write() notes what
-// --- the format has no place for. SL_NO_MEMORY, SL_CANCELLED; SL_UNSUPPORTED for a name with
-// --- U+FFFE or U+FFFF in the formats of XML.
-
-/// Writes a DXF drawing of release 12. Layers named "sightline-..." say what is what.
-SL_API sl_status sl_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream);
-
-/// Writes an SVG drawing. Layers as in DXF drawings.
-SL_API sl_status sl_map_print_svg(sl_context *context, const sl_map *map, FILE *stream);
-
-/// Writes an orthogonal map of Tiled, of object layers. Layers as in DXF drawings.
-SL_API sl_status sl_map_print_tmx(sl_context *context, const sl_map *map, FILE *stream);
-
-/// Writes a Universal VTT file: walls and portals; a map unit is a square of its grid.
-SL_API sl_status sl_map_print_uvtt(sl_context *context, const sl_map *map, FILE *stream);
-
-/// Writes a scene of Foundry VTT; a unit of the map is a power of two pixels.
-SL_API sl_status sl_map_print_foundry(sl_context *context, const sl_map *map, FILE *stream);
-
-// --- pictures by their pixels
 
 /// Rows from the top down, a byte a pixel: 0 black, 255 white. Zeroed, there is none.
 typedef struct sl_image {
@@ -188,6 +64,49 @@ SL_API sl_status sl_image_read(sl_context *context, const char *name, const char
                                size_t size, sl_image *out);
 /// Frees the pixels, and zeroes it.
 SL_API void sl_image_destroy(sl_context *context, sl_image *image);
+
+// --- Doom's REJECT: the table of sectors that never see each other
+
+/// Start from sl_reject_options_default().
+typedef struct sl_reject_options {
+    /// Names of maps, in small letters or capitals; none: all maps of the WAD.
+    const char *const *maps;
+    size_t map_count;
+    sl_sight sight;     ///< open: sightlines that only touch ends of walls do not count
+    unsigned threads;   ///< 0: one a core; the result does not depend on it
+    uint64_t row_bytes; ///< limit on memory for visible sets, of all maps at work together
+} sl_reject_options;
+
+/// The usual options: all maps, open sight.
+SL_API sl_reject_options sl_reject_options_default(void);
+
+/// What the REJECT of a map holds.
+typedef struct sl_reject_account {
+    char map[9];
+    uint32_t sectors, cells;
+    uint32_t unknown; ///< sectors without a cell that was looked from: nothing is hidden from them
+    uint64_t hidden;  ///< unordered pairs of sectors
+} sl_reject_account;
+
+/// Of each map, in the order of the WAD or as they were asked for. Zeroed, it is empty.
+typedef struct sl_reject_report {
+    sl_reject_account *maps;
+    size_t count;
+} sl_reject_report;
+
+SL_API void sl_reject_report_destroy(sl_context *context,
+                                     sl_reject_report *report); ///< and zeroes it
+
+/// Writes a copy of a WAD in which maps have a new REJECT; "-" for stdout. Each map is cut into
+/// cells that lie in one sector each, and the sweep computes exactly which cells see each other;
+/// doors are seen through. Hidden are pairs of sectors that no sightline past all walls joins. All
+/// other lumps keep their bytes. The WAD is read once and written once, when all maps are done;
+/// what fails, or is cancelled, leaves an older file as it was. SL_BAD_INPUT names the map;
+/// SL_BAD_ARGUMENT where a map is asked for twice or there is none. Reports stage "reject", unit
+/// "maps"; of a single map the stages of its bake. `report` must be empty; on failure it stays so.
+SL_API sl_status sl_reject_wad(sl_context *context, const char *path,
+                               const sl_reject_options *options, const char *output,
+                               sl_reject_report *report);
 
 #ifdef __cplusplus
 }

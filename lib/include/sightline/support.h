@@ -171,12 +171,6 @@ SL_API bool sl_number_read(const char *text, size_t length, double *value);
 // --- old one as it was and nothing half-written. A program that is killed meanwhile may leave
 // --- the file beside it: the target's name, a dot and six characters. It may be deleted.
 
-/// The bytes of a file, which the caller frees (sl_free).
-typedef struct sl_bytes {
-    char *data; ///< `size` bytes and a 0 behind them
-    size_t size;
-} sl_bytes;
-
 /// Reads all of a file, or of stdin where path is "-"; sl_free(data) is the caller's. SL_IO with
 /// the system's reason on failure, SL_BAD_INPUT where it is too large: of more
 /// bytes than a quarter of the machine's memory or, of a pipe or a device, than 1 GiB.

@@ -5,6 +5,7 @@
 /// status (0: done) or, where they return a place, NULL. message() then says why. Arrays that a
 /// function gives stay in the memory of the module, as views for JavaScript, until the next call
 /// about the same scene. What the module has beside scenes is in module.c.
+#include "bake/export.h"
 #include "bindings/js/src/bindings.h"
 #include "sightline/json_write.h"
 #include "sightline/sightline.h"
@@ -286,11 +287,11 @@ SLI_EXPORT(int, scene_inside, scene *s) {
 SLI_EXPORT(int, scene_export, scene *s, const char *format, double version) {
     const sl_export_options options = {.json_version = (uint32_t)version};
     if (is(format, "json"))
-        sli_module.status = sl_export_json(sli_module.context, &s->baked, &options, "");
+        sli_module.status = sli_export_json(sli_module.context, &s->baked, &options, "");
     else if (is(format, "geojson"))
-        sli_module.status = sl_export_geojson(sli_module.context, &s->baked, &options, "");
+        sli_module.status = sli_export_geojson(sli_module.context, &s->baked, &options, "");
     else if (is(format, "csv"))
-        sli_module.status = sl_export_csv(sli_module.context, &s->baked, &options, "");
+        sli_module.status = sli_export_csv(sli_module.context, &s->baked, &options, "");
     else
         sli_module.status =
             sl_fail(sli_module.context, SL_BAD_ARGUMENT, "format: there is no export '%s'", format);
