@@ -1,5 +1,6 @@
 # What `cmake --install` puts down: libraries, headers, the command, the CMake package `sightline`
-# (components io, study, glpk, draw and runtime) and pkg-config files. All of it can be moved as one.
+# (components analysis, io, study, glpk, draw and runtime) and pkg-config files. All of it can be
+# moved as one.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sightline")
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
@@ -40,12 +41,13 @@ endfunction()
 
 # The headers of a part come with it; all others belong to the core.
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
+set(analysis_headers axial.h vga.h)
 set(io_headers io.h)
 set(study_headers from_region.h generate.h view_cells.h walk.h)
 set(glpk_headers glpk.h)
 set(draw_headers canvas.h draw.h)
 set(not_core "")
-foreach(header IN LISTS io_headers study_headers glpk_headers draw_headers)
+foreach(header IN LISTS analysis_headers io_headers study_headers glpk_headers draw_headers)
   list(APPEND not_core PATTERN ${header} EXCLUDE)
 endforeach()
 install_library(sightline)
@@ -64,7 +66,7 @@ if(SIGHTLINE_GLPK)
   endif()
   install(FILES "${in}/FindGLPK.cmake" DESTINATION "${package_dir}")
 endif()
-foreach(part io study glpk draw)
+foreach(part analysis io study glpk draw)
   string(TOUPPER ${part} option)
   if(SIGHTLINE_${option})
     install_library(sightline_${part})

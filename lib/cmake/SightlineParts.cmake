@@ -52,13 +52,14 @@ function(sightline_part name what)
   set(sightline_is_part_${name} TRUE PARENT_SCOPE)
 endfunction()
 
+sightline_part(ANALYSIS "sightline_analysis: visibility graphs, axial lines, segments")
 sightline_part(IO "sightline_io: maps and exports of other programs"
   LIBXML2=libxml-2.0 JANSSON=jansson PNG=libpng YAML=yaml-0.1 ZSTD=libzstd ZLIB)
-sightline_part(PYTHON "the Python package sightline" IO)
+sightline_part(PYTHON "the Python package sightline" ANALYSIS IO)
 sightline_part(STUDY "sightline_study: what exists to compare and to teach")
 sightline_part(GLPK "sightline_glpk: stabbing by GLPK, which is under the GPL" GLPK)
 sightline_part(DRAW "sightline_draw: pictures through cairo and Pango"
   CAIRO=cairo PANGOCAIRO=pangocairo)
-sightline_part(TOOLS "the sightline command")
-sightline_part(VIEWER "the viewer" SDL2=sdl2 IO STUDY DRAW)
-sightline_part(TESTS "the tests" CMOCKA=cmocka PNG=libpng ZLIB IO STUDY)
+sightline_part(TOOLS "the sightline command" ANALYSIS)
+sightline_part(VIEWER "the viewer" SDL2=sdl2 ANALYSIS IO STUDY DRAW)
+sightline_part(TESTS "the tests" CMOCKA=cmocka PNG=libpng ZLIB ANALYSIS IO STUDY)

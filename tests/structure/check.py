@@ -27,8 +27,8 @@ import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "query", "visibility_graph", "axial", "walk", "view_cells", "bake",
-           "io", "runtime", "draw"]
+           "from_region", "eye_to_cell", "query", "walk", "view_cells", "bake", "visibility_graph",
+           "axial", "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.

@@ -1,4 +1,4 @@
-"""What each library links: links.py PART=FILE... ; PART is core, io, study, glpk or draw.
+"""What each library links: links.py PART=FILE... ; PART is core, analysis, io, study, glpk or draw.
 
 The core links the C library, the mathematics library and threads, nothing else. Every other part
 links the core's and exactly the packages of the table below. Prints each fault; exits 0 without
@@ -11,6 +11,7 @@ import sys
 
 PACKAGES = {
     "core": set(),
+    "analysis": set(),
     "io": {"libxml2", "libjansson", "libpng", "libyaml", "libz", "libzstd"},
     "study": set(),
     "glpk": {"libglpk"},

@@ -22,7 +22,7 @@ ROOT = HERE.parents[2]
 NAME = "libsightline_python.so"
 # One library with all that it needs of the project; nothing else is built.
 OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF", "-DSIGHTLINE_PYTHON=ON",
-           "-DSIGHTLINE_IO=ON", *(f"-DSIGHTLINE_{part}=OFF" for part in
+           "-DSIGHTLINE_ANALYSIS=ON", "-DSIGHTLINE_IO=ON", *(f"-DSIGHTLINE_{part}=OFF" for part in
                                   ("STUDY", "GLPK", "DRAW", "TOOLS", "VIEWER", "TESTS", "INSTALL"))]
 
 

@@ -25,7 +25,7 @@ class Sightline(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
-        for part in ("IO", "STUDY", "GLPK", "DRAW", "TOOLS", "VIEWER", "PYTHON", "TESTS"):
+        for part in ("ANALYSIS", "IO", "STUDY", "GLPK", "DRAW", "TOOLS", "VIEWER", "PYTHON", "TESTS"):
             toolchain.variables[f"SIGHTLINE_{part}"] = False
         toolchain.generate()
 
