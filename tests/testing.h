@@ -14,6 +14,7 @@
 
 #include <cmocka.h>
 
+#include "map/scan.h"
 #include "sightline/sightline.h"
 
 /// An allocator that counts live blocks, of all threads, and can be told to fail from its Nth call
@@ -115,7 +116,7 @@ static inline void testing_space(sl_context *context, const char *statements, sl
     char *text = malloc(length);
     assert_non_null(text);
     snprintf(text, length, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), map));
     free(text);
     testing_subdivide(context, map, space);
 }

@@ -63,7 +63,7 @@ static sl_status mend(sl_context *context, const check_plan *plan, faults_report
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
                        c->gap);
-    SL_TRY(sl_map_write_text(context, &after->map, plan->snap));
+    SL_TRY(sl_map_write(context, &after->map, NULL, plan->snap));
     report->mended = plan->snap;
     report->left = after;
     return SL_OK;
@@ -183,16 +183,16 @@ static sl_status check_every(command_console *console, const check_plan *plan) {
     if (plan->for_one || plan->pipeline.input.import.map)
         return sl_fail(context, SL_BAD_ARGUMENT, "--every-map: --%s is for one map",
                        plan->for_one ? plan->for_one : "map");
-    sl_map_list list = {0};
+    sl_map_choice choice;
     sl_context_set_limits(context, &plan->pipeline.input.limits);
-    SL_TRY(sl_map_list_read(context, path, &list));
+    SL_TRY(sl_map_choice_read(context, path, &choice));
     size_t broken = 0;
     json_fields fields = json_begin();
     json_add_text(&fields, "file", path);
     json_open_list(&fields, "maps");
-    sl_status status =
-        list.count ? check_each(console, plan, &list, &fields, &broken)
-                   : sl_fail(context, SL_BAD_ARGUMENT, "--every-map: %s does not name maps", path);
+    sl_status status = choice.maps.count ? check_each(console, plan, &choice.maps, &fields, &broken)
+                                         : sl_fail(context, SL_BAD_ARGUMENT,
+                                                   "--every-map: %s does not name maps", path);
     json_close_list(&fields);
     if (plan->json && status == SL_OK)
         status = json_print(context, &fields);
@@ -200,8 +200,8 @@ static sl_status check_every(command_console *console, const check_plan *plan) {
         json_drop(&fields);
     if (status == SL_OK && broken)
         status = sl_fail(context, SL_BAD_INPUT, "%s: %zu of %zu maps cannot be checked", path,
-                         broken, list.count);
-    sl_map_list_destroy(context, &list);
+                         broken, choice.maps.count);
+    sl_map_choice_destroy(context, &choice);
     return status;
 }
 

@@ -35,7 +35,7 @@ static sl_status generate(sl_context *context, const char *name, const sl_genera
     sl_map map = {0};
     SL_TRY(sl_generate(context, &sl_map_kinds(&count)[index], options, &map));
     sl_note(context, "%s: %zu walls", name, map.wall_count);
-    const sl_status status = sl_map_write_text(context, &map, output);
+    const sl_status status = sl_map_write(context, &map, NULL, output);
     sl_map_destroy(context, &map);
     return status;
 }

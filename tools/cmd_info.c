@@ -129,11 +129,15 @@ static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
     size_t open = 0;
     for (size_t i = 0; i < map->door_count; i++) open += map->doors[i].open;
     const map_count all[MAP_COUNTS] = {
-        {"doors", map->door_count},           {"open_doors", open},
-        {"mirrors", map->mirror_count},       {"oneways", map->oneway_count},
-        {"seams", map->seam_count},           {"starts", map->start_count},
-        {"paths", map->path_count},           {"objects", map->object_count},
-        {"notices", count_lines(map->notes)},
+        {"doors", map->door_count},
+        {"open_doors", open},
+        {"mirrors", map->mirror_count},
+        {"oneways", map->oneway_count},
+        {"seams", map->seam_count},
+        {"starts", map->start_count},
+        {"paths", map->path_count},
+        {"objects", map->object_count},
+        {"notices", count_lines(map->source.notes)},
     };
     memcpy(counts, all, sizeof all);
 }
@@ -206,6 +210,16 @@ static void print_notices(const char *notes) {
     }
 }
 
+/// Walls that are parallel to neither axis.
+static size_t count_oblique(const sl_map *map) {
+    size_t oblique = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        oblique += wall->a.x != wall->b.x && wall->a.y != wall->b.y;
+    }
+    return oblique;
+}
+
 static sl_status print_map(sl_context *context, const info_request *request, const sl_map *map,
                            size_t oblique, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
@@ -232,7 +246,7 @@ static sl_status print_map(sl_context *context, const info_request *request, con
     printf("  cleaned   %zu walls", cleaning->after);
     cleaning_print(cleaning);
     print_effects(map);
-    print_notices(map->notes);
+    print_notices(map->source.notes);
     return SL_OK;
 }
 
@@ -286,7 +300,7 @@ static sl_status inform_of_map(command_console *console, info_request *request) 
                                      request->bytes.size, &request->layers));
     SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
                         &request->input.import, &map));
-    const size_t oblique = sl_map_count_oblique(&map);
+    const size_t oblique = count_oblique(&map);
     sl_status status = input_clean(console->context, &request->input, &map, &cleaning);
     progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
@@ -401,7 +415,7 @@ static sl_status print_baked(sl_context *context, const info_request *request,
         printf("  %-16s %12" PRIu64 " %12s\n", parts[i].name, parts[i].count, size);
     }
     SL_TRY(print_doors(context, &baked->map));
-    print_notices(baked->map.notes);
+    print_notices(baked->map.source.notes);
     return SL_OK;
 }
 

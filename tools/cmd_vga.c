@@ -142,8 +142,8 @@ static sl_status name_unit(sl_context *context, const vga_plan *plan, const sl_m
                            const sl_space *space, sl_status status) {
     const sl_box b = space->bounds;
     const double across = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
-    if (status != SL_BAD_ARGUMENT || !map->drawing_unit || across < 10000 * plan->points.step ||
-        strcmp(map->unit, "m") == 0)
+    if (status != SL_BAD_ARGUMENT || !map->source.drawing_unit ||
+        across < 10000 * plan->points.step || strcmp(map->unit, "m") == 0)
         return status;
     char message[512];
     snprintf(message, sizeof message, "%s", sl_context_message(context));

@@ -39,7 +39,7 @@ static void print_lines(const sl_map *map, const sl_fault *fault) {
         if (line && !(count && line == lines[0])) lines[count++] = line;
     }
     for (size_t i = 0; i < count; i++) sl_map_say_line(map, lines[i], text[i]);
-    const bool plain = !map->label_count && !map->lines_are_items;
+    const bool plain = !map->source.label_count && !map->source.lines_are_items;
     if (count == 2 && plain)
         printf(", lines %u and %u", (unsigned)lines[0], (unsigned)lines[1]);
     else if (count)
@@ -203,7 +203,7 @@ static void print_mended(const faults_report *report) {
              "inside");
     if (left->counts[SL_FAULT_LEAK] || left->counts[SL_FAULT_GAP])
         printf("  what is left needs a decision (by %s of %s):\n",
-               report->left->map.lines_are_items ? "the names" : "lines",
+               report->left->map.source.lines_are_items ? "the names" : "lines",
                sl_path_name(report->input));
     print_kind(report->left, SL_FAULT_LEAK, report->most);
     print_kind(report->left, SL_FAULT_GAP, report->most);
@@ -504,7 +504,7 @@ static void add_fault(json_fields *fields, const checked *found, const sl_fault 
         const uint32_t line = map->walls[fault->walls[i]].line;
         const char *label = sl_map_label(map, line);
         json_add_count(fields, walls[i], fault->walls[i]);
-        json_add_count(fields, (map->lines_are_items ? items : lines)[i], line);
+        json_add_count(fields, (map->source.lines_are_items ? items : lines)[i], line);
         if (label) json_add_text(fields, labels[i], label);
     }
     if (fault->cell != SL_NO_CELL) json_add_count(fields, "cell", fault->cell);
@@ -537,7 +537,7 @@ static void add_stray_list(json_fields *fields, const checked *found) {
         json_add_points(fields, "at", &stray->at, 1);
         json_add_real(fields, "distance", stray->distance);
         if (stray->wall != UINT32_MAX) json_add_count(fields, "wall", stray->wall);
-        json_add_count(fields, found->map.lines_are_items ? "item" : "line", stray->line);
+        json_add_count(fields, found->map.source.lines_are_items ? "item" : "line", stray->line);
         if (label) json_add_text(fields, "label", label);
         json_close(fields);
     }

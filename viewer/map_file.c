@@ -200,7 +200,7 @@ static sl_status write_file(sl_context *context, void *data) {
     const sl_clean_options clean = {.weld = job->weld};
     if (job->welds) SL_TRY(sl_map_clean(context, &job->map, &clean, NULL));
     SL_TRY(sl_map_settle_ground(context, &job->map));
-    return sl_map_write_text(context, &job->map, job->path);
+    return sl_map_write(context, &job->map, NULL, job->path);
 }
 
 static void free_job(app_state *app, save_job *job) {

@@ -405,8 +405,8 @@ static sl_status load_map(const reader *r) {
     bool found;
     SL_TRY(find_section(r, "MAPT", 1, &s, &found));
     if (!found) return fail_file(r, "damaged: section MAPT is missing");
-    SL_TRY(sl_map_read_text(r->context, r->name, r->bytes + s.offset, sli_size(s.count),
-                            &r->out->map));
+    SL_TRY(sli_map_read_text(r->context, r->name, r->bytes + s.offset, sli_size(s.count),
+                             &r->out->map));
     if (r->out->map.wall_count || r->out->map.cell_count)
         return fail_file(r, "damaged: section MAPT holds walls or cells");
     return SL_OK;
@@ -630,7 +630,7 @@ static sl_status check_kept(const reader *r, const kept_section *info, const kep
     memcpy(&read, info->bytes, sizeof read);
     sli_slv_order("INFO", sizeof read, &read, 1);
     if (!makes_sense(&read)) return fail_file(r, "damaged: section INFO makes no sense");
-    SL_TRY(sl_map_read_text(r->context, r->name, text->bytes, text->size, &again));
+    SL_TRY(sli_map_read_text(r->context, r->name, text->bytes, text->size, &again));
     const sl_status status = sli_map_check_again(r->context, r->name, map, &again);
     sl_map_destroy(r->context, &again);
     return status;

@@ -79,7 +79,7 @@ static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size
     sl_map others = *map;
     others.wall_count = others.cell_count = 0;
     others.snap = 0;
-    others.comment_count = 0;
+    others.source.comment_count = 0;
     sli_memory_stream memory;
     if (!sli_memory_open(&memory)) return sl_fail_memory(context);
     const sl_status status = sli_map_print_text(context, &others, memory.stream);

@@ -4,6 +4,7 @@
 /// effect that the map has. A map without any has an empty plan, and no stage does work for
 /// effects.
 #include "effects/effects.h"
+#include "map/source.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -221,13 +222,13 @@ sl_status sl_effects_check_because(sl_context *context, const sl_map *map, const
         append(names, sizeof names, ",", table[i]->name);
         if (table[i]->line(map) < first) first = table[i]->line(map);
     }
-    const char *bake = map->source ? "" : "bake ";
+    const char *bake = map->source.name ? "" : "bake ";
     const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
     char what[512];
     snprintf(what, sizeof what,
              "the map calls for %s, which '%s' does not know%s%s; %s--without %s leaves %s out",
              several, method, reason ? ": " : "", reason ? reason : "", bake, names, them);
     // A map out of a baked file has no lines that anyone could look up.
-    if (!map->source) return sl_fail(context, SL_UNSUPPORTED, "%s", what);
-    return sl_map_fail(context, map, SL_UNSUPPORTED, first, "%s", what);
+    if (!map->source.name) return sl_fail(context, SL_UNSUPPORTED, "%s", what);
+    return sli_map_fail(context, map, SL_UNSUPPORTED, first, "%s", what);
 }

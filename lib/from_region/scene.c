@@ -8,6 +8,7 @@
 #include "from_region/scene.h"
 
 #include "map/scan.h"
+#include "map/source.h"
 #include "space/kd_tree.h"
 
 #include <string.h>
@@ -18,12 +19,6 @@ sl_from_region_scene_options sl_from_region_scene_options_default(void) {
 }
 
 // --- the map with the view cells' borders
-
-static sl_status copy_map(sl_context *context, const sl_map *map, sl_map *to) {
-    SL_TRY(sl_map_copy(context, map, to));
-    if (!to->source) to->source = sl_copy_text(context, "the map", strlen("the map"));
-    return to->source ? SL_OK : SL_NO_MEMORY;
-}
 
 static sl_status add_grid(sl_context *context, sl_map *map, uint32_t grid) {
     const sl_box b = sli_padded(sl_map_bounds(map)); // the space's
@@ -50,7 +45,7 @@ static sl_status add_borders_of_boxes(sl_context *context, sl_map *map) {
 static sl_status subdivide(sl_context *context, const sl_map *map,
                            const sl_from_region_scene_options *options,
                            sl_from_region_scene *scene) {
-    SL_TRY(copy_map(context, map, &scene->map));
+    SL_TRY(sl_map_copy(context, map, &scene->map));
     if (options->view_cells == SL_VIEW_CELLS_GRID)
         SL_TRY(add_grid(context, &scene->map, options->grid));
     if (options->view_cells == SL_VIEW_CELLS_BOXES)
@@ -177,7 +172,7 @@ static sl_status check_options(sl_context *context, const sl_map *map,
                        options->grid, SL_VIEW_GRID_MOST);
     if (options->groups < 1) return sl_fail(context, SL_BAD_ARGUMENT, "0 groups: at least 1");
     if (boxes && !map->object_count)
-        return sl_fail_at(context, map->source ? map->source : "the map", 0,
+        return sl_fail_at(context, sli_map_name(map), 0,
                           "no object: add 'object NAME X0 Y0 X1 Y1', or take other view cells and "
                           "objects");
     return SL_OK;

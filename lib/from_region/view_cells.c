@@ -14,6 +14,7 @@
 /// A cycle is refused, with its view cells named, or the view cell with the most leaves is cut
 /// along the kd-tree until there is no cycle left.
 #include "from_region/scene.h"
+#include "map/source.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -225,7 +226,7 @@ static sl_status refuse(sl_context *context, const sl_from_region_scene *scene, 
         cell = scene->faces.items[face_within(scene, pass, cell)].to;
     } while (cell != start);
     append_name(scene, start, cycle, sizeof cycle);
-    return sl_fail_at(context, scene->map.source, 0,
+    return sl_fail_at(context, sli_map_name(&scene->map), 0,
                       "view cells depend on each other round a cycle for sightlines %s: %s; cut "
                       "them (--cut), or shape them so that none lies on two sides of another",
                       towards[quadrant], cycle);

@@ -5,6 +5,7 @@
 /// and the size is corrected in proportion until the number asked for is met.
 #include "generate/plot.h"
 
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <assert.h>
@@ -307,7 +308,7 @@ static sl_status add_note(sl_context *context, const sl_map_kind *kind,
              : options->in_line ? " --turned-exact "
                                 : " --turned ",
              turned);
-    return sl_map_add_note(context, map, text);
+    return sli_map_add_note(context, map, text);
 }
 
 sl_status sl_generate(sl_context *context, const sl_map_kind *kind,

@@ -8,6 +8,7 @@
 #include "geometry/orient.h"
 #include "io/formats.h"
 #include "io/wad.h"
+#include "map/source.h"
 #include "sightline/io.h"
 
 #include <string.h>
@@ -356,11 +357,11 @@ static sl_status name_line(doom_import *import, const sli_doom_line *line) {
     const size_t used = strlen(label);
     if (line->line)
         snprintf(label + used, sizeof label - used, ", TEXTMAP line %u", (unsigned)line->line);
-    return sl_map_add_label(import->context, import->map, import->item, label);
+    return sli_map_add_label(import->context, import->map, import->item, label);
 }
 
 static sl_status add_lines(doom_import *import) {
-    import->map->lines_are_items = true;
+    import->map->source.lines_are_items = true;
     for (size_t i = 0; i < import->level->line_count; i++) {
         import->item = (uint32_t)i + 1;
         SL_TRY(name_line(import, &import->level->lines[i]));

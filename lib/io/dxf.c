@@ -5,6 +5,7 @@
 #include "io/dxf.h"
 
 #include "io/formats.h"
+#include "map/source.h"
 #include "map/unit.h"
 
 // --- names for walls
@@ -30,7 +31,7 @@ static sl_status name_walls(sli_dxf *dxf) {
         add_part(label, sizeof label, "block", block);
         add_part(label, sizeof label, "layer", sli_dxf_text(dxf, entity, 8));
         add_part(label, sizeof label, "handle", sli_dxf_text(dxf, entity, 5));
-        if (*label) SL_TRY(sl_map_add_label(dxf->context, dxf->pen.map, pair->line, label));
+        if (*label) SL_TRY(sli_map_add_label(dxf->context, dxf->pen.map, pair->line, label));
     }
     return SL_OK;
 }
@@ -82,7 +83,7 @@ static sl_status take_unit(sli_dxf *dxf) {
         SL_TRY(find_unit(dxf, own, &from));
         word = told + 1;
     }
-    dxf->pen.map->drawing_unit = (int)from;
+    dxf->pen.map->source.drawing_unit = (int)from;
     if (!word) {
         set_unit(dxf, sli_units[from].sign);
         return SL_OK;
@@ -95,7 +96,7 @@ static sl_status take_unit(sli_dxf *dxf) {
                        dxf->name, unit_name(dxf->unit), sli_units[to].name, word);
     set_unit(dxf, word);
     if (from == to) return SL_OK;
-    dxf->pen.map->drawing_unit = (int)to;
+    dxf->pen.map->source.drawing_unit = (int)to;
     const double scale = sli_units[from].metres / sli_units[to].metres;
     dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
     return SL_OK;

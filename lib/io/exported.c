@@ -12,6 +12,7 @@
 #include "io/formats.h"
 #include "map/ground.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"
 
@@ -38,7 +39,7 @@ static sl_status read_list(export_reader *reader, const sli_json *root, const ch
         const sli_json item = sli_json_item(&list, i);
         char label[SL_LINE_TEXT];
         snprintf(label, sizeof label, "%s[%zu]", key, i);
-        SL_TRY(sl_map_add_label(reader->context, reader->map, ++reader->item, label));
+        SL_TRY(sli_map_add_label(reader->context, reader->map, ++reader->item, label));
         SL_TRY(read(reader, &item));
     }
     return SL_OK;
@@ -319,7 +320,7 @@ static void note_taken(const export_reader *reader, const char *file, size_t wal
 static sl_status read_all(export_reader *reader, const sli_json *root) {
     size_t walls;
     SL_TRY(check_version(root));
-    reader->map->lines_are_items = true;
+    reader->map->source.lines_are_items = true;
     SL_TRY(read_walls(reader, root));
     walls = json_array_size(json_object_get(root->value, "walls"));
     SL_TRY(read_list(reader, root, "doors", read_door));

@@ -12,6 +12,7 @@
 #include "io/layers.h"
 
 #include "map/ground.h"
+#include "map/source.h"
 
 #include <math.h>
 #include <strings.h>
@@ -407,18 +408,19 @@ static bool keeps_all(const sl_map *map, double top) {
 }
 
 static bool has_page(const sl_map *map) {
-    return map->page.max.x > map->page.min.x && map->page.max.y > map->page.min.y;
+    return map->source.page.max.x > map->source.page.min.x &&
+           map->source.page.max.y > map->source.page.min.y;
 }
 
 sl_box sli_page_of(const sl_map *map) {
-    if (has_page(map)) return map->page;
+    if (has_page(map)) return map->source.page;
     const sl_box b = sl_map_bounds(map);
     const sl_box page = {{floor(b.min.x), floor(b.min.y)}, {ceil(b.max.x), ceil(b.max.y)}};
     return (sl_box){page.min, {fmax(page.max.x, page.min.x + 1), fmax(page.max.y, page.min.y + 1)}};
 }
 
 double sli_choose_top(const sl_map *map) {
-    if (has_page(map) && keeps_all(map, map->top)) return map->top;
+    if (has_page(map) && keeps_all(map, map->source.top)) return map->source.top;
     const double edge = ceil(sl_map_bounds(map).max.y);
     return keeps_all(map, edge) ? edge + 0.0 : 0;
 }
@@ -442,8 +444,8 @@ void sli_write_mark(const sl_map *map, uint64_t sum, char text[SLI_MARK_TEXT]) {
 static sl_status check_xml_name(sl_context *context, const sl_map *map, const char *name,
                                 uint32_t line) {
     if (!strstr(name, "\xef\xbf\xbe") && !strstr(name, "\xef\xbf\xbf")) return SL_OK;
-    return sl_map_fail(context, map, SL_UNSUPPORTED, line,
-                       "a name has the character U+FFFE or U+FFFF, which XML files cannot have");
+    return sli_map_fail(context, map, SL_UNSUPPORTED, line,
+                        "a name has the character U+FFFE or U+FFFF, which XML files cannot have");
 }
 
 sl_status sli_check_xml_names(sl_context *context, const sl_map *map) {

@@ -257,8 +257,8 @@ static sl_status make_reject(sl_context *context, const wad_job *job, map_work *
                              &state->map));
     char source[SL_LINE_TEXT];
     snprintf(source, sizeof source, "%s: map %s", job->wad.name, work->map.name);
-    state->map.source = sl_copy_text(context, source, strlen(source));
-    if (!state->map.source) return SL_NO_MEMORY;
+    state->map.source.name = sl_copy_text(context, source, strlen(source));
+    if (!state->map.source.name) return SL_NO_MEMORY;
     SL_TRY(sl_map_clean(context, &state->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&state->map)->subdivide(context, &state->map, &rules, &state->space));
     SL_TRY(see(context, job, state));

@@ -52,12 +52,12 @@ typedef struct sli_pen {
     sli_affine affine; ///< from the drawing's coordinates to the map's
     double tolerance;  ///< in the map's unit; 0: the usual
     uint32_t line;     ///< of the file, where walls are said to be from
-    uint32_t item;     ///< 0, or what walls have in place of the line (sl_map.lines_are_items)
-    sl_point at;       ///< the pen, in the drawing's coordinates
-    size_t walls;      ///< drawn
-    size_t points;     ///< lines of no length, left out
-    double finest;     ///< the finest unit of the coordinates, in the map's unit
-    uint64_t sum;      ///< of their digits
+    uint32_t item; ///< 0, or what walls have in place of the line (sl_map.source.lines_are_items)
+    sl_point at;   ///< the pen, in the drawing's coordinates
+    size_t walls;  ///< drawn
+    size_t points; ///< lines of no length, left out
+    double finest; ///< the finest unit of the coordinates, in the map's unit
+    uint64_t sum;  ///< of their digits
 } sli_pen;
 
 /// Takes note of how a coordinate is written, which the file has in `unit` drawing units.

@@ -10,6 +10,7 @@
 #include "io/svg_count.h"
 #include "io/svg_style.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -728,8 +729,8 @@ static sl_status name_shape(svg *s, const xmlNode *node, uint32_t number) {
              layer ? ", layer " : "", layer ? sli_show((sli_word){layer, strlen(layer)}).text : "");
     sli_xml_free(id);
     sli_xml_free(layer);
-    return sl_map_add_label(s->context, s->pen.map, s->by_number ? number : sli_xml_line(node),
-                            label);
+    return sli_map_add_label(s->context, s->pen.map, s->by_number ? number : sli_xml_line(node),
+                             label);
 }
 
 /// Numbers the shapes from 1, in the order of the file. Tells whether each has a line of its own.
@@ -760,7 +761,7 @@ static sl_status name_walls(svg *s, xmlNode *root) {
     uint32_t count = 0, line = 0;
     bool own_lines = true;
     number_shapes(root, &count, &line, &own_lines);
-    s->by_number = s->pen.map->lines_are_items = !own_lines;
+    s->by_number = s->pen.map->source.lines_are_items = !own_lines;
     return name_shapes(s, root);
 }
 
@@ -814,10 +815,10 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     SL_TRY(read_own_number(s, root, "data-sightline-y0", &told, &height));
     SL_TRY(read_marks(s, root));
     if (box[2] > 0)
-        s->pen.map->page =
+        s->pen.map->source.page =
             (sl_box){{box[0], height - (box[1] + box[3])}, {box[0] + box[2], height - box[1]}};
-    s->pen.map->top = height;
-    s->pen.map->pixels = 1;
+    s->pen.map->source.top = height;
+    s->pen.map->source.pixels = 1;
     SL_TRY(name_walls(s, root));
     SL_TRY(sli_svg_style_read(s->context, root, &s->style));
     find_unit(s, root, box[2]);

@@ -8,6 +8,7 @@
 #include "io/shapes.h"
 #include "io/things.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/io.h"
 
 #include <math.h>
@@ -94,8 +95,8 @@ static sl_status name_item(sl_context *context, sl_map *map, const char *list, s
                            uint32_t *item) {
     char label[SL_LINE_TEXT];
     snprintf(label, sizeof label, "%s[%zu]", list, index);
-    map->lines_are_items = true;
-    return sl_map_add_label(context, map, ++*item, label);
+    map->source.lines_are_items = true;
+    return sli_map_add_label(context, map, ++*item, label);
 }
 
 static sl_status read_polyline(uvtt *reader, const sli_json *line) {
@@ -194,13 +195,13 @@ static sl_status read_size(uvtt *reader, const sli_json *root) {
     const sli_json pixels = sli_json_member(&resolution, "pixels_per_grid");
     const sli_json left = sli_json_member(&origin, "x"), width = sli_json_member(&size, "x");
     const double x = sli_json_number_or_0(&left), columns = sli_json_number_or_0(&width);
-    reader->map->pixels = sli_json_number_or_0(&pixels);
+    reader->map->source.pixels = sli_json_number_or_0(&pixels);
     SL_TRY(sli_json_number(&height, &rows));
     reader->top = first + rows;
     const sli_json own = sli_json_member(root, "sightline");
     SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
-    reader->map->top = reader->top;
-    reader->map->page =
+    reader->map->source.top = reader->top;
+    reader->map->source.page =
         (sl_box){{x, reader->top - (first + rows)}, {x + columns, reader->top - first}};
     return SL_OK;
 }
@@ -427,7 +428,7 @@ static sl_status name_wall(foundry *reader, const sli_json *wall, const record *
     char label[SL_LINE_TEXT];
     snprintf(label, sizeof label, "walls[%u]%s%s", (unsigned)read->item - 1, *id ? ", id " : "",
              sli_show((sli_word){id, strlen(id)}).text);
-    return sl_map_add_label(reader->context, reader->map, read->item, label);
+    return sli_map_add_label(reader->context, reader->map, read->item, label);
 }
 
 static sl_status take(foundry *reader, const sli_json *walls, const sli_json *json,
@@ -472,8 +473,8 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     if (!reader->top_told) SL_TRY(find_top(reader, walls, count));
     reader->sum = 0;
     reader->names.checks = has_marks(walls, true);
-    reader->map->top = reader->top;
-    reader->map->lines_are_items = true;
+    reader->map->source.top = reader->top;
+    reader->map->source.lines_are_items = true;
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(reader->context));
         const sli_json wall = sli_json_item(walls, i);
@@ -567,8 +568,9 @@ static sl_status read_tokens(foundry *reader, const sli_json *root) {
 static void read_page(foundry *reader, const sli_json *root) {
     const sli_json width = sli_json_member(root, "width"), height = sli_json_member(root, "height");
     const sl_point size = {sli_json_number_or_0(&width), sli_json_number_or_0(&height)};
-    reader->map->page = (sl_box){{0, -size.y / reader->pixels}, {size.x / reader->pixels, 0}};
-    reader->map->pixels = reader->pixels;
+    reader->map->source.page =
+        (sl_box){{0, -size.y / reader->pixels}, {size.x / reader->pixels, 0}};
+    reader->map->source.pixels = reader->pixels;
 }
 
 /// A scene, or a list of walls alone.
@@ -585,8 +587,8 @@ static sl_status read_foundry(foundry *reader, const sli_json *root) {
     SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
     read_page(reader, root);
     SL_TRY(read_foundry_walls(reader, alone ? root : &walls));
-    reader->map->page.min.y += reader->top;
-    reader->map->page.max.y += reader->top;
+    reader->map->source.page.min.y += reader->top;
+    reader->map->source.page.max.y += reader->top;
     reader->map->precision =
         sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);
     return read_tokens(reader, root);

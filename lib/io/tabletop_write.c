@@ -110,7 +110,7 @@ static void put_resolution(tabletop_writer *writer) {
     put_real(writer, "x", sizes[0]);
     put_real(writer, "y", sizes[1]);
     end(writer, '}');
-    const double pixels = rint(writer->map->pixels);
+    const double pixels = rint(writer->map->source.pixels);
     put_whole(writer, "pixels_per_grid", pixels > 1 && pixels <= 65536 ? (int64_t)pixels : 64);
     end(writer, '}');
 }
@@ -211,7 +211,8 @@ static double pixels_of(const sl_map *map) {
     const sl_box page = sli_page_of(map);
     const double size = fmax(page.max.x - page.min.x, page.max.y - page.min.y);
     double pixels = 1;
-    while (pixels < 65536 && (map->pixels > 0 ? pixels * 1.5 < map->pixels : pixels * size < 1024))
+    while (pixels < 65536 &&
+           (map->source.pixels > 0 ? pixels * 1.5 < map->source.pixels : pixels * size < 1024))
         pixels *= 2;
     return pixels;
 }

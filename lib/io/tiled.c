@@ -10,6 +10,7 @@
 #include "io/layers.h"
 #include "io/names.h"
 #include "io/shapes.h"
+#include "map/source.h"
 #include "sightline/io.h"
 
 // --- the layers asked for: NAME takes all tiles of a layer, or all layers of a group;
@@ -145,8 +146,8 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
 // --- objects
 
 sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label) {
-    reader->pen.map->lines_are_items = true;
-    return sl_map_add_label(reader->context, reader->pen.map, ++reader->pen.item, label);
+    reader->pen.map->source.lines_are_items = true;
+    return sli_map_add_label(reader->context, reader->pen.map, ++reader->pen.item, label);
 }
 
 /// "layer Walls, object 12 'crate', line 40"
@@ -400,10 +401,10 @@ static sl_status read_head(sli_tiled_reader *reader) {
         const sli_json columns = sli_json_member(reader->map, "width");
         const double width = sli_json_number_or_0(&columns);
         SL_TRY(read_marks(reader));
-        reader->pen.map->page =
+        reader->pen.map->source.page =
             (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
-        reader->pen.map->top = lattice->height;
-        reader->pen.map->pixels = 1;
+        reader->pen.map->source.top = lattice->height;
+        reader->pen.map->source.pixels = 1;
     }
     const bool plan = sli_tiled_has_plan(lattice);
     reader->to_plan = sli_tiled_to_plan(lattice);
@@ -582,8 +583,10 @@ static sl_status read_tree(sl_context *context, sli_json_file *file,
     end_reader(context, &reader);
     sli_json_close(file);
     // The map's lines are numbers of shapes, if it has any: doors and starts are none of them.
-    for (size_t i = 0; i < read.door_count && read.lines_are_items; i++) read.doors[i].line = 0;
-    for (size_t i = 0; i < read.start_count && read.lines_are_items; i++) read.starts[i].line = 0;
+    for (size_t i = 0; i < read.door_count && read.source.lines_are_items; i++)
+        read.doors[i].line = 0;
+    for (size_t i = 0; i < read.start_count && read.source.lines_are_items; i++)
+        read.starts[i].line = 0;
     if (status == SL_OK)
         *map = read;
     else

@@ -2,6 +2,7 @@
 // comments in nested braces.
 #include "io/formats.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/io.h"
 
 #include <math.h>
@@ -282,7 +283,7 @@ static sl_status name_face(ug_model *model, uint32_t line, sli_word name) {
     char label[SL_LINE_TEXT];
     if (!name.length) return SL_OK;
     snprintf(label, sizeof label, "face %s", sli_show(name).text);
-    return sl_map_add_label(model->context, model->map, line, label);
+    return sli_map_add_label(model->context, model->map, line, label);
 }
 
 /// Reads a face: a name (or none), contours, then at most a colour and an illumination.
@@ -373,7 +374,7 @@ static sl_status read_model(ug_model *model, const char *text, size_t size,
     SL_TRY(read_statements(model, sli_skip_mark(text, size), true));
     if (model->notes.count) {
         model->notes.items[model->notes.count] = '\0';
-        SL_TRY(sl_map_add_note(model->context, model->map, model->notes.items));
+        SL_TRY(sli_map_add_note(model->context, model->map, model->notes.items));
     }
     char slice[SL_NUMBER_TEXT];
     sl_number_write(model->slice, slice);

@@ -23,6 +23,7 @@
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/planar.h"
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -444,7 +445,9 @@ static bool is_axial(sl_segment at) {
 }
 
 bool sl_map_is_axial(const sl_map *map) {
-    bool axial = sl_map_count_oblique(map) == 0;
+    bool axial = true;
+    for (size_t i = 0; i < map->wall_count; i++)
+        axial &= is_axial((sl_segment){map->walls[i].a, map->walls[i].b});
     for (size_t i = 0; i < map->mirror_count; i++) axial &= is_axial(map->mirrors[i].segment);
     for (size_t i = 0; i < map->door_count; i++) axial &= is_axial(map->doors[i].segment);
     for (size_t i = 0; i < map->oneway_count; i++) axial &= is_axial(map->oneways[i].segment);
@@ -500,7 +503,7 @@ static bool leave_out(leaving *work, const char *what, const char *name, sl_segm
     char place[SL_LINE_TEXT], apart[SL_NUMBER_TEXT];
     if (!sli_same_point(at.a, at.b)) return false;
     if (++work->count > MOST_NOTES) return true;
-    const char *source = work->map->source ? work->map->source : "the map";
+    const char *source = sli_map_name(work->map);
     sl_map_say_line(work->map, line, place);
     snprintf(apart, sizeof apart, "%.3g", work->tolerance);
     char why[192] = "its ends are one place; make it longer";

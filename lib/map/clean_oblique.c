@@ -13,6 +13,7 @@
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/planar.h"
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -229,8 +230,7 @@ static void replace_cells(sl_context *context, const sli_planar *graph, size_t f
         sl_note(context,
                 "%s: %zu of the map's own cells, the first on line %u, have no area after welding "
                 "and are left out; make them larger, or give a smaller tolerance (--weld)",
-                map->source ? map->source : "the map", map->cell_count - cells,
-                (unsigned)first_line);
+                sli_map_name(map), map->cell_count - cells, (unsigned)first_line);
     sl_free(context, map->corners);
     map->corners = *corners;
     *corners = NULL;
@@ -274,8 +274,8 @@ sl_status sli_clean_oblique(sl_context *context, sl_map *map, const sl_wall *wal
     maker m = {.context = context, .walls = walls, .account = account};
     sl_status status = list_segments(context, walls, count, map, &m.list);
     if (status == SL_OK)
-        status = sli_planar_make(context, map->source ? map->source : "the map", m.list.items.items,
-                                 m.list.items.count, fmax(weld, 2 * map->snap), &m.graph);
+        status = sli_planar_make(context, sli_map_name(map), m.list.items.items, m.list.items.count,
+                                 fmax(weld, 2 * map->snap), &m.graph);
     if (idle) *idle = m.graph.largest_move == 0;
     if (status == SL_OK && !(idle && *idle)) status = take_graph(&m, map);
     sli_planar_destroy(context, &m.graph);

@@ -6,6 +6,7 @@
 #include "base/file_system.h"
 #include "base/size.h"
 #include "map/scan.h"
+#include "map/unit.h"
 
 #include <string.h>
 #include <strings.h>
@@ -17,13 +18,13 @@ sl_import_options sl_import_options_default(void) {
 static sl_status read_text(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
     (void)options;
-    return sl_map_read_text(context, name, text, size, map);
+    return sli_map_read_text(context, name, text, size, map);
 }
 
 static sl_status read_plan(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
     (void)options;
-    return sl_map_read_plan(context, name, text, size, map);
+    return sli_map_read_plan(context, name, text, size, map);
 }
 
 static const sl_map_format formats[] = {
@@ -217,7 +218,7 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
         sl_free(context, source);
         return tell_of_formats(context, path, status);
     }
-    read.source = source;
+    read.source.name = source;
     if (options->entrance > 0) {
         read.entrance = options->entrance;
         read.entrance_line = 0;
@@ -265,15 +266,6 @@ sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choic
     const sl_status status = sl_map_choice_parse(context, path, bytes.data, bytes.size, out);
     sl_free(context, bytes.data);
     return status;
-}
-
-sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list) {
-    sl_map_choice choice;
-    SL_TRY(sl_map_choice_read(context, path, &choice));
-    *list = choice.maps;
-    choice.maps = (sl_map_list){0};
-    sl_map_choice_destroy(context, &choice);
-    return SL_OK;
 }
 
 // --- writing
@@ -405,7 +397,7 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
     if (!(format->keeps & SL_KEEPS_RANGE) && map->range > 0)
         sl_note(context, "%s: %s has no place for the view range, which is left out", path,
                 format->what);
-    if (!(format->keeps & SL_KEEPS_UNIT) && sl_unit_metres(map->unit) > 0)
+    if (!(format->keeps & SL_KEEPS_UNIT) && sli_unit_metres(map->unit) > 0)
         sl_note(context, "%s: %s has no place for the unit, which is left out", path, format->what);
     if (!(format->keeps & SL_KEEPS_ENTRANCE) && map->entrance > 0)
         sl_note(context, "%s: %s has no place for the width of entrances, which is left out", path,
@@ -413,14 +405,14 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
     if (!(format->keeps & SL_KEEPS_CELLS) && map->snap > 0)
         sl_note(context, "%s: %s has no place for the snap of cells, which is left out", path,
                 format->what);
-    if (!(format->keeps & SL_KEEPS_NOTES) && map->notes)
+    if (!(format->keeps & SL_KEEPS_NOTES) && map->source.notes)
         sl_note(context, "%s: %s has no place for notes, which are left out", path, format->what);
-    if (!(format->keeps & SL_KEEPS_NOTES) && map->label_count)
+    if (!(format->keeps & SL_KEEPS_NOTES) && map->source.label_count)
         sl_note(
             context,
             "%s: %s has no place for the names that walls have in their file, which are left out",
             path, format->what);
-    if (!(format->keeps & SL_KEEPS_COMMENTS) && map->comment_count)
+    if (!(format->keeps & SL_KEEPS_COMMENTS) && map->source.comment_count)
         sl_note(context, "%s: %s has no place for comments, which are left out", path,
                 format->what);
 }
@@ -479,25 +471,13 @@ static sl_status read_map_back(sl_context *context, const void *user, const char
     return status;
 }
 
-static sl_status write_map(sl_context *context, const sl_map *map, const sl_map_format *format,
-                           const char *path) {
-    const map_file file = {map, format};
-    const sli_to_write written = {&file, print_map, read_map_back};
-    return sli_file_write(context, path, &written);
-}
-
 sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
                        const char *path) {
+    if (!format) format = &formats[0];
     if (!format->write)
         return sl_fail(context, SL_UNSUPPORTED, "%s: %s is only read", path, format->what);
     tell_left_out(context, map, format, path);
-    return write_map(context, map, format, path);
-}
-
-sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {
-    return write_map(context, map, &formats[0], path);
-}
-
-sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path) {
-    return write_map(context, map, &formats[1], path);
+    const map_file file = {map, format};
+    const sli_to_write written = {&file, print_map, read_map_back};
+    return sli_file_write(context, path, &written);
 }

@@ -16,6 +16,7 @@
 #include "geometry/orient.h"
 #include "map/planar.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <stdlib.h>
@@ -194,18 +195,14 @@ sl_status sli_map_add_ground(sl_context *context, sl_map *map, const char *sourc
     return status;
 }
 
-static const char *source_of(const sl_map *map) {
-    return map->source ? map->source : "the map";
-}
-
 sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
                            uint32_t line) {
-    return sli_map_add_ground(context, map, source_of(map), false, corners, count, line);
+    return sli_map_add_ground(context, map, sli_map_name(map), false, corners, count, line);
 }
 
 sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
                           uint32_t line) {
-    return sli_map_add_ground(context, map, source_of(map), true, corners, count, line);
+    return sli_map_add_ground(context, map, sli_map_name(map), true, corners, count, line);
 }
 
 // --- from walls to polygons

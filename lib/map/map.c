@@ -3,6 +3,7 @@
 
 #include "geometry/orient.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -52,8 +53,6 @@ void sl_map_destroy(sl_context *context, sl_map *map) {
         sl_free(context, map->paths[i].name);
         sl_free(context, map->paths[i].points);
     }
-    sl_free(context, map->source);
-    sl_free(context, map->notes);
     sl_free(context, map->interior.places);
     sl_free(context, map->walls);
     sl_free(context, map->doors);
@@ -63,10 +62,7 @@ void sl_map_destroy(sl_context *context, sl_map *map) {
     sl_free(context, map->starts);
     sl_free(context, map->paths);
     sl_free(context, map->objects);
-    sl_free(context, map->labels);
-    sl_free(context, map->label_text);
-    for (size_t i = 0; i < map->comment_count; i++) sl_free(context, map->comments[i].text);
-    sl_free(context, map->comments);
+    sli_source_destroy(context, &map->source);
     sl_map_drop_cells(context, map);
     *map = (sl_map){0};
 }
@@ -242,136 +238,6 @@ sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corn
     return status;
 }
 
-sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
-                              uint32_t line, bool behind) {
-    SL_TRY(MAP_ROOM(context, map, comments, comment));
-    char *copy = sl_copy_text(context, text, length);
-    if (!copy) return SL_NO_MEMORY;
-    map->comments[map->comment_count++] = (sl_comment){copy, line, behind};
-    return SL_OK;
-}
-
-sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text) {
-    const size_t old = map->notes ? strlen(map->notes) : 0, length = strlen(text);
-    char *notes = sl_alloc(context, old + length + 2);
-    if (!notes) return SL_NO_MEMORY;
-    if (old) memcpy(notes, map->notes, old);
-    size_t end = old;
-    for (size_t i = 0; i < length; i++) {
-        // The map text would not keep CR LF.
-        if (text[i] == '\n')
-            while (end > old && notes[end - 1] == '\r') end--;
-        notes[end++] = text[i];
-    }
-    while (end > old && notes[end - 1] == '\r') end--;
-    if (length == 0 || text[length - 1] != '\n') notes[end++] = '\n';
-    notes[end] = '\0';
-    sl_free(context, map->notes);
-    map->notes = notes;
-    return SL_OK;
-}
-
-// --- what the file calls its lines
-
-/// The number of labels for lines below `line`.
-static size_t labels_below(const sl_map *map, uint32_t line) {
-    size_t low = 0, high = map->label_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (map->labels[middle].line < line)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-const char *sl_map_label(const sl_map *map, uint32_t line) {
-    const size_t at = labels_below(map, line);
-    const bool found = at < map->label_count && map->labels[at].line == line;
-    return found ? map->label_text + map->labels[at].text : NULL;
-}
-
-/// Where a text stands at the end of label_text, which it is added to.
-static sl_status add_label_text(sl_context *context, sl_map *map, const char *text,
-                                uint32_t *begin) {
-    char shown[SL_LINE_TEXT];
-    size_t length = 0;
-    for (; text[length] && length < sizeof shown - 32; length++) {
-        const unsigned char c = (unsigned char)text[length];
-        shown[length] = c < 0x20 || c == 0x7f ? '?' : text[length];
-    }
-    // A cut leaves no character in part.
-    if (text[length])
-        while (length && ((unsigned char)text[length] & 0xc0) == 0x80) length--;
-    shown[length] = '\0';
-    const sl_label *last = map->label_count ? &map->labels[map->label_count - 1] : NULL;
-    if (last && strcmp(map->label_text + last->text, shown) == 0) {
-        *begin = last->text;
-        return SL_OK;
-    }
-    if (map->label_length > UINT32_MAX - sizeof shown) return sl_fail_memory(context);
-    SL_TRY(sl_reserve(context, &map->label_text, &map->label_text_room,
-                      map->label_length + length + 1, 1));
-    *begin = (uint32_t)map->label_length;
-    memcpy(map->label_text + map->label_length, shown, length + 1);
-    map->label_length += length + 1;
-    return SL_OK;
-}
-
-/// Several things on one line: the last label names the first, and says that there are others.
-static sl_status share_label(sl_context *context, sl_map *map, const char *text) {
-    static const char others[] = " or another on this line";
-    sl_label *last = &map->labels[map->label_count - 1];
-    const char *first = map->label_text + last->text;
-    char both[SL_LINE_TEXT];
-    if (strcmp(first, text) == 0 || strstr(first, others)) return SL_OK;
-    snprintf(both, sizeof both, "%.96s%s", first, others);
-    return add_label_text(context, map, both, &last->text);
-}
-
-sl_status sl_map_add_label(sl_context *context, sl_map *map, uint32_t line, const char *text) {
-    const uint32_t last = map->label_count ? map->labels[map->label_count - 1].line : 0;
-    uint32_t begin = 0;
-    if (line < last || line == 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "label: line %u comes after line %u",
-                       (unsigned)line, (unsigned)last);
-    if (line == last) return share_label(context, map, text);
-    SL_TRY(MAP_ROOM(context, map, labels, label));
-    SL_TRY(add_label_text(context, map, text, &begin));
-    map->labels[map->label_count++] = (sl_label){.line = line, .text = begin};
-    return SL_OK;
-}
-
-void sl_map_say_line(const sl_map *map, uint32_t line, char text[SL_LINE_TEXT]) {
-    const char *label = sl_map_label(map, line), *word = map->lines_are_items ? "item" : "line";
-    if (!line)
-        text[0] = '\0';
-    else if (!label)
-        snprintf(text, SL_LINE_TEXT, "%s %u", word, (unsigned)line);
-    else if (map->lines_are_items)
-        snprintf(text, SL_LINE_TEXT, "%s", label);
-    else
-        snprintf(text, SL_LINE_TEXT, "line %u (%s)", (unsigned)line, label);
-}
-
-sl_status sl_map_fail(sl_context *context, const sl_map *map, sl_status status, uint32_t line,
-                      const char *format, ...) {
-    char what[512], number[16] = "", named[SL_LINE_TEXT + 2] = "";
-    const char *label = sl_map_label(map, line);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    if (line && !map->lines_are_items)
-        snprintf(number, sizeof number, "%u:", (unsigned)line);
-    else if (line && !label)
-        snprintf(named, sizeof named, "item %u: ", (unsigned)line);
-    if (label) snprintf(named, sizeof named, "%s: ", label);
-    return sl_fail(context, status, "%s:%s %s%s", map->source ? map->source : "the map", number,
-                   named, what);
-}
-
 /// Adds a point to a box; the first one makes it.
 static void grow(sl_box *box, bool *any, sl_point point) {
     if (!*any) *box = (sl_box){.min = point, .max = point};
@@ -414,15 +280,6 @@ int sl_map_digits(const sl_map *map) {
     const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
     if (!(across > 0 && most > 0)) return 6;
     return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
-}
-
-size_t sl_map_count_oblique(const sl_map *map) {
-    size_t oblique = 0;
-    for (size_t i = 0; i < map->wall_count; i++) {
-        const sl_wall *wall = &map->walls[i];
-        oblique += wall->a.x != wall->b.x && wall->a.y != wall->b.y;
-    }
-    return oblique;
 }
 
 // --- copies
@@ -473,18 +330,6 @@ static sl_status copy_things(sl_context *context, const sl_map *from, sl_map *to
     return SL_OK;
 }
 
-static sl_status copy_labels(sl_context *context, const sl_map *from, sl_map *to) {
-    if (!from->label_count) return SL_OK;
-    to->labels = sl_alloc_array(context, from->label_count, sizeof *to->labels);
-    to->label_text = sl_alloc_array(context, from->label_length, 1);
-    if (!to->labels || !to->label_text) return SL_NO_MEMORY;
-    memcpy(to->labels, from->labels, from->label_count * sizeof *to->labels);
-    memcpy(to->label_text, from->label_text, from->label_length);
-    to->label_count = to->label_room = from->label_count;
-    to->label_length = to->label_text_room = from->label_length;
-    return SL_OK;
-}
-
 static sl_status copy_interior(sl_context *context, const sl_map *from, sl_map *to) {
     const size_t count = from->interior.place_count;
     sl_point *places = count ? sl_alloc_array(context, count, sizeof *places) : NULL;
@@ -495,43 +340,21 @@ static sl_status copy_interior(sl_context *context, const sl_map *from, sl_map *
     return SL_OK;
 }
 
-static sl_status copy_comments(sl_context *context, const sl_map *from, sl_map *to) {
-    for (size_t i = 0; i < from->comment_count; i++) {
-        const sl_comment *c = &from->comments[i];
-        SL_TRY(sli_map_add_comment(context, to, c->text, strlen(c->text), c->line, c->behind));
-    }
-    return SL_OK;
-}
-
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
-                  .top = from->top,
-                  .page = from->page,
-                  .pixels = from->pixels,
-                  .drawing_unit = from->drawing_unit,
                   .range = from->range,
                   .range_line = from->range_line,
                   .unit_line = from->unit_line,
                   .entrance = from->entrance,
                   .entrance_line = from->entrance_line,
-                  .ground_guessed = from->ground_guessed,
-                  .lines_are_items = from->lines_are_items};
+                  .ground_guessed = from->ground_guessed};
     memcpy(map.unit, from->unit, sizeof map.unit);
     sl_status status = sl_map_add_walls(context, &map, from->walls, from->wall_count);
     if (status == SL_OK) status = copy_effects(context, from, &map);
     if (status == SL_OK) status = copy_cells(context, from, &map);
     if (status == SL_OK) status = copy_things(context, from, &map);
-    if (status == SL_OK) status = copy_labels(context, from, &map);
     if (status == SL_OK) status = copy_interior(context, from, &map);
-    if (status == SL_OK) status = copy_comments(context, from, &map);
-    if (status == SL_OK && from->notes) {
-        map.notes = sl_copy_text(context, from->notes, strlen(from->notes));
-        if (!map.notes) status = SL_NO_MEMORY;
-    }
-    if (status == SL_OK && from->source) {
-        map.source = sl_copy_text(context, from->source, strlen(from->source));
-        if (!map.source) status = SL_NO_MEMORY;
-    }
+    if (status == SL_OK) status = sli_source_copy(context, &from->source, &map.source);
     if (status == SL_OK)
         *to = map;
     else

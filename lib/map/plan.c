@@ -15,6 +15,7 @@
 
 #include "geometry/orient.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -221,8 +222,8 @@ static sli_grid plan_of(sli_word *rows, size_t count) {
     return (sli_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1, .sure = true};
 }
 
-sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
-                           sl_map *map) {
+sl_status sli_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map *map) {
     SL_TRY(sli_refuse_nul(context, name, text, size));
     sl_map read = {0};
     SL_ARRAY(sli_word) rows = {0};
@@ -267,7 +268,7 @@ static sl_status refuse(const plan_maker *maker, uint32_t line, const char *form
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return sl_map_fail(maker->context, maker->map, SL_UNSUPPORTED, line, "%s", what);
+    return sli_map_fail(maker->context, maker->map, SL_UNSUPPORTED, line, "%s", what);
 }
 
 static sl_status refuse_segment(const plan_maker *maker, uint32_t line, const char *what,
@@ -301,7 +302,7 @@ static sl_status refuse_others(const plan_maker *maker) {
     if (map->object_count)
         return refuse(maker, map->objects[0].line, "a plan has no place for object %s",
                       map->objects[0].name);
-    if (map->notes) return refuse(maker, 0, "a plan has no place for the map's notes");
+    if (map->source.notes) return refuse(maker, 0, "a plan has no place for the map's notes");
     bool walled = false;
     for (size_t i = 0; i < map->wall_count && !walled; i++)
         walled = !sli_same_point(map->walls[i].a, map->walls[i].b);

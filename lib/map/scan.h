@@ -122,9 +122,17 @@ sl_status sli_copy_points(sl_context *context, const char *what, const sl_point 
 /// border at 0 instead would be another one.
 sl_status sli_map_add_border(sl_context *context, sl_map *map, sl_segment at);
 
-/// Adds a comment, as sl_comment says; lines go up.
-sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
-                              uint32_t line, bool behind);
+// --- readers of our own formats
+
+/// Reads the map text. SL_BAD_INPUT, with file and line, for anything unknown. `name` is the name
+/// of the text in messages. The map must be empty; it stays empty on failure.
+sl_status sli_map_read_text(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map *map);
+/// Reads the ASCII plan: each character is a unit square, and the last line is at y = 0. '#' is
+/// solid, ' ' and '.' are open, '+' is a door across the passage, '@' is a start heading +x.
+/// Outside the plan all is solid.
+sl_status sli_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map *map);
 
 // --- writers of maps, to a stream that is open; the caller asks the stream for errors
 

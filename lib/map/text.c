@@ -8,6 +8,8 @@
 #include "geometry/orient.h"
 #include "map/ground.h"
 #include "map/scan.h"
+#include "map/source.h"
+#include "map/unit.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -396,7 +398,7 @@ static bool is_note(sli_word line) {
 static sl_status keep_waiting(text_reader *reader) {
     sl_map *map = reader->map;
     const sli_word comment = reader->comment;
-    if (!comment.length && reader->waiting == map->comment_count) return SL_OK;
+    if (!comment.length && reader->waiting == map->source.comment_count) return SL_OK;
     return sli_map_add_comment(reader->context, map, comment.length ? comment.at : "",
                                comment.length, UINT32_MAX, false);
 }
@@ -404,12 +406,13 @@ static sl_status keep_waiting(text_reader *reader) {
 /// Gives the comments that waited to the statement on a line, and the one behind it.
 static sl_status give_comments(text_reader *reader, uint32_t line) {
     sl_map *map = reader->map;
-    for (size_t i = reader->waiting; i < map->comment_count; i++) map->comments[i].line = line;
+    for (size_t i = reader->waiting; i < map->source.comment_count; i++)
+        map->source.comments[i].line = line;
     sl_status status = SL_OK;
     if (reader->comment.length)
         status = sli_map_add_comment(reader->context, map, reader->comment.at,
                                      reader->comment.length, line, true);
-    reader->waiting = map->comment_count;
+    reader->waiting = map->source.comment_count;
     return status;
 }
 
@@ -437,11 +440,11 @@ static sl_status read_lines(text_reader *reader, const char *text, size_t size) 
                           "expected 'sightline 1' as the first statement, found none");
     if (reader->notes.count == 0) return SL_OK;
     reader->notes.items[reader->notes.count] = '\0';
-    return sl_map_add_note(reader->context, reader->map, reader->notes.items);
+    return sli_map_add_note(reader->context, reader->map, reader->notes.items);
 }
 
-sl_status sl_map_read_text(sl_context *context, const char *name, const char *text, size_t size,
-                           sl_map *map) {
+sl_status sli_map_read_text(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_map *map) {
     sl_map read = {0};
     text_reader reader = {.context = context, .name = name, .map = &read};
     const sl_status status = read_lines(&reader, text, size);
@@ -468,10 +471,10 @@ typedef struct text_writer {
 
 /// The first comment that belongs to a line, or to one below.
 static size_t find_comment(const sl_map *map, uint32_t line) {
-    size_t low = 0, high = map->comment_count;
+    size_t low = 0, high = map->source.comment_count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (map->comments[middle].line < line)
+        if (map->source.comments[middle].line < line)
             low = middle + 1;
         else
             high = middle;
@@ -488,8 +491,8 @@ static void print_comment(FILE *stream, const char *text) {
 /// Prints the comments of a line that are not written yet: those before it, or that behind it.
 static void print_comments(text_writer *writer, uint32_t line, bool behind) {
     const sl_map *map = writer->map;
-    for (size_t i = find_comment(map, line); i < map->comment_count; i++) {
-        const sl_comment *comment = &map->comments[i];
+    for (size_t i = find_comment(map, line); i < map->source.comment_count; i++) {
+        const sl_comment *comment = &map->source.comments[i];
         if (comment->line != line) return;
         if (comment->behind != behind || writer->done[i]) continue;
         writer->done[i] = true;
@@ -501,12 +504,12 @@ static void print_comments(text_writer *writer, uint32_t line, bool behind) {
 
 /// Begins a statement; things that are not from the file have line 0.
 static void begin(text_writer *writer, uint32_t line, const char *word) {
-    if (line && writer->map->comment_count) print_comments(writer, line, false);
+    if (line && writer->map->source.comment_count) print_comments(writer, line, false);
     fputs(word, writer->stream);
 }
 
 static void end(text_writer *writer, uint32_t line) {
-    if (line && writer->map->comment_count) print_comments(writer, line, true);
+    if (line && writer->map->source.comment_count) print_comments(writer, line, true);
     putc('\n', writer->stream);
 }
 
@@ -514,8 +517,8 @@ static void end(text_writer *writer, uint32_t line) {
 static void print_rest(text_writer *writer) {
     const sl_map *map = writer->map;
     size_t strays = 0;
-    for (size_t i = 0; i < map->comment_count; i++) {
-        const sl_comment *comment = &map->comments[i];
+    for (size_t i = 0; i < map->source.comment_count; i++) {
+        const sl_comment *comment = &map->source.comments[i];
         if (writer->done[i] || (!comment->text[0] && comment->line != UINT32_MAX)) continue;
         print_comment(writer->stream, comment->text);
         putc('\n', writer->stream);
@@ -669,8 +672,8 @@ static sl_status print_map(text_writer *writer) {
     fputs("sightline 1", writer->stream);
     print_comments(writer, 0, true);
     putc('\n', writer->stream);
-    if (map->notes) print_notes(writer->stream, map->notes);
-    if (map->unit_line || sl_unit_metres(map->unit) > 0) {
+    if (map->source.notes) print_notes(writer->stream, map->source.notes);
+    if (map->unit_line || sli_unit_metres(map->unit) > 0) {
         begin(writer, map->unit_line, "unit ");
         fputs(map->unit, writer->stream);
         end(writer, map->unit_line);
@@ -699,7 +702,7 @@ static sl_status print_map(text_writer *writer) {
 
 sl_status sli_map_print_text(sl_context *context, const sl_map *map, FILE *stream) {
     text_writer writer = {.context = context, .map = map, .stream = stream};
-    writer.done = sl_alloc_array(context, map->comment_count, sizeof *writer.done);
+    writer.done = sl_alloc_array(context, map->source.comment_count, sizeof *writer.done);
     if (!writer.done) return SL_NO_MEMORY;
     const sl_status status = print_map(&writer);
     sl_free(context, writer.done);

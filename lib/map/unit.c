@@ -27,6 +27,6 @@ int sli_unit_number(const char *sign) {
     return number;
 }
 
-double sl_unit_metres(const char *sign) {
+double sli_unit_metres(const char *sign) {
     return sli_units[sli_unit_number(sign)].metres;
 }

@@ -17,4 +17,7 @@ extern const sli_unit sli_units[SLI_UNITS];
 /// The number of the unit with this sign; 0 where there is none.
 int sli_unit_number(const char *sign);
 
+/// The length of a unit (sl_map.unit) in metres; 0 where it is none that is known.
+double sli_unit_metres(const char *unit);
+
 #endif

@@ -24,6 +24,7 @@
 
 #include "geometry/crossing.h"
 #include "geometry/length.h"
+#include "map/source.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -288,7 +289,7 @@ static sl_status list_walls(sl_context *context, const sl_map *map, sli_mesh_lin
 }
 
 static sl_status find(finder *f, const sl_map *map, sli_mesh_lines *lines) {
-    const char *source = map->source ? map->source : "the map";
+    const char *source = sli_map_name(map);
     const sl_box bounds = sl_map_bounds(map);
     const double weld = sli_planar_tolerance(&bounds);
     const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);

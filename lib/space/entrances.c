@@ -814,7 +814,7 @@ static void forget(sl_context *context, sl_map *map) {
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
-    const double metres = sl_unit_metres(map->unit);
+    const double metres = sli_unit_metres(map->unit);
     const double usual = metres > 0 ? ENTRANCE / metres : INFINITY;
     bool found = false;
     if (!(shorter > 0)) return SL_OK;

@@ -12,6 +12,7 @@
 /// Are the cells sound? The cover of a triangle is the number of cells over it. Outside it is 0,
 /// and a side changes it by one, so a walk over all triangles counts it. More than one, or less
 /// than none, is a cell that overlaps another. Time O(n log n), for the mesh.
+#include "map/source.h"
 #include "space/mesh.h"
 
 /// The number of the map's cells that cover a triangle, and the sum of their numbers, each plus
@@ -137,9 +138,9 @@ static sl_status fail_at(const given *g, uint32_t half) {
             const bool along = (from == g->graph.edges[links[k] / 2].a) == (links[k] % 2 == 0);
             const bool entered = along == (area_of(g, i) >= 0);
             if (entered == (g->covers[half].count > 1))
-                return sl_map_fail(g->context, g->map, SL_BAD_INPUT, g->map->cells[i].line,
-                                   "cell %lu overlaps another one or itself near %.9g %.9g",
-                                   (unsigned long)i, at.x, at.y);
+                return sli_map_fail(g->context, g->map, SL_BAD_INPUT, g->map->cells[i].line,
+                                    "cell %lu overlaps another one or itself near %.9g %.9g",
+                                    (unsigned long)i, at.x, at.y);
         }
     }
     return SL_OK;
@@ -176,7 +177,7 @@ static void destroy(given *g) {
 }
 
 sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *out) {
-    given g = {.context = context, .map = map, .source = map->source ? map->source : "the map"};
+    given g = {.context = context, .map = map, .source = sli_map_name(map)};
     if (!map->cell_count)
         return sl_fail_at(context, g.source, 0, "the map brings no cells of its own");
     if (map->cell_count > INT32_MAX / 2) return sl_fail_memory(context);

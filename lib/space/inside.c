@@ -21,6 +21,7 @@
 
 #include "geometry/orient.h"
 #include "map/ground.h"
+#include "map/source.h"
 #include "sightline/support.h"
 #include "space/index.h"
 
@@ -40,10 +41,6 @@ typedef struct inside {
     uint32_t *stack;    ///< cells
     uint32_t *beside;   ///< by wall: a cell at its left, and one at its right; SL_NO_CELL for none
 } inside;
-
-static const char *source_of(const inside *m) {
-    return m->map->source ? m->map->source : "the map";
-}
 
 // --- the ground that walls say
 
@@ -241,7 +238,7 @@ static sl_status settle_open(inside *m, size_t *reopened) {
         if (!m->solid_by[i] || !m->open_by[i]) continue;
         if (!m->map->ground_guessed) {
             const sl_wall *wall = &m->space->walls[m->open_by[i] - 1];
-            return sl_map_fail(
+            return sli_map_fail(
                 m->context, m->map, SL_BAD_INPUT, wall->line,
                 "open ground at the wall from %.9g %.9g to %.9g %.9g is also solid "
                 "ground%s: an open polygon may not overlap another polygon; make one of both",
@@ -263,10 +260,11 @@ static sl_status settle_doors(inside *m, size_t *reopened) {
         if (seam->kind != SL_SEAM_DOOR || !m->solid_by[cell]) continue;
         const sl_door *door = &m->map->doors[seam->number];
         if (!m->map->ground_guessed)
-            return sl_map_fail(m->context, m->map, SL_BAD_INPUT, door->line,
-                               "door %s stands in solid ground%s: move the door, or cut an opening "
-                               "into the solid ground",
-                               door->name, by_line(m, cell, by));
+            return sli_map_fail(
+                m->context, m->map, SL_BAD_INPUT, door->line,
+                "door %s stands in solid ground%s: move the door, or cut an opening "
+                "into the solid ground",
+                door->name, by_line(m, cell, by));
         reopen(m, cell);
         ++*reopened;
     }
@@ -288,8 +286,8 @@ static uint32_t cell_of_start(const inside *m, sl_point at) {
 static void note_start(const inside *m, const sl_start *start, const char *where) {
     char line[SL_LINE_TEXT];
     sl_map_say_line(m->map, start->line, line);
-    sl_note(m->context, "%s%s%s: the start at %.9g %.9g is %s; it is left out", source_of(m),
-            line[0] ? ": " : "", line, start->at.x, start->at.y, where);
+    sl_note(m->context, "%s%s%s: the start at %.9g %.9g is %s; it is left out",
+            sli_map_name(m->map), line[0] ? ": " : "", line, start->at.x, start->at.y, where);
 }
 
 /// Finds the cells of starts; SL_NO_CELL for those in solid ground or out of bounds. Fails if none
@@ -311,10 +309,10 @@ static sl_status find_starts(inside *m, uint32_t *cells, size_t *reopened) {
         if (solid == SIZE_MAX) solid = i;
     }
     if (solid != SIZE_MAX && !good)
-        return sl_map_fail(m->context, map, SL_BAD_INPUT, map->starts[solid].line,
-                           "the start at %.9g %.9g is in solid ground%s: move it, or give another "
-                           "one with --start X,Y",
-                           map->starts[solid].at.x, map->starts[solid].at.y, by);
+        return sli_map_fail(m->context, map, SL_BAD_INPUT, map->starts[solid].line,
+                            "the start at %.9g %.9g is in solid ground%s: move it, or give another "
+                            "one with --start X,Y",
+                            map->starts[solid].at.x, map->starts[solid].at.y, by);
     for (size_t i = 0; i < map->start_count; i++) {
         const bool in_solid = cells[i] != SL_NO_CELL && m->solid_by[cells[i]];
         if (in_solid) cells[i] = SL_NO_CELL;
@@ -501,7 +499,7 @@ static sl_status mark(inside *m, bool marked, uint32_t *reached) {
         sl_note(m->context,
                 "%s: %zu region%s behind one-sided walls hold%s a start, a door or the front of a "
                 "wall: taken as open",
-                source_of(m), reopened, reopened == 1 ? "" : "s", reopened == 1 ? "s" : "");
+                sli_map_name(m->map), reopened, reopened == 1 ? "" : "s", reopened == 1 ? "s" : "");
     if (s->inside_count) return SL_OK;
     for (uint32_t i = 0; i < s->cell_count; i++) s->cells[i].inside = !s->cells[i].solid;
     s->inside_count = s->cell_count - solid;

@@ -18,6 +18,7 @@
 /// once. Time O(n) for each level.
 #include "space/kd_tree.h"
 
+#include "map/source.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -48,14 +49,14 @@ static sli_piece make_piece(const sl_wall *wall) {
 static sl_status check_axial(sl_context *context, const sl_map *map, const sl_wall *wall) {
     const bool vertical = wall->a.x == wall->b.x, horizontal = wall->a.y == wall->b.y;
     if (vertical && horizontal)
-        return sl_map_fail(context, map, SL_BAD_INPUT, wall->line,
-                           "a wall of zero length at %.17g %.17g: clean the map first", wall->a.x,
-                           wall->a.y);
+        return sli_map_fail(context, map, SL_BAD_INPUT, wall->line,
+                            "a wall of zero length at %.17g %.17g: clean the map first", wall->a.x,
+                            wall->a.y);
     if (vertical || horizontal) return SL_OK;
-    return sl_map_fail(context, map, SL_BAD_INPUT, wall->line,
-                       "the wall from %.17g %.17g to %.17g %.17g is neither horizontal nor "
-                       "vertical, which the kd-tree needs: make it axial or leave it out",
-                       wall->a.x, wall->a.y, wall->b.x, wall->b.y);
+    return sli_map_fail(context, map, SL_BAD_INPUT, wall->line,
+                        "the wall from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                        "vertical, which the kd-tree needs: make it axial or leave it out",
+                        wall->a.x, wall->a.y, wall->b.x, wall->b.y);
 }
 
 sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *walls, size_t count,
@@ -70,9 +71,9 @@ sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *
     for (size_t i = 1; i < count; i++) {
         const sli_piece *a = &pieces[i - 1], *b = &pieces[i];
         if (a->axis != b->axis || a->at != b->at || b->lo >= a->hi) continue;
-        const sl_status status = sl_map_fail(context, map, SL_BAD_INPUT, 0,
-                                             "two walls overlap on %s = %.17g: clean the map first",
-                                             a->axis ? "y" : "x", a->at);
+        const sl_status status = sli_map_fail(
+            context, map, SL_BAD_INPUT, 0, "two walls overlap on %s = %.17g: clean the map first",
+            a->axis ? "y" : "x", a->at);
         sl_free(context, pieces);
         return status;
     }

@@ -23,6 +23,7 @@
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "map/ground.h"
+#include "map/source.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
@@ -409,8 +410,8 @@ sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *ou
     sli_triangulation triangles = {0};
     sl_status status = sli_mesh_lines_of_map(context, map, &lines, &space);
     if (status == SL_OK)
-        status = sli_planar_make(context, map->source ? map->source : "the map", lines.items.items,
-                                 lines.items.count, 0, &graph);
+        status = sli_planar_make(context, sli_map_name(map), lines.items.items, lines.items.count,
+                                 0, &graph);
     if (status == SL_OK) status = sli_triangulate(context, &graph, &space.bounds, &triangles);
     if (status == SL_OK) status = sli_mesh_make(context, map, &lines, &graph, &triangles, &space);
     sli_triangulation_destroy(context, &triangles);

@@ -13,6 +13,7 @@
 #include "space/seams.h"
 
 #include "geometry/orient.h"
+#include "map/source.h"
 #include "space/index.h"
 
 #include <math.h>
@@ -27,10 +28,10 @@ static sl_status add_seam(sl_context *context, const sl_map *map, bool axial, sl
     if (upright && level) return SL_OK;
     static const char *const names[] = {"seam", "door", "one-way glass"};
     if (axial && !upright && !level)
-        return sl_map_fail(context, map, SL_BAD_INPUT, line,
-                           "the %s from %.17g %.17g to %.17g %.17g is neither horizontal nor "
-                           "vertical, which the kd-tree needs: make it axial or leave it out",
-                           names[seam.kind], at.a.x, at.a.y, at.b.x, at.b.y);
+        return sli_map_fail(context, map, SL_BAD_INPUT, line,
+                            "the %s from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                            "vertical, which the kd-tree needs: make it axial or leave it out",
+                            names[seam.kind], at.a.x, at.a.y, at.b.x, at.b.y);
     seam.at = at;
     space->seams[space->seam_count++] = seam;
     return SL_OK;

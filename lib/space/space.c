@@ -9,6 +9,7 @@
 
 #include "geometry/length.h"
 #include "geometry/orient.h"
+#include "map/source.h"
 #include "sightline/support.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
@@ -38,8 +39,7 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
 
 sl_status sli_check_has_walls(sl_context *context, const sl_map *map) {
     if (map->wall_count) return SL_OK;
-    return sl_fail_at(context, map->source ? map->source : "the map", 0,
-                      "the map has no walls: nothing to subdivide");
+    return sl_fail_at(context, sli_map_name(map), 0, "the map has no walls: nothing to subdivide");
 }
 
 sl_box sli_padded(sl_box box) {

@@ -122,7 +122,7 @@ static void write_map(const growth *g, uint64_t walls, const char *path) {
     options.turned = g->turned;
     options.in_line = g->in_line;
     bench_must(context, sl_generate(context, g->made, &options, &map));
-    bench_must(context, sl_map_write_text(context, &map, path));
+    bench_must(context, sl_map_write(context, &map, NULL, path));
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }

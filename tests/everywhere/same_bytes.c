@@ -66,7 +66,7 @@ static void read_map(sl_context *context, const char *path, sl_map *map) {
         fprintf(stderr, "same_bytes: %s: not read\n", path);
         exit(1);
     }
-    must(context, sl_map_read_text(context, path, text, size, map), path);
+    must(context, sl_map_parse(context, path, text, size, NULL, map), path);
     free(text);
 }
 

@@ -3,6 +3,7 @@
 #define SL_FUZZ_H
 
 #include "geometry/orient.h"
+#include "map/scan.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
 #include "sightline/support.h"
@@ -46,7 +47,7 @@ static inline sl_context *fuzz_context(void) {
 static inline char *fuzz_round_trip(sl_context *context, const sl_map *map) {
     char *text = map_text(map);
     sl_map back = {0};
-    FUZZ_CHECK(sl_map_read_text(context, "back", text, strlen(text), &back) == SL_OK);
+    FUZZ_CHECK(sli_map_read_text(context, "back", text, strlen(text), &back) == SL_OK);
     bool marked = false;
     for (size_t i = 0; i < map->wall_count; i++) marked |= map->walls[i].ground != 0;
     sl_map was = *map, is = back;

@@ -4,6 +4,7 @@
 // is solid ground is refused; then it is looked at without its marks.
 #include "fuzz.h"
 
+#include "map/scan.h"
 #include "sightline/space.h"
 
 #include <string.h>
@@ -58,7 +59,7 @@ static void check_clean(sl_context *context, sl_map *map) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();
     sl_map map = {0};
-    const sl_status status = sl_map_read_text(context, "input", (const char *)data, size, &map);
+    const sl_status status = sli_map_read_text(context, "input", (const char *)data, size, &map);
     if (status == SL_OK && map.wall_count) {
         sl_map_drop_cells(context, &map);
         check_mesh(context, &map);

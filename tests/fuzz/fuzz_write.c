@@ -1,6 +1,7 @@
 // Writers: whatever map text is read is written in every format of other programs, and read back.
 // What the format has a place for is there again, at the same places.
 #include "fuzz.h"
+#include "map/scan.h"
 
 /// The same place. Writers make 0 of -0.
 static bool same_place(sl_segment a, sl_segment b) {
@@ -59,7 +60,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();
     sl_map map = {0};
     FUZZ_CHECK(sl_io_use(context) == SL_OK);
-    if (sl_map_read_text(context, "input", (const char *)data, size, &map) == SL_OK) {
+    if (sli_map_read_text(context, "input", (const char *)data, size, &map) == SL_OK) {
         size_t count;
         const sl_map_format *formats = sl_map_formats(context, &count);
         for (size_t i = 2; i < count; i++)

@@ -8,6 +8,7 @@
 
 #include "bake/slv.h"
 #include "baked_bytes.h"
+#include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/stab.h"
 
@@ -51,7 +52,7 @@ static void bake_text(const char *statements, bool mesh, bool views) {
     sl_map map = {0};
     sl_baked baked = {0};
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    FUZZ_CHECK(sl_map_read_text(context, "input", text, strlen(text), &map) == SL_OK);
+    FUZZ_CHECK(sli_map_read_text(context, "input", text, strlen(text), &map) == SL_OK);
     sl_bake_options options = sl_bake_options_default();
     options.see.threads = 1;
     size_t count;

@@ -11,6 +11,7 @@
 
 #include "bake/slv.h"
 #include "baked_bytes.h"
+#include "map/scan.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 
@@ -112,7 +113,7 @@ static bool is_enough(void *user) {
 }
 
 static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_baked *out) {
-    SL_TRY(sl_map_read_text(context, "input", (const char *)text, size, &out->map));
+    SL_TRY(sli_map_read_text(context, "input", (const char *)text, size, &out->map));
     SL_TRY(sl_map_clean(context, &out->map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
     if (size & 16 || sl_subdivide_kd(context, &out->map, &rules, &out->space) == SL_BAD_INPUT)

@@ -130,7 +130,8 @@ static inline bool map_same(const sl_map *a, const sl_map *b) {
            a->mirror_count == b->mirror_count && a->oneway_count == b->oneway_count &&
            a->seam_count == b->seam_count && a->start_count == b->start_count &&
            a->path_count == b->path_count && a->object_count == b->object_count &&
-           same_text(a->notes, b->notes) && same_doors(a->doors, b->doors, a->door_count) &&
+           same_text(a->source.notes, b->source.notes) &&
+           same_doors(a->doors, b->doors, a->door_count) &&
            same_glass(a->mirrors, b->mirrors, a->mirror_count) &&
            same_glass(a->oneways, b->oneways, a->oneway_count) &&
            same_glass(a->seams, b->seams, a->seam_count) &&
@@ -143,9 +144,9 @@ static inline bool map_same(const sl_map *a, const sl_map *b) {
 /// Whether nothing is in the map and nothing is owned by it.
 static inline bool map_is_empty(const sl_map *map) {
     const sl_map empty = {0};
-    return map_same(map, &empty) && !map->source && !map->walls && !map->doors && !map->mirrors &&
-           !map->oneways && !map->seams && !map->starts && !map->paths && !map->objects &&
-           !map->cells;
+    return map_same(map, &empty) && !map->source.name && !map->walls && !map->doors &&
+           !map->mirrors && !map->oneways && !map->seams && !map->starts && !map->paths &&
+           !map->objects && !map->cells;
 }
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "testing.h"
 
+#include "map/scan.h"
 #include "oracle/apart.h"
 #include "oracle/planar_graph.h"
 #include "oracle/random_oblique.h"
@@ -54,7 +55,7 @@ static inline scene scene_of_text(const char *statements) {
     char *text = malloc(length);
     assert_non_null(text);
     snprintf(text, length, "sightline 1\n%s", statements);
-    assert_ok(s.context, sl_map_read_text(s.context, "test", text, strlen(text), &s.read));
+    assert_ok(s.context, sli_map_read_text(s.context, "test", text, strlen(text), &s.read));
     free(text);
     assert_true(scene_make(&s, sl_clean_options_default().weld));
     scene_prove(&s);

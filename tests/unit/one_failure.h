@@ -11,6 +11,7 @@
 #include "testing.h"
 
 #include "baked_bytes.h"
+#include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
@@ -121,7 +122,7 @@ static inline void one_failure_begin(sl_context *context, one_failure *on, const
     char text[2048];
     assert_ok(context, sl_io_use(context));
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "text", text, strlen(text), &on->read));
+    assert_ok(context, sli_map_read_text(context, "text", text, strlen(text), &on->read));
     assert_ok(context, sl_map_copy(context, &on->read, &on->map));
     assert_ok(context, sl_map_clean(context, &on->map, NULL, NULL));
     sl_map map = {0};

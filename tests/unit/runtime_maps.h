@@ -5,6 +5,7 @@
 #include "baked_bytes.h"
 #include "map_files.h"
 
+#include "map/scan.h"
 #include "runtime/sightline_runtime.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
@@ -41,7 +42,7 @@ static inline baked_file baked_file_of_text(sl_context *context, const char *sta
     baked_file f = {.name = "text", .baked = {.method = "dfs", .solver = "funnel"}};
     char text[1024];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "text", text, strlen(text), &f.baked.map));
+    assert_ok(context, sli_map_read_text(context, "text", text, strlen(text), &f.baked.map));
     baked_file_make(context, &f, false);
     return f;
 }

@@ -2,6 +2,8 @@
 #include "testing.h"
 
 #include "cell_to_cell/pvs_rows.h"
+#include "map/scan.h"
+#include "map/source.h"
 #include "sightline/glpk.h"
 #include "sightline/support.h"
 
@@ -165,14 +167,14 @@ static void a_baked_file_reads_back_the_same(void **state) {
     options.trees = true;
     sl_baked baked, back = {0};
     bake(context, text, &options, &baked);
-    assert_ok(context, sl_map_add_note(context, &baked.map, "a notice"));
+    assert_ok(context, sli_map_add_note(context, &baked.map, "a notice"));
     sl_bytes bytes = written(context, &baked);
     assert_ok(context, sl_baked_parse(context, "x.slv", bytes.data, bytes.size, &back));
     assert_int_equal(back.space.cell_count, baked.space.cell_count);
     assert_int_equal(back.visibility.trees.cell_count, baked.space.cell_count);
     assert_string_equal(back.method, "dfs");
     assert_int_equal(back.map.start_count, 1);
-    assert_non_null(strstr(back.map.notes, "a notice"));
+    assert_non_null(strstr(back.map.source.notes, "a notice"));
     sl_bytes again = written(context, &back);
     assert_int_equal(again.size, bytes.size);
     assert_memory_equal(again.data, bytes.data, bytes.size);
@@ -242,7 +244,7 @@ static void halves_need_no_account(void **state) {
     sl_bake_options options = sl_bake_options_default();
     sl_map map = {0};
     sl_baked baked = {0};
-    assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), &map));
+    assert_ok(context, sli_map_read_text(context, "t", text, strlen(text), &map));
     assert_ok(context, sl_bake_space(context, &map, &options, &baked, NULL));
     assert_ok(context, sl_bake_see(context, &options, &baked, NULL));
     assert_true(sli_pvs_pairs(&baked.visibility.pvs) > baked.space.cell_count);

@@ -9,6 +9,7 @@
 
 #include "bake/export.h"
 #include "io/formats.h"
+#include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
@@ -146,7 +147,7 @@ static void make_saved(sl_context *context, saved *out) {
     sl_map map = {0};
     *out = (saved){0};
     assert_ok(context, sl_io_use(context));
-    assert_ok(context, sl_map_read_text(context, "t", text, sizeof text - 1, &out->map));
+    assert_ok(context, sli_map_read_text(context, "t", text, sizeof text - 1, &out->map));
     assert_ok(context, sl_map_copy(context, &out->map, &map));
     assert_ok(context, sl_bake(context, &map, NULL, &out->baked, NULL));
 }
@@ -159,7 +160,7 @@ static void free_saved(sl_context *context, saved *out) {
 typedef sl_status save(sl_context *context, const saved *what);
 
 static sl_status save_text(sl_context *context, const saved *what) {
-    return sl_map_write_text(context, &what->map, target);
+    return sl_map_write(context, &what->map, NULL, target);
 }
 
 static sl_status save_baked(sl_context *context, const saved *what) {

@@ -4,6 +4,7 @@
 #include "test_draw_map.h"
 
 #include "draw/plan.h"
+#include "map/scan.h"
 
 #include <cairo.h>
 #include <math.h>
@@ -295,7 +296,7 @@ static void bake_rock(sl_context *context, bool start, sl_baked *baked) {
              "solid 14 20 18 20 18 24 14 24\nopen 22 14 26 14 26 16 22 16\n%s",
              start ? "start 5 5 0\n" : "");
     sl_map map = {0};
-    assert_ok(context, sl_map_read_text(context, "rock", text, strlen(text), &map));
+    assert_ok(context, sli_map_read_text(context, "rock", text, strlen(text), &map));
     assert_ok(context, sl_bake(context, &map, NULL, baked, NULL));
 }
 
@@ -335,7 +336,7 @@ static void outside_is_hatched_where_it_is_shown(void **state) {
                                "walls 40 0 40 30\nwall 20 0 40 0\n";
     sl_map read = {0};
     draw_map map = {0};
-    assert_ok(context, sl_map_read_text(context, "half", text, strlen(text), &read));
+    assert_ok(context, sli_map_read_text(context, "half", text, strlen(text), &read));
     assert_ok(context, sl_bake(context, &read, NULL, &map.baked, NULL));
     for (int dark = 0; dark < 2; dark++) {
         const picture p = draw(&map, options_for(SL_LAYER_WALLS, SL_NO_CELL, dark));

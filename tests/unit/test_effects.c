@@ -89,7 +89,7 @@ static void compare(const trial *t, const oracle_ways *ways, const sl_see_method
             if (seen ? expected->possible || method->guarantee == SL_CONSERVATIVE
                      : !expected->sure || method->guarantee == SL_AGGRESSIVE)
                 continue;
-            sl_map_write_text(t->context, &t->map, "-");
+            sl_map_write(t->context, &t->map, NULL, "-");
             fail_msg("%s, seed %llu, effects %u, depth %u, shut %x: cell %u %s cell %u%s",
                      method->name, (unsigned long long)t->seed, t->plan.effects, t->depth, shut, a,
                      seen ? "sees" : "does not see", b, mirrored ? " by mirror" : "");
@@ -114,7 +114,7 @@ static void compare_methods(const trial *t, const sl_visibility *by_dfs) {
         for (uint32_t a = 0; a < n; a++)
             for (uint32_t b = 0; b < n; b++)
                 if (sl_pvs_sees(&by_dfs->pvs, a, b) != sl_pvs_sees(&other.pvs, a, b)) {
-                    sl_map_write_text(t->context, &t->map, "-");
+                    sl_map_write(t->context, &t->map, NULL, "-");
                     fail_msg("seed %llu, %s, %s: cells %u and %u", (unsigned long long)t->seed,
                              names[i], by_dfs->sight == SL_OPEN ? "open" : "closed", a, b);
                 }

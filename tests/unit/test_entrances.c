@@ -1,6 +1,8 @@
 /// What is inside of a map without starts: what a disc of the width of an entrance cannot enter.
 #include "testing.h"
 
+#include "map/scan.h"
+#include "map/unit.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -30,7 +32,7 @@ static void read_plan(const char *text, plan *p) {
     snprintf(all, sizeof all, "sightline 1\n%s", text);
     *p = (plan){0};
     p->context = testing_context(&p->memory);
-    assert_ok(p->context, sl_map_read_text(p->context, "plan", all, strlen(all), &map));
+    assert_ok(p->context, sli_map_read_text(p->context, "plan", all, strlen(all), &map));
     open_plan(&map, p);
 }
 
@@ -73,7 +75,7 @@ static void turn_plan(const char *text, const turned *t, plan *p) {
     snprintf(all, sizeof all, "sightline 1\n%s", text);
     *p = (plan){0};
     p->context = testing_context(&p->memory);
-    assert_ok(p->context, sl_map_read_text(p->context, "plan", all, strlen(all), &map));
+    assert_ok(p->context, sli_map_read_text(p->context, "plan", all, strlen(all), &map));
     for (size_t i = 0; i < map.wall_count; i++) {
         sl_wall *w = &map.walls[i];
         w->a = turn(t, w->a.x, w->a.y);
@@ -518,7 +520,7 @@ static void test_memory(void **state) {
         testing_memory memory = {0};
         sl_context *context = testing_context(&memory);
         sl_map map = {0};
-        assert_ok(context, sl_map_read_text(context, "plan", all, strlen(all), &map));
+        assert_ok(context, sli_map_read_text(context, "plan", all, strlen(all), &map));
         for (size_t i = 0; i < map.wall_count; i++) {
             map.walls[i].a = turn(&t, map.walls[i].a.x, map.walls[i].a.y);
             map.walls[i].b = turn(&t, map.walls[i].b.x, map.walls[i].b.y);
@@ -538,9 +540,9 @@ static void test_memory(void **state) {
 
 static void test_units(void **state) {
     (void)state;
-    assert_true(sl_unit_metres("m") == 1 && sl_unit_metres("mm") == 1e-3);
-    assert_true(sl_unit_metres("ft") == 0.3048 && sl_unit_metres("in") == 0.0254);
-    assert_true(sl_unit_metres("px") == 0 && sl_unit_metres("") == 0);
+    assert_true(sli_unit_metres("m") == 1 && sli_unit_metres("mm") == 1e-3);
+    assert_true(sli_unit_metres("ft") == 0.3048 && sli_unit_metres("in") == 0.0254);
+    assert_true(sli_unit_metres("px") == 0 && sli_unit_metres("") == 0);
 }
 
 int main(void) {

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "geometry/orient.h"
+#include "map/scan.h"
 #include "map_same.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ typedef struct examined {
 static void read_into(sl_context *context, const char *statements, sl_map *map) {
     char text[4096];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "f", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "f", text, strlen(text), map));
 }
 
 static void examine(const char *statements, double gap, double thin, examined *out) {

@@ -2,6 +2,7 @@
 /// refused by number and line where they overlap.
 #include "unit/grid_walls.h"
 
+#include "map/scan.h"
 #include "oracle/blockers.h"
 
 #include <math.h>
@@ -50,7 +51,7 @@ static void assert_within(const sl_map *map, const sl_space *space) {
 static void read_map(sl_context *context, const char *statements, sl_map *map) {
     char text[2048];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), map));
 }
 
 /// Cleans and subdivides.

@@ -6,6 +6,7 @@
 #include "geometry/orient.h"
 #include "io/shapes.h"
 #include "map/grid.h"
+#include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/support.h"
 #include "unit/map_same.h"
@@ -121,7 +122,7 @@ static void check_text(sl_context *context, const sl_map *map, const sl_space *c
                        uint64_t seed) {
     char *text = map_text(map);
     sl_map back = {0};
-    if (sl_map_read_text(context, "text", text, strlen(text), &back) != SL_OK)
+    if (sli_map_read_text(context, "text", text, strlen(text), &back) != SL_OK)
         fail_map(map, sl_context_message(context), seed);
     char *again = map_text(&back);
     if (strcmp(text, again) != 0) {
@@ -792,7 +793,7 @@ static void check_text_map(const char *statements, const char *message, double w
         sl_space space = {0};
         const sl_clean_options clean = {.weld = weld};
         const sl_subdivide_options rules = sl_subdivide_options_default();
-        assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &map));
+        assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), &map));
         assert_ok(context, sl_map_clean(context, &map, &clean, NULL));
         const sl_status status = kind == KD ? sl_subdivide_kd(context, &map, &rules, &space)
                                             : sl_subdivide_mesh(context, &map, &space);
@@ -921,7 +922,7 @@ static void test_memory(void **state) {
         if (!context) continue;
         sl_map map = {0};
         sl_space space = {0};
-        sl_status status = sl_map_read_text(context, "test", text, strlen(text), &map);
+        sl_status status = sli_map_read_text(context, "test", text, strlen(text), &map);
         if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
         if (status == SL_OK) status = sl_subdivide_mesh(context, &map, &space);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);

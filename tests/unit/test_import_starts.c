@@ -5,6 +5,7 @@
 #include "import_check.h"
 #include "io/formats.h"
 #include "io/names.h"
+#include "map/scan.h"
 #include "sightline/io.h"
 
 #include <unistd.h>
@@ -619,7 +620,7 @@ static void test_doors_of_ldtk(void **state) {
 /// where no open square is on one side of the door.
 static bool door_of_plan(sl_context *context, const char *plan, size_t at, char *door) {
     sl_map map = {0};
-    if (sl_map_read_plan(context, "plan", plan, strlen(plan), &map) != SL_OK) return false;
+    if (sli_map_read_plan(context, "plan", plan, strlen(plan), &map) != SL_OK) return false;
     const size_t stride = strcspn(plan, "\n") + 1;
     const sl_segment s = map.doors[0].segment;
     const size_t step = s.a.x == s.b.x ? 1 : stride;

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "io/formats.h"
+#include "map/scan.h"
 #include "map_same.h"
 #include "sightline/io.h"
 
@@ -137,13 +138,13 @@ static void test_notes(void **state) {
                            "{\n  Copyright {me,you}@here  \n\n  1994. \n}\n{}{ }\n{ one line }"
                            "c_rgb red 1 0 0;{ between }\n" BOX "{last { and } least\n} \n",
                            1, &map));
-    assert_string_equal(map.notes, "  Copyright {me,you}@here  \n\n  1994.\none line\n"
-                                   "last { and } least\n");
+    assert_string_equal(map.source.notes, "  Copyright {me,you}@here  \n\n  1994.\none line\n"
+                                          "last { and } least\n");
     assert_int_equal(map.wall_count, 4);
     assert_int_equal(map.walls[0].line, 9);
     sl_map back = {0};
     char *text = map_text(&map);
-    assert_ok(context, sl_map_read_text(context, "m.map", text, strlen(text), &back));
+    assert_ok(context, sli_map_read_text(context, "m.map", text, strlen(text), &back));
     char *again = map_text(&back);
     assert_string_equal(text, again);
     assert_int_equal(back.wall_count, 4);
@@ -284,9 +285,9 @@ static void test_soda_hall(void **state) {
         const sl_wall *wall = &map.walls[i];
         assert_true((wall->a.x == wall->b.x) != (wall->a.y == wall->b.y));
     }
-    assert_non_null(strstr(map.notes, "\"U.C. Berkeley Soda Hall WALKTHRU Model\""));
-    assert_non_null(strstr(map.notes, "  {cf,funk,seth}@cs.princeton.edu "));
-    assert_non_null(strstr(map.notes, "INCIDENTAL OR CONSEQUENTIAL DAMAGES."));
+    assert_non_null(strstr(map.source.notes, "\"U.C. Berkeley Soda Hall WALKTHRU Model\""));
+    assert_non_null(strstr(map.source.notes, "  {cf,funk,seth}@cs.princeton.edu "));
+    assert_non_null(strstr(map.source.notes, "INCIDENTAL OR CONSEQUENTIAL DAMAGES."));
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }

@@ -177,10 +177,10 @@ static void test_choice(void **state) {
     assert_true(map_is_empty(&map));
     assert_ok(context, sl_map_read(context, path, &known, &map));
     sl_map_destroy(context, &map);
-    sl_map_list list = {0};
-    assert_ok(context, sl_map_list_read(context, path, &list));
-    assert_int_equal(list.count, 8);
-    sl_map_list_destroy(context, &list);
+    sl_map_choice choice;
+    assert_ok(context, sl_map_choice_read(context, path, &choice));
+    assert_int_equal(choice.maps.count, 8);
+    sl_map_choice_destroy(context, &choice);
     remove(path);
     free(wad.bytes);
     sl_context_destroy(context);

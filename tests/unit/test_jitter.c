@@ -2,6 +2,7 @@
 /// the inside and the solid ground of the map that they come from.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
 
@@ -167,7 +168,7 @@ static void what_is_meant_stays(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         sl_map map = {0};
         double weld = 1;
-        assert_ok(context, sl_map_read_text(context, "m", texts[i], strlen(texts[i]), &map));
+        assert_ok(context, sli_map_read_text(context, "m", texts[i], strlen(texts[i]), &map));
         assert_ok(context, sl_suggest_weld(context, &map, &weld));
         assert_true(weld == 0);
         sl_map_destroy(context, &map);

@@ -1,6 +1,7 @@
 // The map itself: what may be added, what is kept, its bounds.
 #include "testing.h"
 
+#include "map/source.h"
 #include "map_same.h"
 
 #include <math.h>
@@ -94,12 +95,12 @@ static void test_notes(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
-    assert_ok(context, sl_map_add_note(context, &map, "one"));
-    assert_string_equal(map.notes, "one\n");
-    assert_ok(context, sl_map_add_note(context, &map, ""));
-    assert_ok(context, sl_map_add_note(context, &map, "  two\r\nthree\n"));
-    assert_ok(context, sl_map_add_note(context, &map, "fo\rur\r\r"));
-    assert_string_equal(map.notes, "one\n\n  two\nthree\nfo\rur\n");
+    assert_ok(context, sli_map_add_note(context, &map, "one"));
+    assert_string_equal(map.source.notes, "one\n");
+    assert_ok(context, sli_map_add_note(context, &map, ""));
+    assert_ok(context, sli_map_add_note(context, &map, "  two\r\nthree\n"));
+    assert_ok(context, sli_map_add_note(context, &map, "fo\rur\r\r"));
+    assert_string_equal(map.source.notes, "one\n\n  two\nthree\nfo\rur\n");
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
@@ -138,15 +139,15 @@ static void test_labels(void **state) {
     sl_context *context = testing_context(&memory);
     sl_map map = {0}, copy = {0};
     char text[SL_LINE_TEXT];
-    assert_ok(context, sl_map_add_label(context, &map, 3, "layer WALLS, handle 1F"));
-    assert_ok(context, sl_map_add_label(context, &map, 7, "layer A\tB"));
-    assert_ok(context, sl_map_add_label(context, &map, 9, "layer A?B"));
-    assert_ok(context, sl_map_add_label(context, &map, 12, "one"));
-    assert_ok(context, sl_map_add_label(context, &map, 12, "two"));
-    assert_ok(context, sl_map_add_label(context, &map, 12, "three"));
-    assert_int_equal(sl_map_add_label(context, &map, 11, "late"), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_map_add_label(context, &map, 0, "none"), SL_BAD_ARGUMENT);
-    assert_int_equal(map.labels[1].text, map.labels[2].text);
+    assert_ok(context, sli_map_add_label(context, &map, 3, "layer WALLS, handle 1F"));
+    assert_ok(context, sli_map_add_label(context, &map, 7, "layer A\tB"));
+    assert_ok(context, sli_map_add_label(context, &map, 9, "layer A?B"));
+    assert_ok(context, sli_map_add_label(context, &map, 12, "one"));
+    assert_ok(context, sli_map_add_label(context, &map, 12, "two"));
+    assert_ok(context, sli_map_add_label(context, &map, 12, "three"));
+    assert_int_equal(sli_map_add_label(context, &map, 11, "late"), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_map_add_label(context, &map, 0, "none"), SL_BAD_ARGUMENT);
+    assert_int_equal(map.source.labels[1].text, map.source.labels[2].text);
     assert_ok(context, sl_map_copy(context, &map, &copy));
     sl_map_destroy(context, &map);
     static const struct {
@@ -161,29 +162,29 @@ static void test_labels(void **state) {
         {13, "line 13", "item 13"},
     };
     for (int items = 0; items < 2; items++) {
-        copy.lines_are_items = items;
+        copy.source.lines_are_items = items;
         for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
             sl_map_say_line(&copy, cases[i].line, text);
             assert_string_equal(text, items ? cases[i].item : cases[i].said);
         }
-        copy.source = (char *)"a.dxf";
-        assert_int_equal(sl_map_fail(context, &copy, SL_UNSUPPORTED, 3, "no %s", "way"),
+        copy.source.name = (char *)"a.dxf";
+        assert_int_equal(sli_map_fail(context, &copy, SL_UNSUPPORTED, 3, "no %s", "way"),
                          SL_UNSUPPORTED);
         assert_string_equal(sl_context_message(context),
                             items ? "a.dxf: layer WALLS, handle 1F: no way"
                                   : "a.dxf:3: layer WALLS, handle 1F: no way");
-        sl_map_fail(context, &copy, SL_UNSUPPORTED, 5, "no");
+        sli_map_fail(context, &copy, SL_UNSUPPORTED, 5, "no");
         assert_string_equal(sl_context_message(context),
                             items ? "a.dxf: item 5: no" : "a.dxf:5: no");
-        sl_map_fail(context, &copy, SL_UNSUPPORTED, 0, "no");
+        sli_map_fail(context, &copy, SL_UNSUPPORTED, 0, "no");
         assert_string_equal(sl_context_message(context), "a.dxf: no");
-        copy.source = NULL;
+        copy.source.name = NULL;
     }
     sl_map_destroy(context, &copy);
     // A long name is cut between two characters.
     char longest[400] = "";
     for (int i = 0; i < 150; i++) strcat(longest, "\xc3\xa9");
-    assert_ok(context, sl_map_add_label(context, &map, 1, longest));
+    assert_ok(context, sli_map_add_label(context, &map, 1, longest));
     const char *label = sl_map_label(&map, 1);
     assert_true(strlen(label) > 100 && strlen(label) < SL_LINE_TEXT && strlen(label) % 2 == 0);
     sl_map_destroy(context, &map);

@@ -1,6 +1,7 @@
 // Cleaning, against a model that knows nothing of sweeps: walls as sets of unit edges of a edges.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "map_same.h"
 #include "oracle/random_oblique.h"
 #include "sightline/support.h"
@@ -193,7 +194,7 @@ static void test_random(void **state) {
 static void read_walls(sl_context *context, const char *walls, sl_map *map) {
     char text[1000];
     snprintf(text, sizeof text, "sightline 1\n%s", walls);
-    assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "t", text, strlen(text), map));
 }
 
 static void assert_cleaned(sl_context *context, const char *walls, const char *expected) {

@@ -2,6 +2,8 @@
 #include "testing.h"
 
 #include "io/formats.h"
+#include "map/scan.h"
+#include "map/source.h"
 #include "map_same.h"
 #include "sightline/io.h"
 
@@ -24,15 +26,15 @@ static char large_model[4000];
 typedef sl_status work(sl_context *context, sl_map *map);
 
 static sl_status read_text(sl_context *context, sl_map *map) {
-    return sl_map_read_text(context, "t", text, sizeof text - 1, map);
+    return sli_map_read_text(context, "t", text, sizeof text - 1, map);
 }
 
 static sl_status read_cells(sl_context *context, sl_map *map) {
-    return sl_map_read_text(context, "t", cells, sizeof cells - 1, map);
+    return sli_map_read_text(context, "t", cells, sizeof cells - 1, map);
 }
 
 static sl_status read_plan(sl_context *context, sl_map *map) {
-    return sl_map_read_plan(context, "t", plan, sizeof plan - 1, map);
+    return sli_map_read_plan(context, "t", plan, sizeof plan - 1, map);
 }
 
 static sl_status read_model(sl_context *context, sl_map *map) {
@@ -130,7 +132,7 @@ static sl_status print_plan(sl_context *context, sl_map *map) {
 static sl_status write_text(sl_context *context, sl_map *map) {
     char path[] = "/tmp/sightline-memory-XXXXXX";
     assert_true(mkstemp(path) >= 0);
-    const sl_status status = sl_map_write_text(context, map, path);
+    const sl_status status = sl_map_write(context, map, NULL, path);
     assert_int_equal(remove(path), 0);
     return status;
 }
@@ -138,13 +140,15 @@ static sl_status write_text(sl_context *context, sl_map *map) {
 static sl_status write_plan(sl_context *context, sl_map *map) {
     char path[] = "/tmp/sightline-memory-XXXXXX";
     assert_true(mkstemp(path) >= 0);
-    const sl_status status = sl_map_write_plan(context, map, path);
+    size_t count;
+    const sl_map_format *format = &sl_map_formats(context, &count)[1];
+    const sl_status status = sl_map_write(context, map, format, path);
     assert_int_equal(remove(path), 0);
     return status;
 }
 
 static sl_status add_note(sl_context *context, sl_map *map) {
-    return sl_map_add_note(context, map, "one more");
+    return sli_map_add_note(context, map, "one more");
 }
 
 static sl_status add_path(sl_context *context, sl_map *map) {

@@ -1,11 +1,12 @@
 // The ASCII plan: the walls that it stands for, and the way back.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "map_same.h"
 #include "sightline/support.h"
 
 static sl_status read(sl_context *context, const char *text, sl_map *map) {
-    return sl_map_read_plan(context, "p.txt", text, strlen(text), map);
+    return sli_map_read_plan(context, "p.txt", text, strlen(text), map);
 }
 
 /// The map's walls as text, in the order of cleaning but not cleaned; other things behind them.
@@ -109,7 +110,7 @@ static void test_refusals(void **state) {
             fail_msg("expected '%s', got '%s'", cases[i].message, message);
     }
     sl_map map = {0};
-    assert_int_equal(sl_map_read_plan(context, "p.txt", "#\n.\0.", 5, &map), SL_BAD_INPUT);
+    assert_int_equal(sli_map_read_plan(context, "p.txt", "#\n.\0.", 5, &map), SL_BAD_INPUT);
     assert_string_equal(sl_context_message(context),
                         "p.txt:2: a NUL byte: expected plain text (ASCII or UTF-8)");
     sl_context_destroy(context);
@@ -205,7 +206,7 @@ static sl_status write_of(sl_context *context, const char *statements, char **pl
     char text[1000];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
     sl_map map = {0};
-    assert_ok(context, sl_map_read_text(context, "m.map", text, strlen(text), &map));
+    assert_ok(context, sli_map_read_text(context, "m.map", text, strlen(text), &map));
     sl_status status;
     *plan = map_plan_text(context, &map, &status);
     sl_map_destroy(context, &map);
@@ -341,9 +342,12 @@ static void test_file_stays(void **state) {
     assert_true(mkstemp(path) >= 0);
     sl_map map = {0};
     assert_ok(context, read(context, "###\n#.#\n###\n", &map));
-    assert_ok(context, sl_map_write_plan(context, &map, path));
+    size_t count;
+    const sl_map_format *plan = &sl_map_formats(context, &count)[1];
+    assert_string_equal(plan->name, "plan");
+    assert_ok(context, sl_map_write(context, &map, plan, path));
     map.range = 1;
-    assert_int_equal(sl_map_write_plan(context, &map, path), SL_UNSUPPORTED);
+    assert_int_equal(sl_map_write(context, &map, plan, path), SL_UNSUPPORTED);
     FILE *file = fopen(path, "r");
     char text[100] = "";
     text[fread(text, 1, sizeof text - 1, file)] = '\0';

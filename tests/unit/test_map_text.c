@@ -1,13 +1,15 @@
 // The map text: what each statement means, what is refused and where, and that it comes back.
 #include "testing.h"
 
+#include "map/scan.h"
+#include "map/source.h"
 #include "map_same.h"
 #include "sightline/support.h"
 
 #include <math.h>
 
 static sl_status read(sl_context *context, const char *text, sl_map *map) {
-    return sl_map_read_text(context, "t.map", text, strlen(text), map);
+    return sli_map_read_text(context, "t.map", text, strlen(text), map);
 }
 
 static void test_all_statements(void **state) {
@@ -46,8 +48,8 @@ static void test_all_statements(void **state) {
     assert_true(map.starts[0].at.y == -5 && map.starts[0].heading == 1e300);
     assert_true(map.paths[0].count == 3 && map.paths[0].points[2].y == 8);
     assert_true(map.objects[0].box.min.x == 4 && map.objects[0].box.max.x == 5);
-    assert_null(map.notes);
-    assert_null(map.source);
+    assert_null(map.source.notes);
+    assert_null(map.source.name);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
@@ -64,11 +66,11 @@ static void test_line_ends_and_mark(void **state) {
     assert_ok(context, read(context, "# old\rsightline 1\rwall 0 0 1 0\r\rwall 1 0 2 0\r", &map));
     assert_int_equal(map.wall_count, 2);
     assert_int_equal(map.walls[1].line, 5);
-    assert_string_equal(map.comments[0].text, "# old");
+    assert_string_equal(map.source.comments[0].text, "# old");
     sl_map_destroy(context, &map);
     // Beside LF it ends no line.
     assert_ok(context, read(context, "sightline 1\n# a\rwall\nwall 0 0 1 0\n", &map));
-    assert_string_equal(map.comments[0].text, "# a\rwall");
+    assert_string_equal(map.source.comments[0].text, "# a\rwall");
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
@@ -77,7 +79,7 @@ static void test_line_ends_and_mark(void **state) {
 static void refused(sl_context *context, const char *text, size_t size, const char *where,
                     const char *why) {
     sl_map map = {0};
-    assert_int_equal(sl_map_read_text(context, "t.map", text, size, &map), SL_BAD_INPUT);
+    assert_int_equal(sli_map_read_text(context, "t.map", text, size, &map), SL_BAD_INPUT);
     assert_true(map_is_empty(&map));
     const char *message = sl_context_message(context);
     if (strncmp(message, where, strlen(where)) != 0 || !strstr(message, why))
@@ -201,7 +203,7 @@ static void test_notes(void **state) {
                             "wall 0 0 1 0\n"
                             "#! not one: it stands behind the second\n",
                             &map));
-    assert_string_equal(map.notes, "Copyright\n\n  indented # and more\n");
+    assert_string_equal(map.source.notes, "Copyright\n\n  indented # and more\n");
     char *text = map_text(&map);
     assert_string_equal(text, "# ! not one: it leads the first statement\n"
                               "sightline 1\n#! Copyright\n#!\n#!   indented # and more\n"
@@ -245,8 +247,8 @@ static void fill(sl_context *context, sl_random *random, sl_map *map) {
         assert_ok(context, sl_map_add_object(context, map, name, box, 0));
     }
     map->range = fabs(any_coordinate(random)) + 1;
-    assert_ok(context, sl_map_add_note(context, map, "a note"));
-    assert_ok(context, sl_map_add_note(context, map, "\xef\xbb\xbf marked"));
+    assert_ok(context, sli_map_add_note(context, map, "a note"));
+    assert_ok(context, sli_map_add_note(context, map, "\xef\xbb\xbf marked"));
 }
 
 static void test_comes_back(void **state) {
@@ -277,7 +279,7 @@ static void test_write_file(void **state) {
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     assert_ok(context, read(context, "sightline 1\ndoor d 0 0 0 .1 shut\nwall 1 2 3 4\n", &map));
-    assert_ok(context, sl_map_write_text(context, &map, path));
+    assert_ok(context, sl_map_write(context, &map, NULL, path));
     FILE *file = fopen(path, "r");
     char text[200] = "";
     text[fread(text, 1, sizeof text - 1, file)] = '\0';
@@ -285,7 +287,7 @@ static void test_write_file(void **state) {
     assert_string_equal(text, "sightline 1\nwall 1 2 3 4\ndoor d 0 0 0 0.1 shut\n");
     assert_ok(context, read(context, text, &back));
     assert_true(map_same(&map, &back));
-    assert_int_equal(sl_map_write_text(context, &map, "/nowhere/at/all.map"), SL_IO);
+    assert_int_equal(sl_map_write(context, &map, NULL, "/nowhere/at/all.map"), SL_IO);
     remove(path);
     sl_map_destroy(context, &map);
     sl_map_destroy(context, &back);
@@ -298,8 +300,8 @@ static void returns_behind_comments_go(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     assert_ok(context, read(context, "sightline 1\n# a \r\r\r\nwall 0 0 1 0\n", &map));
-    assert_int_equal(map.comment_count, 1);
-    assert_string_equal(map.comments[0].text, "# a ");
+    assert_int_equal(map.source.comment_count, 1);
+    assert_string_equal(map.source.comments[0].text, "# a ");
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }

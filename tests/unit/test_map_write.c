@@ -5,6 +5,7 @@
 //     test_map_write --table [MAP...]
 #include "testing.h"
 
+#include "map/scan.h"
 #include "map_files.h"
 #include "map_same.h"
 
@@ -57,8 +58,8 @@ static char *lines_with(const char *text, const char *const *words) {
 
 static char *things_of(const sl_map *map, const char *const *words) {
     sl_map bare = *map;
-    bare.comment_count = 0;
-    bare.notes = NULL;
+    bare.source.comment_count = 0;
+    bare.source.notes = NULL;
     char *text = map_text(&bare), *lines = lines_with(text, words);
     free(text);
     return lines;
@@ -329,7 +330,7 @@ static void test_turned(void **state) {
 static void read_statements(sl_context *context, const char *statements, sl_map *map) {
     char text[4096];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), map));
 }
 
 /// One of each kind of thing; names that a format could take for something else.

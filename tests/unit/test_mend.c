@@ -1,4 +1,5 @@
 // What mending promises: of the gaps and leaks listed, those are left that need a decision.
+#include "map/scan.h"
 #include "map_files.h"
 #include "map_same.h"
 #include "sightline/generate.h"
@@ -95,7 +96,7 @@ static void hold_promise(sl_context *context, const sl_map *map, double gap,
     assert_ok(context, sl_map_copy(context, map, &mended));
     assert_ok(context, sl_map_mend(context, &mended, gap, clean, NULL));
     char *text = map_text(&mended);
-    assert_ok(context, sl_map_read_text(context, "mended", text, strlen(text), &read));
+    assert_ok(context, sli_map_read_text(context, "mended", text, strlen(text), &read));
     free(text);
     if (read.wall_count) find(context, &read, gap, clean, &after);
     for (int kind = SL_FAULT_LEAK; kind <= SL_FAULT_GAP && read.wall_count; kind++) {

@@ -1,6 +1,7 @@
 // What fails once in the way from a map to a baked file and to its answers, at any allocation.
 #include "one_failure.h"
 
+#include "map/source.h"
 #include "map_files.h"
 #include "sightline/bake.h"
 #include "sightline/faults.h"
@@ -69,7 +70,7 @@ static void look_at_target(one_failure *on, sl_status status) {
 
 static void mix_map(sl_context *context, one_failure *on, const sl_map *map) {
     write_older();
-    assert_ok(context, sl_map_write_text(context, map, target));
+    assert_ok(context, sl_map_write(context, map, NULL, target));
     look_at_target(on, SL_OK);
 }
 
@@ -112,8 +113,8 @@ static sl_status run_additions(sl_context *context, sl_map *map) {
     SL_TRY(sl_map_add_solid(context, map, corners, 4, 1));
     SL_TRY(sl_map_add_door(context, map, "z", (sl_segment){{2, 0}, {2, 1}}, true, 2));
     SL_TRY(sl_map_add_path(context, map, "way", corners, 4, 3));
-    SL_TRY(sl_map_add_note(context, map, "a note"));
-    SL_TRY(sl_map_add_label(context, map, 3, "a label"));
+    SL_TRY(sli_map_add_note(context, map, "a note"));
+    SL_TRY(sli_map_add_label(context, map, 3, "a label"));
     return sl_effects_settle_doors(context, map);
 }
 
@@ -282,7 +283,7 @@ static sl_status export_as(sl_context *context, one_failure *on, const char *nam
 
 static sl_status write_text(sl_context *context, one_failure *on) {
     write_older();
-    return finish_file(on, sl_map_write_text(context, &on->read, target));
+    return finish_file(on, sl_map_write(context, &on->read, NULL, target));
 }
 
 // --- answers

@@ -2,6 +2,7 @@
 /// is baked with walls where doors are shut, glass blocks the eye, and boxes stand.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -23,7 +24,7 @@ static const sl_moving_box box = {{{3, 6}, {7, 8}}, true};
 static void read_map(sl_context *context, const char *const *parts, sl_map *map) {
     char text[1024] = "";
     for (size_t i = 0; parts[i]; i++) strcat(text, parts[i]);
-    assert_ok(context, sl_map_read_text(context, "rooms", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "rooms", text, strlen(text), map));
 }
 
 static void bake(sl_context *context, const char *const *parts, sl_baked *baked) {
@@ -353,7 +354,7 @@ static sl_status bake_and_ask(sl_context *context, const char *const *parts) {
     sl_region region = {0};
     sl_mirrored_region mirrored = {0};
     uint64_t cells[8];
-    sl_status status = sl_map_read_text(context, "rooms", text, strlen(text), &map);
+    sl_status status = sli_map_read_text(context, "rooms", text, strlen(text), &map);
     sl_bake_options options = sl_bake_options_default();
     options.see.threads = 1;
     if (status == SL_OK) status = sl_bake(context, &map, &options, &baked, NULL);

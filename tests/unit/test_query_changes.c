@@ -4,6 +4,7 @@
 #include "eye_to_cell/eye_search.h"
 #include "testing.h"
 
+#include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/effects.h"
 #include "sightline/outline.h"
@@ -64,7 +65,7 @@ static void bake_rooms(sl_context *context, uint64_t seed, bool turned, bool fli
             put_between(&p, i * SIDE, k * SIDE, false);
         }
     sl_map map = {0};
-    assert_ok(context, sl_map_read_text(context, "rooms", p.text, p.length, &map));
+    assert_ok(context, sli_map_read_text(context, "rooms", p.text, p.length, &map));
     assert_ok(context, sl_bake(context, &map, NULL, out, NULL));
 }
 

@@ -4,6 +4,7 @@
 #include "runtime_maps.h"
 
 #include "geometry/orient.h"
+#include "map/scan.h"
 #include "oracle/random_oblique.h"
 #include "sightline/support.h"
 
@@ -390,7 +391,7 @@ static void cells_not_looked_from_have_no_row(void **state) {
     sl_context *context = testing_context(NULL);
     baked_file f = {.name = "inside", .baked = {.method = "dfs", .solver = "funnel"}};
     const char *text = "sightline 1\nwalls 0 0 4 0 4 2 2 2 2 4 0 4 0 0\n";
-    assert_ok(context, sl_map_read_text(context, "inside", text, strlen(text), &f.baked.map));
+    assert_ok(context, sli_map_read_text(context, "inside", text, strlen(text), &f.baked.map));
     baked_file_make(context, &f, true);
     assert_true(f.baked.space.inside_count >= 1 &&
                 f.baked.space.inside_count < f.runtime.cell_count);

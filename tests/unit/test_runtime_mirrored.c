@@ -8,6 +8,7 @@
 
 #include "oracle/random_effects.h"
 
+#include "map/scan.h"
 #include "sightline/bake.h"
 
 enum { MAPS = 64, EYES = 12, CELLS_MOST = 128, DOORS_MOST = 64 };
@@ -235,7 +236,7 @@ static void not_baked(void **state) {
     baked_file f = {.name = "text", .baked = {.method = "dfs", .solver = "funnel"}};
     char text[256];
     snprintf(text, sizeof text, "sightline 1\n%smirror 0 2 0 8\n", hall);
-    assert_ok(context, sl_map_read_text(context, "text", text, strlen(text), &f.baked.map));
+    assert_ok(context, sli_map_read_text(context, "text", text, strlen(text), &f.baked.map));
     assert_ok(context, sl_map_clean(context, &f.baked.map, NULL, NULL));
     baked_file_make(context, &f, false); // by the methods' defaults, so without effects
     const sl_runtime *r = &f.runtime;

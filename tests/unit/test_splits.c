@@ -24,10 +24,10 @@ static void walls_choose_the_subdivision(void **state) {
     sl_map map = {0};
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){0, 0}, (sl_point){4, 0}, 0));
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){4, 0}, (sl_point){4, 3}, 0));
-    assert_int_equal(sl_map_count_oblique(&map), 0);
+    assert_true(sl_map_is_axial(&map));
     assert_string_equal(sl_subdivision_for(&map)->name, "kd");
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){4, 3}, (sl_point){0, 0}, 0));
-    assert_int_equal(sl_map_count_oblique(&map), 1);
+    assert_false(sl_map_is_axial(&map));
     assert_string_equal(sl_subdivision_for(&map)->name, "mesh");
     size_t count;
     const sl_subdivision *all = sl_subdivisions(&count);

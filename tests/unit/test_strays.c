@@ -1,6 +1,7 @@
 // Strays: what lies far away from the rest of a map, in any place and order, and no more than that.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "sightline/faults.h"
 
 #include <string.h>
@@ -15,7 +16,7 @@ static void assert_strays(const char *statements, const char *expected) {
     sl_strays strays = {0};
     char text[4096], lines[256] = "";
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "f", text, strlen(text), &map));
+    assert_ok(context, sli_map_read_text(context, "f", text, strlen(text), &map));
     assert_ok(context, sl_find_strays(context, &map, &strays));
     for (uint32_t i = 0; i < strays.count; i++)
         snprintf(lines + strlen(lines), sizeof lines - strlen(lines), " %u", strays.items[i].line);
@@ -52,7 +53,7 @@ static void test_distance(void **state) {
     sl_map map = {0};
     sl_strays strays = {0};
     const char *text = "sightline 1\n" ROOM "wall 310 10 310 410\n";
-    assert_ok(context, sl_map_read_text(context, "f", text, strlen(text), &map));
+    assert_ok(context, sli_map_read_text(context, "f", text, strlen(text), &map));
     assert_ok(context, sl_find_strays(context, &map, &strays));
     assert_int_equal(strays.count, 1);
     assert_int_equal(strays.items[0].wall, 4);

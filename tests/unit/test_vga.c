@@ -1,6 +1,7 @@
 /// Visibility graphs: each pair beside sl_sees, measures beside sums over all pairs.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/effects.h"
@@ -171,7 +172,7 @@ static void make_plan(sl_context *context, fixture *f) {
     static const char text[] =
         "sightline 1\nwalls 0 0 9 0 9 6 0 6 0 0\nwall 3 0 3 2\nwall 3 3 3 6\n"
         "wall 6 1.5 6 6\nwall 3 4 5 4.5\n";
-    assert_ok(context, sl_map_read_text(context, "plan", text, sizeof text - 1, &f->map));
+    assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f->map));
     assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
     assert_ok(context, sl_subdivide_mesh(context, &f->map, &f->space));
     fill_and_connect(context, 0.5, f);
@@ -480,7 +481,7 @@ static void paths_lead_through_glass_one_way(void **state) {
     for (size_t i = 0; i < 2; i++) {
         fixture f = {0};
         sl_space plain = {0};
-        assert_ok(context, sl_map_read_text(context, "plan", texts[i], strlen(texts[i]), &f.map));
+        assert_ok(context, sli_map_read_text(context, "plan", texts[i], strlen(texts[i]), &f.map));
         assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
         assert_ok(context, sl_subdivide_mesh(context, &f.map, &plain));
         assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
@@ -509,7 +510,7 @@ static void seeds_stay_in_their_room(void **state) {
     static const char text[] = "sightline 1\nwalls 0 0 4 0 4 2 0 2 0 0\nwall 2 0 2 2\n";
     sl_context *context = testing_context(NULL);
     fixture f = {0};
-    assert_ok(context, sl_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
+    assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
     assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
     assert_ok(context, sl_subdivide_mesh(context, &f.map, &f.space));
     assert_ok(context, sl_outline_make(context, &f.space, &f.outline));
@@ -534,7 +535,7 @@ static void glass_is_seen_through_one_way(void **state) {
     fixture f = {0};
     sl_space plain = {0};
     const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    assert_ok(context, sl_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
+    assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
     assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
     assert_ok(context, sl_subdivide_mesh(context, &f.map, &plain));
     assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
@@ -656,7 +657,7 @@ static void check_no_value_is_infinite(const sl_vga_measures *m, uint32_t count)
 static sl_vga_measures *measure_text(sl_context *context, const char *text, fixture *f) {
     sl_space plain = {0};
     const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
-    assert_ok(context, sl_map_read_text(context, "plan", text, strlen(text), &f->map));
+    assert_ok(context, sli_map_read_text(context, "plan", text, strlen(text), &f->map));
     assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
     assert_ok(context, sl_subdivide_mesh(context, &f->map, &plain));
     assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f->space));

@@ -4,6 +4,7 @@
 #include "view_cells_maps.h"
 
 #include "cell_to_cell/pvs_rows.h"
+#include "map/scan.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/support.h"
 
@@ -36,7 +37,7 @@ static void see(sl_context *context, const char *statements, bool oblique, uint3
     assert_ok(context, sl_view_cut(context, &s->hierarchy, cells, s->view_cells, s->numbers));
     char text[2048];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &s->map));
+    assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), &s->map));
     assert_ok(context, sl_map_clean(context, &s->map, NULL, NULL));
     assert_ok(context,
               sl_view_add_seams(context, &s->tree, s->view_cells, &s->world.space, &s->map));

@@ -2,6 +2,7 @@
 // random maps, cleaned with large tolerances, are read again; what cannot be read is not written.
 #include "testing.h"
 
+#include "map/scan.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -173,7 +174,7 @@ static void test_baked_file_is_read_back(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_baked baked = {0}, again = {0};
-    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &map));
+    assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), &map));
     assert_ok(context, sl_bake(context, &map, NULL, &baked, NULL));
     assert_ok(context, sl_baked_write(context, &baked, in_folder("a.slv")));
     assert_alone();

@@ -4,6 +4,7 @@
 
 #include "testing.h"
 
+#include "map/scan.h"
 #include "sightline/view_cells.h"
 
 #include <math.h>
@@ -55,7 +56,7 @@ static inline void make_world(sl_context *context, const char *statements, bool 
     *w = (view_world){0};
     char text[2048];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
-    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &w->map));
+    assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), &w->map));
     assert_ok(context, sl_map_clean(context, &w->map, NULL, NULL));
     const sl_subdivide_options kd = sl_subdivide_options_default();
     assert_ok(context, oblique ? sl_subdivide_mesh(context, &w->map, &w->space)

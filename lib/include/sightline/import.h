@@ -38,8 +38,8 @@ typedef struct sl_import_options {
     /// Make seams of the lines between different sectors (Doom), so that each cell is in one
     /// sector.
     bool sectors;
-    /// Take the cells that the file brings along, for sl_subdivide_given. Map texts give theirs
-    /// without being asked.
+    /// Take the cells that the file brings along, for the subdivision "given". Map texts give
+    /// theirs without being asked.
     bool cells;
 } sl_import_options;
 
@@ -136,10 +136,6 @@ SL_API sl_status sl_map_read(sl_context *context, const char *path,
 SL_API sl_status sl_map_parse(sl_context *context, const char *path, const char *text, size_t size,
                               const sl_import_options *options, sl_map *map);
 
-/// Lists the maps of a file into an empty list, which stays empty on failure and for a format of
-/// one map a file.
-SL_API sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list);
-
 /// What there is to choose before a file is read. Zeroed, it is empty.
 typedef struct sl_map_choice {
     const sl_map_format *format; ///< by which sl_map_read reads it
@@ -164,9 +160,9 @@ SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); /
 SL_API sl_status sl_map_format_to_write(sl_context *context, const char *option, const char *path,
                                         const char *name, const sl_map_format **out);
 
-/// Writes a map to a file in this format; "-" is stdout. The target is replaced only after all is
-/// written. Notes, in a sentence each, what the format has no place for. Coordinates read back to
-/// the same doubles.
+/// Writes a map to a file in this format, NULL for the map text; "-" is stdout. The target is
+/// replaced only after all is written and read back. Notes, in a sentence each, what the format has
+/// no place for. Coordinates read back to the same doubles.
 SL_API sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
                               const char *path);
 

@@ -30,7 +30,7 @@ static inline uint32_t sl_ground_turned(uint32_t ground) {
 }
 
 /// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file, or
-/// the number of an item where the map says so (`lines_are_items`); 0 for none.
+/// the number of an item where the map says so (sl_map_source.lines_are_items); 0 for none.
 typedef struct sl_wall {
     sl_point a, b;
     uint32_t line;
@@ -89,7 +89,7 @@ typedef struct sl_map_cell {
 /// The name that the file itself has for one of its lines or items.
 typedef struct sl_label {
     uint32_t line;
-    uint32_t text; ///< where it begins in the map's label_text
+    uint32_t text; ///< where it begins in label_text
 } sl_label;
 
 /// A comment of a map text, with its '#', or an empty line after one. It belongs to the statement
@@ -125,10 +125,30 @@ typedef struct sl_interior {
                            ///< ground
 } sl_interior;
 
+/// What the file of a map says beside the map. Walls, cells and sight do not depend on it.
+typedef struct sl_map_source {
+    char *name;           ///< of the file, for messages; NULL for none
+    bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
+    char *notes;          ///< notices that stay with the map, in lines; NULL for none
+    /// How a file with y down lays the map out: its y that is 0 in the map, and its page in the
+    /// map's places. Readers of such files set both, so that a writer can put all back in its
+    /// place. An empty box stands for none. Map text and .slv files do not keep them.
+    double top;
+    sl_box page;
+    double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
+    int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
+    /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
+    /// files do not keep them. Equal texts that follow each other stand in label_text once.
+    sl_label *labels;
+    char *label_text;
+    size_t label_count, label_length, label_room, label_text_room;
+    sl_comment *comments; ///< of a map text, in its order; .slv files do not keep them
+    size_t comment_count, comment_room;
+} sl_map_source;
+
 /// All arrays belong to the map. A zeroed map is empty.
 typedef struct sl_map {
-    char *source; ///< the name of its file, for messages; NULL for none
-    char *notes;  ///< notices that stay with the map, in lines; NULL for none
+    sl_map_source source;
     sl_wall *walls;
     sl_door *doors;
     sl_glass *mirrors;
@@ -152,13 +172,6 @@ typedef struct sl_map {
     /// units; 0 for a map whose numbers are exact. Readers of drawings set it, cleaning sets it
     /// back to 0.
     double precision;
-    /// How a file with y down lays the map out: its y that is 0 in the map, and its page in the
-    /// map's places. Readers of such files set both, so that a writer can put all back in its
-    /// place. An empty box stands for none. Map text and .slv files do not keep them.
-    double top;
-    sl_box page;
-    double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
-    int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
     /// What the file says its coordinates are in: "m", "mm", "ft", "px" ...; "" where it does not
     /// say. Entrances are as wide as is usual in it (sl_map_find_inside). Map text and .slv files
     /// keep units of a known length, and what a map text says itself.
@@ -169,16 +182,8 @@ typedef struct sl_map {
     sl_interior interior; ///< map text and .slv files do not keep it
     double range;         ///< the view range; 0 for no limit
     uint32_t range_line;
-    /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
-    /// files do not keep them. Equal texts that follow each other stand in label_text once.
-    sl_label *labels;
-    char *label_text;
-    size_t label_count, label_length, label_room, label_text_room;
-    sl_comment *comments; ///< of a map text, in its order; .slv files do not keep them
-    size_t comment_count, comment_room;
-    bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
-    bool ground_guessed;  ///< the reader found the walls' ground by rules of thumb: where they
-                          ///< contradict each other, ground is open
+    bool ground_guessed; ///< the reader found the walls' ground by rules of thumb: where they
+                         ///< contradict each other, ground is open
 } sl_map;
 
 SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
@@ -228,15 +233,6 @@ SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_poin
                                  size_t count, uint32_t line);
 /// Drops the map's own cells.
 SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
-/// Adds a line to the notes.
-SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text);
-
-/// Adds the file's own name for a line. Lines come in ascending order. A line with several names
-/// keeps the first, and says that there are others. Control characters become '?', and long names
-/// are cut.
-SL_API sl_status sl_map_add_label(sl_context *context, sl_map *map, uint32_t line,
-                                  const char *text);
-
 /// Room for what sl_map_say_line writes.
 #define SL_LINE_TEXT 160
 
@@ -247,11 +243,6 @@ SL_API void sl_map_say_line(const sl_map *map, uint32_t line, char text[SL_LINE_
 /// The file's own name for a line; NULL for none.
 SL_API const char *sl_map_label(const sl_map *map, uint32_t line);
 
-/// Fails, and says which line of the map is at fault: "FILE:12: layer WALLS, handle 1F: what is
-/// wrong", or "FILE: linedef 117: what is wrong".
-SL_API sl_status sl_map_fail(sl_context *context, const sl_map *map, sl_status status,
-                             uint32_t line, const char *format, ...) SL_PRINTF(5, 6);
-
 /// Finite, and 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
 SL_API bool sl_coordinate_usable(double value);
 
@@ -261,12 +252,6 @@ SL_API sl_box sl_map_bounds(const sl_map *map);
 /// How many significant digits tell places apart that are a millionth of the map's size apart: 6 to
 /// 17.
 SL_API int sl_map_digits(const sl_map *map);
-
-/// The number of walls that are parallel to neither axis.
-SL_API size_t sl_map_count_oblique(const sl_map *map);
-
-/// The length of a unit (sl_map.unit) in metres; 0 where it is none that is known.
-SL_API double sl_unit_metres(const char *unit);
 
 /// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.
 SL_API bool sl_map_is_axial(const sl_map *map);
@@ -325,22 +310,6 @@ SL_API sl_clean_options sl_clean_options_default(void);
 /// Time O((n + k) log n) for k meeting points.
 SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
                               sl_clean_account *account);
-
-/// Reads the map text. SL_BAD_INPUT, with file and line, for anything unknown. `name` is the name
-/// of the text in messages. The map must be empty; it stays empty on failure.
-SL_API sl_status sl_map_read_text(sl_context *context, const char *name, const char *text,
-                                  size_t size, sl_map *map);
-/// Reads the ASCII plan: each character is a unit square, and the last line is at y = 0. '#' is
-/// solid, ' ' and '.' are open, '+' is a door across the passage, '@' is a start heading +x.
-/// Outside the plan all is solid.
-SL_API sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text,
-                                  size_t size, sl_map *map);
-
-/// Each writes to a file, "-" for stdout. The target is replaced only after all is written.
-SL_API sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path);
-/// SL_UNSUPPORTED, naming the wall, if the map is not made of unit squares, or of more than
-/// 4096 x 4096.
-SL_API sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path);
 
 #ifdef __cplusplus
 }

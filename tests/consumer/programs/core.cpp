@@ -7,7 +7,7 @@ int main() {
     sl_context *context = sl_context_create(nullptr);
     if (!context) return 1;
     sl_map map = sl_map();
-    sl_status status = sl_map_read_text(context, "none", "wall", 4, &map);
+    sl_status status = sl_map_parse(context, "none", "wall", 4, nullptr, &map);
     std::printf("%s: %s\n", sl_status_name(status), sl_context_message(context));
     sl_map_destroy(context, &map);
     sl_context_destroy(context);

@@ -94,10 +94,11 @@ static sl_status read_map(const char *name, const char *text, size_t size, sl_ma
 SLI_EXPORT(int, map_write, const char *name, const char *text, size_t size, const char *format) {
     sl_map map = {0};
     sl_status status = read_map(name, text, size, &map);
-    if (status == SL_OK && is(format, "text"))
-        status = sl_map_write_text(sli_module.context, &map, "");
-    else if (status == SL_OK && is(format, "plan"))
-        status = sl_map_write_plan(sli_module.context, &map, "");
+    size_t count;
+    const sl_map_format *formats = sl_map_formats(sli_module.context, &count);
+    while (count && !is(format, formats[count - 1].name)) count--;
+    if (status == SL_OK && count)
+        status = sl_map_write(sli_module.context, &map, &formats[count - 1], "");
     else if (status == SL_OK)
         status = sl_fail(sli_module.context, SL_BAD_ARGUMENT, "format: there is no map format '%s'",
                          format);

@@ -1,0 +1,34 @@
+/// What readers note of a map's file (sl_map_source), and how messages name its lines.
+#ifndef SL_MAP_SOURCE_H
+#define SL_MAP_SOURCE_H
+
+#include "sightline/map.h"
+
+/// Adds a line to the notes.
+sl_status sli_map_add_note(sl_context *context, sl_map *map, const char *text);
+
+/// Adds the file's own name for a line. Lines come in ascending order. A line with several names
+/// keeps the first, and says that there are others. Control characters become '?', and long names
+/// are cut.
+sl_status sli_map_add_label(sl_context *context, sl_map *map, uint32_t line, const char *text);
+
+/// Fails, and says which line of the map is at fault: "FILE:12: layer WALLS, handle 1F: what is
+/// wrong", or "FILE: linedef 117: what is wrong".
+sl_status sli_map_fail(sl_context *context, const sl_map *map, sl_status status, uint32_t line,
+                       const char *format, ...) SL_PRINTF(5, 6);
+
+/// Adds a comment, as sl_comment says; lines go up.
+sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
+                              uint32_t line, bool behind);
+
+/// What messages call the map.
+static inline const char *sli_map_name(const sl_map *map) {
+    return map->source.name ? map->source.name : "the map";
+}
+
+void sli_source_destroy(sl_context *context, sl_map_source *source); ///< and zeroes it
+
+/// A deep copy. On failure `to` holds a part, to be destroyed.
+sl_status sli_source_copy(sl_context *context, const sl_map_source *from, sl_map_source *to);
+
+#endif
