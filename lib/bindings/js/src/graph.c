@@ -1,13 +1,14 @@
 /// Visibility graph analysis for JavaScript: graph.js asks, visibility_graph/ answers.
 ///
-/// A graph is a map whose doors stand as they were set, a grid of points in it, and which of them
-/// see each other (sightline/vga.h). Groups of measures are computed one at a time, because some
-/// cost much and few are looked at. Their results stay until the next call about the same graph.
-/// Cost: n * n bits of memory for n points.
+/// A graph is a query of a map whose doors stand as they were set (sightline/query.h), a grid of
+/// points in it, and which of them see each other (sightline/vga.h). Groups of measures are
+/// computed one at a time, because some cost much and few are looked at. Their results stay until
+/// the next call about the same graph. Cost: n * n bits of memory for n points.
 #include "bindings/js/src/bindings.h"
 #include "sightline/bake.h"
 #include "sightline/effects.h"
 #include "sightline/import.h"
+#include "sightline/query.h"
 #include "sightline/vga.h"
 
 #include <math.h>
@@ -15,9 +16,8 @@
 
 typedef struct graph {
     sl_baked baked; ///< its space alone, where it comes from a map
-    bool *shut;     ///< by door of the map
-    sl_space space; ///< with walls in shut doors and on the dark sides of glass
-    sl_outline outline;
+    sl_query *query;
+    const sl_outline *outline; ///< of the query
     sl_vga_grid grid;
     sl_vga_graph graph;
     sl_vga_measures *measures; ///< by point, of the last group
@@ -34,9 +34,7 @@ SLI_EXPORT(void, graph_close, graph *g) {
     sl_free(context(), g->depths);
     sl_vga_graph_destroy(context(), &g->graph);
     sl_vga_grid_destroy(context(), &g->grid);
-    sl_outline_destroy(context(), &g->outline);
-    sl_space_destroy(context(), &g->space);
-    sl_free(context(), g->shut);
+    sl_query_destroy(context(), g->query);
     sl_baked_destroy(context(), &g->baked);
     sl_free(context(), g);
 }
@@ -75,10 +73,7 @@ static sl_status open_map(graph *g, const char *name, const char *bytes, size_t 
     SL_TRY(
         sl_effects_check_because(context(), map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
                                  "steps and paths lead straight to points, not to mirror images"));
-    g->shut = sl_alloc_array(context(), map->door_count + 1, sizeof *g->shut);
-    if (!g->shut) return SL_NO_MEMORY;
-    for (size_t i = 0; i < map->door_count; i++) g->shut[i] = !map->doors[i].open;
-    return SL_OK;
+    return sl_query_over(context(), &g->baked.space, map, NULL, &g->query);
 }
 
 /// Reads a map, or with `baked` a baked file. `entrance` is the width of entrances; 0: as the map
@@ -93,14 +88,7 @@ SLI_EXPORT(graph *, graph_open, const char *name, const char *bytes, size_t size
 
 /// Before graph_make(): opens or shuts a door.
 SLI_EXPORT(int, graph_set_door, graph *g, const char *name, int open) {
-    const sl_map *map = &g->baked.map;
-    bool found = false;
-    for (size_t i = 0; i < map->door_count; i++) {
-        if (strcmp(map->doors[i].name, name) != 0) continue;
-        g->shut[i] = !open;
-        found = true;
-    }
-    sli_done(found ? SL_OK : sl_fail(context(), SL_BAD_ARGUMENT, "there is no door '%.64s'", name));
+    sli_done(sl_query_set_door(context(), g->query, name, open));
     return (int)sli_module.status;
 }
 
@@ -114,13 +102,14 @@ static sl_status refuse_step(double step, double points, double most) {
 
 /// The area is asked first: a grid that is far too large is not filled.
 static sl_status fill(graph *g, double step, double most) {
+    const sl_space *space = &g->baked.space;
     double area = 0;
     if (!(step > 0) || isinf(step))
         return sl_fail(context(), SL_BAD_ARGUMENT, "grid: a step over 0 is needed");
-    for (uint32_t c = 0; c < g->space.cell_count; c++)
-        if (g->space.cells[c].inside) area += sl_space_area(&g->space, c);
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (space->cells[c].inside) area += sl_space_area(space, c);
     if (area / step / step > 2 * most) return refuse_step(step, area / step / step, most);
-    SL_TRY(sl_vga_grid_fill(context(), &g->outline, step, NULL, 0, &g->grid));
+    SL_TRY(sl_vga_grid_fill(context(), g->outline, step, NULL, 0, &g->grid));
     if (g->grid.count > most) return refuse_step(step, g->grid.count, most);
     if (g->grid.count) return SL_OK;
     return sl_fail(context(), SL_BAD_ARGUMENT,
@@ -129,11 +118,9 @@ static sl_status fill(graph *g, double step, double most) {
 }
 
 static sl_status make(graph *g, double step, double range, double most) {
-    const sl_filtered_space filtered = {.shut = g->shut, .one_way = true, .dark_walls = true};
-    SL_TRY(sl_filtered_space_make(context(), &g->baked.space, &filtered, NULL, &g->space));
-    SL_TRY(sl_outline_make(context(), &g->space, &g->outline));
+    SL_TRY(sl_query_outline(context(), g->query, &g->outline));
     SL_TRY(fill(g, step, most));
-    return sl_vga_graph_make(context(), &g->outline, &g->grid,
+    return sl_vga_graph_make(context(), g->outline, &g->grid,
                              range < 0 ? g->baked.map.range : range, 1, &g->graph);
 }
 
@@ -183,7 +170,7 @@ SLI_EXPORT(int, graph_measure, graph *g, size_t row) {
     options.threads = 1;
     if (!g->measures) g->measures = sl_alloc_array(context(), g->grid.count, sizeof *g->measures);
     sli_done(!g->measures ? SL_NO_MEMORY
-                          : sl_vga_measure(context(), &g->outline, &g->grid, &g->graph, &options,
+                          : sl_vga_measure(context(), g->outline, &g->grid, &g->graph, &options,
                                            g->measures));
     sli_module.integers[0] = (uint32_t)(uintptr_t)g->measures;
     return (int)sli_module.status;
@@ -199,7 +186,7 @@ SLI_EXPORT(uint32_t, graph_find, const graph *g, double x, double y) {
 SLI_EXPORT(int, graph_depth, graph *g, size_t row, uint32_t from) {
     if (!g->depths) g->depths = sl_alloc_array(context(), g->grid.count, sizeof *g->depths);
     sli_done(!g->depths ? SL_NO_MEMORY
-                        : sl_vga_depth(context(), &g->outline, &g->grid, &g->graph, NULL, 0,
+                        : sl_vga_depth(context(), g->outline, &g->grid, &g->graph, NULL, 0,
                                        depth_parts[row], &from, 1, g->depths));
     sli_module.integers[0] = (uint32_t)(uintptr_t)g->depths;
     return (int)sli_module.status;
