@@ -5,6 +5,7 @@
 #include "outputs.h"
 #include "pipeline.h"
 #include "sightline/axial.h"
+#include "sightline/query.h"
 #include "sightline/support.h"
 #include "within.h"
 
@@ -34,7 +35,7 @@ typedef struct axial_work {
     sl_baked baked;
     sl_space part; ///< of --within
     sl_map drawn;
-    sl_outline outline;
+    sl_query *query;
     sl_axial_lines lines;
     sl_line_graph graph;
     sl_axial_measures *measures;
@@ -60,8 +61,11 @@ static sl_status find_lines(sl_context *context, const axial_plan *plan, axial_w
     if (plan->within.path)
         SL_TRY(
             within_space(context, &plan->within, &plan->pipeline.input, &w->baked.space, &w->part));
-    SL_TRY(sl_outline_make(context, plan->within.path ? &w->part : &w->baked.space, &w->outline));
-    SL_TRY(sl_axial_all_lines(context, &w->outline, plan->threads, &w->lines));
+    const sl_space *space = plan->within.path ? &w->part : &w->baked.space;
+    const sl_outline *outline;
+    SL_TRY(sl_query_over(context, space, &w->baked.map, NULL, &w->query));
+    SL_TRY(sl_query_outline(context, w->query, &outline));
+    SL_TRY(sl_axial_all_lines(context, outline, plan->threads, &w->lines));
     if (!w->lines.count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no axial line: none of its corners is inside; lines that are "
@@ -227,7 +231,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
     sl_free(console->context, w.measures);
     sl_line_graph_destroy(console->context, &w.graph);
     sl_axial_lines_destroy(console->context, &w.lines);
-    sl_outline_destroy(console->context, &w.outline);
+    sl_query_destroy(console->context, w.query);
     sl_space_destroy(console->context, &w.part);
     sl_map_destroy(console->context, &w.drawn);
     sl_baked_destroy(console->context, &w.baked);

@@ -220,7 +220,7 @@ static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked 
     sl_baked dark = *baked;
     if (!baked->map.oneway_count) return draw_space(context, plan, baked, run, objects);
     dark.space = (sl_space){0};
-    SL_TRY(sl_query_copy_space(context, query, &plan->at, &dark.space));
+    SL_TRY(sl_query_copy_space(context, query, plan->at, &dark.space));
     const sl_status status = draw_space(context, plan, &dark, run, objects);
     sl_space_destroy(context, &dark.space);
     return status;

@@ -181,7 +181,7 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     double *values = sl_alloc_array(context, eyes->list.count, sizeof *values);
     uint32_t *sizes = sl_alloc_array(context, eyes->list.count, sizeof *sizes);
     sl_status status = field_values && values && sizes ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = isovist_part_sizes(context, w->scene.outline, eyes, sizes);
+    if (status == SL_OK) status = isovist_part_sizes(context, w->query, eyes, sizes);
     for (size_t i = 0; i < count && status == SL_OK; i++) field_values[i] = NAN;
     for (size_t i = 0; i < eyes->list.count && status == SL_OK; i++)
         field_values[eyes->squares.items[i]] = values[i] =
@@ -269,7 +269,7 @@ static void write_caption(const isovist_work *w, char *text, size_t size) {
                *square = *name ? "\xc2\xb2" : "";
     char unit[32], mirrored[64] = "";
     snprintf(unit, sizeof unit, "%s%s", space, name);
-    if (w->scene.mirrors)
+    if (w->scene.mirrored)
         snprintf(mirrored, sizeof mirrored, "  \xc2\xb7  by mirror %.6g%s%s",
                  isovist->mirrored_area, unit, square);
     snprintf(text, size,
@@ -290,13 +290,16 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, isov
 
 /// What sight goes by: shut doors are walls of the space by now.
 static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovist_work *w) {
-    w->scene.range = plan->range;
-    w->scene.mirror_depth = plan->mirror_depth;
-    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
-    SL_TRY(sl_query_outline(context, w->query, &w->scene.outline));
+    const sl_outline *outline;
+    const sl_room_mirrors *mirrors;
+    SL_TRY(sl_query_set_range(context, w->query, plan->range));
+    SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
+    w->scene =
+        (isovist_scene){&w->baked.space, w->query, w->baked.map.mirror_count && !plan->together};
+    SL_TRY(sl_query_outline(context, w->query, &outline));
     if (w->baked.map.mirror_count && plan->together)
         sl_note(context, "mirrors are walls here: --union counts what is seen directly");
-    return plan->together ? SL_OK : sl_query_mirrors(context, w->query, &w->scene.mirrors);
+    return w->scene.mirrored ? sl_query_mirrors(context, w->query, &mirrors) : SL_OK;
 }
 
 /// A grid is all that is inside.
@@ -322,6 +325,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     if (!input_ends_with(plan->input, ".slv")) SL_TRY(note_inside(context, plan, w));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
+    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(make_scene(context, plan, w));
     SL_TRY(plan->together ? join_regions(context, w) : measure(context, plan, w));

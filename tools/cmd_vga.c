@@ -232,7 +232,8 @@ static sl_status walk_agents(sl_context *context, const vga_plan *plan, vga_work
 
 static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
-    const isovist_scene scene = {.outline = w->outline, .range = plan->range};
+    const isovist_scene scene = {.space = &w->baked.space, .query = w->query};
+    SL_TRY(sl_query_set_range(context, w->query, plan->range));
     for (uint32_t p = 0; p < grid->count; p++)
         SL_TRY(eyes_add(context, &w->eyes, (eye_place){grid->points[p], 0, 360}));
     w->table.isovists = sl_alloc_array(context, grid->count, sizeof *w->table.isovists);
@@ -311,7 +312,7 @@ static sl_status evaluate(sl_context *context, const vga_plan *plan, const vga_w
                           double *values, uint32_t *sizes) {
     for (uint32_t p = 0; p < w->table.grid.count; p++)
         values[p] = vga_value(&w->table, plan->measure, p);
-    if (!w->graph.rows) return isovist_part_sizes(context, w->outline, &w->eyes, sizes);
+    if (!w->graph.rows) return isovist_part_sizes(context, w->query, &w->eyes, sizes);
     return sl_vga_part_sizes(context, &w->graph, w->links, w->link_count, sizes);
 }
 

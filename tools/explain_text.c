@@ -274,16 +274,6 @@ static void print_effects(unsigned effects, const char *last) {
     }
 }
 
-/// Whether glass is dark on a way, given the cell that each portal is left from.
-static bool is_dark(const sl_explained *a, const sl_way *w, uint32_t i, uint32_t from) {
-    const uint32_t directed = sl_way_at(w, i);
-    return directed != UINT32_MAX && sl_portal_is_blocked(&a->baked->space, from, directed);
-}
-
-static uint32_t cell_after(const sl_explained *a, const sl_way *w, uint32_t i) {
-    return w->bent ? w->bent->steps[i].cell : a->baked->space.directed[sl_way_at(w, i)].cell;
-}
-
 /// Prints what stops a way that effects hide.
 static void print_stops(const sl_explained *a, const sl_way *w, bool *scratch) {
     const sl_map *map = &a->baked->map;
@@ -292,9 +282,8 @@ static void print_stops(const sl_explained *a, const sl_way *w, bool *scratch) {
         print_names(map, scratch);
         puts(".");
     }
-    uint32_t from = a->e.now.from;
-    for (uint32_t i = 0; i < sl_way_count(w); from = cell_after(a, w, i++)) {
-        if (!is_dark(a, w, i, from)) continue;
+    for (uint32_t i = 0; i < sl_way_count(w); i++) {
+        if (!sl_way_is_dark(a, w, i)) continue;
         const sl_seam *glass = sl_way_seam(&a->baked->space, w, i, SL_SEAM_ONEWAY);
         printf("Dark from this side: one-way glass from ");
         print_point(glass->at.a);

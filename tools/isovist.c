@@ -208,35 +208,29 @@ static uint32_t root_of(uint32_t *parent, uint32_t at) {
     return at;
 }
 
-static void join_rooms(const sl_outline *o, const uint32_t *room_of, uint32_t *parent) {
-    for (uint32_t i = 0; i < o->side_count; i++)
-        if (sl_side_is_portal(&o->sides[i]))
-            parent[root_of(parent, room_of[i])] = root_of(parent, room_of[o->sides[i].neighbour]);
-}
-
-sl_status isovist_part_sizes(sl_context *context, const sl_outline *outline, const eye_places *eyes,
+sl_status isovist_part_sizes(sl_context *context, sl_query *query, const eye_places *eyes,
                              uint32_t *sizes) {
-    const uint32_t rooms = outline->room_count;
+    const sl_space *space;
+    SL_TRY(sl_query_space(context, query, &space, NULL));
+    const uint32_t cells = space->cell_count;
     const size_t count = eyes->list.count;
-    uint32_t *parent = sl_alloc_array(context, (size_t)rooms + 1, sizeof *parent);
-    uint32_t *points = sl_alloc_array(context, (size_t)rooms + 1, sizeof *points);
-    uint32_t *room_of = sl_alloc_array(context, (size_t)outline->side_count + 1, sizeof *room_of);
-    const bool room = parent && points && room_of;
-    for (uint32_t r = 0; room && r < rooms; r++) {
-        parent[r] = r;
-        for (uint32_t i = outline->first[r]; i < outline->first[r + 1]; i++) room_of[i] = r;
+    uint32_t *parent = sl_alloc_array(context, (size_t)cells + 1, sizeof *parent);
+    uint32_t *points = sl_alloc_array(context, (size_t)cells + 1, sizeof *points);
+    const bool room = parent && points;
+    for (uint32_t c = 0; room && c < cells; c++) parent[c] = c;
+    for (uint32_t c = 0; room && c < cells; c++) {
+        const sl_directed_portal *directed = &space->directed[space->cells[c].first_directed];
+        for (uint32_t i = 0; i < space->cells[c].directed_count; i++)
+            parent[root_of(parent, c)] = root_of(parent, directed[i].cell);
     }
-    if (room) join_rooms(outline, room_of, parent);
     for (size_t i = 0; room && i < count; i++) {
-        const sl_point at = eyes->list.items[i].at;
-        const uint32_t cell = sl_space_locate(outline->space, at);
-        sizes[i] = cell == SL_NO_CELL ? rooms : root_of(parent, sl_outline_room(outline, cell, at));
+        const uint32_t cell = sl_query_locate(query, eyes->list.items[i].at);
+        sizes[i] = cell == SL_NO_CELL ? cells : root_of(parent, cell);
         points[sizes[i]]++;
     }
     for (size_t i = 0; room && i < count; i++) sizes[i] = points[sizes[i]];
     sl_free(context, parent);
     sl_free(context, points);
-    sl_free(context, room_of);
     return room ? SL_OK : SL_NO_MEMORY;
 }
 
@@ -259,10 +253,8 @@ sl_view eye_view(const sl_space *space, const eye_place *eye) {
 
 sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
                        sl_mirrored_region *out) {
-    if (!scene->mirrors)
-        return sl_region_make(context, scene->outline, view, scene->range, &out->direct);
-    return sl_mirrored_region_make(context, scene->mirrors, view, scene->range, scene->mirror_depth,
-                                   out);
+    return scene->mirrored ? sl_query_mirrored_region(context, scene->query, view, out)
+                           : sl_query_region(context, scene->query, view, &out->direct);
 }
 
 typedef struct job {
@@ -280,7 +272,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
 static sl_status measure_bundle(sl_context *context, void *all, void *state, size_t bundle) {
     const job *j = all;
     sl_mirrored_region *region = state;
-    const sl_space *space = j->scene->outline->space;
+    const sl_space *space = j->scene->space;
     const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
     for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
         const sl_view view = eye_view(space, &j->eyes->list.items[i]);
@@ -364,13 +356,13 @@ static void put_direct(sl_geojson_writer *out, bool mirrors, const eye_place *ey
 static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isovist_scene *scene,
                          const eye_place *eye, const isovist_result *isovist,
                          sl_mirrored_region *region) {
-    const sl_space *space = scene->outline->space;
+    const sl_space *space = scene->space;
     const sl_view view = eye_view(space, eye);
     seen_parts parts = {0};
     SL_TRY(isovist_look(context, scene, &view, region));
     const sl_status status = seen_parts_add(context, space, region, true, &parts);
     if (status == SL_OK) {
-        put_direct(out, scene->mirrors != NULL, eye, isovist, &parts.items[0]);
+        put_direct(out, scene->mirrored, eye, isovist, &parts.items[0]);
         seen_parts_put_mirrored(out, region, parts.items + 1);
     }
     seen_parts_destroy(context, &parts);
@@ -401,6 +393,6 @@ sl_status isovist_write(sl_context *context, const isovist_scene *scene, const e
     const sl_status status =
         input_ends_with(path, ".geojson")
             ? write_places(context, scene, eyes, isovists, output.stream)
-            : write_rows(context, scene->mirrors != NULL, eyes, isovists, output.stream);
+            : write_rows(context, scene->mirrored, eyes, isovists, output.stream);
     return sl_output_close(context, &output, status);
 }

@@ -5,7 +5,7 @@
 
 #include "names.h"
 #include "sightline/geojson.h"
-#include "sightline/region.h"
+#include "sightline/query.h"
 #include "sightline/support.h"
 
 /// A place to look from, with its heading and view cone in degrees.
@@ -59,21 +59,20 @@ void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *meas
 /// The view of an eye.
 sl_view eye_view(const sl_space *space, const eye_place *eye);
 
-/// What can be seen, and how far.
+/// What is asked. The outline of the query is made, and its mirrors where they count.
 typedef struct isovist_scene {
-    const sl_outline *outline;
-    const sl_room_mirrors *mirrors; ///< NULL where the map has none
-    double range;
-    uint32_t mirror_depth;
+    const sl_space *space;
+    sl_query *query;
+    bool mirrored; ///< with what is seen by mirror
 } isovist_scene;
 
 /// The visible region of a view, with the parts that are seen by mirror.
 sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
                        sl_mirrored_region *out);
 
-/// The number of viewpoints in the part of each viewpoint: where rooms join theirs, through doors
+/// The number of viewpoints in the part of each viewpoint: where cells join theirs, through doors
 /// that are open.
-sl_status isovist_part_sizes(sl_context *context, const sl_outline *outline, const eye_places *eyes,
+sl_status isovist_part_sizes(sl_context *context, sl_query *query, const eye_places *eyes,
                              uint32_t *sizes);
 
 /// Fills out[0 .. eyes->list.count). Reports stage "isovist".

@@ -1,7 +1,7 @@
 #include "places.h"
 
 #include "inputs.h"
-#include "sightline/sees.h"
+#include "sightline/query.h"
 #include "sightline/support.h"
 
 void places_note_outside(sl_context *context, const char *what, const sl_space *space,
@@ -18,12 +18,12 @@ void places_note_outside(sl_context *context, const char *what, const sl_space *
             outside, count, outside == 1 ? "is" : "are", first.x, first.y, near);
 }
 
-static sl_status check_path(sl_context *context, const char *name, const sl_outline *outline,
+static sl_status check_path(sl_context *context, const char *name, sl_query *query,
                             const sl_point *points, size_t count) {
     for (size_t i = 0; i + 1 < count; i++) {
         const sl_point a = points[i], b = points[i + 1];
         bool free = false;
-        SL_TRY(sl_sees(context, outline, a, b, SL_CLOSED, &free));
+        SL_TRY(sl_query_sees(context, query, a, b, &free));
         if (free) continue;
         sl_note(context, "--path %s: it goes through a wall between %.12g,%.12g and %.12g,%.12g",
                 name, a.x, a.y, b.x, b.y);
@@ -34,9 +34,12 @@ static sl_status check_path(sl_context *context, const char *name, const sl_outl
 
 sl_status places_note_path(sl_context *context, const char *name, const sl_space *space,
                            const sl_point *points, size_t count) {
-    sl_outline outline = {0};
-    SL_TRY(sl_outline_make(context, space, &outline));
-    const sl_status status = check_path(context, name, &outline, points, count);
-    sl_outline_destroy(context, &outline);
+    const sl_map none = {0};
+    sl_space walls = *space;
+    sl_query *query;
+    walls.seam_count = walls.seam_portal_count = 0;
+    SL_TRY(sl_query_over(context, &walls, &none, NULL, &query));
+    const sl_status status = check_path(context, name, query, points, count);
+    sl_query_destroy(context, query);
     return status;
 }

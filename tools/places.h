@@ -9,7 +9,7 @@
 void places_note_outside(sl_context *context, const char *what, const sl_space *space,
                          const eye_place *eyes, size_t count);
 
-/// Notes where a path goes through a wall. Doors stop no path.
+/// Notes where a path goes through a wall of the space. One-way glass stops no path.
 sl_status places_note_path(sl_context *context, const char *name, const sl_space *space,
                            const sl_point *points, size_t count);
 

@@ -73,7 +73,7 @@ static sl_status evaluate(sl_context *context, const view_run_options *options, 
     sampling.seed = ~sampling.seed;
     sl_view_segments segments = {0};
     sl_view_sets sets = {0};
-    SL_TRY(sl_view_sample(context, &run->outline, &sampling, &segments));
+    SL_TRY(sl_view_sample(context, run->outline, &sampling, &segments));
     sl_status status =
         sl_view_sets_sample(context, &run->scene, &run->tree, &segments, sampling.threads, &sets);
     if (status == SL_OK)
@@ -100,12 +100,13 @@ static sl_status cut(sl_context *context, const view_run_options *options, view_
 
 sl_status view_run_make(sl_context *context, const view_run_options *options, view_run *run) {
     const double start = sl_seconds();
-    SL_TRY(sl_outline_make(context, &run->baked.space, &run->outline));
+    SL_TRY(sl_query_over(context, &run->baked.space, &run->baked.map, NULL, &run->query));
+    SL_TRY(sl_query_outline(context, run->query, &run->outline));
     SL_TRY(find_places(context, options, run));
     run->scene = (sl_view_scene){&run->baked.space, options->sampling.objects, options->render,
                                  &run->places};
     if (!options->method->exact)
-        SL_TRY(sl_view_sample(context, &run->outline, &options->sampling, &run->segments));
+        SL_TRY(sl_view_sample(context, run->outline, &options->sampling, &run->segments));
     const double sampled = sl_seconds();
     SL_TRY(options->method->divide(context, &run->scene, &run->segments, &options->subdivision,
                                    &run->tree, &run->found));
@@ -189,7 +190,7 @@ void view_run_destroy(sl_context *context, view_run *run) {
     sl_view_found_destroy(context, &run->found);
     sl_view_segments_destroy(context, &run->segments);
     sl_view_places_destroy(context, &run->places);
-    sl_outline_destroy(context, &run->outline);
+    sl_query_destroy(context, run->query);
     sl_baked_destroy(context, &run->baked);
     sl_baked_destroy(context, &run->exact);
     sl_free(context, run->view_cells);

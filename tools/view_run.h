@@ -30,7 +30,8 @@ typedef struct view_seconds {
 /// All that was made, and what it took.
 typedef struct view_run {
     sl_baked baked; ///< map and space alone
-    sl_outline outline;
+    sl_query *query;
+    const sl_outline *outline;
     sl_view_places places;
     sl_view_scene scene;
     sl_view_segments segments;

@@ -141,7 +141,7 @@ static sl_status start(app_state *app, heat_layer *layer) {
     return SL_OK;
 }
 
-/// Takes a copy of the space with walls in the doors that are shut and on the dark side of glass.
+/// Takes a copy of what is asked.
 static sl_status begin(app_state *app) {
     const document_state *document = &app->document;
     const sl_map *map = &document->baked->map;
@@ -159,7 +159,7 @@ static sl_status begin(app_state *app) {
     SL_TRY(sl_effects_check_because(app->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
                                     "steps and paths lead straight to points, not to mirror "
                                     "images"));
-    SL_TRY(sl_query_copy_space(app->context, app->view.present.query, NULL, &layer->graph.space));
+    SL_TRY(sl_query_copy(app->context, app->view.present.query, &layer->graph.query));
     return start(app, layer);
 }
 

@@ -3,7 +3,6 @@
 /// sightline/vga.h says; a graph of n points takes n * n bits.
 #include "heat_graph.h"
 
-#include "sightline/sees.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -34,8 +33,8 @@ unsigned heat_measure_part(const sl_measure *measure) {
 // --- the work
 
 static sl_status fill(sl_context *context, heat_graph *g) {
-    SL_TRY(sl_outline_make(context, &g->space, &g->outline));
-    SL_TRY(sl_vga_grid_fill(context, &g->outline, g->step, NULL, 0, &g->grid));
+    SL_TRY(sl_query_outline(context, g->query, &g->outline));
+    SL_TRY(sl_vga_grid_fill(context, g->outline, g->step, NULL, 0, &g->grid));
     if (g->grid.count == 0)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "no point of a grid with steps of %.3g is inside; choose a finer grid",
@@ -51,14 +50,13 @@ static sl_status fill(sl_context *context, heat_graph *g) {
     if (!g->points || !g->measures) return SL_NO_MEMORY;
     for (size_t i = 0; i < squares; i++) g->points[i] = UINT32_MAX;
     for (uint32_t p = 0; p < g->grid.count; p++) g->points[g->grid.squares[p]] = p;
-    return sl_vga_graph_make(context, &g->outline, &g->grid, g->range, 0, &g->graph);
+    return sl_vga_graph_make(context, g->outline, &g->grid, g->range, 0, &g->graph);
 }
 
 /// Drops all that `fill` makes.
 static void empty(sl_context *context, heat_graph *g) {
     sl_vga_graph_destroy(context, &g->graph);
     sl_vga_grid_destroy(context, &g->grid);
-    sl_outline_destroy(context, &g->outline);
     sl_free(context, g->measures);
     sl_free(context, g->points);
     g->measures = NULL;
@@ -74,7 +72,7 @@ static sl_status measure(sl_context *context, heat_graph *g, unsigned part) {
     sl_vga_options options = sl_vga_options_default();
     options.parts = part;
     const sl_status status =
-        sl_vga_measure(context, &g->outline, &g->grid, &g->graph, &options, made);
+        sl_vga_measure(context, g->outline, &g->grid, &g->graph, &options, made);
     size_t count;
     const sl_measure *all = sl_measures(SL_VGA, &count);
     for (size_t k = 0; k < count && status == SL_OK; k++)
@@ -98,7 +96,7 @@ sl_status heat_graph_work(sl_context *context, void *data) {
 
 void heat_graph_destroy(sl_context *context, heat_graph *graph) {
     empty(context, graph);
-    sl_space_destroy(context, &graph->space);
+    sl_query_destroy(context, graph->query);
     *graph = (heat_graph){0};
 }
 
@@ -125,8 +123,7 @@ uint32_t heat_graph_nearest(sl_context *context, const heat_graph *graph, sl_poi
         if (p == UINT32_MAX) continue;
         const sl_point to = graph->grid.points[p];
         const double away = hypot(to.x - at.x, to.y - at.y);
-        if (away < least && sl_sees(context, &graph->outline, at, to, SL_CLOSED, &seen) == SL_OK &&
-            seen) {
+        if (away < least && sl_query_sees(context, graph->query, at, to, &seen) == SL_OK && seen) {
             least = away;
             nearest = p;
         }

@@ -3,6 +3,7 @@
 #ifndef VIEWER_HEAT_GRAPH_H
 #define VIEWER_HEAT_GRAPH_H
 
+#include "sightline/query.h"
 #include "sightline/vga.h"
 
 /// The measures that it shows, by number: those of the table of SL_VGA that are of the graph, the
@@ -16,11 +17,11 @@ unsigned heat_measure_part(const sl_measure *measure);
 
 /// Zeroed to start. The caller fills the first block.
 typedef struct heat_graph {
-    sl_space space; ///< with walls in doors that are shut and on the dark side of glass
+    sl_query *query; ///< a copy of its own
     double step, range;
     unsigned wanted; ///< the group to measure next; 0: none
 
-    sl_outline outline;
+    const sl_outline *outline;
     sl_vga_grid grid;
     sl_vga_graph graph;
     sl_vga_measures *measures; ///< by point

@@ -137,8 +137,7 @@ sl_status present_space(sl_context *context, present_state *present) {
     bool any = present_has_shut(present);
     for (size_t i = 0; i < sl_query_map(present->query)->oneway_count; i++)
         any |= present->sides[i] >= 0;
-    if (any)
-        SL_TRY(sl_query_copy_space(context, present->query, &present->eye, &present->filtered));
+    if (any) SL_TRY(sl_query_copy_space(context, present->query, present->eye, &present->filtered));
     present->space = any ? &present->filtered : sl_query_asked(present->query);
     return SL_OK;
 }

@@ -195,8 +195,8 @@ static sl_status make_parts(sl_context *context, seen_state *seen, const documen
     seen->depth = 0;
     give(seen, PARTS_SECONDS);
     for (uint32_t depth = seen->patient ? most : 1; depth <= most && most; depth++) {
-        const sl_status status = sl_mirrored_region_make(
-            seen->hurried, present->mirrors, &seen->view, seen->range, depth, &seen->deeper);
+        const sl_status status = sl_query_mirrored_region_to(seen->hurried, present->query,
+                                                             &seen->view, depth, &seen->deeper);
         if (status == SL_CANCELLED) break;
         if (status != SL_OK)
             return sl_fail(context, status, "%s", sl_context_message(seen->hurried));

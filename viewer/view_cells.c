@@ -26,7 +26,8 @@ typedef struct view_job {
     task *task;
     sl_map map; ///< a copy
     sl_space space;
-    sl_outline outline;
+    sl_query *query;
+    const sl_outline *outline;
     sl_view_places places;
     sl_view_segments segments, telling;
     sl_view_hierarchy merged; ///< as told by the lines that made it
@@ -60,7 +61,7 @@ static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job 
     sampling.samples *= TELLING;
     sampling.seed = ~sampling.seed;
     sl_view_sets sets = {0};
-    SL_TRY(sl_view_sample(context, &job->outline, &sampling, &job->telling));
+    SL_TRY(sl_view_sample(context, job->outline, &sampling, &job->telling));
     SL_TRY(sl_view_sets_sample(context, scene, &job->history.tree, &job->telling, 0, &sets));
     const sl_status status = sl_view_evaluate(context, scene, &job->history.tree, &job->merged,
                                               &sets, &job->history.hierarchy);
@@ -76,11 +77,12 @@ static sl_status work(sl_context *context, void *data) {
     subdivision.seed = sampling.seed;
     SL_TRY(sl_map_clean(context, &job->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&job->map)->subdivide(context, &job->map, NULL, &job->space));
-    SL_TRY(sl_outline_make(context, &job->space, &job->outline));
+    SL_TRY(sl_query_over(context, &job->space, &job->map, NULL, &job->query));
+    SL_TRY(sl_query_outline(context, job->query, &job->outline));
     SL_TRY(sl_view_places_inside(context, &job->space, &job->places));
     const sl_view_scene scene = {&job->space, sampling.objects, sl_render_cost_default(),
                                  &job->places};
-    SL_TRY(sl_view_sample(context, &job->outline, &sampling, &job->segments));
+    SL_TRY(sl_view_sample(context, job->outline, &sampling, &job->segments));
     SL_TRY(method_that_merges()->divide(context, &scene, &job->segments, &subdivision,
                                         &job->history.tree, NULL));
     SL_TRY(merge(context, &scene, job));
@@ -93,7 +95,7 @@ static void free_job(sl_context *context, view_job *job) {
     sl_view_segments_destroy(context, &job->telling);
     sl_view_segments_destroy(context, &job->segments);
     sl_view_places_destroy(context, &job->places);
-    sl_outline_destroy(context, &job->outline);
+    sl_query_destroy(context, job->query);
     sl_space_destroy(context, &job->space);
     sl_map_destroy(context, &job->map);
     sl_free(context, job);

@@ -65,6 +65,16 @@ bool sl_way_doors(const sl_explained *a, const sl_way *way, bool shut, bool *mar
     return any;
 }
 
+bool sl_way_is_dark(const sl_explained *a, const sl_way *way, uint32_t step) {
+    const sl_space *space = &a->baked->space;
+    const uint32_t directed = sl_way_at(way, step);
+    uint32_t from = a->e.now.from;
+    if (step)
+        from = way->bent ? way->bent->steps[step - 1].cell
+                         : space->directed[sl_way_at(way, step - 1)].cell;
+    return directed != UINT32_MAX && sl_portal_is_blocked(space, from, directed);
+}
+
 bool sl_door_is_first(const sl_map *map, const bool *marked, size_t door) {
     for (size_t i = 0; i < door; i++)
         if (marked[i] && strcmp(map->doors[i].name, map->doors[door].name) == 0) return false;

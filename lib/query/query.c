@@ -41,7 +41,8 @@ struct sl_query {
     bool any_blocks;   ///< some box hides what is behind it
     bool boxes_placed; ///< in `moving`
 
-    bool ready;            ///< `sight` and `rows` are made
+    bool ready;            ///< `sight` is made
+    bool settled;          ///< the boxes are checked, and `rows` are those of the settings
     sl_space turned;       ///< `asked` with its glass turned round; borrows the rest
     sli_sight_space sight; ///< doors and glass as they are
     sl_visibility rows;    ///< borrowed, without stab trees where the space has other portals
@@ -85,7 +86,7 @@ static void drop_all(sl_context *context, sl_query *q) {
     sl_free(context, q->turned.seams);
     sl_free(context, q->turned.seam_portals);
     q->turned = (sl_space){0};
-    q->ready = false;
+    q->ready = q->settled = false;
 }
 
 void sl_query_destroy(sl_context *context, sl_query *query) {
@@ -148,6 +149,7 @@ sl_status sl_query_set_visibility(sl_context *context, sl_query *query,
     drop_search(context, query);
     drop_moving(context, query);
     query->visibility = visibility;
+    query->settled = false;
     return SL_OK;
 }
 
@@ -164,6 +166,7 @@ static sl_status fail_door(sl_context *context, const sl_map *map, const char *n
 static void set_door(sl_context *context, sl_query *q, size_t door, bool shut) {
     if (q->shut[door] == shut) return;
     q->shut[door] = shut;
+    q->settled = false;
     q->shut_count += shut ? 1 : (size_t)-1;
     if (q->ready) sli_sight_space_set_door(&q->sight, door, q->shut);
     drop_moving(context, q);
@@ -208,7 +211,7 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
         memcpy(copy, boxes, count * sizeof *copy);
     }
     drop_mirrors(context, query);
-    query->boxes_placed = false;
+    query->boxes_placed = query->settled = false;
     if (SLI_BOXES) sli_box_lists_destroy(context, &query->lists);
     sl_free(context, query->boxes);
     query->boxes = copy;
@@ -236,6 +239,43 @@ sl_status sl_query_set_mirror_depth(sl_context *context, sl_query *query, uint32
         drop_moving(context, query);
     }
     query->mirror_depth = depth;
+    return SL_OK;
+}
+
+// --- a copy
+
+/// What a copy asks.
+typedef struct copied_space {
+    sl_space space;
+    sl_map map;
+} copied_space;
+
+static void destroy_copied(sl_context *context, void *what) {
+    copied_space *copied = what;
+    sl_space_destroy(context, &copied->space);
+    sl_map_destroy(context, &copied->map);
+    sl_free(context, copied);
+}
+
+sl_status sl_query_copy(sl_context *context, const sl_query *query, sl_query **out) {
+    copied_space *copied = sl_alloc_array(context, 1, sizeof *copied);
+    sl_query *q = NULL;
+    if (!copied) return SL_NO_MEMORY;
+    sl_status status = sl_map_copy(context, query->map, &copied->map);
+    if (status == SL_OK)
+        status = sl_filtered_space_make(context, query->asked, &(sl_filtered_space){0}, NULL,
+                                        &copied->space);
+    if (status == SL_OK) status = sl_query_over(context, &copied->space, &copied->map, NULL, &q);
+    if (status != SL_OK) {
+        destroy_copied(context, copied);
+        return status;
+    }
+    sli_query_own(q, (sli_query_owner){copied, destroy_copied});
+    for (size_t i = 0; i < q->map->door_count; i++) set_door(context, q, i, query->shut[i]);
+    q->backwards = query->backwards;
+    q->range = query->range;
+    q->mirror_depth = query->mirror_depth;
+    *out = q;
     return SL_OK;
 }
 
@@ -283,12 +323,15 @@ static sl_status make_ready(sl_context *context, sl_query *q) {
     return status;
 }
 
+/// Changes nothing where all is as it was, so that several threads may ask.
 static sl_status make_layers(sl_context *context, sl_query *q) {
+    if (q->settled) return SL_OK;
     if (SLI_BOXES) SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
     SL_TRY(make_ready(context, q));
     q->rows = rows_of(q);
     // Stab trees are of a space with all its directed portals.
     if (q->shut_count || q->map->oneway_count) q->rows.trees = (sl_stab_trees){0};
+    q->settled = true;
     return SL_OK;
 }
 
@@ -463,11 +506,9 @@ sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **
     return SL_OK;
 }
 
-sl_status sl_query_copy_space(sl_context *context, sl_query *query, const sl_point *eye,
-                              sl_space *out) {
+sl_status sl_query_copy_space(sl_context *context, sl_query *query, sl_point eye, sl_space *out) {
     SL_TRY(make_ready(context, query));
-    const sl_filtered_space filtered = {
-        .shut = query->shut, .one_way = !eye, .dark_walls = !eye, .eye = eye};
+    const sl_filtered_space filtered = {.shut = query->shut, .eye = &eye};
     return sl_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
 }
 
@@ -519,7 +560,7 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
                               sl_eye_account *account) {
     sl_space space;
     sli_eye_search *search = NULL;
-    SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
+    SL_TRY(sl_query_copy_space(context, q, view->eye, &space));
     sl_status status = sli_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
@@ -535,7 +576,7 @@ static sl_status look_past_in_line(sl_context *context, sl_query *q, const sl_vi
                                    uint64_t *cells, bool *seen, sl_eye_account *account) {
     sl_space space;
     sli_moving *moving = NULL;
-    SL_TRY(sl_query_copy_space(context, q, &view->eye, &space));
+    SL_TRY(sl_query_copy_space(context, q, view->eye, &space));
     sl_status status = sli_moving_create(context, &space, &q->rows, &moving);
     if (status == SL_OK) status = sli_moving_set_boxes(context, moving, q->boxes, q->box_count);
     if (status == SL_OK) {
@@ -644,11 +685,15 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
     return sl_region_make(context, outline, view, query->range, out);
 }
 
-sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
-                                   sl_mirrored_region *out) {
+sl_status sl_query_mirrored_region_to(sl_context *context, sl_query *query, const sl_view *view,
+                                      uint32_t depth, sl_mirrored_region *out) {
     const sl_outline *outline;
     SL_TRY(sl_query_outline(context, query, &outline));
     SL_TRY(make_mirrors(context, query, outline));
-    return sl_mirrored_region_make(context, query->mirrors, view, query->range, query->mirror_depth,
-                                   out);
+    return sl_mirrored_region_make(context, query->mirrors, view, query->range, depth, out);
+}
+
+sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
+                                   sl_mirrored_region *out) {
+    return sl_query_mirrored_region_to(context, query, view, query->mirror_depth, out);
 }

@@ -163,10 +163,10 @@ static void mirrors_show_what_the_depth_allows(void **state) {
     assert_true(sl_eye_sees(cells, sl_query_locate(query, (sl_point){15, 1})));
     assert_ok(context, sl_query_mirrored_region(context, query, &view, &region));
     assert_true(region.part_count > 0);
-    const sl_room_mirrors *mirrors;
     sl_mirrored_region other = {0};
-    assert_ok(context, sl_query_mirrors(context, query, &mirrors));
-    assert_ok(context, sl_mirrored_region_make(context, mirrors, &view, 0, 1, &other));
+    assert_ok(context, sl_query_mirrored_region_to(context, query, &view, 0, &other));
+    assert_int_equal(other.part_count, 0);
+    assert_ok(context, sl_query_mirrored_region_to(context, query, &view, 1, &other));
     assert_int_equal(other.part_count, region.part_count);
     assert_true(sl_mirrored_area(&other) == sl_mirrored_area(&region));
     sl_mirrored_region_destroy(context, &other);

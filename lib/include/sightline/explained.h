@@ -49,6 +49,8 @@ SL_API const sl_seam *sl_way_seam(const sl_space *space, const sl_way *way, uint
 /// Marks the doors on a way, those that are shut or those that are open: a flag for each door of
 /// the map. Whether there are any.
 SL_API bool sl_way_doors(const sl_explained *a, const sl_way *way, bool shut, bool *marked);
+/// Whether a step crosses one-way glass that is dark from where the way comes.
+SL_API bool sl_way_is_dark(const sl_explained *a, const sl_way *way, uint32_t step);
 /// Whether a door is marked, and no door of its name before it: names are listed once.
 SL_API bool sl_door_is_first(const sl_map *map, const bool *marked, size_t door);
 

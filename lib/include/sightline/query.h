@@ -27,17 +27,24 @@ extern "C" {
 #endif
 
 /// Serves one thread at a time. What a question needs is made when it is first asked, and kept
-/// until a setting changes.
+/// until a setting changes. After sl_query_outline(), and sl_query_mirrors() for what is seen by
+/// mirror, several threads may ask at the same time for regions and whether points are seen, each
+/// with a context of its own, until a setting changes; not with boxes that block.
 typedef struct sl_query sl_query;
 
 /// A query over a space. `map` is the one that the space was made from: its doors, glass, mirrors
 /// and range count. `visibility` may be NULL, or have no rows: then the exact method searches the
-/// whole space, and sight is closed where it is NULL. All three must outlive the query.
+/// whole space, and sight is closed where it is NULL. All three must outlive the query, and stay as
+/// they are until then.
 ///
 /// Doors are as the map has them, the range is the map's, sightlines are reflected once, and there
 /// are no boxes.
 SL_API sl_status sl_query_over(sl_context *context, const sl_space *space, const sl_map *map,
                                const sl_visibility *visibility, sl_query **out);
+
+/// A query over copies of the space and the map, with the same settings, but without visible sets
+/// and boxes: for work that outlives the query or its space.
+SL_API sl_status sl_query_copy(sl_context *context, const sl_query *query, sl_query **out);
 
 /// Frees a query. NULL is allowed.
 SL_API void sl_query_destroy(sl_context *context, sl_query *query);
@@ -115,20 +122,18 @@ SL_API sl_status sl_query_row(sl_context *context, sl_query *query, uint32_t cel
 SL_API sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **space,
                                 const uint32_t **parents);
 
-/// A copy of the space without its boxes, for methods that outlive the query or want a space alone.
-/// Shut doors are walls. `eye` NULL: the dark sides of glass are walls too, and glass has the
-/// directed portals that are seen through. Else: as one eye finds it, for methods that do not know
-/// one-way glass. Glass that is dark for the eye is a wall then, and other glass is open both ways.
-/// Cells have their numbers. The caller's: sl_space_destroy().
-SL_API sl_status sl_query_copy_space(sl_context *context, sl_query *query, const sl_point *eye,
+/// A copy of the space as one eye finds it, without its boxes, for methods that do not know one-way
+/// glass. Shut doors are walls, and so is glass that is dark for the eye; other glass is open both
+/// ways. Cells have their numbers. The caller's: sl_space_destroy().
+SL_API sl_status sl_query_copy_space(sl_context *context, sl_query *query, sl_point eye,
                                      sl_space *out);
 
 /// The outline that sight goes by, of the space that the settings make; made when it is first asked
 /// for. Valid until a setting changes.
 SL_API sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out);
 
-/// The mirrors of that outline, for sl_mirrored_region_make() with another depth and for
-/// sl_mirror_part_place(); NULL where the map has none. Valid until a setting changes.
+/// The mirrors of that outline, for sl_mirror_part_place(); NULL where the map has none. Valid
+/// until a setting changes.
 SL_API sl_status sl_query_mirrors(sl_context *context, sl_query *query,
                                   const sl_room_mirrors **out);
 
@@ -187,6 +192,10 @@ SL_API sl_status sl_query_region(sl_context *context, sl_query *query, const sl_
 /// region alone.
 SL_API sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
                                           sl_mirrored_region *out);
+/// The same with up to `depth` reflections, whatever is set: deeper ones take longer.
+SL_API sl_status sl_query_mirrored_region_to(sl_context *context, sl_query *query,
+                                             const sl_view *view, uint32_t depth,
+                                             sl_mirrored_region *out);
 
 #ifdef __cplusplus
 }
