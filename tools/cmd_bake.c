@@ -66,24 +66,24 @@ static void add_visibility(json_fields *fields, const sl_visibility *visibility)
     json_add_count(fields, "doubtful_pairs", account->doubtful_pairs);
     json_add_count(fields, "tests", account->tests);
     json_add_count(fields, "tree_nodes", account->nodes);
-    json_add_count(fields, "pieces", account->pieces);
-    if (account->sectors) {
-        json_add_count(fields, "sectors", account->sectors);
-        json_add_count(fields, "candidates", account->candidates);
-        json_add_count(fields, "relations", account->relations);
-        json_add_count(fields, "cells_on_cycles", account->on_cycles);
+    json_add_count(fields, "pieces", account->sweep.pieces);
+    if (account->multipass.sectors) {
+        json_add_count(fields, "sectors", account->multipass.sectors);
+        json_add_count(fields, "candidates", account->multipass.candidates);
+        json_add_count(fields, "relations", account->multipass.relations);
+        json_add_count(fields, "cells_on_cycles", account->multipass.on_cycles);
     }
     json_add_count(fields, "longest_sequence", account->deepest);
     json_open(fields, "effect_work");
-    json_add_count(fields, "door_steps", account->door_steps);
-    json_add_count(fields, "mirror_steps", account->mirror_steps);
-    json_add_count(fields, "glass_tests", account->glass_tests);
+    json_add_count(fields, "door_steps", account->effects.door_steps);
+    json_add_count(fields, "mirror_steps", account->effects.mirror_steps);
+    json_add_count(fields, "glass_tests", account->effects.glass_tests);
     json_add_count(fields, "mirrored_pairs", account->mirrored_pairs);
-    json_add_count(fields, "rounded_places", account->rounded_places);
+    json_add_count(fields, "rounded_places", account->effects.rounded_places);
     json_add_count(fields, "door_bytes", sl_door_sets_bytes(&visibility->doors));
-    json_add_count(fields, "door_fallbacks", account->door_fallbacks);
-    json_add_count(fields, "range_tests", account->range_tests);
-    json_add_count(fields, "close_calls", account->close_calls);
+    json_add_count(fields, "door_fallbacks", account->effects.door_fallbacks);
+    json_add_count(fields, "range_tests", account->effects.range_tests);
+    json_add_count(fields, "close_calls", account->effects.close_calls);
     json_close(fields);
     if (!trees->cell_count) return;
     json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
@@ -146,24 +146,24 @@ static void print_effect_work(const sl_visibility *visibility) {
     const sl_door_sets *doors = &visibility->doors;
     if (visibility->mirrored.cell_count) {
         printf("  mirrored  %" PRIu64 " pairs seen by mirror", account->mirrored_pairs);
-        if (account->rounded_places)
-            printf("; %" PRIu64 " places were rounded", account->rounded_places);
+        if (account->effects.rounded_places)
+            printf("; %" PRIu64 " places were rounded", account->effects.rounded_places);
         putchar('\n');
     }
     if (doors->cell_count) {
         char size[SIZE_TEXT];
         size_write(sl_door_sets_bytes(doors), size);
         printf("  doors     %s of door sets", size);
-        if (account->door_fallbacks)
+        if (account->effects.door_fallbacks)
             printf("; %" PRIu64 " pairs have too many sets and count as seen (--door-limit)",
-                   account->door_fallbacks);
+                   account->effects.door_fallbacks);
         putchar('\n');
     }
-    if (account->range_tests) {
-        printf("  in range  %" PRIu64 " sequences measured", account->range_tests);
-        if (account->close_calls)
+    if (account->effects.range_tests) {
+        printf("  in range  %" PRIu64 " sequences measured", account->effects.range_tests);
+        if (account->effects.close_calls)
             printf("; %" PRIu64 " end within rounding of the range and count as seen",
-                   account->close_calls);
+                   account->effects.close_calls);
         putchar('\n');
     }
 }
@@ -181,9 +181,9 @@ static void print_visibility(const sl_baked *baked) {
         printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
                " tree nodes, longest sequence %" PRIu32 "\n",
                account->tests, account->nodes, account->deepest);
-    else if (account->pieces)
+    else if (account->sweep.pieces)
         printf("  work      %" PRIu64 " pieces of cells, longest sequence %" PRIu32 "\n",
-               account->pieces, account->deepest);
+               account->sweep.pieces, account->deepest);
     print_effect_work(visibility);
     const sl_stab_trees *trees = &visibility->trees;
     if (trees->cell_count) {

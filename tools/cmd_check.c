@@ -46,7 +46,7 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
 
 /// Mends a copy of the map as read, and looks at what is left.
 static sl_status mend_copy(sl_context *context, const check_plan *plan, const sl_map *map,
-                           double gap, sl_snap_account *account, checked *after) {
+                           double gap, sl_mend_account *account, checked *after) {
     SL_TRY(sl_map_copy(context, map, &after->map));
     SL_TRY(sl_map_mend(context, &after->map, gap, &plan->pipeline.input.clean, account));
     if (!after->map.wall_count) return SL_OK;
@@ -91,7 +91,7 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     const double gap = round_up(faults->items[0].size);
     if (gap > 20 * sl_usual_gap(&c->map)) return SL_OK;
     checked after = {0};
-    sl_snap_account account = {0};
+    sl_mend_account account = {0};
     const sl_status status = mend_copy(context, plan, &c->map, gap, &account, &after);
     if (status == SL_OK && after.map.wall_count &&
         after.faults.counts[SL_FAULT_LEAK] < faults->counts[SL_FAULT_LEAK])

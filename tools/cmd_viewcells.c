@@ -7,7 +7,7 @@
 #include "pipeline.h"
 #include "report.h"
 #include "sightline/draw.h"
-#include "sightline/geojson.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 #include "system.h"
 #include "view_run.h"

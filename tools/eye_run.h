@@ -7,7 +7,7 @@
 #include "options.h"
 #include "sightline/draw.h"
 #include "sightline/eye_to_cell.h"
-#include "sightline/geojson.h"
+#include "sightline/json.h"
 #include "sightline/query.h"
 
 /// The answer of one method.

@@ -22,7 +22,7 @@ typedef struct faults_report {
     const checked *found;
     double thin;
     const char *mended; ///< the file written; NULL for none
-    sl_snap_account snap;
+    sl_mend_account snap;
     const checked *left; ///< the mended map
     double helps;        ///< a larger gap that closes a leak; 0 for none
     double weld;         ///< a tolerance that closes gaps of rounding; 0 for none

@@ -4,7 +4,7 @@
 #define ISOVIST_H
 
 #include "names.h"
-#include "sightline/geojson.h"
+#include "sightline/json.h"
 #include "sightline/query.h"
 #include "sightline/support.h"
 

@@ -3,7 +3,7 @@
 #ifndef JSON_PRINT_H
 #define JSON_PRINT_H
 
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 #include "sightline/map.h"
 
 /// An object's fields, as they are written so far. A call that finds no memory fails the whole at

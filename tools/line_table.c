@@ -2,8 +2,8 @@
 
 #include "heat_map.h"
 #include "number_table.h"
-#include "sightline/geojson.h"
 #include "sightline/io.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>

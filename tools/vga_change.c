@@ -1,7 +1,7 @@
 #include "vga_change.h"
 
 #include "inputs.h"
-#include "sightline/geojson.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>

@@ -139,7 +139,7 @@ sl_status vga_grid_choose(sl_context *context, const vga_grid_plan *plan,
                 input_locate(context, "--at", plan->at.items[i], outline->space, seeds[i], NULL);
     }
     if (status == SL_OK) {
-        status = sl_vga_grid_fill(context, outline, plan->step, seeds, plan->at.count, grid);
+        status = sl_vga_grid_make(context, outline, plan->step, seeds, plan->at.count, grid);
         status = pipeline_name_stray(context, pipeline->path, map, outline->space, status);
     }
     sl_free(context, seeds);

@@ -81,11 +81,11 @@ static void write_work(const document_state *document, char text[256]) {
         length += snprintf(text + length, 256 - (size_t)length,
                            "; %llu bytes for pairs that depend on doors, %llu pairs over the limit",
                            (unsigned long long)sl_door_sets_bytes(&v->doors),
-                           (unsigned long long)a->door_fallbacks);
-    if (a->range_tests)
+                           (unsigned long long)a->effects.door_fallbacks);
+    if (a->effects.range_tests)
         length += snprintf(text + length, 256 - (size_t)length,
                            "; %llu sightlines held against the range",
-                           (unsigned long long)a->range_tests);
+                           (unsigned long long)a->effects.range_tests);
     snprintf(text + length, 256 - (size_t)length, ".");
 }
 

@@ -34,7 +34,7 @@ unsigned heat_measure_part(const sl_measure *measure) {
 
 static sl_status fill(sl_context *context, heat_graph *g) {
     SL_TRY(sl_query_outline(context, g->query, &g->outline));
-    SL_TRY(sl_vga_grid_fill(context, g->outline, g->step, NULL, 0, &g->grid));
+    SL_TRY(sl_vga_grid_make(context, g->outline, g->step, NULL, 0, &g->grid));
     if (g->grid.count == 0)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "no point of a grid with steps of %.3g is inside; choose a finer grid",

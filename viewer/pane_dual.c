@@ -15,10 +15,10 @@ static sl_dual_frame frame_of(app_state *app, sl_box box) {
     sl_status status;
     const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
     app_check(app, status);
-    return sl_dual_frame_fit_conflict(&lesson->dual, &lesson->before, lesson->ends, conflict,
-                                      box.min.x + 0.9 * t, box.min.y + 2.2 * t,
-                                      fmax(box_width(box) - 1.8 * t, 8),
-                                      fmax(box_height(box) - 4.1 * t, 8), ui_scale(&app->ui));
+    return sl_dual_frame_fit(&lesson->dual, &lesson->before, lesson->ends, conflict,
+                             box.min.x + 0.9 * t, box.min.y + 2.2 * t,
+                             fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
+                             ui_scale(&app->ui));
 }
 
 /// The line as an equation: "y = 0.31 x - 0.05".

@@ -6,7 +6,7 @@
 #include "sightline/explained.h"
 #include "cell_to_cell/pvs_rows.h"
 
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "bake/export.h"
 #include "base/base.h"
 #include "cell_to_cell/view_rows.h"
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
 

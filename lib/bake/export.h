@@ -27,7 +27,7 @@ const char *sli_glass_name(sli_glass_way way);
 sl_status sli_export_json(sl_context *context, const sl_baked *baked,
                           const sl_export_options *options, const char *path);
 /// "geojson": a FeatureCollection of cells, portals, walls, doors, mirrors, one-way glass and
-/// starts, in the map's own coordinates. Its writer is in sightline/geojson.h.
+/// starts, in the map's own coordinates. Its writer is in sightline/json.h.
 sl_status sli_export_geojson(sl_context *context, const sl_baked *baked,
                              const sl_export_options *options, const char *path);
 /// "csv": a line "from,to" for each ordered pair seen.

@@ -76,4 +76,10 @@ sl_status sli_file_write(sl_context *context, const char *path, const sli_to_wri
 sl_status sli_read_back(sl_context *context, const char *path, const sli_to_write *file,
                         sli_again again);
 
+/// Gives back the room behind `count` items, one or more, where the system takes it.
+void sli_shrink(sl_context *context, void *items, size_t *capacity, size_t count, size_t item_size);
+
+/// The length of the decimal number at the start of text[0 .. length), 0 for none.
+size_t sli_number_length(const char *text, size_t length);
+
 #endif

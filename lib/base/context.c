@@ -186,7 +186,8 @@ sl_status sl_reserve(sl_context *context, void *items, size_t *capacity, size_t 
     return SL_OK;
 }
 
-void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count, size_t item_size) {
+void sli_shrink(sl_context *context, void *items, size_t *capacity, size_t count,
+                size_t item_size) {
     if (!count || count >= *capacity) return;
     void *block;
     memcpy(&block, items, sizeof block);

@@ -12,6 +12,7 @@
 /// all such powers here are written exactly. (Both Steele and White 1990, How to Print
 /// Floating-Point Numbers Accurately, with numbers of at most 128 bits.) Other numbers
 /// are left to printf and strtod.
+#include "base/base.h"
 #include "base/wide.h"
 #include "sightline/support.h"
 
@@ -108,7 +109,7 @@ static size_t skip_digits(const char *text, size_t length, size_t at) {
     return at;
 }
 
-size_t sl_number_length(const char *text, size_t length) {
+size_t sli_number_length(const char *text, size_t length) {
     size_t at = length && (text[0] == '-' || text[0] == '+');
     const size_t whole = at;
     at = skip_digits(text, length, at);
@@ -133,7 +134,7 @@ enum { MOST_CHARACTERS = 2048 };
 
 bool sl_number_read(const char *text, size_t length, double *value) {
     char copy[MOST_CHARACTERS + 16];
-    if (length == 0 || length > MOST_CHARACTERS || sl_number_length(text, length) != length)
+    if (length == 0 || length > MOST_CHARACTERS || sli_number_length(text, length) != length)
         return false;
     memcpy(copy, text, length);
     copy[length] = '\0';

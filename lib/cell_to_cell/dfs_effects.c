@@ -436,13 +436,13 @@ static sl_status add_ways_back(sl_context *context, sl_pvs *mirrored) {
 sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out) {
     effects *e = all->effects;
     const uint32_t cells = all->space->cell_count;
-    out->account.door_fallbacks = e->fallbacks;
-    out->account.door_steps = e->door_steps;
-    out->account.mirror_steps = e->mirror_steps;
-    out->account.glass_tests = e->glass_tests;
-    out->account.range_tests = e->range_tests;
-    out->account.close_calls = e->close_calls;
-    out->account.rounded_places = e->rounded_places;
+    out->account.effects.door_fallbacks = e->fallbacks;
+    out->account.effects.door_steps = e->door_steps;
+    out->account.effects.mirror_steps = e->mirror_steps;
+    out->account.effects.glass_tests = e->glass_tests;
+    out->account.effects.range_tests = e->range_tests;
+    out->account.effects.close_calls = e->close_calls;
+    out->account.effects.rounded_places = e->rounded_places;
     if (e->doors && is_halved(all)) SL_TRY(sli_door_rows_mirror(context, e->door_rows, cells));
     if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &out->doors));
     if (!e->mirrors) return SL_OK;

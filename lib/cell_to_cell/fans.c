@@ -13,6 +13,7 @@
 /// each different gain.
 #include "cell_to_cell/fans.h"
 
+#include "base/base.h"
 #include "cell_to_cell/methods.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
@@ -460,8 +461,8 @@ static void drop_idle(sl_context *context, sli_fans *fans, sli_fan_way way) {
     }
     fans->fans.count = kept;
     fans->cells.count = kept_cells;
-    sl_shrink(context, &fans->fans.items, &fans->fans.capacity, kept, sizeof *fans->fans.items);
-    sl_shrink(context, &fans->cells.items, &fans->cells.capacity, kept_cells, sizeof *cells);
+    sli_shrink(context, &fans->fans.items, &fans->fans.capacity, kept, sizeof *fans->fans.items);
+    sli_shrink(context, &fans->cells.items, &fans->cells.capacity, kept_cells, sizeof *cells);
 }
 
 /// `blocked`: of the space's directed portals, zeroed; NULL for SLI_FANS_MUTUAL.

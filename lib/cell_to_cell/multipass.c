@@ -186,12 +186,12 @@ static sl_status search_whole_face(sl_context *context, multipass *all, const ru
     sli_sparse_row *row = &p->seen[p->pass.faces[directed]];
     sli_word_set_clear(&me->sure);
     sli_word_set_clear(&me->doubtful);
-    me->account.candidates += count_bits(&me->candidates);
+    me->account.multipass.candidates += count_bits(&me->candidates);
     SL_TRY(search_face(context, all, p, me, directed));
     add_set(&me->cell_sure, &me->sure);
     add_set(&me->cell_doubtful, &me->doubtful);
     add_set(&me->sure, &me->doubtful);
-    me->account.relations += count_bits(&me->sure);
+    me->account.multipass.relations += count_bits(&me->sure);
     return sli_sparse_row_add(context, row, all->words, &me->sure, &all->budget);
 }
 
@@ -243,7 +243,7 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
     const bool cyclic = end - first > 1;
     if (cyclic) {
         bound_cycle(all, p, me, u->component);
-        me->account.on_cycles += end - first;
+        me->account.multipass.on_cycles += end - first;
     }
     for (uint32_t i = first; i < end; i++) {
         const uint32_t cell = order->nodes[i];
@@ -268,9 +268,9 @@ static void end(sl_context *context, void *job, void *state) {
         solver->account(me->search.solver_state, &all->account.stab);
     all->account.tests += me->account.tests;
     all->account.nodes += me->account.nodes;
-    all->account.candidates += me->account.candidates;
-    all->account.relations += me->account.relations;
-    all->account.on_cycles += me->account.on_cycles;
+    all->account.multipass.candidates += me->account.multipass.candidates;
+    all->account.multipass.relations += me->account.multipass.relations;
+    all->account.multipass.on_cycles += me->account.multipass.on_cycles;
     if (me->account.deepest > all->account.deepest) all->account.deepest = me->account.deepest;
     sli_bit_rows_join(context, &all->sure, &me->rows);
     sli_bit_rows_join(context, &all->doubtful, &me->doubtful_rows);
@@ -420,7 +420,7 @@ static sl_status finish(sl_context *context, multipass *all, sl_visibility *out)
 static sl_status see(sl_context *context, multipass *all, sl_visibility *out) {
     const uint32_t count = all->space->cell_count;
     SL_TRY(sli_sectors_create(context, all->space, all->options->sectors, &all->sectors));
-    all->account.sectors = all->sectors.count;
+    all->account.multipass.sectors = all->sectors.count;
     SL_TRY(sli_bit_rows_create(context, count, all->options, &all->sure));
     if (all->rounded) SL_TRY(sli_bit_rows_create(context, count, all->options, &all->doubtful));
     SL_TRY(pass_all(context, all));

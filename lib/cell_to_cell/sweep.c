@@ -104,7 +104,7 @@ sl_status sli_sweep_see(sl_context *context, const sl_space *space, const sl_see
     sl_status status = find(context, &all, &visibility);
     pthread_mutex_destroy(&all.lock);
     if (status == SL_OK) {
-        visibility.account.pieces = all.pieces;
+        visibility.account.sweep.pieces = all.pieces;
         visibility.account.deepest = all.deepest;
         status = sli_sweep_finish(context, space, options, &all.rows, &visibility);
     }

@@ -71,8 +71,9 @@ static sl_status see_all(sl_context *context, const sl_space *space, const sl_se
     const sli_dfs_known known = {.possible = &open->pvs,
                                  .certain = mirrors_alone ? &open->pvs : &shut->pvs};
     SL_TRY(sli_dfs_see_rest(context, space, &searched, &known, out));
-    out->account.glass_tests += open->account.glass_tests + shut->account.glass_tests;
-    out->account.pieces = open->account.pieces + shut->account.pieces;
+    out->account.effects.glass_tests +=
+        open->account.effects.glass_tests + shut->account.effects.glass_tests;
+    out->account.sweep.pieces = open->account.sweep.pieces + shut->account.sweep.pieces;
     return SL_OK;
 }
 

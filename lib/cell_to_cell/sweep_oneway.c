@@ -183,7 +183,8 @@ static sl_status sweep_all(sl_context *context, sli_sweep *all, sl_visibility *o
     SL_TRY(sli_sweep_run(context, all));
     SL_TRY(join_directions(context, all));
     // By each of the three that found fans.
-    out->account.glass_tests = SETS * (uint64_t)all->fans[FORTH].first_directed[space->cell_count];
+    out->account.effects.glass_tests =
+        SETS * (uint64_t)all->fans[FORTH].first_directed[space->cell_count];
     return SL_OK;
 }
 

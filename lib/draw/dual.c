@@ -54,11 +54,6 @@ static sl_dual_frame frame_of(range r, double left, double top, double width, do
                            .high = {r.high.slope + wide, r.high.height + tall}};
 }
 
-sl_dual_frame sl_dual_frame_fit(const sl_dual *before, double left, double top, double width,
-                                double height, double unit) {
-    return frame_of(range_of(before), left, top, width, height, unit);
-}
-
 static sl_point end_at(const sl_dual *dual, const sl_portal_ends *portals, sl_stab_end end) {
     const sl_portal_ends *at = &portals[end.portal];
     return sl_dual_point(dual, end.left ? at->left : at->right);
@@ -88,10 +83,9 @@ static range conflict_range(const sl_dual *dual, const sl_portal_ends *portals,
     return r;
 }
 
-sl_dual_frame sl_dual_frame_fit_conflict(const sl_dual *dual, const sl_dual *before,
-                                         const sl_portal_ends *portals, const sl_conflict *conflict,
-                                         double left, double top, double width, double height,
-                                         double unit) {
+sl_dual_frame sl_dual_frame_fit(const sl_dual *dual, const sl_dual *before,
+                                const sl_portal_ends *portals, const sl_conflict *conflict,
+                                double left, double top, double width, double height, double unit) {
     range r = range_of(before);
     if (conflict->end_count) {
         const range c = conflict_range(dual, portals, conflict, r);
@@ -122,12 +116,12 @@ static void write_number(double value, char text[32]) {
     snprintf(text, 32, "%s%.3g", value < 0 ? MINUS : "", fabs(value));
 }
 
-void sl_dual_equation(const sl_dual *dual, sl_point end, bool left, char text[SL_EQUATION_TEXT]) {
+void sli_dual_equation(const sl_dual *dual, sl_point end, bool left, char text[SLI_EQUATION_TEXT]) {
     const sl_point at = sl_dual_point(dual, end);
     char height[32], slope[32];
     write_number(at.y, height);
     write_number(fabs(at.x), slope);
-    snprintf(text, SL_EQUATION_TEXT, "b %s %s %s %s a", left ? "\xe2\x89\xa4" : "\xe2\x89\xa5",
+    snprintf(text, SLI_EQUATION_TEXT, "b %s %s %s %s a", left ? "\xe2\x89\xa4" : "\xe2\x89\xa5",
              height, at.x < 0 ? "+" : MINUS, slope);
 }
 
@@ -265,8 +259,8 @@ static void draw_name(const figure *g, names *n, sl_stab_end end, bool marked, b
     const double size = g->marks->text;
     const sl_point at = end_at(g->dual, g->portals, end);
     const sl_portal_ends *ends = &g->portals[end.portal];
-    char text[SL_EQUATION_TEXT + 40], equation[SL_EQUATION_TEXT] = "";
-    if (marked) sl_dual_equation(g->dual, end.left ? ends->left : ends->right, end.left, equation);
+    char text[SLI_EQUATION_TEXT + 40], equation[SLI_EQUATION_TEXT] = "";
+    if (marked) sli_dual_equation(g->dual, end.left ? ends->left : ends->right, end.left, equation);
     snprintf(text, sizeof text, "%c%u%s%s", end.left ? 'L' : 'R', end.portal + 1,
              marked ? ":  " : "", equation);
     sl_text_font(g->cairo, size, strong);

@@ -283,8 +283,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     const sl_draw_options *options = &p->scene.options;
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, options->layers, frame));
     for (size_t i = 0; i < p->part_count; i++) {
-        (p->parts[i].depth ? sl_draw_seen : draw_lit)(cairo, &p->scene.palette, frame,
-                                                      &p->parts[i]);
+        (p->parts[i].depth ? sli_draw_seen : draw_lit)(cairo, &p->scene.palette, frame,
+                                                       &p->parts[i]);
     }
     if (p->part_count) SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);

@@ -168,7 +168,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     // Squares and patches may reach from the floor into solid ground.
     sli_draw_solid(cairo, &p->scene, frame);
     for (size_t i = 0; i < p->region_count; i++)
-        sl_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
+        sli_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     for (size_t i = 0; i < p->region_count; i++) draw_eye(cairo, p, frame, p->regions[i].eye);
     return SL_OK;

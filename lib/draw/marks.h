@@ -52,4 +52,15 @@ void sli_mark_fault(cairo_t *cairo, const sl_palette *palette, const sli_pens *p
 void sli_draw_faults(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens,
                      const sl_frame *frame, const sl_faults *faults);
 
+/// Draws a polygon by its depth: blue where it is seen directly, else in the colour of what is seen
+/// by mirror, the paler the more mirrors.
+void sli_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                   const sl_drawn_region *region);
+
+/// Room for an equation.
+#define SLI_EQUATION_TEXT 96
+
+/// The half-plane of an end: "b <= 0.52 - 0.31 a" for a left one, with the signs of print.
+void sli_dual_equation(const sl_dual *dual, sl_point end, bool left, char text[SLI_EQUATION_TEXT]);
+
 #endif

@@ -2,7 +2,7 @@
 /// anything is drawn; then the same functions draw it. The file is PNG, SVG or PDF.
 #include "draw/page.h"
 #include "draw/marks.h"
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 
 #include <cairo-pdf.h>

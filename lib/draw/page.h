@@ -87,7 +87,7 @@ typedef struct sli_page_parts {
 sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
                          const sli_paper_kind *kind, const char *path);
 
-/// The key of the colours of sl_draw_seen, from a place on the page, in lines as the width allows.
+/// The key of the colours of sli_draw_seen, from a place on the page, in lines as the width allows.
 /// Returns the height; 0 if nothing is seen by mirror. Draws only with `paint`.
 double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
                          size_t count, sl_point at, double width, double size, bool paint);

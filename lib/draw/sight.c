@@ -18,18 +18,6 @@ static void add_cell(cairo_t *cairo, const sl_space *space, const sl_frame *fram
     sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
 }
 
-void sl_draw_cell_set(cairo_t *cairo, const sl_space *space, const sl_frame *frame,
-                      const uint64_t *cells, const uint64_t *without, sl_colour colour,
-                      double opacity) {
-    for (size_t w = 0; w < sl_bits_words(space->cell_count); w++) {
-        const uint64_t word = cells[w] & ~(without ? without[w] : 0);
-        for (uint32_t i = 0; i < 64 && word >> i; i++)
-            if (word >> i & 1) add_cell(cairo, space, frame, (uint32_t)(64 * w + i));
-    }
-    set_faded(cairo, colour, opacity);
-    cairo_fill(cairo);
-}
-
 void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, uint32_t cell,
                   sl_colour colour, double opacity, double width) {
     add_cell(cairo, space, frame, cell);
@@ -229,8 +217,8 @@ static double strength(uint32_t depth) {
     return depth ? 1.0 / depth : 1;
 }
 
-void sl_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                  const sl_drawn_region *region) {
+void sli_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                   const sl_drawn_region *region) {
     const sl_colour colour = hue(palette, region->depth);
     if (region->count < 3) return;
     sl_path_polygon(cairo, frame, region->points, region->count);

@@ -473,10 +473,6 @@ void sl_from_region_result_destroy(sl_context *context, sl_from_region_result *r
     *result = (sl_from_region_result){0};
 }
 
-bool sl_from_region_sees(const sl_from_region_result *result, uint32_t view_cell, uint32_t object) {
-    return sl_bits_has(result->seen + (size_t)view_cell * result->words, object);
-}
-
 uint64_t sl_from_region_pairs(const sl_from_region_result *result) {
     return sli_bits_count(result->seen, (size_t)result->view_cells * result->words);
 }

@@ -10,6 +10,7 @@
 #include "map/scan.h"
 #include "map/source.h"
 #include "space/kd_tree.h"
+#include "space/subdivide.h"
 
 #include <string.h>
 
@@ -51,7 +52,7 @@ static sl_status subdivide(sl_context *context, const sl_map *map,
     if (options->view_cells == SL_VIEW_CELLS_BOXES)
         SL_TRY(add_borders_of_boxes(context, &scene->map));
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    return sl_subdivide_kd(context, &scene->map, &rules, &scene->space);
+    return sli_subdivide_kd(context, &scene->map, &rules, &scene->space);
 }
 
 // --- passes

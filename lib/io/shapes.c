@@ -6,6 +6,7 @@
 /// solid and an open square is drawn once and runs as far as it can.
 #include "io/shapes.h"
 
+#include "base/base.h"
 #include "geometry/length.h"
 #include "io/limits.h"
 #include "io/things.h"
@@ -18,7 +19,7 @@
 
 /// The unit of the last decimal place of a number as written: 0.01 for "2.50"; at most 1.
 static double decimal_unit(const char *text, size_t length) {
-    const char *end = text + sl_number_length(text, length), *at = text;
+    const char *end = text + sli_number_length(text, length), *at = text;
     int places = 0;
     for (bool behind = false; at < end && (*at | 0x20) != 'e'; at++) {
         places -= behind;

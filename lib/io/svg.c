@@ -2,6 +2,7 @@
 /// is walls, through the transforms of its groups. Hidden shapes and those of other layers are left
 /// out. A use draws another element once more, so depth and work are bounded. Groups whose names
 /// begin with "sightline-" hold doors, solid ground and so on (layers.h).
+#include "base/base.h"
 #include "io/document.h"
 #include "io/formats.h"
 #include "io/layers.h"
@@ -51,7 +52,7 @@ static sl_status fail_expected(const sli_pen *pen, const svg_text *text, const c
 /// The next number. SL_BAD_INPUT, at the pen's line, where there is none.
 static sl_status svg_number(const sli_pen *pen, svg_text *text, double *value) {
     svg_skip(text);
-    const size_t length = sl_number_length(text->at, (size_t)(text->end - text->at));
+    const size_t length = sli_number_length(text->at, (size_t)(text->end - text->at));
     if (!length || !sl_number_read(text->at, length, value) || !isfinite(*value))
         return fail_expected(pen, text, "a number");
     text->at += length;
@@ -788,7 +789,7 @@ static sl_status read_marks(svg *s, xmlNode *root) {
 static void find_unit(svg *s, xmlNode *root, double box_width) {
     static const char *const units[] = {"px", "in", "cm", "mm", "pt", "pc"};
     char *text = sli_xml_attribute(root, "width"), *unit = s->pen.map->unit;
-    const size_t length = text ? sl_number_length(text, strlen(text)) : 0;
+    const size_t length = text ? sli_number_length(text, strlen(text)) : 0;
     double width = 0;
     if (box_width == 0) strcpy(unit, units[0]);
     if (box_width != 0 && length && sl_number_read(text, length, &width) && width == box_width) {

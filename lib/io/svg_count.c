@@ -3,6 +3,7 @@
 /// are counted at least: curves as one, where they are not circles.
 #include "io/svg_count.h"
 
+#include "base/base.h"
 #include "io/document.h"
 #include "io/limits.h"
 
@@ -71,7 +72,7 @@ static uint64_t count_path(const char *data) {
     uint64_t parts = 0, numbers = 0;
     size_t takes = 0;
     for (const char *at = data, *end = data + strlen(data); at < end;) {
-        const size_t length = sl_number_length(at, (size_t)(end - at));
+        const size_t length = sli_number_length(at, (size_t)(end - at));
         const char capital = (char)(*at & ~0x20);
         const char *letter = capital ? strchr(letters, capital) : NULL; // a space has none
         numbers += length > 0;
@@ -88,7 +89,7 @@ static uint64_t count_path(const char *data) {
 static uint64_t count_points(const char *data) {
     uint64_t numbers = 0;
     for (const char *at = data, *end = data + strlen(data); at < end;) {
-        const size_t length = sl_number_length(at, (size_t)(end - at));
+        const size_t length = sli_number_length(at, (size_t)(end - at));
         numbers += length > 0;
         at += length ? length : 1;
     }

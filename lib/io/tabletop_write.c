@@ -8,7 +8,7 @@
 #include "io/formats.h"
 #include "io/layers.h"
 #include "sightline/io.h"
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 
 #include <inttypes.h>
 #include <math.h>

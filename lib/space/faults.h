@@ -67,4 +67,15 @@ void sli_leak_search_end(sl_context *context, sli_leak_search *leaks); ///< take
 /// Adds the leaks of a start, with their ways.
 sl_status sli_find_leaks_of(sli_leak_search *leaks, sl_point start);
 
+/// Closes gaps up to the width `gap`, in two steps. No end moves farther than `gap` in a step.
+///
+/// 1. Ends that are near each other become one point: the one that most walls have, else the first.
+/// 2. A free end near a wall is put onto it. Two axial walls meet along their own lines; else the
+///    end goes to the nearest point, rounded, and the wall is split there. An end that touches a
+///    wall already stays.
+///
+/// Doors and glass with an end at a place that moves go with it, unless they would lose their
+/// length. Cells of the map's own no longer fit, and are dropped.
+sl_status sli_map_snap(sl_context *context, sl_map *map, double gap, sl_mend_account *account);
+
 #endif

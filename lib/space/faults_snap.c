@@ -57,7 +57,7 @@ typedef struct snapper {
     size_t count;
     SL_ARRAY(snap_move) moves; ///< of one step
     SL_ARRAY(snap_split) splits;
-    sl_snap_account account;
+    sl_mend_account account;
 } snapper;
 
 static int compare_places(const void *left, const void *right) {
@@ -300,7 +300,7 @@ static sl_status snap_to_walls(snapper *s) {
     return status;
 }
 
-sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_account *account) {
+sl_status sli_map_snap(sl_context *context, sl_map *map, double gap, sl_mend_account *account) {
     if (!(gap > 0 && sl_coordinate_usable(gap)))
         return sl_fail(context, SL_BAD_ARGUMENT, "the gap to close must be a positive number");
     snapper s = {.context = context, .map = map, .gap = gap};
@@ -349,12 +349,12 @@ static bool drop_ground(sl_map *map) {
 }
 
 sl_status sl_map_mend(sl_context *context, sl_map *map, double gap, const sl_clean_options *clean,
-                      sl_snap_account *account) {
+                      sl_mend_account *account) {
     enum { ROUNDS = 32 };
-    sl_snap_account all = {0}, round = {.moved = 1};
+    sl_mend_account all = {0}, round = {.moved = 1};
     for (int i = 0; i < ROUNDS && round.moved && map->wall_count; i++) {
         SL_TRY(sl_map_clean(context, map, clean, NULL));
-        SL_TRY(sl_map_snap(context, map, gap, &round));
+        SL_TRY(sli_map_snap(context, map, gap, &round));
         all.moved += round.moved;
         all.vanished += round.vanished;
         all.farthest = fmax(all.farthest, round.farthest);

@@ -14,6 +14,7 @@
 /// than none, is a cell that overlaps another. Time O(n log n), for the mesh.
 #include "map/source.h"
 #include "space/mesh.h"
+#include "space/subdivide.h"
 
 /// The number of the map's cells that cover a triangle, and the sum of their numbers, each plus
 /// one.
@@ -176,7 +177,7 @@ static void destroy(given *g) {
     sl_free(g->context, g->waiting.items);
 }
 
-sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *out) {
+sl_status sli_subdivide_given(sl_context *context, const sl_map *map, sl_space *out) {
     given g = {.context = context, .map = map, .source = sli_map_name(map)};
     if (!map->cell_count)
         return sl_fail_at(context, g.source, 0, "the map brings no cells of its own");

@@ -24,6 +24,7 @@
 #include "map/source.h"
 #include "sightline/support.h"
 #include "space/index.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 #include <string.h>
@@ -554,7 +555,7 @@ static sl_status settle(sl_context *context, sl_map *map, sl_map *copy, sl_space
     bool differs = false;
     SL_TRY(sl_map_copy(context, map, copy));
     SL_TRY(sl_map_clean(context, copy, NULL, NULL));
-    SL_TRY(sl_subdivide_mesh(context, copy, space));
+    SL_TRY(sli_subdivide_mesh(context, copy, space));
     if (!take_ground(context, space, &differs)) return SL_NO_MEMORY;
     if (!differs) return SL_OK;
     map->wall_count = 0;

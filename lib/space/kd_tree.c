@@ -18,6 +18,7 @@
 /// once. Time O(n) for each level.
 #include "space/kd_tree.h"
 
+#include "base/base.h"
 #include "map/source.h"
 #include "sightline/support.h"
 
@@ -303,7 +304,7 @@ static sl_status push_child(sl_context *context, region_stack *stack, region *r,
     while (child.upright < child.count && child.pieces[child.upright].axis == 0) child.upright++;
     if (!above) {
         size_t room = ORDERS * r->count;
-        sl_shrink(context, &child.pieces, &room, ORDERS * child.count, sizeof line);
+        sli_shrink(context, &child.pieces, &room, ORDERS * child.count, sizeof line);
         r->pieces = NULL;
     }
     stack->items[stack->count++] = child;

@@ -27,6 +27,7 @@
 #include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
+#include "space/subdivide.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -403,7 +404,7 @@ sl_status sli_mesh_lines_of_map(sl_context *context, const sl_map *map, sli_mesh
     return SL_OK;
 }
 
-sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *out) {
+sl_status sli_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *out) {
     sl_space space = {0};
     sli_mesh_lines lines = {0};
     sli_planar graph = {0};

@@ -106,7 +106,7 @@ typedef struct sli_mesh_steps {
 #define SLI_MESH_STAYS UINT32_MAX
 
 /// Triangulates the walls and seams of a space again, and merges the triangles again. It leaves out
-/// cells that a map brought along (sl_subdivide_given).
+/// cells that a map brought along (sli_subdivide_given).
 sl_status sli_mesh_steps_record(sl_context *context, const sl_space *space, sli_mesh_steps *out);
 void sli_mesh_steps_destroy(sl_context *context, sli_mesh_steps *steps); ///< and zeroes it
 

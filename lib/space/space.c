@@ -14,6 +14,7 @@
 #include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 #include <string.h>
@@ -109,8 +110,8 @@ static sl_status fill_space(sl_context *context, const sl_map *map, const sli_pi
     return SL_OK;
 }
 
-sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
-                          const sl_subdivide_options *options, sl_space *out) {
+sl_status sli_subdivide_kd(sl_context *context, const sl_map *map,
+                           const sl_subdivide_options *options, sl_space *out) {
     if (!(options->obscured >= 0 && options->obscured <= 1))
         return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
     SL_TRY(sli_check_has_walls(context, map));
@@ -221,19 +222,19 @@ sl_point sl_space_middle(const sl_space *space, uint32_t cell) {
 static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
                        sl_space *out) {
     const sl_subdivide_options usual = sl_subdivide_options_default();
-    return sl_subdivide_kd(context, map, rules ? rules : &usual, out);
+    return sli_subdivide_kd(context, map, rules ? rules : &usual, out);
 }
 
 static sl_status by_mesh(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
                          sl_space *out) {
     (void)rules;
-    return sl_subdivide_mesh(context, map, out);
+    return sli_subdivide_mesh(context, map, out);
 }
 
 static sl_status as_given(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
                           sl_space *out) {
     (void)rules;
-    return sl_subdivide_given(context, map, out);
+    return sli_subdivide_given(context, map, out);
 }
 
 static const sl_subdivision subdivisions[] = {

@@ -136,7 +136,7 @@ static sl_status lay(sl_context *context, sl_box bounds, double step, sl_vga_gri
     return SL_OK;
 }
 
-sl_status sl_vga_grid_fill(sl_context *context, const sl_outline *outline, double step,
+sl_status sl_vga_grid_make(sl_context *context, const sl_outline *outline, double step,
                            const sl_point *seeds, size_t seed_count, sl_vga_grid *out) {
     sl_vga_grid grid = {0};
     SL_TRY(lay(context, outline->space->bounds, step, &grid));

@@ -24,6 +24,7 @@
 /// take O(pairs of points that are two steps apart), up to a limit; what has no list tries all.
 /// Keys are at least 1 apart along a path, so a bucket of keys near each other is sorted once, when
 /// it is reached.
+#include "base/base.h"
 #include "visibility_graph/paths.h"
 
 #include <float.h>
@@ -470,8 +471,8 @@ static sl_status list_unit(sl_context *context, void *all, void *state, size_t u
         }
         sl_bits_add(a->listed, p);
     }
-    sl_shrink(context, &list->ways.items, &list->ways.capacity, list->ways.count,
-              sizeof *list->ways.items);
+    sli_shrink(context, &list->ways.items, &list->ways.capacity, list->ways.count,
+               sizeof *list->ways.items);
     return SL_OK;
 }
 

@@ -4,6 +4,7 @@
 /// Points are numbered along a Z-curve (tiles.c), first those that turn paths. So the 64 points of
 /// a word fill a small box, and a row has few words. Cost: O(edges), and 16 bytes for each word.
 #include "visibility_graph/paths.h"
+#include "base/base.h"
 
 #include <string.h>
 
@@ -163,8 +164,8 @@ sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_v
     }
     if (status == SL_OK) {
         s->first[s->count] = s->words.count;
-        sl_shrink(context, &s->words.items, &s->words.capacity, s->words.count,
-                  sizeof *s->words.items);
+        sli_shrink(context, &s->words.items, &s->words.capacity, s->words.count,
+                   sizeof *s->words.items);
         memset(row, 0, s->bundles * sizeof *row);
         for (uint32_t slot = 0; slot < s->count; slot++) sl_bits_add(row, slot);
         number_parts(s, queue, row);

@@ -13,6 +13,7 @@
 /// Cost of a step: the tiles of the level's bundles, and a few rows of some of them. Memory: 528
 /// bytes a tile.
 #include "visibility_graph/tiles.h"
+#include "base/base.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -114,8 +115,8 @@ sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
         return status;
     }
     t.first[t.bundles] = t.tiles.count;
-    sl_shrink(context, &t.tiles.items, &t.tiles.capacity, t.tiles.count, sizeof *t.tiles.items);
-    sl_shrink(context, &t.rows.items, &t.rows.capacity, t.rows.count, sizeof *t.rows.items);
+    sli_shrink(context, &t.tiles.items, &t.tiles.capacity, t.tiles.count, sizeof *t.tiles.items);
+    sli_shrink(context, &t.rows.items, &t.rows.capacity, t.rows.count, sizeof *t.rows.items);
     *out = t;
     return SL_OK;
 }

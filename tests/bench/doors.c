@@ -8,6 +8,7 @@
 #include "baked_bytes.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "doors_plan.h"
@@ -55,7 +56,7 @@ static void bake(bench *b) {
     b->baked = (sl_baked){.method = "prune", .solver = "funnel"};
     bench_must(b->context, doors_plan(b->context, &b->baked.map));
     bench_must(b->context, sl_map_clean(b->context, &b->baked.map, NULL, NULL));
-    bench_must(b->context, sl_subdivide_kd(b->context, &b->baked.map, &rules, &b->baked.space));
+    bench_must(b->context, sli_subdivide_kd(b->context, &b->baked.map, &rules, &b->baked.space));
     sl_plan plan = sl_plan_make(&b->baked.map);
     plan.door_limit = b->limit;
     see(b, &b->baked.space, &plan, &b->baked.visibility);
@@ -186,7 +187,7 @@ static void report(bench *b) {
         {"sets of doors of such a pair", depend ? (double)sets / (double)depend : 0},
         {"bytes of door sets a pair", bytes / pairs},
         {"bytes of visible sets a pair", (double)v->pvs.offsets[v->pvs.cell_count] / pairs},
-        {"pairs with more sets than are kept", (double)v->account.door_fallbacks}};
+        {"pairs with more sets than are kept", (double)v->account.effects.door_fallbacks}};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         printf("%s,%u,%s,%.6g,\n", b->machine, (unsigned)b->limit, counts[i].what, counts[i].value);
     double times[QUESTIONS];

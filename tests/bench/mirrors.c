@@ -70,7 +70,7 @@ static figure bake(const scene *s, uint32_t depth) {
     while (strcmp(methods->name, "prune") != 0) methods++;
     sl_visibility seen = {0};
     bench_must(s->context, methods->see(s->context, &s->space, &options, &seen));
-    figure out = {.rounded = seen.account.rounded_places};
+    figure out = {.rounded = seen.account.effects.rounded_places};
     for (uint32_t a = 0; a < s->space.cell_count; a++)
         for (uint32_t b = 0; b < s->space.cell_count; b++)
             out.shown += sl_pvs_sees(&seen.pvs, a, b) ||

@@ -55,12 +55,13 @@ int main(int argc, char **argv) {
     uint32_t last = 0;
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         const double seconds = measure(context, &space, "multipass", numbers[i], &account);
-        if (account.sectors == last) continue;
-        last = account.sectors;
+        if (account.multipass.sectors == last) continue;
+        last = account.multipass.sectors;
         printf("%s,%s,%u,%u,%u,%llu,%llu,%llu,%llu,%.3f,%.6f,%.3f\n", machine.machine, argv[1],
-               space.cell_count, space.portal_count, account.sectors,
-               (unsigned long long)account.on_cycles, (unsigned long long)account.candidates,
-               (unsigned long long)account.relations, (unsigned long long)account.tests,
+               space.cell_count, space.portal_count, account.multipass.sectors,
+               (unsigned long long)account.multipass.on_cycles,
+               (unsigned long long)account.multipass.candidates,
+               (unsigned long long)account.multipass.relations, (unsigned long long)account.tests,
                (double)account.tests / (double)prune.tests, seconds, seconds / prune_seconds);
     }
     sl_space_destroy(context, &space);

@@ -44,7 +44,7 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     sl_vga_graph graph = {0};
     bench_must(context, sl_outline_make(context, space, &outline));
     double start = bench_seconds();
-    bench_must(context, sl_vga_grid_fill(context, &outline, step, NULL, 0, &grid));
+    bench_must(context, sl_vga_grid_make(context, &outline, step, NULL, 0, &grid));
     bench_must(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
     const double made = bench_seconds() - start;
     t->points = grid.count;

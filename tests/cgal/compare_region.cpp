@@ -148,9 +148,8 @@ struct Floor {
     }
     /// All that follows from the map.
     void finish() {
-        const sl_subdivide_options rules = sl_subdivide_options_default();
         must(sl_map_clean(context, &map, nullptr, nullptr));
-        must(sl_subdivide_kd(context, &map, &rules, &space));
+        must(sl_subdivision_for(&map)->subdivide(context, &map, nullptr, &space));
         must(sl_outline_make(context, &space, &outline));
         std::vector<Traits::Curve_2> segments;
         for (uint32_t i = 0; i < space.wall_count; i++)

@@ -7,6 +7,7 @@
 #include "sightline/io.h"
 #include "sightline/space.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 #include "unit/map_same.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ static inline void fuzz_refused(sl_context *context, sl_status status, const sl_
 /// A map's own cells make a space that is in order, or are refused.
 static inline void fuzz_cells(sl_context *context, const sl_map *map) {
     sl_space space = {0};
-    const sl_status status = sl_subdivide_given(context, map, &space);
+    const sl_status status = sli_subdivide_given(context, map, &space);
     if (status == SL_OK)
         FUZZ_CHECK(sl_space_check(context, &space) == SL_OK);
     else
@@ -92,12 +93,12 @@ static inline bool fuzz_is_inside(const sl_space *space, uint32_t number, sl_poi
 static inline void fuzz_ground(sl_context *context, const sl_map *map) {
     sl_space kd = {0}, mesh = {0};
     if (!map->wall_count || map->wall_count > 200) return;
-    const sl_status status = sl_subdivide_mesh(context, map, &mesh);
+    const sl_status status = sli_subdivide_mesh(context, map, &mesh);
     FUZZ_CHECK(status == SL_OK || status == SL_BAD_INPUT);
     if (status == SL_OK) FUZZ_CHECK(sl_space_check(context, &mesh) == SL_OK);
     if (sl_map_is_axial(map)) {
         const sl_subdivide_options rules = sl_subdivide_options_default();
-        FUZZ_CHECK(sl_subdivide_kd(context, map, &rules, &kd) == status);
+        FUZZ_CHECK(sli_subdivide_kd(context, map, &rules, &kd) == status);
         if (status == SL_OK) FUZZ_CHECK(sl_space_check(context, &kd) == SL_OK);
     }
     for (uint32_t i = 0; i < kd.cell_count && status == SL_OK; i++) {

@@ -6,6 +6,7 @@
 
 #include "map/scan.h"
 #include "sightline/space.h"
+#include "space/subdivide.h"
 
 #include <string.h>
 
@@ -17,11 +18,11 @@ static void drop_ground(sl_map *map) {
 static sl_status make_mesh(sl_context *context, sl_map *map, sl_space *space) {
     bool marked = false;
     for (size_t i = 0; i < map->wall_count; i++) marked |= map->walls[i].ground != 0;
-    const sl_status status = sl_subdivide_mesh(context, map, space);
+    const sl_status status = sli_subdivide_mesh(context, map, space);
     if (status != SL_BAD_INPUT) return status;
     FUZZ_CHECK(marked && strstr(sl_context_message(context), "solid ground"));
     drop_ground(map);
-    return sl_subdivide_mesh(context, map, space);
+    return sli_subdivide_mesh(context, map, space);
 }
 
 static void check_mesh(sl_context *context, sl_map *map) {

@@ -6,6 +6,7 @@
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
 #include "sightline/sightline.h"
+#include "space/subdivide.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -95,7 +96,7 @@ static bool map_fails(sl_context *context, const sl_map *map, char why[WHY_SIZE]
     if (clean.wall_count) {
         sl_space space;
         const sl_subdivide_options rules = sl_subdivide_options_default();
-        need(context, sl_subdivide_kd(context, &clean, &rules, &space));
+        need(context, sli_subdivide_kd(context, &clean, &rules, &space));
         fails = try_space(context, &space, false, why);
         sl_space_destroy(context, &space);
     }

@@ -8,6 +8,7 @@
 #include "oracle/random_oblique.h"
 #include "oracle/tiling.h"
 #include "sightline/sightline.h"
+#include "space/subdivide.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,7 +105,7 @@ static sl_status make(search *s, trial *t, double weld) {
     if (status == SL_OK) status = sl_map_clean(s->context, &t->map, &options, &account);
     t->move = account.largest_move;
     if (status == SL_OK && t->map.wall_count)
-        status = sl_subdivide_mesh(s->context, &t->map, &t->space);
+        status = sli_subdivide_mesh(s->context, &t->map, &t->space);
     return status;
 }
 

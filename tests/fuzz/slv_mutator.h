@@ -8,6 +8,7 @@
 
 #include "cell_to_cell/pvs_rows.h"
 #include "fuzz.h"
+#include "space/subdivide.h"
 
 #include "bake/slv.h"
 #include "baked_bytes.h"
@@ -116,8 +117,8 @@ static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_
     SL_TRY(sli_map_read_text(context, "input", (const char *)text, size, &out->map));
     SL_TRY(sl_map_clean(context, &out->map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    if (size & 16 || sl_subdivide_kd(context, &out->map, &rules, &out->space) == SL_BAD_INPUT)
-        SL_TRY(sl_subdivide_mesh(context, &out->map, &out->space));
+    if (size & 16 || sli_subdivide_kd(context, &out->map, &rules, &out->space) == SL_BAD_INPUT)
+        SL_TRY(sli_subdivide_mesh(context, &out->map, &out->space));
     if (!out->space.cell_count) return SL_CANCELLED;
     out->map.wall_count = 0;
     sl_see_options options = sl_see_options_default();

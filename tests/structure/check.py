@@ -26,13 +26,13 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
+FOLDERS = ["base", "geometry", "json", "map", "generate", "space", "effects", "stab", "cell_to_cell",
            "from_region", "eye_to_cell", "query", "walk", "view_cells", "bake", "visibility_graph",
            "axial", "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "json_write": "base", "measures": "base", "support": "base", "version": "base",
+HEADERS = {"context": "base", "measures": "base", "support": "base", "version": "base",
            "import": "map",
            "faults": "space", "outline": "space",
            "dual": "stab", "glpk": "stab", "solvers": "stab",
@@ -41,7 +41,7 @@ HEADERS = {"context": "base", "json_write": "base", "measures": "base", "support
            "mirrored": "eye_to_cell", "moving": "eye_to_cell", "overlay": "eye_to_cell",
            "region": "eye_to_cell", "sees": "eye_to_cell", "view": "eye_to_cell",
            "vga": "visibility_graph",
-           "explained": "bake", "geojson": "bake", "canvas": "draw"}
+           "explained": "bake", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.

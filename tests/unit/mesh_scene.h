@@ -9,6 +9,7 @@
 #include "oracle/planar_graph.h"
 #include "oracle/random_oblique.h"
 #include "oracle/tiling.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -45,7 +46,7 @@ static inline bool scene_make(scene *s, double weld) {
     assert_ok(s->context, sl_map_copy(s->context, &s->read, &s->map));
     assert_ok(s->context, sl_map_clean(s->context, &s->map, &options, &s->account));
     if (!s->map.wall_count) return false;
-    assert_ok(s->context, sl_subdivide_mesh(s->context, &s->map, &s->space));
+    assert_ok(s->context, sli_subdivide_mesh(s->context, &s->map, &s->space));
     return true;
 }
 

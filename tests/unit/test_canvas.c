@@ -1,4 +1,5 @@
 /// Drawing into a context of one's own: frames, scenes, the dual plane, and page files.
+#include "draw/marks.h"
 #include "sightline/canvas.h"
 
 #include "test_draw_map.h"
@@ -110,20 +111,12 @@ static void unknown_cells_are_refused(void **state) {
     assert_null(scene);
 }
 
-static void sets_leave_out_what_is_in_another(void **state) {
-    canvas *c = *state;
-    const uint64_t both =
-        (uint64_t)1 << c->map.cells[LEFT_BELOW] | (uint64_t)1 << c->map.cells[RIGHT_BELOW];
-    const uint64_t right = (uint64_t)1 << c->map.cells[RIGHT_BELOW];
-    sl_draw_cell_set(c->cairo, &c->map.baked.space, &c->frame, &both, &right, c->palette.glass, 1);
-    assert_true(has_colour(c, 12, 5, c->palette.glass));
-    assert_false(has_colour(c, 32, 5, c->palette.glass));
-}
-
 static void places_of_the_dual_plane_are_lines(void **state) {
     (void)state;
     const sl_dual square = {.corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, .corner_count = 4};
-    const sl_dual_frame frame = sl_dual_frame_fit(&square, 10, 20, 200, 100, 1);
+    const sl_conflict none = {0};
+    const sl_dual_frame frame =
+        sl_dual_frame_fit(&square, &square, NULL, &none, 10, 20, 200, 100, 1);
     const sl_dual_line middle = sl_dual_frame_line(&frame, (sl_point){110, 70});
     assert_true(fabs(middle.slope) < 1e-12 && fabs(middle.height) < 1e-12);
     const sl_dual_line corner = sl_dual_frame_line(&frame, (sl_point){10, 120});
@@ -255,7 +248,7 @@ static void contradictions_lie_in_the_frame(void **state) {
         sl_dual_make(ends, 3, 2, &before);
         assert_ok(c->context, sl_conflict_find(c->context, ends, 3, &conflict));
         const sl_dual_frame f =
-            sl_dual_frame_fit_conflict(&dual, &before, ends, &conflict, 10, 20, 200, 100, 1);
+            sl_dual_frame_fit(&dual, &before, ends, &conflict, 10, 20, 200, 100, 1);
         for (uint32_t k = 0; k < conflict.end_count; k++) {
             const sl_portal_ends *at = &ends[conflict.ends[k].portal];
             const sl_point p = sl_dual_point(&dual, conflict.ends[k].left ? at->left : at->right);
@@ -271,13 +264,13 @@ static void contradictions_lie_in_the_frame(void **state) {
 static void equations_are_those_of_half_planes(void **state) {
     (void)state;
     const sl_dual plain = {.along = {1, 0}, .scale = 1};
-    char text[SL_EQUATION_TEXT];
-    sl_dual_equation(&plain, (sl_point){0.25, -2}, true, text);
+    char text[SLI_EQUATION_TEXT];
+    sli_dual_equation(&plain, (sl_point){0.25, -2}, true, text);
     assert_string_equal(text, "b \xe2\x89\xa4 \xe2\x88\x92"
                               "2 \xe2\x88\x92 0.25 a");
-    sl_dual_equation(&plain, (sl_point){-1.5, 3}, false, text);
+    sli_dual_equation(&plain, (sl_point){-1.5, 3}, false, text);
     assert_string_equal(text, "b \xe2\x89\xa5 3 + 1.5 a");
-    sl_dual_equation(&plain, (sl_point){1e-9, 1e-9}, true, text);
+    sli_dual_equation(&plain, (sl_point){1e-9, 1e-9}, true, text);
     assert_string_equal(text, "b \xe2\x89\xa4 0 \xe2\x88\x92 0 a");
 }
 
@@ -299,7 +292,7 @@ static void marks_of_the_dual_plane_are_drawn(void **state) {
     assert_ok(c->context, sl_conflict_find(c->context, crossed, 2, &conflict));
     assert_int_equal(conflict.verdict, SL_HIDDEN);
     const sl_dual_frame f =
-        sl_dual_frame_fit_conflict(&dual, &before, crossed, &conflict, 0, 0, WIDTH, HEIGHT, 1);
+        sl_dual_frame_fit(&dual, &before, crossed, &conflict, 0, 0, WIDTH, HEIGHT, 1);
     sl_draw_dual(c->cairo, &c->palette, &f, &dual, crossed, 2, dual.best, NULL);
     const int blue = count_pixels(c, c->palette.glass), ink = count_pixels(c, c->palette.ink);
     const sl_dual_marks marks = {.conflict = &conflict};
@@ -349,7 +342,6 @@ int main(void) {
         CASE(layers_are_drawn_one_by_one),
         CASE(trees_may_be_others),
         CASE(unknown_cells_are_refused),
-        CASE(sets_leave_out_what_is_in_another),
         CASE(places_of_the_dual_plane_are_lines),
         CASE(texts_grow_with_their_size),
         CASE(texts_break_into_lines),

@@ -7,6 +7,7 @@
 #include "oracle/oracle.h"
 #include "sightline/import.h"
 #include "solver_table.h"
+#include "space/subdivide.h"
 
 #include <glob.h>
 
@@ -50,7 +51,7 @@ static void begin(sl_context *context, const char *path, trial *t) {
     assert_ok(context, sl_map_read(context, path, NULL, &t->map));
     assert_ok(context, sl_map_clean(context, &t->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(context, sl_subdivide_kd(context, &t->map, &options, &t->space));
+    assert_ok(context, sli_subdivide_kd(context, &t->map, &options, &t->space));
     assert_ok(context, sl_space_check(context, &t->space));
     const size_t pairs = (size_t)t->space.cell_count * t->space.cell_count;
     t->closed = calloc(pairs, sizeof *t->closed);

@@ -7,6 +7,7 @@
 #include "cell_to_cell/door_table.h"
 #include "doors_plan.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 
 enum { STATES = 1000 };
 
@@ -17,14 +18,14 @@ static void bake(sl_context *context, baked_file *f) {
     assert_int_equal(b->map.door_count, DOORS);
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_map_clean(context, &b->map, NULL, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &b->map, &rules, &b->space));
+    assert_ok(context, sli_subdivide_kd(context, &b->map, &rules, &b->space));
     sl_plan plan = sl_plan_make(&b->map);
     plan.door_limit = 200;
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.plan = &plan;
     assert_ok(context, testing_method("prune")->see(context, &b->space, &options, &b->visibility));
-    assert_int_equal(b->visibility.account.door_fallbacks, 0);
+    assert_int_equal(b->visibility.account.effects.door_fallbacks, 0);
     f->bytes = baked_bytes(context, b, &f->size);
     baked_file_open(f);
     assert_int_equal(f->runtime.door_count, DOORS);
@@ -108,7 +109,7 @@ static void what_is_beyond_the_limit_counts_as_seen(void **state) {
     options.plan = &plan;
     sl_visibility few = {0};
     assert_ok(context, testing_method("dfs")->see(context, &f.baked.space, &options, &few));
-    assert_true(few.account.door_fallbacks > 0);
+    assert_true(few.account.effects.door_fallbacks > 0);
     bool shut[DOORS] = {false};
     for (int i = 0; i < DOORS; i += 2) shut[i] = true;
     for (uint32_t a = 0; a < few.pvs.cell_count; a++)

@@ -9,6 +9,7 @@
 
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/draw.h"
+#include "space/subdivide.h"
 
 #include <dirent.h>
 #include <unistd.h>
@@ -77,7 +78,7 @@ static inline draw_map draw_map_make(sl_context *context, draw_place place) {
     draw_add_walls(context, &baked->map, place);
     assert_ok(context, sl_map_clean(context, &baked->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(context, sl_subdivide_kd(context, &baked->map, &options, &baked->space));
+    assert_ok(context, sli_subdivide_kd(context, &baked->map, &options, &baked->space));
     static const double middles[5][2] = {{10, 5}, {30, 5}, {10, 15}, {30, 15}, {20, 25}};
     for (int i = 0; i < 5; i++)
         map.cells[i] = sl_space_locate(&baked->space, draw_at(place, middles[i][0], middles[i][1]));

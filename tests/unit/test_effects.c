@@ -1,6 +1,7 @@
 /// Effects against an oracle that knows them, on random maps with all their combinations; doors
 /// against bakes with walls in those that are shut.
 #include "cell_to_cell/pvs_rows.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/effects.h"
@@ -38,7 +39,7 @@ static void begin(trial *t, uint64_t seed, unsigned effects) {
     random_effects_map(t->context, &random, effects, 1, &t->map);
     t->depth = (uint32_t)sl_random_below(&random, 3);
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sli_subdivide_kd(t->context, &t->map, &options, &t->space));
     assert_ok(t->context, sl_space_check(t->context, &t->space));
     t->plan = sl_plan_make(&t->map);
     assert_int_equal(t->plan.effects, effects);
@@ -142,7 +143,7 @@ static bool try_map(uint64_t seed, unsigned effects, sl_sight sight, uint64_t *s
         if (effects & ~all[which].knows) continue;
         sl_visibility v = {0};
         see(t.context, &t.space, &t.plan, all[which].name, sight, &v);
-        assert_int_equal(v.account.door_fallbacks, 0);
+        assert_int_equal(v.account.effects.door_fallbacks, 0);
         if (strcmp(all[which].name, "dfs") == 0) compare_methods(&t, &v);
         if (all[which].guarantee == SL_AGGRESSIVE) *sampled += v.account.mirrored_pairs;
         for (uint32_t shut = 0; shut < (effects & SL_EFFECT_DOOR ? 8u : 1u); shut++) {
@@ -202,7 +203,7 @@ static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
     }
     if (seed % 3 == 0) t->map.range = fabs(oblique_coordinate(&random, grid));
     if (status == SL_OK) status = sl_map_clean(t->context, &t->map, NULL, NULL);
-    if (status == SL_OK) status = sl_subdivide_mesh(t->context, &t->map, &t->space);
+    if (status == SL_OK) status = sli_subdivide_mesh(t->context, &t->map, &t->space);
     t->plan = sl_plan_make(&t->map);
     return status == SL_OK;
 }
@@ -240,7 +241,8 @@ static void effects_among_oblique_walls(void **state) {
             compare_methods(&t, &by_dfs);
             const unsigned doors = 1 + (unsigned)(i / OBLIQUE_GRIDS) % 15;
             const bool shut[4] = {doors & 1, doors & 2, doors & 4, doors & 8};
-            if (t.map.door_count && !by_dfs.account.door_fallbacks) compare_shut(&t, &by_dfs, shut);
+            if (t.map.door_count && !by_dfs.account.effects.door_fallbacks)
+                compare_shut(&t, &by_dfs, shut);
             sl_visibility_destroy(t.context, &by_dfs);
         }
         done += made;

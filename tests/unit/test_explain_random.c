@@ -4,6 +4,7 @@
 #include "explain_proofs.h"
 
 #include "oracle/random_map.h"
+#include "space/subdivide.h"
 
 /// Stabbing tests that a search over all cells may take; maps that need more are left out.
 enum { MOST_TESTS = 20000 };
@@ -140,7 +141,7 @@ static void try_random_map(sl_context *context, uint64_t seed, tally *count) {
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &t.map));
     assert_ok(context, sl_map_clean(context, &t.map, NULL, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &t.map, &options, &t.space));
+    assert_ok(context, sli_subdivide_kd(context, &t.map, &options, &t.space));
     see(context, &t);
     if (t.closed.account.tests > MOST_TESTS) {
         count->left_out++;

@@ -1,6 +1,7 @@
 /// What one viewpoint sees among oblique walls, by all that tells of it, beside sightlines that
 /// touch no wall: none may be lost, and the answers go together.
 #include "eye_to_cell/eye_search.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/random_oblique.h"
@@ -32,7 +33,7 @@ static bool begin(trial *t) {
     }
     assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     if (!t->map.wall_count) return false;
-    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
+    assert_ok(t->context, sli_subdivide_mesh(t->context, &t->map, &t->space));
     assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
     sl_see_options options = sl_see_options_default();
     options.sight = t->sight;

@@ -2,6 +2,7 @@
 // sight, with visible sets, with stab trees and without either, eyes on all places that are
 // special. SIGHTLINE_SEEDS in the environment: how many maps (60 by default).
 #include "eye_to_cell/eye_search.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/eye.h"
@@ -147,7 +148,7 @@ static void try_map(trial *t) {
     assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     if (t->map.wall_count)
-        assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
+        assert_ok(t->context, sli_subdivide_kd(t->context, &t->map, &options, &t->space));
     t->random = (sl_random){t->seed ^ 0x5eed};
     if (t->space.cell_count && t->space.cell_count <= CELLS_MOST) {
         bake(t);

@@ -2,6 +2,7 @@
 // for eyes and cones of all kinds; what an eye on a portal, a wall, a corner sees; what is refused.
 #include "eye_to_cell/eye_search.h"
 #include "map_files.h"
+#include "space/subdivide.h"
 
 #include "oracle/random_map.h"
 
@@ -180,7 +181,7 @@ static void chain_on_every_map(void **state) {
         const sl_subdivide_options options = sl_subdivide_options_default();
         map_files_read(w.context, files.gl_pathv[i], &w.map);
         assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL, NULL));
-        if (sl_subdivide_kd(w.context, &w.map, &options, &w.space) == SL_OK) {
+        if (sli_subdivide_kd(w.context, &w.map, &options, &w.space) == SL_OK) {
             check_world(&w, maps, 6, files.gl_pathv[i]);
             maps++;
         }
@@ -199,7 +200,7 @@ static void chain_on_random_maps(void **state) {
         const sl_subdivide_options options = sl_subdivide_options_default();
         assert_ok(w.context, oracle_random_map(w.context, seed, (oracle_grid)(seed % 3), &w.map));
         assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL, NULL));
-        assert_ok(w.context, sl_subdivide_kd(w.context, &w.map, &options, &w.space));
+        assert_ok(w.context, sli_subdivide_kd(w.context, &w.map, &options, &w.space));
         check_world(&w, seed, 4, where);
         close_world(&w);
     }

@@ -4,6 +4,7 @@
 #include "geometry/orient.h"
 #include "map/scan.h"
 #include "map_same.h"
+#include "space/faults.h"
 
 #include <math.h>
 
@@ -274,9 +275,9 @@ static void test_order(void **state) {
 static void assert_snapped(const char *before, double gap, const char *after, size_t moved) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
-    sl_snap_account account;
+    sl_mend_account account;
     read_into(context, before, &map);
-    assert_ok(context, sl_map_snap(context, &map, gap, &account));
+    assert_ok(context, sli_map_snap(context, &map, gap, &account));
     char *text = map_text(&map);
     assert_string_equal(text + strlen("sightline 1\n"), after);
     assert_int_equal(account.moved, moved);
@@ -302,9 +303,9 @@ static void test_snap(void **state) {
     assert_snapped("wall 0 0 0 9\nwall 0.25 4 3 8\n", 0.5, "wall 0 0 0 9\nwall 0 4 3 8\n", 1);
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
-    assert_int_equal(sl_map_snap(context, &map, 0, NULL), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_map_snap(context, &map, NAN, NULL), SL_BAD_ARGUMENT);
-    assert_ok(context, sl_map_snap(context, &map, 1, NULL));
+    assert_int_equal(sli_map_snap(context, &map, 0, NULL), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_map_snap(context, &map, NAN, NULL), SL_BAD_ARGUMENT);
+    assert_ok(context, sli_map_snap(context, &map, 1, NULL));
     sl_context_destroy(context);
 }
 
@@ -316,7 +317,7 @@ static void test_snap_drops_cells(void **state) {
     sl_map map = {0};
     read_into(context, ROOM "wall 5 0.25 5 6\ncell 0 0 10 0 10 10 0 10\n", &map);
     assert_int_equal(map.cell_count, 1);
-    assert_ok(context, sl_map_snap(context, &map, 0.5, NULL));
+    assert_ok(context, sli_map_snap(context, &map, 0.5, NULL));
     assert_int_equal(map.cell_count, 0);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);

@@ -5,6 +5,7 @@
 #include "geometry/orient.h"
 #include "map_same.h"
 #include "sightline/generate.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -88,7 +89,7 @@ static void test_same_bytes(void **state) {
 static void examine(sl_context *context, const sl_map *map, sl_space *space, sl_faults *faults) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
     const sl_faults_options small = {.gap = 0.99, .thin = 0.99};
-    assert_ok(context, sl_subdivide_kd(context, map, &rules, space));
+    assert_ok(context, sli_subdivide_kd(context, map, &rules, space));
     assert_ok(context, sl_space_check(context, space));
     assert_ok(context, sl_find_faults(context, map, space, &small, faults));
     assert_true(faults->has_starts);
@@ -171,7 +172,7 @@ static double cells_seen(sl_context *context, const char *kind, uint64_t walls) 
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.inside_only = true;
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    assert_ok(context, sli_subdivide_kd(context, &map, &rules, &space));
     assert_ok(context, sl_see_methods(&count)->see(context, &space, &options, &visibility));
     const double seen = (double)visibility.account.pairs / space.inside_count;
     sl_visibility_destroy(context, &visibility);

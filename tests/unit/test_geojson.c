@@ -1,5 +1,5 @@
 /// The writer of GeoJSON: form, closed rings, points that are there twice, shapes with holes.
-#include "sightline/geojson.h"
+#include "sightline/json.h"
 #include "testing.h"
 
 /// What is between the brackets of a collection. The caller frees it.

@@ -4,6 +4,7 @@
 
 #include "map/scan.h"
 #include "oracle/blockers.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -58,7 +59,7 @@ static void read_map(sl_context *context, const char *statements, sl_map *map) {
 static sl_status take(sl_context *context, const char *statements, sl_map *map, sl_space *space) {
     read_map(context, statements, map);
     const sl_status status = sl_map_clean(context, map, NULL, NULL);
-    return status == SL_OK ? sl_subdivide_given(context, map, space) : status;
+    return status == SL_OK ? sli_subdivide_given(context, map, space) : status;
 }
 
 static double area_within(const sl_space *space) {
@@ -243,7 +244,7 @@ static int check_given(const drawn *d, sl_context *context, sl_map *map, sl_rand
     sl_space given = {0};
     sl_visibility swept = {0}, searched = {0};
     assert_ok(context, sl_map_clean(context, map, NULL, NULL));
-    assert_ok(context, sl_subdivide_given(context, map, &given));
+    assert_ok(context, sli_subdivide_given(context, map, &given));
     assert_ok(context, sl_space_check(context, &given));
     assert_within(map, &given);
     assert_int_equal(given.wall_count, map->wall_count);
@@ -272,7 +273,7 @@ static void test_random_walls(void **state) {
         for (int k = 0; k < d.count; k++)
             assert_ok(context, sl_map_add_wall(context, &map, scaled(d.a[k], 1, 0),
                                                scaled(d.b[k], 1, 0), 0));
-        assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+        assert_ok(context, sli_subdivide_mesh(context, &map, &space));
         bring_cells(context, &space, i % 2 ? 0x1p-16 : 0.001, &random, &map);
         checked += check_given(&d, context, &map, &random);
         sl_space_destroy(context, &space);
@@ -291,10 +292,10 @@ static void test_not_cleaned(void **state) {
     sl_map map = {0};
     sl_space cleaned = {0}, plain = {0};
     read_map(context, text, &map);
-    assert_ok(context, sl_subdivide_given(context, &map, &plain));
+    assert_ok(context, sli_subdivide_given(context, &map, &plain));
     assert_ok(context, sl_space_check(context, &plain));
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-    assert_ok(context, sl_subdivide_given(context, &map, &cleaned));
+    assert_ok(context, sli_subdivide_given(context, &map, &cleaned));
     assert_int_equal(plain.cell_count, cleaned.cell_count);
     assert_memory_equal(plain.vertices, cleaned.vertices,
                         plain.vertex_count * sizeof *plain.vertices);
@@ -311,7 +312,7 @@ static void test_welded_to_a_point(void **state) {
     sl_map map = {0};
     sl_space space = {0};
     read_map(context, BOX "snap 5201\ncell 0 0 10 0 10 10\n", &map);
-    assert_int_not_equal(sl_subdivide_given(context, &map, &space), SL_OK);
+    assert_int_not_equal(sli_subdivide_given(context, &map, &space), SL_OK);
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     assert_true(map.wall_count == 0 && map.cell_count == 0);
     sl_map_destroy(context, &map);
@@ -333,7 +334,7 @@ static void test_lack_of_memory(void **state) {
         read_map(context, text, &map);
         memory.fail_at = memory.calls + fail_at;
         status = sl_map_clean(context, &map, NULL, NULL);
-        if (status == SL_OK) status = sl_subdivide_given(context, &map, &space);
+        if (status == SL_OK) status = sli_subdivide_given(context, &map, &space);
         if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
         if (status != SL_OK) assert_null(space.cells);
         sl_space_destroy(context, &space);

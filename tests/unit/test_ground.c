@@ -1,6 +1,7 @@
 // Solid ground against an oracle of its own: squares of grids, and polygons in integers. Nothing
 // here asks the library what is solid but the cells that it makes.
 #include "cell_to_cell/pvs_rows.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "geometry/orient.h"
@@ -52,8 +53,8 @@ static void fail_map(const sl_map *map, const char *what, uint64_t seed) {
 
 static void subdivide(sl_context *context, const sl_map *map, int kind, sl_space *space) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    const sl_status status = kind == KD ? sl_subdivide_kd(context, map, &rules, space)
-                                        : sl_subdivide_mesh(context, map, space);
+    const sl_status status = kind == KD ? sli_subdivide_kd(context, map, &rules, space)
+                                        : sli_subdivide_mesh(context, map, space);
     if (status != SL_OK) fail_map(map, sl_context_message(context), 0); // the map is clean
     assert_ok(context, sl_space_check(context, space));
 }
@@ -795,8 +796,8 @@ static void check_text_map(const char *statements, const char *message, double w
         const sl_subdivide_options rules = sl_subdivide_options_default();
         assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), &map));
         assert_ok(context, sl_map_clean(context, &map, &clean, NULL));
-        const sl_status status = kind == KD ? sl_subdivide_kd(context, &map, &rules, &space)
-                                            : sl_subdivide_mesh(context, &map, &space);
+        const sl_status status = kind == KD ? sli_subdivide_kd(context, &map, &rules, &space)
+                                            : sli_subdivide_mesh(context, &map, &space);
         if (message) {
             if (status != SL_BAD_INPUT || !strstr(sl_context_message(context), message))
                 fail_msg("%s: %s", statements, sl_context_message(context));
@@ -924,7 +925,7 @@ static void test_memory(void **state) {
         sl_space space = {0};
         sl_status status = sli_map_read_text(context, "test", text, strlen(text), &map);
         if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
-        if (status == SL_OK) status = sl_subdivide_mesh(context, &map, &space);
+        if (status == SL_OK) status = sli_subdivide_mesh(context, &map, &space);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);

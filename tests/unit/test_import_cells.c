@@ -4,6 +4,7 @@
 #include "io/formats.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
+#include "space/subdivide.h"
 #include "wad_make.h"
 
 #include <unistd.h>
@@ -110,7 +111,7 @@ static void test_versions(void **state) {
         assert_int_equal(map.cell_count, 3);
         assert_int_equal(map.corner_count, SEGS);
         assert_true(map.corners[2].x == (versions[i] == 1 ? 32 : 32.25) && map.corners[2].y == 64);
-        assert_ok(context, sl_subdivide_given(context, &map, &space));
+        assert_ok(context, sli_subdivide_given(context, &map, &space));
         // Two are above and below the door, where no subsector is.
         assert_int_equal(space.cell_count, 5);
         assert_int_equal(space.portal_count, 2);

@@ -7,6 +7,7 @@
 #include "io/names.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
+#include "space/subdivide.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -301,7 +302,7 @@ static void assert_one_inside(const char *text) {
     sl_map map = {0};
     sl_space space = {0};
     assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
-    assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+    assert_ok(context, sli_subdivide_mesh(context, &map, &space));
     assert_int_equal(space.inside_count, 1);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);

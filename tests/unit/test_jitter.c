@@ -5,6 +5,7 @@
 #include "map/scan.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -46,7 +47,7 @@ static void spread(const sl_space *space, uint32_t cell, int room, int *rooms) {
 static void look_at(sl_context *context, sl_map *map, double weld, const bool *clear, look *out) {
     sl_space space;
     assert_ok(context, sl_map_clean(context, map, &(sl_clean_options){.weld = weld}, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, map, &space));
+    assert_ok(context, sli_subdivide_mesh(context, map, &space));
     assert_ok(context, sl_space_check(context, &space));
     int *rooms = calloc(space.cell_count, sizeof *rooms);
     assert_non_null(rooms);

@@ -2,7 +2,7 @@
 #include "testing.h"
 
 #include "base/base.h"
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 #include "sightline/support.h"
 
 #include <jansson.h>

@@ -5,6 +5,7 @@
 
 #include "geometry/orient.h"
 #include "oracle/blockers.h"
+#include "space/subdivide.h"
 
 // --- nothing added
 
@@ -472,7 +473,7 @@ static void what_cannot_be_is_refused(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space = {0};
-    assert_int_equal(sl_subdivide_mesh(context, &map, &space), SL_BAD_INPUT);
+    assert_int_equal(sli_subdivide_mesh(context, &map, &space), SL_BAD_INPUT);
     assert_null(space.cells);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -490,7 +491,7 @@ static void memory_may_fail_at_any_call(void **state) {
         memory.calls = 0;
         memory.fail_at = at;
         sl_space space = {0};
-        status = sl_subdivide_mesh(context, &map, &space);
+        status = sli_subdivide_mesh(context, &map, &space);
         if (status == SL_OK) status = sl_space_check(context, &space);
         sl_space_destroy(context, &space);
         assert_int_equal(memory.live, before);

@@ -1,6 +1,7 @@
 /// Meshes of random maps, oblique, degenerate, turned and moved: cells tile the bounds, exact
 /// methods agree, no free sightline is lost, and what is set among walls is as tight as they are.
 #include "eye_to_cell/eye_search.h"
+#include "space/subdivide.h"
 #include "unit/grid_walls.h"
 #include "unit/mesh_scene.h"
 
@@ -107,7 +108,7 @@ static void walls_that_are_not_clean(void **state) {
             assert_ok(s.context,
                       oblique_random_map(s.context, seed, (oblique_grid)grid, 16, &s.read));
             if (seed % 2) add_seams(&s, seed, (oblique_grid)grid);
-            const sl_status status = sl_subdivide_mesh(s.context, &s.read, &s.space);
+            const sl_status status = sli_subdivide_mesh(s.context, &s.read, &s.space);
             if (status == SL_OK) {
                 assert_ok(s.context, sl_space_check(s.context, &s.space));
                 if (!oracle_is_tiling(&s.space, why)) fail_msg("%s: %s", s.name, why);
@@ -359,7 +360,7 @@ static uint64_t check_walled(const scene *s, const sl_filtered_space *filtered, 
     char why[ORACLE_WHY];
     wall_up(s, filtered->eye, &map);
     assert_ok(s->context, sl_map_clean(s->context, &map, NULL, NULL));
-    assert_ok(s->context, sl_subdivide_mesh(s->context, &map, &walled));
+    assert_ok(s->context, sli_subdivide_mesh(s->context, &map, &walled));
     assert_ok(s->context, sl_filtered_space_make(s->context, &s->space, filtered, NULL, &past));
     assert_ok(s->context, sl_space_check(s->context, &past));
     if (!oracle_is_tiling(&past, why)) fail_msg("%s, past doors: %s", s->name, why);

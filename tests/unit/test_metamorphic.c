@@ -6,6 +6,7 @@
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
 #include "sightline/import.h"
+#include "space/subdivide.h"
 
 #include <glob.h>
 #include <math.h>
@@ -49,7 +50,7 @@ static bool is_exact(const change *c, sl_point p) {
 static void subdivide(sl_context *context, sl_map *map, sl_space *out) {
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, sl_map_clean(context, map, NULL, NULL));
-    assert_ok(context, sl_subdivide_kd(context, map, &options, out));
+    assert_ok(context, sli_subdivide_kd(context, map, &options, out));
 }
 
 static sl_visibility see(sl_context *context, const sl_space *space, const sl_see_method *method,

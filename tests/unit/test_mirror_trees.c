@@ -3,6 +3,7 @@
 #include "baked_bytes.h"
 #include "eye_to_cell/eye_search.h"
 #include "slv_file.h"
+#include "space/subdivide.h"
 
 #include "effects/mirrors.h"
 #include "oracle/random_effects.h"
@@ -26,7 +27,7 @@ static void begin(trial *t, uint64_t seed) {
                  (seed & 2 ? SL_EFFECT_ONEWAY : 0) | (seed & 4 ? SL_EFFECT_RANGE : 0);
     random_effects_map(t->context, &t->random, t->effects, 1, &t->map);
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sli_subdivide_kd(t->context, &t->map, &options, &t->space));
     assert_true(t->space.cell_count <= CELLS_MOST);
 }
 

@@ -5,6 +5,7 @@
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
 #include "eye_to_cell/room_mirrors.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/mirrored.h"
@@ -42,7 +43,7 @@ static void begin(trial *t, uint64_t seed) {
     if (t->map.range > 0 && sl_random_below(&t->random, 2))
         t->map.range = (double)(1 + sl_random_below(&t->random, 20)) * t->scale / 2;
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
+    assert_ok(t->context, sli_subdivide_kd(t->context, &t->map, &options, &t->whole));
     bool *shut = t->is_shut;
     for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
     sl_filtered_space filtered = {.shut = shut, .one_way = true};

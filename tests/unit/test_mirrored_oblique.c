@@ -7,6 +7,7 @@
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
 #include "eye_to_cell/room_mirrors.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/mirror_ray.h"
@@ -80,7 +81,7 @@ static void bake(trial *t) {
     const sl_see_method *methods = sl_see_methods(&count);
     while (strcmp(methods->name, "dfs") != 0) methods++;
     assert_ok(t->context, methods->see(t->context, &t->space, &options, &t->baked));
-    t->rounded += t->baked.account.rounded_places > 0;
+    t->rounded += t->baked.account.effects.rounded_places > 0;
 }
 
 static void begin(trial *t, uint64_t seed) {
@@ -98,7 +99,7 @@ static void begin(trial *t, uint64_t seed) {
     add_walls(t, grids[seed % 3]);
     add_glass(t, grids[seed % 3]);
     assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
-    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
+    assert_ok(t->context, sli_subdivide_mesh(t->context, &t->map, &t->space));
     const sl_filtered_space one_way = {.one_way = true, .dark_walls = true};
     assert_ok(t->context, sl_filtered_space_make(t->context, &t->space, &one_way, NULL, &t->dark));
     assert_ok(t->context, sl_outline_make(t->context, &t->dark, &t->outline));

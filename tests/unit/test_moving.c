@@ -3,6 +3,7 @@
 /// SIGHTLINE_SEEDS in the environment: how many maps (16 by default).
 #include "eye_to_cell/cone.h"
 #include "eye_to_cell/moving.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/eye.h"
@@ -99,7 +100,7 @@ static void subdivide_anew(trial *t, size_t without, sl_space *out) {
                                   0));
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(context, sl_subdivide_kd(context, &map, &options, out));
+    assert_ok(context, sli_subdivide_kd(context, &map, &options, out));
     sl_map_destroy(context, &map);
 }
 
@@ -293,7 +294,7 @@ static void try_map(trial *t, sl_sight sight) {
     const sl_subdivide_options options = sl_subdivide_options_default();
     t->random = (sl_random){t->seed ^ 0xb0e5};
     if (t->map.wall_count)
-        assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
+        assert_ok(t->context, sli_subdivide_kd(t->context, &t->map, &options, &t->space));
     if (t->space.cell_count && t->space.cell_count <= CELLS_MOST) {
         bake(t, sight);
         assert_ok(t->context, sli_moving_create(t->context, &t->space, &t->baked, &t->moving));
@@ -450,7 +451,7 @@ static void cells_that_a_box_lies_in(void **state) {
         assert_ok(context, sl_map_add_wall(context, &oblique, c[i], c[i + 1], 0));
     assert_ok(context, sl_map_add_wall(context, &oblique, c[0], c[2], 0));
     assert_ok(context, sl_map_clean(context, &oblique, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &oblique, &space));
+    assert_ok(context, sli_subdivide_mesh(context, &oblique, &space));
     assert_int_equal(space.cell_count, 2);
     const uint32_t under = sl_space_locate(&space, (sl_point){7, 1});
     sl_cells_of_box(&space, (sl_box){{3, 1}, {4, 3}}, cells);

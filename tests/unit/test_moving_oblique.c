@@ -7,6 +7,7 @@
 /// what is free or hidden between two points, by rationals, so must the space. SIGHTLINE_SEEDS in
 /// the environment: how many maps (50 by default).
 #include "eye_to_cell/moving.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/blockers.h"
@@ -437,7 +438,7 @@ static void measure(trial *t) {
 
 static void try_map(trial *t, sl_sight sight) {
     t->random = (sl_random){t->seed ^ 0xb0e5};
-    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
+    assert_ok(t->context, sli_subdivide_mesh(t->context, &t->map, &t->space));
     measure(t);
     assert_true(t->space.cell_count <= CELLS_MOST);
     bake(t, sight);
@@ -557,7 +558,7 @@ static void crowds(void **state) {
         t.random = (sl_random){t.seed ^ 0xc0d};
         t.coarse = true;
         assert_ok(t.context, oblique_random_map(t.context, t.seed, grid, 6 * WALLS, &t.map));
-        const sl_status status = sl_subdivide_mesh(t.context, &t.map, &t.space);
+        const sl_status status = sli_subdivide_mesh(t.context, &t.map, &t.space);
         assert_true(status == SL_OK || status == SL_UNSUPPORTED); // for lack of a tolerance
         measure(&t);
         if (status == SL_OK)
@@ -616,7 +617,7 @@ static void shares(void **state) {
         sli_boxed_space boxed = {0};
         t.random = (sl_random){t.seed ^ 0x5a};
         make_turned(&t);
-        assert_ok(t.context, sl_subdivide_mesh(t.context, &t.map, &t.space));
+        assert_ok(t.context, sli_subdivide_mesh(t.context, &t.map, &t.space));
         assert_ok(t.context, sli_box_ground_create(t.context, &t.space, &ground));
         for (int i = 0; i < BOXES; i++) t.boxes[i] = (sl_moving_box){random_box(&t), i % 2};
         assert_ok(t.context, sli_boxes_put(t.context, &ground, t.boxes, BOXES, &boxed));
@@ -650,7 +651,7 @@ static void enter(room *r, testing_memory *memory) {
     assert_ok(r->context,
               sl_map_add_wall(r->context, &r->map, (sl_point){0, 0}, (sl_point){4, 4}, 0));
     assert_ok(r->context, sl_map_add_seam(r->context, &r->map, (sl_segment){{4, 4}, {8, 8}}, 0));
-    assert_ok(r->context, sl_subdivide_mesh(r->context, &r->map, &r->space));
+    assert_ok(r->context, sli_subdivide_mesh(r->context, &r->map, &r->space));
 }
 
 static void leave(room *r) {

@@ -5,8 +5,9 @@
 #include "map_files.h"
 #include "sightline/bake.h"
 #include "sightline/faults.h"
-#include "sightline/geojson.h"
+#include "sightline/json.h"
 #include "sightline/stab.h"
+#include "space/subdivide.h"
 
 #include <dirent.h>
 #include <unistd.h>
@@ -164,7 +165,7 @@ static sl_status subdivide(sl_context *context, one_failure *on) {
 
 static sl_status subdivide_mesh(sl_context *context, one_failure *on) {
     sl_space made = {0};
-    sl_status status = sl_subdivide_mesh(context, &on->map, &made);
+    sl_status status = sli_subdivide_mesh(context, &on->map, &made);
     if (status == SL_OK) status = sl_space_check(context, &made);
     one_failure_ends(on);
     one_failure_mix(on, made.vertices, made.vertex_count * sizeof *made.vertices);

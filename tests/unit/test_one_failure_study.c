@@ -275,7 +275,7 @@ static sl_status measure_grid(sl_context *context, one_failure *on, const sl_out
     agents.agents = 5;
     agents.steps = 20;
     agents.threads = 1;
-    sl_status status = sl_vga_grid_fill(context, outline, 1.5, &seed, 1, &grid);
+    sl_status status = sl_vga_grid_make(context, outline, 1.5, &seed, 1, &grid);
     if (status == SL_OK) assert_true(grid.count && grid.count <= MOST);
     if (status == SL_OK) status = sl_vga_graph_make(context, outline, &grid, 0, 1, &graph);
     if (status == SL_OK)

@@ -5,6 +5,7 @@
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
 #include "solver_table.h"
+#include "space/subdivide.h"
 
 /// Portals that the oracle may push for one map; maps that need more are skipped and counted.
 enum { PUSH_LIMIT = 20000 };
@@ -50,7 +51,7 @@ static void begin_trial(sl_context *context, uint64_t seed, trial *t) {
     need(context, oracle_random_map(context, seed, grid, &t->map), seed);
     need(context, sl_map_clean(context, &t->map, NULL, NULL), seed);
     sl_subdivide_options options = sl_subdivide_options_default();
-    need(context, sl_subdivide_kd(context, &t->map, &options, &t->space), seed);
+    need(context, sli_subdivide_kd(context, &t->map, &options, &t->space), seed);
     need(context, sl_space_check(context, &t->space), seed);
     size_t pairs = (size_t)t->space.cell_count * t->space.cell_count;
     t->closed = calloc(pairs, sizeof *t->closed);

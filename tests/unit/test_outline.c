@@ -5,6 +5,7 @@
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
 #include "sightline/generate.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -78,7 +79,7 @@ static void rooms_of_random_maps(void **state) {
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
-            assert_ok(context, sl_subdivide_kd(context, &map, &options, &space));
+            assert_ok(context, sli_subdivide_kd(context, &map, &options, &space));
             assert_ok(context, sl_outline_make(context, &space, &outline));
             check_outline(&outline, seed);
         }
@@ -106,7 +107,7 @@ static void rooms_of_turned_maps(void **state) {
         how.in_line = n % 2;
         assert_ok(context, sl_generate(context, &kinds[k], &how, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-        assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+        assert_ok(context, sli_subdivide_mesh(context, &map, &space));
         assert_ok(context, sl_outline_make(context, &space, &outline));
         assert_int_equal(outline.room_count, space.cell_count);
         check_outline(&outline, k);

@@ -7,6 +7,7 @@
 #include "oracle/random_oblique.h"
 #include "sightline/overlay.h"
 #include "sightline/sees.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -488,7 +489,7 @@ static void outline_of_the_inside(void **state) {
         testing_space(context, walls, &map, &space);
         if (mesh) {
             sl_space_destroy(context, &space);
-            assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+            assert_ok(context, sli_subdivide_mesh(context, &map, &space));
         }
         assert_ok(context, sl_shape_of_inside(context, &space, &inside));
         assert_int_equal(inside.count, 2);

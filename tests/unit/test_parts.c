@@ -1,6 +1,7 @@
 /// Work in parts: shards, what is stopped and gone on with, and what is taken over from a map
 /// before it was changed all come to what is found in one go; what is stopped never misses a pair.
 #include "cell_to_cell/pvs_rows.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/random_effects.h"
@@ -66,9 +67,9 @@ static void subdivide(sl_context *context, bool oblique, place *p) {
     assert_ok(context, sl_map_clean(context, &p->map, NULL, NULL));
     const sl_subdivide_options kd = sl_subdivide_options_default();
     if (oblique)
-        assert_ok(context, sl_subdivide_mesh(context, &p->map, &p->space));
+        assert_ok(context, sli_subdivide_mesh(context, &p->map, &p->space));
     else
-        assert_ok(context, sl_subdivide_kd(context, &p->map, &kd, &p->space));
+        assert_ok(context, sli_subdivide_kd(context, &p->map, &kd, &p->space));
 }
 
 static sl_point random_point(sl_random *random) {

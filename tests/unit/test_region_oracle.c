@@ -6,6 +6,7 @@
 #include "oracle/isovist.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -115,7 +116,7 @@ static void as_the_sweep_says(void **state) {
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
-            assert_ok(context, sl_subdivide_kd(context, &map, &options, &space));
+            assert_ok(context, sli_subdivide_kd(context, &map, &options, &space));
             assert_ok(context, sl_outline_make(context, &space, &outline));
             sl_random random = {seed};
             for (uint64_t i = 0; i < 12; i++) {
@@ -149,7 +150,7 @@ static void among_turned_walls(void **state) {
         oblique_turn_map(&map, angles[seed % 4], move);
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
-            assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+            assert_ok(context, sli_subdivide_mesh(context, &map, &space));
             assert_ok(context, sl_outline_make(context, &space, &outline));
             for (uint64_t i = 0; i < 12; i++) {
                 const sl_view view = random_view(&space, &random, place_eye(&space, &random, 0));

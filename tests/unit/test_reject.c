@@ -7,6 +7,7 @@
 #include "oracle/sectors.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 #include "wad_make.h"
 
 #include <unistd.h>
@@ -122,7 +123,7 @@ static void bake_map(sl_context *context, const wad_made *wad, sl_baked *baked) 
     assert_ok(context,
               sli_map_read_wad(context, "in.wad", (char *)wad->bytes, wad->size, &options, &map));
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &baked->space));
+    assert_ok(context, sli_subdivide_kd(context, &map, &rules, &baked->space));
     sl_map_destroy(context, &map);
     size_t methods;
     sl_see_options see = sl_see_options_default();

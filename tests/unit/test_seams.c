@@ -3,6 +3,7 @@
 
 #include "oracle/random_oblique.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -122,9 +123,9 @@ static void axial_seams(void **state) {
         for (int which = 0; which < 2; which++) {
             sl_space space = {0};
             if (which)
-                assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+                assert_ok(context, sli_subdivide_mesh(context, &map, &space));
             else
-                assert_ok(context, sl_subdivide_kd(context, &map, &kd, &space));
+                assert_ok(context, sli_subdivide_kd(context, &map, &kd, &space));
             assert_ok(context, sl_space_check(context, &space));
             if (!which) check_portals(&space);
             check_seams(&space);
@@ -169,7 +170,7 @@ static void oblique_seams(void **state) {
         sl_map map = {0};
         sl_space space = {0};
         draw_map(context, &random, false, &map);
-        assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+        assert_ok(context, sli_subdivide_mesh(context, &map, &space));
         assert_ok(context, sl_space_check(context, &space));
         check_parts(&space);
         sl_space_destroy(context, &space);
@@ -215,7 +216,7 @@ static void seams_cross_walls(void **state) {
             if (at[0] != at[2] || at[1] != at[3])
                 add_seam(context, &map, kind, (sl_segment){{at[0], at[1]}, {at[2], at[3]}});
         }
-        assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+        assert_ok(context, sli_subdivide_mesh(context, &map, &space));
         assert_ok(context, sl_space_check(context, &space));
         check_parts(&space);
         sl_space_destroy(context, &space);
@@ -256,7 +257,7 @@ static void the_kd_tree_names_an_oblique_door(void **state) {
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){0, 0}, (sl_point){4, 0}, 1));
     assert_ok(context, sl_map_add_door(context, &map, "a", (sl_segment){{0, 0}, {3, 3}}, true, 7));
-    assert_int_equal(sl_subdivide_kd(context, &map, &options, &space), SL_BAD_INPUT);
+    assert_int_equal(sli_subdivide_kd(context, &map, &options, &space), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "the map:7: the door from 0 0 to 3 3"));
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -275,10 +276,10 @@ static void wrong_seams_are_found(void **state) {
                       &map, &space);
         if (fault % 2) {
             sl_space_destroy(context, &space);
-            assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+            assert_ok(context, sli_subdivide_mesh(context, &map, &space));
         } else {
             sl_space_destroy(context, &space);
-            assert_ok(context, sl_subdivide_kd(context, &map, &kd, &space));
+            assert_ok(context, sli_subdivide_kd(context, &map, &kd, &space));
         }
         assert_ok(context, sl_space_check(context, &space));
         switch (fault / 2) {

@@ -4,6 +4,7 @@
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/sees.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -102,7 +103,7 @@ static void as_every_wall_says(void **state) {
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
-        if (map.wall_count && sl_subdivide_kd(context, &map, &options, &space) == SL_OK) {
+        if (map.wall_count && sli_subdivide_kd(context, &map, &options, &space) == SL_OK) {
             assert_ok(context, sl_outline_make(context, &space, &outline));
             sl_random random = {seed};
             for (int i = 0; i < 200; i++)
@@ -132,7 +133,7 @@ static void among_oblique_walls(void **state) {
         const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_GRIDS);
         assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-        const bool made = sl_subdivide_mesh(context, &map, &space) == SL_OK;
+        const bool made = sli_subdivide_mesh(context, &map, &space) == SL_OK;
         if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
         for (int i = 0; i < 100 && made; i++) {
             const sl_point p = oblique_random_point(&random, &map, space.bounds);

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "sightline/support.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -108,7 +109,7 @@ static void an_oblique_wall_is_named(void **state) {
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){0, 0}, (sl_point){2, 3}, 8));
     const sl_subdivide_options options = sl_subdivide_options_default();
     sl_space space;
-    assert_int_equal(sl_subdivide_kd(context, &map, &options, &space), SL_BAD_INPUT);
+    assert_int_equal(sli_subdivide_kd(context, &map, &options, &space), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(context), "the map:8: "));
     assert_non_null(strstr(sl_context_message(context), "0 0 to 2 3"));
     sl_map_destroy(context, &map);
@@ -123,7 +124,7 @@ static void walls_that_overlap_are_refused(void **state) {
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){1, 0}, (sl_point){3, 0}, 2));
     const sl_subdivide_options options = sl_subdivide_options_default();
     sl_space space;
-    assert_int_equal(sl_subdivide_kd(context, &map, &options, &space), SL_BAD_INPUT);
+    assert_int_equal(sli_subdivide_kd(context, &map, &options, &space), SL_BAD_INPUT);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
@@ -161,7 +162,7 @@ static void random_maps_pass_the_check_by_any_rules(void **state) {
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_subdivide_options options = options_of(round / 5 % 16);
         sl_space space = {0};
-        const sl_status status = sl_subdivide_kd(context, &map, &options, &space);
+        const sl_status status = sli_subdivide_kd(context, &map, &options, &space);
         if (map.wall_count) {
             assert_ok(context, status);
             assert_ok(context, sl_space_check(context, &space));
@@ -283,7 +284,7 @@ static void memory_may_fail_at_any_call(void **state) {
         memory.calls = 0;
         memory.fail_at = at;
         sl_space space = {0};
-        status = sl_subdivide_kd(context, &map, &options, &space);
+        status = sli_subdivide_kd(context, &map, &options, &space);
         if (status == SL_OK) status = sl_space_check(context, &space);
         sl_space_destroy(context, &space);
         assert_int_equal(memory.live, before);

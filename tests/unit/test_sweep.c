@@ -7,6 +7,7 @@
 #include "oracle/random_map.h"
 #include "sightline/generate.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 
 static const char OFFICE[] = SIGHTLINE_SOURCE_DIR "/maps/office.map";
 
@@ -154,7 +155,7 @@ static void threads_make_no_difference(void **state) {
             sl_visibility many = see(context, &space, methods[m].name, SL_CLOSED, threads, false);
             assert_true(testing_same_rows(&one.pvs, &many.pvs));
             assert_int_equal(one.account.pairs, many.account.pairs);
-            assert_int_equal(one.account.pieces, many.account.pieces);
+            assert_int_equal(one.account.sweep.pieces, many.account.sweep.pieces);
             sl_visibility_destroy(context, &many);
         }
         sl_visibility_destroy(context, &one);
@@ -237,7 +238,7 @@ static void large_maps_are_seen_alike(void **state) {
     assert_ok(context, sl_generate(context, kind, &city, &map));
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    assert_ok(context, sli_subdivide_kd(context, &map, &rules, &space));
     assert_true((uint64_t)space.directed_count * space.cell_count / 8 > (uint64_t)64 << 20);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();

@@ -7,6 +7,7 @@
 #include "sightline/effects.h"
 #include "sightline/sees.h"
 #include "sightline/vga.h"
+#include "space/subdivide.h"
 #include "visibility_graph/paths.h"
 
 #include <math.h>
@@ -35,7 +36,7 @@ static bool has_edge(const sl_vga_graph *graph, uint32_t a, uint32_t b) {
 /// Half of a unit puts points on walls' lines, at ends and on portals.
 static void fill_and_connect(sl_context *context, double step, fixture *f) {
     assert_ok(context, sl_outline_make(context, &f->space, &f->outline));
-    assert_ok(context, sl_vga_grid_fill(context, &f->outline, step, NULL, 0, &f->grid));
+    assert_ok(context, sl_vga_grid_make(context, &f->outline, step, NULL, 0, &f->grid));
     assert_ok(context, sl_vga_graph_make(context, &f->outline, &f->grid, 0, 1, &f->graph));
 }
 
@@ -130,8 +131,8 @@ static void pairs_are_those_of_single_sightlines(void **state) {
         assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
         const bool mesh = seed % 3 == 0;
         const sl_status made = !f.map.wall_count ? SL_BAD_ARGUMENT
-                               : mesh            ? sl_subdivide_mesh(context, &f.map, &f.space)
-                                      : sl_subdivide_kd(context, &f.map, &options, &f.space);
+                               : mesh            ? sli_subdivide_mesh(context, &f.map, &f.space)
+                                      : sli_subdivide_kd(context, &f.map, &options, &f.space);
         if (made == SL_OK) {
             fill_and_connect(context, seed % 2 ? 0.5 : 1, &f);
             seen += check_pairs(context, &f);
@@ -152,7 +153,7 @@ static void oblique_pairs_too(void **state) {
         assert_ok(context, oblique_random_map(context, seed, (oblique_grid)(seed % OBLIQUE_GRIDS),
                                               12, &f.map));
         assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
-        if (sl_subdivide_mesh(context, &f.map, &f.space) == SL_OK) {
+        if (sli_subdivide_mesh(context, &f.map, &f.space) == SL_OK) {
             const sl_box b = f.space.bounds;
             const double step = fmax(b.max.x - b.min.x, b.max.y - b.min.y) / 12;
             if (step > 0 && fabs(b.min.x) / step < 1e6 && fabs(b.min.y) / step < 1e6) {
@@ -174,7 +175,7 @@ static void make_plan(sl_context *context, fixture *f) {
         "wall 6 1.5 6 6\nwall 3 4 5 4.5\n";
     assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f->map));
     assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &f->map, &f->space));
+    assert_ok(context, sli_subdivide_mesh(context, &f->map, &f->space));
     fill_and_connect(context, 0.5, f);
 }
 
@@ -398,7 +399,7 @@ static void searches_are_those_of_plain_ones(void **state) {
         fixture f = {0};
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &f.map));
         assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
-        if (f.map.wall_count && sl_subdivide_mesh(context, &f.map, &f.space) == SL_OK) {
+        if (f.map.wall_count && sli_subdivide_mesh(context, &f.map, &f.space) == SL_OK) {
             const sl_box b = f.space.bounds;
             const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
             fill_and_connect(context, size > 20 ? 1 : 0.5, &f);
@@ -483,7 +484,7 @@ static void paths_lead_through_glass_one_way(void **state) {
         sl_space plain = {0};
         assert_ok(context, sli_map_read_text(context, "plan", texts[i], strlen(texts[i]), &f.map));
         assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
-        assert_ok(context, sl_subdivide_mesh(context, &f.map, &plain));
+        assert_ok(context, sli_subdivide_mesh(context, &f.map, &plain));
         assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
         fill_and_connect(context, 0.5, &f);
         sl_vga_options options = sl_vga_options_default();
@@ -512,16 +513,16 @@ static void seeds_stay_in_their_room(void **state) {
     fixture f = {0};
     assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
     assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &f.map, &f.space));
+    assert_ok(context, sli_subdivide_mesh(context, &f.map, &f.space));
     assert_ok(context, sl_outline_make(context, &f.space, &f.outline));
     const sl_point seed = {0.9, 1.1}, outside = {9, 9};
-    assert_ok(context, sl_vga_grid_fill(context, &f.outline, 0.5, &seed, 1, &f.grid));
+    assert_ok(context, sl_vga_grid_make(context, &f.outline, 0.5, &seed, 1, &f.grid));
     assert_int_equal(f.grid.count, 9);
     sl_vga_grid other = {0};
-    assert_int_equal(sl_vga_grid_fill(context, &f.outline, 0.5, &outside, 1, &other),
+    assert_int_equal(sl_vga_grid_make(context, &f.outline, 0.5, &outside, 1, &other),
                      SL_BAD_ARGUMENT);
-    assert_int_equal(sl_vga_grid_fill(context, &f.outline, 0, NULL, 0, &other), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_vga_grid_fill(context, &f.outline, 1e-9, NULL, 0, &other), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_vga_grid_make(context, &f.outline, 0, NULL, 0, &other), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_vga_grid_make(context, &f.outline, 1e-9, NULL, 0, &other), SL_BAD_ARGUMENT);
     fixture_destroy(context, &f);
     sl_context_destroy(context);
 }
@@ -537,7 +538,7 @@ static void glass_is_seen_through_one_way(void **state) {
     const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
     assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
     assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &f.map, &plain));
+    assert_ok(context, sli_subdivide_mesh(context, &f.map, &plain));
     assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
     fill_and_connect(context, 0.5, &f);
     size_t one_way = 0;
@@ -583,8 +584,10 @@ static void depths_add_up_to_measures(void **state) {
     sl_vga_depths *depths = test_calloc(n, sizeof *depths);
     assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, measures));
     const sl_vga_link link = {0, n - 1}, loop = {3, 3}, outside = {0, n};
-    assert_ok(context, sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &link, 1,
-                                             &options, linked));
+    sl_vga_options with_links = options;
+    with_links.links = &link;
+    with_links.link_count = 1;
+    assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &with_links, linked));
     for (uint32_t from = 0; from < n; from += 7) {
         for (size_t with = 0; with < 2; with++) {
             const sl_vga_measures *m = with ? &linked[from] : &measures[from];
@@ -613,11 +616,11 @@ static void depths_add_up_to_measures(void **state) {
             assert_true(fabs(straight / count - m->metric_mean_straight_line_distance) < 1e-9);
         }
     }
-    assert_int_equal(
-        sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &loop, 1, &options, linked),
-        SL_BAD_ARGUMENT);
-    assert_int_equal(sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &outside, 1,
-                                           &options, linked),
+    with_links.links = &loop;
+    assert_int_equal(sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &with_links, linked),
+                     SL_BAD_ARGUMENT);
+    with_links.links = &outside;
+    assert_int_equal(sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &with_links, linked),
                      SL_BAD_ARGUMENT);
     test_free(depths);
     test_free(linked);
@@ -659,7 +662,7 @@ static sl_vga_measures *measure_text(sl_context *context, const char *text, fixt
     const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
     assert_ok(context, sli_map_read_text(context, "plan", text, strlen(text), &f->map));
     assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &f->map, &plain));
+    assert_ok(context, sli_subdivide_mesh(context, &f->map, &plain));
     assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f->space));
     sl_space_destroy(context, &plain);
     fill_and_connect(context, 1, f);

@@ -54,7 +54,7 @@ static void compare(const char *map_name, double step, unsigned parts, unsigned 
     assert_ok(context, sl_map_read(context, path, NULL, &map));
     testing_subdivide(context, &map, &space);
     assert_ok(context, sl_outline_make(context, &space, &outline));
-    assert_ok(context, sl_vga_grid_fill(context, &outline, step, NULL, 0, &grid));
+    assert_ok(context, sl_vga_grid_make(context, &outline, step, NULL, 0, &grid));
     const long long before = g.live;
     assert_ok(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
     assert_ok(context, sl_vga_measure_bytes(context, &outline, &grid, &graph, &options, &told));

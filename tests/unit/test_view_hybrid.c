@@ -10,6 +10,7 @@
 #include "sightline/bake.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
+#include "space/subdivide.h"
 #include "view_cells/pieces.h"
 
 enum { RANDOM_MAPS = 40, DEEPEST = 64 };
@@ -291,7 +292,7 @@ static void sets_are_those_of_the_search_on_random_maps(void **state) {
         const sl_subdivide_options rules = sl_subdivide_options_default();
         assert_ok(context, oracle_random_map(context, 3300 + seed, (oracle_grid)(seed % 3), &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-        assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+        assert_ok(context, sli_subdivide_kd(context, &map, &rules, &space));
         check_cuts(context, name, &map, &space, 60, true);
         check_sets(context, name, &map, &space, 60);
         sl_map_destroy(context, &map);

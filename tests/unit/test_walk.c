@@ -1,6 +1,7 @@
 /// Walks on random maps: nothing that is seen is missed, by any method with any test, and those
 /// that should agree do.
 #include "eye_to_cell/eye_search.h"
+#include "space/subdivide.h"
 #include "testing.h"
 
 #include "geometry/orient.h"
@@ -233,7 +234,7 @@ static void kd_world(sl_context *context, uint64_t seed, const sl_walk_options *
     assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
     assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
-    if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
+    if (w.map.wall_count && sli_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
         open_world(&w, like);
         walk_about(&w, seed, steps, count);
     }
@@ -323,7 +324,7 @@ static void walk_by_bounds(world *w, uint64_t seed, bool turns, bound_tally *cou
 
 static void mesh_world(sl_context *context, const sl_walk_options *like, world *w) {
     assert_ok(context, sl_map_clean(context, &w->map, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &w->map, &w->space));
+    assert_ok(context, sli_subdivide_mesh(context, &w->map, &w->space));
     assert_ok(context, sl_space_check(context, &w->space));
     open_world(w, like);
 }
@@ -371,7 +372,7 @@ static void kd_bounds(sl_context *context, uint64_t seed, bound_tally *count) {
     assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
     assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
-    if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
+    if (w.map.wall_count && sli_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
         assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
         walk_by_bounds(&w, seed, false, count);
         walk_by_bounds(&w, seed, true, count);
@@ -476,7 +477,7 @@ static void ropes_hold_faces(void **state) {
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &w.map));
         assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
-        if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK)
+        if (w.map.wall_count && sli_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK)
             assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
         for (uint32_t i = 0; i < w.hierarchy.node_count; i++)
             for (int face = 0; face < 4; face++) {

@@ -6,6 +6,7 @@
 
 #include "map/scan.h"
 #include "sightline/view_cells.h"
+#include "space/subdivide.h"
 
 #include <math.h>
 
@@ -59,8 +60,8 @@ static inline void make_world(sl_context *context, const char *statements, bool 
     assert_ok(context, sli_map_read_text(context, "test", text, strlen(text), &w->map));
     assert_ok(context, sl_map_clean(context, &w->map, NULL, NULL));
     const sl_subdivide_options kd = sl_subdivide_options_default();
-    assert_ok(context, oblique ? sl_subdivide_mesh(context, &w->map, &w->space)
-                               : sl_subdivide_kd(context, &w->map, &kd, &w->space));
+    assert_ok(context, oblique ? sli_subdivide_mesh(context, &w->map, &w->space)
+                               : sli_subdivide_kd(context, &w->map, &kd, &w->space));
     assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
     assert_ok(context, sl_view_places_inside(context, &w->space, &w->places));
     w->scene = (sl_view_scene){&w->space, objects, sl_render_cost_default(), &w->places};

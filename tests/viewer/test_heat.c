@@ -51,7 +51,7 @@ static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh
     free(shut);
     sl_map_destroy(context, &map);
     assert_int_equal(sl_outline_make(context, &f->space, &f->outline), SL_OK);
-    assert_int_equal(sl_vga_grid_fill(context, &f->outline, heat_step(app), NULL, 0, &f->grid),
+    assert_int_equal(sl_vga_grid_make(context, &f->outline, heat_step(app), NULL, 0, &f->grid),
                      SL_OK);
     assert_int_equal(
         sl_vga_graph_make(context, &f->outline, &f->grid, app->document.map.range, 1, &f->graph),

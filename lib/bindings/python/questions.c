@@ -393,7 +393,7 @@ static sl_status fill_and_measure(slp_level *level, const sl_outline *outline, c
     if (!places) return SL_NO_MEMORY;
     sl_status status = seed_count ? SL_OK : check_area(level, given->step);
     if (status == SL_OK)
-        status = sl_vga_grid_fill(context, outline, given->step, places, seed_count, &level->grid);
+        status = sl_vga_grid_make(context, outline, given->step, places, seed_count, &level->grid);
     if (status == SL_OK && !level->grid.count)
         status = sl_fail(context, SL_BAD_ARGUMENT,
                          "no point of a grid of step %.9g is inside the map", given->step);

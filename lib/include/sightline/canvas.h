@@ -160,19 +160,9 @@ SL_API void sl_draw_tree(cairo_t *cairo, const sl_scene *scene, sl_point from, u
 
 // --- what is seen
 
-/// Fills the cells of a set (bit c % 64 of word c / 64) that are not in `without` (NULL: none).
-SL_API void sl_draw_cell_set(cairo_t *cairo, const sl_space *space, const sl_frame *frame,
-                             const uint64_t *cells, const uint64_t *without, sl_colour colour,
-                             double opacity);
-
 /// Outlines one cell, and fills it where `opacity` is not 0.
 SL_API void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame,
                          uint32_t cell, sl_colour colour, double opacity, double width);
-
-/// Draws a polygon by its depth: blue where it is seen directly, else in the colour of what is seen
-/// by mirror, the paler the more mirrors.
-SL_API void sl_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                         const sl_drawn_region *region);
 
 /// Draws a cone about a heading in degrees, `fov` degrees wide and `reach` long on the page; a
 /// circle where it is all round.
@@ -211,16 +201,11 @@ typedef struct sl_dual_frame {
 } sl_dual_frame;
 
 /// Shows the polygon before its last portal, with some room around it: so one sees how the last
-/// portal cuts.
-SL_API sl_dual_frame sl_dual_frame_fit(const sl_dual *before, double left, double top, double width,
-                                       double height, double unit);
-
-/// The same, and what contradicts itself is inside.
-SL_API sl_dual_frame sl_dual_frame_fit_conflict(const sl_dual *dual, const sl_dual *before,
-                                                const sl_portal_ends *portals,
-                                                const sl_conflict *conflict, double left,
-                                                double top, double width, double height,
-                                                double unit);
+/// portal cuts. What contradicts itself is inside; a conflict of no ends says that nothing does.
+SL_API sl_dual_frame sl_dual_frame_fit(const sl_dual *dual, const sl_dual *before,
+                                       const sl_portal_ends *portals, const sl_conflict *conflict,
+                                       double left, double top, double width, double height,
+                                       double unit);
 
 /// What is marked in a dual plane. Zeroed: nothing.
 typedef struct sl_dual_marks {
@@ -241,13 +226,6 @@ SL_API sl_dual_line sl_dual_frame_line(const sl_dual_frame *frame, sl_point page
 SL_API void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame *frame,
                          const sl_dual *dual, const sl_portal_ends *portals, uint32_t count,
                          sl_dual_line chosen, const sl_dual_marks *marks);
-
-/// Room for an equation.
-#define SL_EQUATION_TEXT 96
-
-/// The half-plane of an end: "b <= 0.52 - 0.31 a" for a left one, with the signs of print.
-SL_API void sl_dual_equation(const sl_dual *dual, sl_point end, bool left,
-                             char text[SL_EQUATION_TEXT]);
 
 // --- charts and files
 

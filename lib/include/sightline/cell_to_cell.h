@@ -38,28 +38,42 @@ typedef struct sl_stab_trees {
     sl_stab_node *nodes;
 } sl_stab_trees;
 
-/// What the work took, in numbers.
-typedef struct sl_see_account {
-    uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
-    uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
-    uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
-    uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
-    uint64_t pieces;         ///< of cells looked at by the sweep
-    uint64_t candidates;     ///< of "multipass": cells to be decided on, over all faces and sectors
-    uint64_t relations;      ///< and those of them that were seen
-    uint64_t on_cycles;      ///< cells without an order, over all sectors
-    uint32_t sectors;        ///< that directions were cut into; 0 by all other methods
-    uint32_t deepest;        ///< portals in the longest sequence; of the sweep: that it followed
-    sl_stab_account stab;    ///< of the solvers
-    // Of effects; all 0 where the plan has none.
+/// What "sweep" alone counts.
+typedef struct sl_sweep_account {
+    uint64_t pieces; ///< of cells looked at
+} sl_sweep_account;
+
+/// What "multipass" alone counts.
+typedef struct sl_multipass_account {
+    uint64_t candidates; ///< cells to be decided on, over all faces and sectors
+    uint64_t relations;  ///< and those of them that were seen
+    uint64_t on_cycles;  ///< cells without an order, over all sectors
+    uint32_t sectors;    ///< that directions were cut into
+} sl_multipass_account;
+
+/// What only a plan with effects makes methods count.
+typedef struct sl_effects_account {
     uint64_t door_steps;     ///< sequences of which the doors that they pass were noted
-    uint64_t mirror_steps;   ///< times that a sequence was to go on in a mirror
-    uint64_t glass_tests;    ///< directed portals asked whether one-way glass bars them
-    uint64_t mirrored_pairs; ///< ordered pairs seen by mirror; a cell may so see itself
     uint64_t door_fallbacks; ///< ordered pairs that more sets of doors join than the limit
+    uint64_t mirror_steps;   ///< times that a sequence was to go on in a mirror
+    uint64_t rounded_places; ///< portals whose place in a mirror was rounded
+    uint64_t glass_tests;    ///< directed portals asked whether one-way glass bars them
     uint64_t range_tests;    ///< sequences whose shortest sightline was held against the range
     uint64_t close_calls;    ///< of them those within rounding of it: they count as seen
-    uint64_t rounded_places; ///< portals whose place in a mirror was rounded
+} sl_effects_account;
+
+/// What the work took, in numbers.
+typedef struct sl_see_account {
+    uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
+    uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
+    uint64_t mirrored_pairs; ///< ordered pairs seen by mirror; a cell may so see itself
+    uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
+    uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
+    uint32_t deepest;        ///< portals in the longest sequence; of the sweep: that it followed
+    sl_stab_account stab;    ///< of the solvers
+    sl_effects_account effects;
+    sl_sweep_account sweep;
+    sl_multipass_account multipass;
 } sl_see_account;
 
 /// The result. Zeroed, it is empty.

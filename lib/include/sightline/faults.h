@@ -154,33 +154,22 @@ SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const s
 SL_API sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                char text[SL_INSIDE_TEXT]);
 
-/// What sl_map_snap did.
-typedef struct sl_snap_account {
+/// What sl_map_mend did.
+typedef struct sl_mend_account {
     size_t moved;        ///< wall ends that moved
     double farthest;     ///< the largest move
     size_t vanished;     ///< walls of no length, which were dropped
-    bool ground_dropped; ///< sl_map_mend: walls had marks of solid ground, which no longer fit
-} sl_snap_account;
+    bool ground_dropped; ///< walls had marks of solid ground, which no longer fit
+} sl_mend_account;
 
-/// Closes gaps up to the width `gap`, in two steps. No end moves farther than `gap` in a step.
-///
-/// 1. Ends that are near each other become one point: the one that most walls have, else the first.
-/// 2. A free end near a wall is put onto it. Two axial walls meet along their own lines; else the
-///    end goes to the nearest point, rounded, and the wall is split there. An end that touches a
-///    wall already stays.
-///
-/// Doors and glass with an end at a place that moves go with it, unless they would lose their
-/// length. Cells of the map's own no longer fit, and are dropped.
-SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
-                             sl_snap_account *account);
-
-/// Cleans the map and snaps it by turns, until nothing moves. What was closed stays closed. Of the
+/// Closes gaps up to the width `gap`: cleans the map and snaps it by turns, until nothing moves. An
+/// end snaps to a near end, or onto a near wall. What was closed stays closed. Of the
 /// gaps that sl_find_faults lists by the same gap and options, those are left that have `stays`. No
 /// leak is left near one without `stays`. The walls of the result are clean, but walls for mirrors
 /// are not among them. If an end moves, no wall keeps its ground: rock may have lost its width.
 /// `account` may be NULL. On failure the map is still usable, and may be mended in part.
 SL_API sl_status sl_map_mend(sl_context *context, sl_map *map, double gap,
-                             const sl_clean_options *clean, sl_snap_account *account);
+                             const sl_clean_options *clean, sl_mend_account *account);
 
 #ifdef __cplusplus
 }

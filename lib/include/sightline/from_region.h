@@ -109,9 +109,6 @@ typedef struct sl_from_region_result {
 
 /// Frees a result and zeroes it.
 SL_API void sl_from_region_result_destroy(sl_context *context, sl_from_region_result *result);
-/// Whether a view cell sees an object; both numbers must be below their counts.
-SL_API bool sl_from_region_sees(const sl_from_region_result *result, uint32_t view_cell,
-                                uint32_t object);
 /// Over all view cells.
 SL_API uint64_t sl_from_region_pairs(const sl_from_region_result *result);
 

@@ -161,7 +161,7 @@ typedef struct sl_map {
     size_t start_count, path_count, object_count;
     size_t wall_room, door_room, mirror_room, oneway_room, seam_room;
     size_t start_room, path_room, object_room;
-    /// Cells of the map's own, for sl_subdivide_given; cell_count is 0 for most maps.
+    /// Cells of the map's own, for the subdivision "given"; cell_count is 0 for most maps.
     sl_map_cell *cells;
     sl_point *corners;
     size_t cell_count, corner_count, cell_room, corner_room;

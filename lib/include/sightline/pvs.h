@@ -39,7 +39,7 @@ SL_API uint32_t sl_pvs_count(const sl_pvs *pvs, uint32_t cell);
 /// For each pair that depends on doors its alternatives: the smallest sets of doors that some
 /// sightline passes. The pair is seen exactly if of one of them no door is shut. Pairs that some
 /// sightline joins without a door are not there, nor those that needed more alternatives than the
-/// limit: they count as seen whatever is shut (counted by sl_see_account.door_fallbacks).
+/// limit: they count as seen whatever is shut (counted by sl_effects_account.door_fallbacks).
 /// Alternatives of fewer doors come first, of as many those with lower doors.
 ///
 /// A row is bytes[offsets[cell] .. offsets[cell + 1]): numbers in LEB128, for each pair in turn the

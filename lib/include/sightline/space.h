@@ -158,48 +158,27 @@ typedef struct sl_subdivide_options {
 /// The usual rules: all of them, walls that cover 0.2 of a line preferred.
 SL_API sl_subdivide_options sl_subdivide_options_default(void);
 
-/// Subdivides by a kd-tree on the lines of walls, until no wall is inside a cell. Walls and seams
-/// must be axial (SL_BAD_INPUT names the first that is not), and walls clean (sl_map_clean). No
-/// coordinate is computed: all are the map's, so predicates on the space are exact. (Only the
-/// bounds of a map without height or width are padded.) Reports stage "subdivide".
-SL_API sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
-                                 const sl_subdivide_options *options, sl_space *out);
-
-/// Subdivides by a constrained triangulation of walls and seams, whose triangles are merged to
-/// convex cells. Portals are removed, the longest first, if both of their ends stay convex corners
-/// (Hertel & Mehlhorn 1983). Walls may be oblique.
-///
-/// No coordinate is computed for a clean map (sl_map_clean). Each corner of a cell is the end of a
-/// wall or seam, or a corner of the bounds, and both sides of a portal have the same ends. So the
-/// cells tile the bounds, predicates on them are exact, and a shut door is as tight as a wall. A
-/// map that is not clean is made planar first, without a tolerance. This fails for a few maps
-/// (SL_UNSUPPORTED); clean those first.
-///
-/// SL_BAD_INPUT for a map without walls. Memory O(n), time about O(n log n). Reports stage
-/// "subdivide".
-SL_API sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *out);
-
-/// Subdivides by a mesh that respects the cells that the map brings along (sl_map.cells). Their
-/// sides end cells, so each cell lies in one of the map's cells, or in none. Bent cells are cut.
-/// The room that the map's cells leave open gets cells too.
-///
-/// Cells may be rounded, as node builders leave them. If the map is not clean (sl_map_clean),
-/// places within twice its `snap` of each other, also ends of walls, are welded first.
-///
-/// SL_BAD_INPUT, naming the cell, for cells that overlap.
-SL_API sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *out);
-
 /// A way to subdivide, by name.
 typedef struct sl_subdivision {
     const char *name, *what;
     bool takes_rules; ///< it uses the kd-tree's rules; others ignore them
     bool takes_cells; ///< it needs the map's own cells; others ignore them
-    /// NULL rules are the default ones. Fails as sl_subdivide_kd, _mesh or _given does.
+    /// `out` must be empty, and stays so on failure. NULL rules are the default ones. SL_BAD_INPUT,
+    /// naming what it is, for a map that the way cannot cut; SL_UNSUPPORTED for a few maps that are
+    /// not clean (sl_map_clean). Reports stage "subdivide".
     sl_status (*subdivide)(sl_context *context, const sl_map *map,
                            const sl_subdivide_options *rules, sl_space *out);
 } sl_subdivision;
 
-/// All of them: "kd", "mesh", "given".
+/// All of them. No coordinate is computed for a clean map: predicates on the space are exact.
+///
+/// - "kd": a kd-tree on the lines of walls, until no wall is inside a cell. Walls and seams must be
+///   axial.
+/// - "mesh": a constrained triangulation of walls and seams, whose triangles are merged to convex
+///   cells (Hertel & Mehlhorn 1983). Walls may be oblique. Both sides of a portal have the same
+///   ends. Memory O(n), time about O(n log n).
+/// - "given": a mesh that respects the cells that the map brings along (sl_map.cells): each cell
+///   lies in one of them, or in none.
 SL_API const sl_subdivision *sl_subdivisions(size_t *count);
 
 /// The subdivision for a map: "given" if it has cells, "kd" if all walls and seams are axial, else
@@ -210,7 +189,7 @@ SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zer
 
 /// Makes the guessed ground of a map certain (sl_map.ground_guessed), so that its text says what a
 /// space of it has. If the guesses contradict each other, the walls become those of the cleaned
-/// map. A map without guesses stays as it is. Fails as sl_map_clean and sl_subdivide_mesh do; the
+/// map. A map without guesses stays as it is. Fails as sl_map_clean and sli_subdivide_mesh do; the
 /// map may then have lost its walls if memory was lacking.
 SL_API sl_status sl_map_settle_ground(sl_context *context, sl_map *map);
 

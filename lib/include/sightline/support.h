@@ -58,10 +58,6 @@ SL_API char *sl_copy_text(sl_context *context, const char *text, size_t length);
 SL_API sl_status sl_reserve(sl_context *context, void *items, size_t *capacity, size_t needed,
                             size_t item_size);
 
-/// Gives back the room behind `count` items, one or more, where the system takes it.
-SL_API void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count,
-                      size_t item_size);
-
 /// A growing array of T: zero it to start, sl_free its items to end.
 #define SL_ARRAY(T)                                                                                \
     struct {                                                                                       \
@@ -158,9 +154,6 @@ SL_API unsigned sl_core_count(void);
 
 /// The shortest decimal (at most 17 digits) that reads back to the same double. Finite values only.
 SL_API void sl_number_write(double value, char text[SL_NUMBER_TEXT]);
-
-/// The length of the decimal number at the start of text[0 .. length), 0 for none.
-SL_API size_t sl_number_length(const char *text, size_t length);
 
 /// Reads a decimal number that is all of text[0 .. length): sign, digits, point, exponent. False
 /// for anything else: "nan", "inf", "0x1", "1e", "", more than 2048 characters. A magnitude too

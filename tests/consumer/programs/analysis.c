@@ -28,7 +28,7 @@ int main(void) {
     sl_status status = build(context, &map);
     if (status == SL_OK) status = subdivide(context, &map, &space);
     if (status == SL_OK) status = sl_outline_make(context, &space, &outline);
-    if (status == SL_OK) status = sl_vga_grid_fill(context, &outline, 1, &seed, 1, &grid);
+    if (status == SL_OK) status = sl_vga_grid_make(context, &outline, 1, &seed, 1, &grid);
     if (status == SL_OK) status = sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph);
     printf("%s: %u points, %u pairs\n", sl_status_name(status), graph.count, (unsigned)graph.edges);
     const bool good = status == SL_OK && graph.count > 1 &&

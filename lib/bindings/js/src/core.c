@@ -7,7 +7,7 @@
 /// about the same scene. What the module has beside scenes is in module.c.
 #include "bake/export.h"
 #include "bindings/js/src/bindings.h"
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 #include "sightline/sightline.h"
 
 #include <stdlib.h>
@@ -355,7 +355,7 @@ SLI_EXPORT(void, scene_account, const scene *s) {
                               (double)see->pairs,
                               (double)see->tests,
                               (double)see->nodes,
-                              (double)see->pieces,
+                              (double)see->sweep.pieces,
                               (double)see->deepest};
     memcpy(sli_module.numbers, numbers, sizeof numbers);
 }

@@ -109,7 +109,7 @@ static sl_status fill(graph *g, double step, double most) {
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (space->cells[c].inside) area += sl_space_area(space, c);
     if (area / step / step > 2 * most) return refuse_step(step, area / step / step, most);
-    SL_TRY(sl_vga_grid_fill(context(), g->outline, step, NULL, 0, &g->grid));
+    SL_TRY(sl_vga_grid_make(context(), g->outline, step, NULL, 0, &g->grid));
     if (g->grid.count > most) return refuse_step(step, g->grid.count, most);
     if (g->grid.count) return SL_OK;
     return sl_fail(context(), SL_BAD_ARGUMENT,

@@ -1,6 +1,6 @@
 /// Writing JSON (RFC 8259). The writer knows how deep it is and whether an item stands before the
 /// next one; from these two follow all commas, line ends and blanks.
-#include "sightline/json_write.h"
+#include "sightline/json.h"
 
 #include <math.h>
 #include <string.h>
