@@ -3,6 +3,7 @@
 layers   a folder of lib/ includes only from itself and from folders before it; tools and viewer include
          public headers alone; private names begin with sli_; and lib/README.md
          has a line for each
+table    lib/README.md has a line for each public header, and no other
 sources  lib/CMakeLists.txt names every source of lib/
 headers  every public header compiles alone, as C11 and as C++
 used     what a private header declares serves more than the one source that has it
@@ -160,6 +161,17 @@ def check_map_of_the_house(lib, there):
     told = re.findall(r"^\| `([a-z_]+)/`", text, re.MULTILINE)
     if told != there:
         yield f"lib/README.md: tells of {told}, but lib/ has {there}"
+
+
+def check_table(root):
+    """lib/README.md has a line for each public header."""
+    there = {path.name for path in (root / "lib/include/sightline").glob("*.h")}
+    text = (root / "lib/README.md").read_text(encoding="utf-8")
+    told = set(re.findall(r"^\| \[`(\w+\.h)`\]\(include/sightline/", text, re.MULTILINE))
+    for name in sorted(there - told):
+        yield f"lib/README.md: no line for the public header {name}"
+    for name in sorted(told - there):
+        yield f"lib/README.md: a line for {name}, which is no public header"
 
 
 def check_sources(root):
@@ -324,7 +336,7 @@ def check_doxygen(root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format",
+    parser.add_argument("subject", choices=["layers", "table", "sources", "used", "silent", "headers", "format",
                                             "doxygen", "versions", "tidy"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
@@ -339,7 +351,7 @@ def main():
         found = check_headers(options.root, compilers)
     else:
         missing = []
-        check = {"layers": check_layers, "sources": check_sources, "used": check_used,
+        check = {"layers": check_layers, "table": check_table, "sources": check_sources, "used": check_used,
                  "silent": check_silent, "format": check_format,
                  "doxygen": check_doxygen, "versions": check_versions,
                  "tidy": lambda root: check_tidy(root, options.build)}

@@ -106,6 +106,15 @@ class CheckTest(unittest.TestCase):
         self.assert_one(self.layers("lib/stab/s.c", ""), "README")
         self.assert_one(self.layers("lib/cake/c.c", ""), "cake")
 
+    def test_table_of_headers(self):
+        names = ["context", "map", "sightline", "space"]
+        lines = [f"| [`{name}.h`](include/sightline/{name}.h) | what |\n" for name in names]
+        self.assertEqual(self.faults(check.check_table, {"lib/README.md": "".join(lines)}), [])
+        self.assert_one(self.faults(check.check_table, {"lib/README.md": "".join(lines[1:])}),
+                        "no line", "context.h")
+        more = "".join(lines) + lines[0].replace("context", "gone")
+        self.assert_one(self.faults(check.check_table, {"lib/README.md": more}), "gone.h")
+
     def test_sources(self):
         self.assert_one(self.faults(check.check_sources, {"lib/map/no.c": ""}), "map/no.c")
         one_more = {"lib/CMakeLists.txt": "base/a.c map/m.c space/s.c x.c"}
