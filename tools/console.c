@@ -248,7 +248,7 @@ int console_close(command_console *console, sl_status status) {
     if (status == SL_OK) {
         sl_output output;
         status = sl_output_open(console->context, "-", &output);
-        if (status == SL_OK) status = sl_output_commit(console->context, &output);
+        if (status == SL_OK) status = sl_output_close(console->context, &output, SL_OK);
     }
     // A system call that the signal broke off is reported as what it is.
     if (status == SL_IO && atomic_load(&interrupted))

@@ -221,7 +221,7 @@ static sl_status copy_file(sl_context *context, const char *from, const char *to
     sl_status status = sl_output_open(context, to, &output);
     if (status == SL_OK) {
         fwrite(bytes.data, 1, bytes.size, output.stream);
-        status = sl_output_commit(context, &output);
+        status = sl_output_close(context, &output, SL_OK);
     }
     sl_free(context, bytes.data);
     return status;

@@ -57,10 +57,8 @@ static sl_status find_sets(sl_context *context, const view_run_options *options,
 static sl_status join(sl_context *context, const view_run_options *options, view_run *run) {
     sl_view_sets sets = {0};
     SL_TRY(find_sets(context, options, run, &sets));
-    const sl_status status =
-        options->method->merges
-            ? sl_view_merge(context, &run->scene, &run->tree, &sets, &run->hierarchy)
-            : sl_view_join_splits(context, &run->scene, &run->tree, &sets, &run->hierarchy);
+    const sl_status status = sl_view_hierarchy_make(context, &run->scene, &run->tree, &sets,
+                                                    options->method->merges, &run->hierarchy);
     sl_view_sets_destroy(context, &sets);
     return status;
 }
@@ -87,7 +85,7 @@ static sl_status evaluate(sl_context *context, const view_run_options *options, 
 static sl_status cut(sl_context *context, const view_run_options *options, view_run *run) {
     const sl_view_hierarchy *h = view_run_told(run);
     if (options->budget == BUDGET_CELLS)
-        run->cell_count = sl_view_cut_by_count(h, options->cells);
+        run->cell_count = options->cells < h->cell_count ? (uint32_t)options->cells : h->cell_count;
     else if (options->budget == BUDGET_BYTES)
         SL_TRY(sl_view_cut_by_bytes(context, h, options->bytes, &run->cell_count));
     else
@@ -187,7 +185,7 @@ void view_run_destroy(sl_context *context, view_run *run) {
     sl_view_hierarchy_destroy(context, &run->hierarchy);
     sl_view_hierarchy_destroy(context, &run->evaluated);
     sl_view_tree_destroy(context, &run->tree);
-    sl_view_found_destroy(context, &run->found);
+    sl_view_sets_destroy(context, &run->found.sets);
     sl_view_segments_destroy(context, &run->segments);
     sl_view_places_destroy(context, &run->places);
     sl_query_destroy(context, run->query);

@@ -3,7 +3,7 @@
 #include "account.h"
 
 #include "modes.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -14,7 +14,7 @@
 #include "present.h"
 #include "save.h"
 #include "seen.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/explain.h"
 #include "ui.h"
 #include "view.h"

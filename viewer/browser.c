@@ -9,7 +9,7 @@
 #include "folder_list.h"
 #include "map_file.h"
 #include "question.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef VIEWER_CHANGES_H
 #define VIEWER_CHANGES_H
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 /// Something that is drawn, and where.

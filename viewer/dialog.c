@@ -7,7 +7,7 @@
 #include "browser.h"
 #include "import_dialog.h"
 #include "question.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 #include "edit.h"
 
 #include "effects.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 
 #include "edit.h"
 #include "modes.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

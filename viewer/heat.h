@@ -5,7 +5,7 @@
 
 #include "document.h"
 #include "heat_graph.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 typedef struct app_state app_state;
 typedef struct heat_layer heat_layer;

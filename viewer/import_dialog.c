@@ -5,7 +5,7 @@
 #include "files.h"
 #include "map_file.h"
 #include "question.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
 

@@ -3,7 +3,7 @@
 #include "layers.h"
 
 #include "app.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 #include "sightline/walk.h"
 

@@ -4,7 +4,7 @@
 #include "layers.h"
 
 #include "app.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

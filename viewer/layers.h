@@ -4,7 +4,7 @@
 #define VIEWER_LAYERS_H
 
 #include "document.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/effects.h"
 #include "sightline/region.h"
 #include "tones.h"

@@ -6,7 +6,7 @@
 
 #include "cell_to_cell/sectors.h" // private: lessons show the inside of the library
 #include "document.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/glpk.h"

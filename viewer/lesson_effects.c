@@ -1,7 +1,7 @@
 /// The lesson of effects: cell by cell what the eye's cell sees, and which doors, mirrors and glass
 /// decide that.
 #include "app.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

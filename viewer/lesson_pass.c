@@ -1,7 +1,7 @@
 /// The lesson of multipass: quadrant by quadrant of directions, the cells in the order in which
 /// they are done, and what depends on what.
 #include "app.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /// The lesson of the depth-first search from the eye's cell: which portals it tries, and why it
 /// goes on or back.
 #include "app.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 /// a mesh the triangulation, and the sides that are taken out or have to stay.
 #include "app.h"
 #include "draw/lesson.h" // private: the lesson shows the inside of the library
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

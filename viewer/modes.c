@@ -6,7 +6,7 @@
 #include "effects.h"
 #include "layers.h"
 #include "quiz.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 

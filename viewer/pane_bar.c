@@ -3,7 +3,7 @@
 #include "edit.h"
 #include "modes.h"
 #include "quiz.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 /// border, the end itself, its row. Where nothing is left, the half-planes that contradict each
 /// other are marked, as are their ends in the plan.
 #include "modes.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

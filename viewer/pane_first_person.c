@@ -9,7 +9,7 @@
 #include "effects.h"
 #include "modes.h"
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

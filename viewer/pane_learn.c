@@ -2,7 +2,7 @@
 #include "actions.h"
 #include "column.h"
 #include "modes.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

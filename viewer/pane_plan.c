@@ -2,7 +2,7 @@
 #include "modes.h"
 
 #include "draw/lesson.h" // private: the layer of splits shows the inside of the library
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <math.h>

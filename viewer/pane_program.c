@@ -5,7 +5,7 @@
 /// Rows that are not in the basis hold it back: these are the ends that the best line touches, or
 /// those that leave none. A row under the pointer is marked in the plan and in the dual plane.
 #include "modes.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

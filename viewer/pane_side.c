@@ -5,7 +5,7 @@
 #include "effects.h"
 #include "modes.h"
 #include "quiz.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "quiz.h"
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 

@@ -6,7 +6,7 @@
 #include "app.h"
 #include "export.h"
 #include "modes.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <errno.h>

@@ -3,7 +3,7 @@
 #ifndef VIEWER_SAVE_H
 #define VIEWER_SAVE_H
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/map.h"
 #include "sightline/support.h"
 

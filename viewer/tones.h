@@ -2,7 +2,7 @@
 #ifndef VIEWER_TONES_H
 #define VIEWER_TONES_H
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <cairo.h>
 #include <stdbool.h>

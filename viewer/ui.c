@@ -1,6 +1,6 @@
 #include "ui.h"
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
 #ifndef VIEWER_UI_H
 #define VIEWER_UI_H
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/geometry.h"
 #include "text_field.h"
 

@@ -3,7 +3,7 @@
 #define VIEWER_VIEW_H
 
 #include "document.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 typedef struct app_state app_state;
 

@@ -3,7 +3,7 @@
 #include "view_cells.h"
 
 #include "app.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 #include "task.h"
 
@@ -50,7 +50,8 @@ static const sl_view_method *method_that_merges(void) {
 static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sets sets = {0};
     SL_TRY(sl_view_sets_sample(context, scene, &job->history.tree, &job->segments, 0, &sets));
-    const sl_status status = sl_view_merge(context, scene, &job->history.tree, &sets, &job->merged);
+    const sl_status status =
+        sl_view_hierarchy_make(context, scene, &job->history.tree, &sets, true, &job->merged);
     sl_view_sets_destroy(context, &sets);
     return status;
 }

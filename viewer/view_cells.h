@@ -4,7 +4,7 @@
 #define VIEWER_VIEW_CELLS_H
 
 #include "document.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/view_cells.h"
 
 typedef struct app_state app_state;

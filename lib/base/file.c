@@ -147,7 +147,7 @@ static int finish_stream(FILE *stream) {
     return reason;
 }
 
-sl_status sl_output_commit(sl_context *context, sl_output *output) {
+static sl_status commit(sl_context *context, sl_output *output) {
     const char *name = output->path ? output->path : "standard output";
     int reason = finish_stream(output->stream);
     output->stream = NULL;
@@ -163,7 +163,7 @@ sl_status sl_output_commit(sl_context *context, sl_output *output) {
 }
 
 sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status) {
-    if (status == SL_OK) return sl_output_commit(context, output);
+    if (status == SL_OK) return commit(context, output);
     abandon(context, output);
     return status;
 }

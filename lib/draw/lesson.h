@@ -3,7 +3,7 @@
 #ifndef SL_DRAW_LESSON_H
 #define SL_DRAW_LESSON_H
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "space/kd_tree.h"
 #include "space/mesh.h"
 

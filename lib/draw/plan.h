@@ -1,8 +1,8 @@
-/// The private part of canvas.h: scenes, frames and text.
+/// The private part of draw.h: scenes, frames and text.
 #ifndef SL_DRAW_PLAN_H
 #define SL_DRAW_PLAN_H
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include <cairo.h>
 #include <stdbool.h>

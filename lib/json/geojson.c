@@ -135,18 +135,3 @@ void sl_geojson_add_real(sl_geojson_writer *out, const char *key, double value) 
     else
         sl_json_put_real(&out->json, value);
 }
-
-void sl_geojson_add_count(sl_geojson_writer *out, const char *key, uint64_t count) {
-    sl_json_put_key(&out->json, key);
-    sl_json_put_integer(&out->json, (int64_t)count);
-}
-
-void sl_geojson_add_flag(sl_geojson_writer *out, const char *key, bool flag) {
-    sl_json_put_key(&out->json, key);
-    sl_json_put_flag(&out->json, flag);
-}
-
-void sl_geojson_add_text(sl_geojson_writer *out, const char *key, const char *text) {
-    sl_json_put_key(&out->json, key);
-    sl_json_put_text(&out->json, text);
-}

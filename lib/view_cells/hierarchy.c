@@ -219,8 +219,8 @@ static void destroy(merger *m) {
     sli_view_render_destroy(m->context, &m->render);
 }
 
-sl_status sl_view_merge(sl_context *context, const sl_view_scene *scene, const sl_view_tree *tree,
-                        const sl_view_sets *sets, sl_view_hierarchy *out) {
+static sl_status merge(sl_context *context, const sl_view_scene *scene, const sl_view_tree *tree,
+                       const sl_view_sets *sets, sl_view_hierarchy *out) {
     merger m = {.context = context, .tree = tree, .cell_count = tree->cell_count};
     sl_status status = begin(&m, scene, sets);
     if (status == SL_OK) status = start_queue(&m);
@@ -246,9 +246,9 @@ void sl_view_hierarchy_destroy(sl_context *context, sl_view_hierarchy *hierarchy
 
 // --- of splits
 
-sl_status sl_view_join_splits(sl_context *context, const sl_view_scene *scene,
-                              const sl_view_tree *tree, const sl_view_sets *sets,
-                              sl_view_hierarchy *out) {
+static sl_status join_splits(sl_context *context, const sl_view_scene *scene,
+                             const sl_view_tree *tree, const sl_view_sets *sets,
+                             sl_view_hierarchy *out) {
     // By node: its number, SL_NO_VIEW_CELL for empty space.
     uint32_t *number = sl_alloc_array(context, tree->node_count, sizeof *number);
     sl_view_hierarchy made = {.cell_count = tree->cell_count};
@@ -271,6 +271,12 @@ sl_status sl_view_join_splits(sl_context *context, const sl_view_scene *scene,
     sl_free(context, number);
     sl_view_hierarchy_destroy(context, &made);
     return status;
+}
+
+sl_status sl_view_hierarchy_make(sl_context *context, const sl_view_scene *scene,
+                                 const sl_view_tree *tree, const sl_view_sets *sets, bool merges,
+                                 sl_view_hierarchy *out) {
+    return (merges ? merge : join_splits)(context, scene, tree, sets, out);
 }
 
 // --- what parts cost
@@ -406,11 +412,6 @@ void sl_view_curve(const sl_view_hierarchy *h, double *costs, uint64_t *bytes) {
                 h->mass[joint] * h->cost[joint];
         size += h->bytes[parts[0]] + h->bytes[parts[1]] - h->bytes[joint];
     }
-}
-
-uint32_t sl_view_cut_by_count(const sl_view_hierarchy *hierarchy, uint64_t cells) {
-    if (!cells) return 1;
-    return cells < hierarchy->cell_count ? (uint32_t)cells : hierarchy->cell_count;
 }
 
 sl_status sl_view_cut_by_bytes(sl_context *context, const sl_view_hierarchy *hierarchy,

@@ -91,11 +91,6 @@ void sl_view_sets_destroy(sl_context *context, sl_view_sets *sets) {
     *sets = (sl_view_sets){0};
 }
 
-void sl_view_found_destroy(sl_context *context, sl_view_found *found) {
-    sl_view_sets_destroy(context, &found->sets);
-    *found = (sl_view_found){0};
-}
-
 sl_status sli_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,
                                sl_view_sets *sets) {
     const size_t words = sl_bits_words(object_count);

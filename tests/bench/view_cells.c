@@ -122,8 +122,8 @@ static void join(bench *b, const sl_view_method *method, const sl_view_segments 
     if (!method->exact)
         bench_must(b->context, sl_view_sets_sample(b->context, &b->scene, &m->tree, by, 0, &sets));
     const double start = bench_seconds();
-    bench_must(b->context, (method->merges ? sl_view_merge : sl_view_join_splits)(
-                               b->context, &b->scene, &m->tree, &sets, &m->told));
+    bench_must(b->context, sl_view_hierarchy_make(b->context, &b->scene, &m->tree, &sets,
+                                                  method->merges, &m->told));
     m->merge = bench_seconds() - start;
     sl_view_sets_destroy(b->context, &sets);
 }
@@ -276,7 +276,7 @@ static void histogram(bench *b) {
     for (int i = 0; i < 2; i++) {
         made m;
         make(b, method_named(names[i]), &b->segments, &options, &m);
-        const uint32_t cells = sl_view_cut_by_count(&m.others, wanted);
+        const uint32_t cells = wanted < m.others.cell_count ? wanted : m.others.cell_count;
         uint32_t *of = calloc(m.others.cell_count, sizeof *of), *numbers = calloc(cells, 4);
         if (!of || !numbers) bench_fail("out of memory");
         bench_must(b->context, sl_view_cut(b->context, &m.others, cells, of, numbers));

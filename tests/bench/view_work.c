@@ -67,7 +67,7 @@ static void measure(sl_context *context, const sl_map_kind *kind, uint64_t walls
            (unsigned long long)w->cuts);
     for (int m = 0; m < MEASURES; m++) printf(m == SECONDS ? ",%.2f\n" : ",%.0f", out[m]);
     fflush(stdout);
-    sl_view_found_destroy(context, &found);
+    sl_view_sets_destroy(context, &found.sets);
     sl_view_tree_destroy(context, &tree);
     sl_view_places_destroy(context, &places);
     sl_space_destroy(context, &space);

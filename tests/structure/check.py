@@ -42,7 +42,7 @@ HEADERS = {"context": "base", "measures": "base", "support": "base", "version": 
            "mirrored": "eye_to_cell", "moving": "eye_to_cell", "overlay": "eye_to_cell",
            "region": "eye_to_cell", "sees": "eye_to_cell", "view": "eye_to_cell",
            "vga": "visibility_graph",
-           "explained": "bake", "canvas": "draw"}
+           "explained": "bake"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.

@@ -127,7 +127,7 @@ static sl_status divide(sl_context *context, work *w) {
 static sl_status merge(sl_context *context, work *w) {
     const sl_view_scene scene = scene_of(w);
     sl_view_hierarchy made = {0};
-    SL_TRY(sl_view_merge(context, &scene, &w->tree, &w->sets, &made));
+    SL_TRY(sl_view_hierarchy_make(context, &scene, &w->tree, &w->sets, true, &made));
     sl_view_hierarchy_destroy(context, &w->merged);
     w->merged = made;
     return SL_OK;

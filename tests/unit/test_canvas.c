@@ -1,6 +1,6 @@
 /// Drawing into a context of one's own: frames, scenes, the dual plane, and page files.
 #include "draw/marks.h"
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 
 #include "test_draw_map.h"
 

@@ -1,9 +1,8 @@
 /// Pictures as files: their kinds, what is refused, and that nothing is left of a failure.
-#include "sightline/draw.h"
 
 #include "test_draw_map.h"
 
-#include "sightline/canvas.h"
+#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <cairo.h>

@@ -183,9 +183,9 @@ static sl_status make_views(sl_context *context, one_failure *on, const sl_view_
     SL_TRY(method->divide(context, &scene, &v->segments, &rules, &v->tree, NULL));
     SL_TRY(sl_view_sets_sample(context, &scene, &v->tree, &v->segments, 1, &v->sets));
     if (method->merges)
-        SL_TRY(sl_view_merge(context, &scene, &v->tree, &v->sets, &v->merged));
+        SL_TRY(sl_view_hierarchy_make(context, &scene, &v->tree, &v->sets, true, &v->merged));
     else
-        SL_TRY(sl_view_join_splits(context, &scene, &v->tree, &v->sets, &v->merged));
+        SL_TRY(sl_view_hierarchy_make(context, &scene, &v->tree, &v->sets, false, &v->merged));
     uint32_t cells = 1, view_cells[32], numbers[32];
     size_t count;
     assert_true(v->tree.cell_count <= 32);

@@ -241,7 +241,7 @@ static void check_sets(sl_context *context, const char *name, const sl_map *map,
         if (see_exactly(context, map, &scene, &tree, options.sight, &expected))
             check_same(name, &expected, &found.sets, sight == SL_OPEN);
         sl_view_sets_destroy(context, &expected);
-        sl_view_found_destroy(context, &found);
+        sl_view_sets_destroy(context, &found.sets);
         sl_view_tree_destroy(context, &tree);
     }
     sl_view_places_destroy(context, &places);
@@ -329,7 +329,7 @@ static void walls_are_seen_as_by_samples(void **state) {
                 }
             if (sight == SL_OPEN) assert_true(pairs > 100 && 15 * missed < pairs);
             sl_view_sets_destroy(context, &sampled);
-            sl_view_found_destroy(context, &found);
+            sl_view_sets_destroy(context, &found.sets);
             sl_view_tree_destroy(context, &tree);
         }
         drop_world(context, &w);
@@ -353,7 +353,7 @@ static void splits_are_places_of_a_map(void **state) {
                   view_method("hybrid")->divide(context, &w.scene, NULL, &options, &tree, &found));
         for (uint32_t i = 0; i < tree.node_count; i++)
             assert_true(sl_coordinate_usable(tree.nodes[i].position));
-        sl_view_found_destroy(context, &found);
+        sl_view_sets_destroy(context, &found.sets);
         sl_view_tree_destroy(context, &tree);
     }
     drop_world(context, &w);
@@ -388,7 +388,7 @@ static void threads_make_no_difference(void **state) {
     assert_int_equal(trees[0].cell_count, 300);
     for (int i = 0; i < 3; i++) {
         sl_view_tree_destroy(context, &trees[i]);
-        sl_view_found_destroy(context, &found[i]);
+        sl_view_sets_destroy(context, &found[i].sets);
     }
     drop_world(context, &w);
     sl_context_destroy(context);
@@ -414,7 +414,7 @@ static void lack_of_memory_leaves_nothing(void **state) {
         memory.fail_at = 0;
         assert_true(status == SL_OK || (!tree.nodes && !found.sets.bits));
         sl_view_tree_destroy(context, &tree);
-        sl_view_found_destroy(context, &found);
+        sl_view_sets_destroy(context, &found.sets);
         assert_int_equal(memory.live, live);
     }
     assert_int_equal(status, SL_OK);

@@ -22,8 +22,8 @@ static void make(sl_context *context, const char *statements, bool oblique, uint
                                                    &options, &m->tree, NULL));
     assert_ok(context, sl_view_sets_sample(context, &m->world.scene, &m->tree, &m->world.segments,
                                            1, &m->sets));
-    assert_ok(context, (merges ? sl_view_merge : sl_view_join_splits)(
-                           context, &m->world.scene, &m->tree, &m->sets, &m->hierarchy));
+    assert_ok(context, sl_view_hierarchy_make(context, &m->world.scene, &m->tree, &m->sets, merges,
+                                              &m->hierarchy));
 }
 
 static void drop(sl_context *context, made *m) {
@@ -171,9 +171,6 @@ static void cuts_keep_to_their_budget(void **state) {
     uint64_t bytes[64];
     uint32_t cells;
     sl_view_curve(h, costs, bytes);
-    assert_int_equal(sl_view_cut_by_count(h, 7), 7);
-    assert_int_equal(sl_view_cut_by_count(h, 0), 1);
-    assert_int_equal(sl_view_cut_by_count(h, UINT64_MAX), h->cell_count);
     for (uint64_t budget = bytes[0]; budget < bytes[h->cell_count - 1] + 9; budget += 3) {
         assert_ok(context, sl_view_cut_by_bytes(context, h, budget, &cells));
         assert_true(bytes[cells - 1] <= budget);
@@ -231,7 +228,8 @@ static void costs_follow_the_model(void **state) {
     const uint32_t whole = 2 * other.cell_count - 2;
     assert_true(other.cost[whole] > 1 && other.cost[whole] < m.hierarchy.cost[whole]);
     sl_view_hierarchy_destroy(context, &other);
-    assert_ok(context, sl_view_merge(context, &m.world.scene, &m.tree, &m.sets, &other));
+    assert_ok(context,
+              sl_view_hierarchy_make(context, &m.world.scene, &m.tree, &m.sets, true, &other));
     sl_view_hierarchy_destroy(context, &other);
     drop(context, &m);
     sl_context_destroy(context);
@@ -266,7 +264,8 @@ static void no_memory_is_told(void **state) {
         if (status == SL_OK)
             status = sl_view_sets_sample(context, &m.world.scene, &m.tree, &segments, 1, &m.sets);
         if (status == SL_OK)
-            status = sl_view_merge(context, &m.world.scene, &m.tree, &m.sets, &m.hierarchy);
+            status = sl_view_hierarchy_make(context, &m.world.scene, &m.tree, &m.sets, true,
+                                            &m.hierarchy);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         done = status == SL_OK;
         memory.fail_at = 0;

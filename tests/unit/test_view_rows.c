@@ -30,7 +30,8 @@ static void see(sl_context *context, const char *statements, bool oblique, uint3
                                                    &options, &s->tree, NULL));
     assert_ok(context, sl_view_sets_sample(context, &s->world.scene, &s->tree, &s->world.segments,
                                            1, &sets));
-    assert_ok(context, sl_view_merge(context, &s->world.scene, &s->tree, &sets, &s->hierarchy));
+    assert_ok(context, sl_view_hierarchy_make(context, &s->world.scene, &s->tree, &sets, true,
+                                              &s->hierarchy));
     sl_view_sets_destroy(context, &sets);
     s->view_cells = calloc(s->hierarchy.cell_count, sizeof *s->view_cells);
     s->numbers = calloc(cells, sizeof *s->numbers);

@@ -48,7 +48,8 @@ static void make_cells(sl_context *context, const char *name, viewed *v) {
                                                    &v->tree, NULL));
     sl_view_sets sets;
     assert_ok(context, sl_view_sets_sample(context, &w->scene, &v->tree, &w->segments, 1, &sets));
-    assert_ok(context, sl_view_merge(context, &w->scene, &v->tree, &sets, &v->hierarchy));
+    assert_ok(context,
+              sl_view_hierarchy_make(context, &w->scene, &v->tree, &sets, true, &v->hierarchy));
     sl_view_sets_destroy(context, &sets);
 }
 

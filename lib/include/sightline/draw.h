@@ -1,11 +1,25 @@
 /// Pictures of a baked map, by one drawing code for files and for windows; and charts. In a library
-/// of its own, sightline_draw, which needs cairo.
+/// of its own, sightline_draw, which needs cairo. The second part draws into a cairo context of
+/// your own: plans, cells, regions, eyes, portals, text, charts. The pictures are made of it, and
+/// so is the viewer.
+///
+///     sl_scene *scene;
+///     sl_draw_options options = sl_draw_options_default();
+///     sl_frame frame = sl_frame_fit(baked->space.bounds, 0, 0, 800, 600, 1);
+///     sl_scene_create(context, baked, &options, NULL, &scene);
+///     sl_draw_plan(context, cairo, scene, options.layers, &frame);
+///     sl_scene_destroy(context, scene);
+///
+/// The functions that draw return nothing: cairo_status(cairo) keeps what cairo could not do. They
+/// may change the context's source, line width, dash, cap, join, font and path.
 #ifndef SIGHTLINE_DRAW_H
 #define SIGHTLINE_DRAW_H
 
 #include "sightline/bake.h"
+#include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
+#include "sightline/region.h"
 #include "sightline/view.h"
 
 #ifdef __cplusplus
@@ -233,6 +247,229 @@ typedef struct sl_chart {
 /// Draws into a file, as sl_draw_file does. SL_BAD_ARGUMENT on values that are not finite, beyond
 /// 1e300, or not positive on a logarithmic axis.
 SL_API sl_status sl_draw_chart_file(sl_context *context, const sl_chart *chart, const char *path);
+
+// === Drawing into a cairo context of your own
+
+/// As in cairo.h, so that this header needs none of cairo's.
+typedef struct _cairo cairo_t; // NOLINT: the name is cairo's own
+
+// --- from the map to the page
+
+/// Where a map stands on a page: a frame, and what part of the map it shows. Page coordinates run
+/// right and down from the page's upper left corner.
+typedef struct sl_frame {
+    sl_point corner;  ///< the map's point at the frame's lower left
+    double scale;     ///< page units for one unit of the map, the same both ways
+    double left, top; ///< the frame's place on the page
+    double width, height;
+    double unit; ///< the unit of line widths: 1 on a page 1200 wide
+} sl_frame;
+
+/// A frame that shows all of `bounds`, as large as the given place allows and in its middle.
+/// Nothing is stretched.
+SL_API sl_frame sl_frame_fit(sl_box bounds, double left, double top, double width, double height,
+                             double unit);
+
+/// The place of a point on the page. It is exact enough for maps far from the origin, and stays
+/// finite.
+SL_API sl_point sl_frame_point(const sl_frame *frame, sl_point point);
+
+/// Whether a point's place is in the frame or close to it. `place` may be NULL.
+SL_API bool sl_frame_holds(const sl_frame *frame, sl_point point, sl_point *place);
+
+/// These add to the path, cut to the frame and its surroundings: cairo's numbers overflow far away.
+SL_API void sl_path_segment(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b);
+SL_API void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_point *corners,
+                            size_t count); ///< convex where it has to be cut
+
+// --- colours
+
+/// A colour without transparency.
+typedef struct sl_colour {
+    double red, green, blue; ///< sRGB, 0 to 1
+} sl_colour;
+
+/// Neighbouring cells get different tones where that many suffice.
+#define SL_TONES 4
+
+/// The colours of a picture.
+typedef struct sl_palette {
+    sl_colour page, ground, hatch;   ///< paper, what is outside, the lines over it
+    sl_colour solid;                 ///< solid ground
+    sl_colour floor[SL_TONES];       ///< cells
+    sl_colour seen[SL_TONES];        ///< cells that the chosen cell sees
+    sl_colour source, source_edge;   ///< the chosen cell
+    sl_colour doubtful;              ///< cells that only rounding shows or hides
+    sl_colour wall, outline, portal; ///< lines
+    sl_colour tree, start, path, door, glass, object;
+    sl_colour mirrored;   ///< what is seen by mirror
+    sl_colour ink, faint; ///< text
+    bool dark;
+} sl_palette;
+
+/// The colours of pictures, dark on light or light on dark.
+SL_API sl_palette sl_palette_make(bool dark);
+
+/// The heat map's ramp, `value` from 0 to 1. Its lightness changes evenly and in one direction, so
+/// that the order holds for every eye and in grey print.
+SL_API sl_colour sl_palette_ramp(bool dark, double value);
+
+/// A colour between two, in sRGB: `share` 0 gives a, 1 gives b.
+SL_API sl_colour sl_colour_mix(sl_colour a, sl_colour b, double share);
+
+/// Makes a colour the context's source.
+SL_API void sl_set_colour(cairo_t *cairo, sl_colour colour);
+
+// --- text, UTF-8. Letters that the font lacks come from other fonts. A surface keeps the last
+// texts that were set on it: draw on one surface in one thread alone.
+
+/// Sets the font and its size. Letters are not fitted to pixels, so that pictures of any width and
+/// kind are laid out alike.
+SL_API void sl_text_font(cairo_t *cairo, double size, bool bold);
+
+/// The width of a text in the font that is set, in page units.
+SL_API double sl_text_width(cairo_t *cairo, const char *text);
+
+/// Draws from the left end of the base line.
+SL_API void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, const char *text);
+
+/// The same, no wider than `width`: the text is set smaller, down to two thirds of `size`, then
+/// cut.
+SL_API void sl_text_show_within(cairo_t *cairo, sl_colour colour, double x, double y, double width,
+                                double size, bool bold, const char *text);
+
+/// The number of lines that a text takes in the font that is set, where none is wider than `width`.
+/// Lines break between words, and within a word that is wider; '\n' begins a new one.
+SL_API unsigned sl_text_lines(cairo_t *cairo, double width, const char *text);
+
+/// Draws a text in such lines, from the left end of the first base line; the next ones are
+/// `spacing` apart. Returns their number.
+SL_API unsigned sl_text_show_lines(cairo_t *cairo, sl_colour colour, double x, double y,
+                                   double width, double spacing, const char *text);
+
+/// The longest text of sl_text_count, its 0 included.
+#define SL_COUNT_TEXT 64
+
+/// A count with its thousands set apart, and what is counted: "1 204 cells", "1 cell".
+SL_API void sl_text_count(uint64_t count, const char *unit, char text[SL_COUNT_TEXT]);
+
+/// A share from 0 to 1 as a percentage: "23.4 %".
+SL_API void sl_text_percent(double share, char text[SL_COUNT_TEXT]);
+
+// --- the plan
+
+/// What a plan shows, worked out once from a baked map: each cell's colour, the counts, the strokes
+/// of the stab tree. One scene serves any number of frames.
+typedef struct sl_scene sl_scene;
+
+/// `baked` is referred to, not copied; options are as in sl_draw_file. `trees`: NULL for those of
+/// `baked`, else stab trees in their place, read here only. SL_BAD_ARGUMENT for a chosen cell that
+/// the map does not have or that is solid ground. `*out` is untouched on failure.
+SL_API sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
+                                 const sl_draw_options *options, const sl_stab_trees *trees,
+                                 sl_scene **out);
+SL_API void sl_scene_destroy(sl_context *context, sl_scene *scene); ///< NULL: nothing
+
+/// The portals in the longest sequence of the stab tree; 0 where the scene has none.
+SL_API uint32_t sl_scene_tree_depth(const sl_scene *scene);
+
+/// Draws layers (of sl_layer, or-ed; the legend has no place here) over what is there. SL_CANCELLED
+/// between layers.
+SL_API sl_status sl_draw_plan(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                              unsigned layers, const sl_frame *frame);
+
+/// Draws the walls and the starts alone, as far as the scene's options ask for them: over what is
+/// drawn on the cells.
+SL_API sl_status sl_draw_walls(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                               const sl_frame *frame);
+
+/// Draws the stab tree alone, down to a depth, as it starts from a place in the chosen cell.
+SL_API void sl_draw_tree(cairo_t *cairo, const sl_scene *scene, sl_point from, uint32_t depth,
+                         const sl_frame *frame);
+
+// --- what is seen
+
+/// Outlines one cell, and fills it where `opacity` is not 0.
+SL_API void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame,
+                         uint32_t cell, sl_colour colour, double opacity, double width);
+
+/// Draws a cone about a heading in degrees, `fov` degrees wide and `reach` long on the page; a
+/// circle where it is all round.
+SL_API void sl_draw_cone(cairo_t *cairo, const sl_frame *frame, sl_point eye, double heading,
+                         double fov, double reach, sl_colour colour);
+
+/// Draws an eye with its heading.
+SL_API void sl_draw_eye_mark(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                             sl_point eye, double heading, double radius);
+
+/// Draws the portals of a sequence: left ends as discs, right ends as squares. `last_stops` marks
+/// the last one as that which no line passes.
+SL_API void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                                const sl_portal_ends *portals, uint32_t count, bool last_stops);
+
+/// Draws what keeps lines from portals: the ends of a conflict, large, and between those of either
+/// side a segment or triangle. Portals that turn get an arrow each way that they are crossed. "L3"
+/// is the left end of portal 3, counted from 1.
+SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                             const sl_portal_ends *portals, const sl_conflict *conflict);
+
+/// Draws a ring about a place of the map.
+SL_API void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double radius,
+                         sl_colour colour, double width);
+
+/// Draws a straight line between two points of the map.
+SL_API void sl_draw_line(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b,
+                         sl_colour colour, double width);
+
+// --- the dual plane of a portal sequence
+
+/// The part of the plane that is shown, and its place on the page. Slopes run right, heights up.
+typedef struct sl_dual_frame {
+    double left, top, width, height, unit;
+    sl_dual_line low, high;
+} sl_dual_frame;
+
+/// Shows the polygon before its last portal, with some room around it: so one sees how the last
+/// portal cuts. What contradicts itself is inside; a conflict of no ends says that nothing does.
+SL_API sl_dual_frame sl_dual_frame_fit(const sl_dual *dual, const sl_dual *before,
+                                       const sl_portal_ends *portals, const sl_conflict *conflict,
+                                       double left, double top, double width, double height,
+                                       double unit);
+
+/// What is marked in a dual plane. Zeroed: nothing.
+typedef struct sl_dual_marks {
+    const sl_conflict *conflict; ///< its borders are thick, its place is framed; NULL for none
+    const sl_stab_end *end;      ///< one border is thick, with its equation; NULL for none
+    double text; ///< the size of numbers on the axes and of names at borders; 0 for none
+} sl_dual_marks;
+
+/// The place of a line on the page.
+SL_API sl_point sl_dual_frame_point(const sl_dual_frame *frame, sl_dual_line line);
+
+/// The line at a place of the page.
+SL_API sl_dual_line sl_dual_frame_line(const sl_dual_frame *frame, sl_point page);
+
+/// Draws the border of each end's half-plane, the polygon, the optimum with its margin, and the
+/// chosen line. Teeth on the last borders point to the side that is forbidden. `marks`: NULL for
+/// none.
+SL_API void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame *frame,
+                         const sl_dual *dual, const sl_portal_ends *portals, uint32_t count,
+                         sl_dual_line chosen, const sl_dual_marks *marks);
+
+// --- charts and files
+
+/// Draws a chart into a box of the page (min at the upper left), with text of that size; the
+/// chart's own width does not count. Labels that find no room lose their notes, then are left out.
+/// Fails as sl_draw_chart_file does.
+SL_API sl_status sl_draw_chart_onto(sl_context *context, cairo_t *cairo, const sl_chart *chart,
+                                    sl_box box, double text);
+
+/// Makes a picture file: .png, .svg or .pdf by the ending of its name. `draw` draws a page of
+/// `width` x `height` pixels (PDF: points). `title` (NULL for none) goes into the file's
+/// description where the kind has one. A failure leaves an older file as it was.
+SL_API sl_status sl_draw_page_file(sl_context *context, const char *path, int width, int height,
+                                   const char *title, void (*draw)(void *user, cairo_t *cairo),
+                                   void *user);
 
 #ifdef __cplusplus
 }

@@ -95,11 +95,20 @@ SL_API void sl_geojson_end_feature(sl_geojson_writer *out);
 /// Properties of the feature that is open. NAN stands for no value, and becomes null.
 SL_API void sl_geojson_add_real(sl_geojson_writer *out, const char *key, double value);
 /// As sl_geojson_add_real, a whole number.
-SL_API void sl_geojson_add_count(sl_geojson_writer *out, const char *key, uint64_t count);
+static inline void sl_geojson_add_count(sl_geojson_writer *out, const char *key, uint64_t count) {
+    sl_json_put_key(&out->json, key);
+    sl_json_put_integer(&out->json, (int64_t)count);
+}
 /// As sl_geojson_add_real, true or false.
-SL_API void sl_geojson_add_flag(sl_geojson_writer *out, const char *key, bool flag);
+static inline void sl_geojson_add_flag(sl_geojson_writer *out, const char *key, bool flag) {
+    sl_json_put_key(&out->json, key);
+    sl_json_put_flag(&out->json, flag);
+}
 /// As sl_geojson_add_real, a text in UTF-8.
-SL_API void sl_geojson_add_text(sl_geojson_writer *out, const char *key, const char *text);
+static inline void sl_geojson_add_text(sl_geojson_writer *out, const char *key, const char *text) {
+    sl_json_put_key(&out->json, key);
+    sl_json_put_text(&out->json, text);
+}
 
 #ifdef __cplusplus
 }

@@ -195,10 +195,8 @@ SL_API sl_status sl_output_open(sl_context *context, const char *path, sl_output
 /// Fails as sl_output_open() would, and leaves nothing: asked before work that takes long. A device
 /// or a pipe is not touched.
 SL_API sl_status sl_output_try(sl_context *context, const char *path);
-/// Flushes to the disk and takes the target's place; on failure the target is left as it was.
-SL_API sl_status sl_output_commit(sl_context *context, sl_output *output);
-/// Commits where `status` is SL_OK, else gives up and removes what was written; returns what came
-/// of it.
+/// Where `status` is SL_OK, flushes to the disk and takes the target's place; on failure the target
+/// is left as it was. Else gives up and removes what was written. Returns what came of it.
 SL_API sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status);
 
 #ifdef __cplusplus

@@ -173,14 +173,11 @@ typedef struct sl_view_work {
     uint64_t weighed;    ///< objects in directed visible sets used to choose splits
 } sl_view_work;
 
-/// What methods by exact sets find besides a tree. Zeroed: nothing.
+/// What methods by exact sets find besides a tree. Zeroed: nothing. Free the sets.
 typedef struct sl_view_found {
     sl_view_sets sets; ///< of the elementary view cells
     sl_view_work work;
 } sl_view_found;
-
-/// Frees what a method found and zeroes it.
-SL_API void sl_view_found_destroy(sl_context *context, sl_view_found *found);
 
 /// What each elementary view cell of a tree sees, by the segments that pass it. `threads`: 0 for
 /// one per core.
@@ -242,17 +239,13 @@ typedef struct sl_view_method {
 /// All methods, *count of them.
 SL_API const sl_view_method *sl_view_methods(size_t *count);
 
-/// The hierarchy of the splits themselves, or the merge history: always the two neighbours that
-/// cost least to merge become one. Neighbours share a piece of boundary. Where none are left,
-/// because view space is in several parts, the two lowest numbers are merged. `sets`: what the
-/// elementary cells see. Reports stage "merge".
-SL_API sl_status sl_view_join_splits(sl_context *context, const sl_view_scene *scene,
-                                     const sl_view_tree *tree, const sl_view_sets *sets,
-                                     sl_view_hierarchy *out);
-/// The merge history, likewise.
-SL_API sl_status sl_view_merge(sl_context *context, const sl_view_scene *scene,
-                               const sl_view_tree *tree, const sl_view_sets *sets,
-                               sl_view_hierarchy *out);
+/// Makes a hierarchy: of the splits themselves, or with `merges` (sl_view_method.merges) the merge
+/// history, in which always the two neighbours that cost least to merge become one. Neighbours
+/// share a piece of boundary. Where none are left, because view space is in several parts, the two
+/// lowest numbers are merged. `sets`: what the elementary cells see. Reports stage "merge".
+SL_API sl_status sl_view_hierarchy_make(sl_context *context, const sl_view_scene *scene,
+                                        const sl_view_tree *tree, const sl_view_sets *sets,
+                                        bool merges, sl_view_hierarchy *out);
 
 /// The same joints, measured by other sets: so a hierarchy can be evaluated by segments that were
 /// not used to make it.
@@ -264,10 +257,9 @@ SL_API sl_status sl_view_evaluate(sl_context *context, const sl_view_scene *scen
 /// n - 1 of each array. Either may be NULL.
 SL_API void sl_view_curve(const sl_view_hierarchy *hierarchy, double *costs, uint64_t *bytes);
 
-/// Where to cut (section 5.1): at a number of cells, at what fits into a number of bytes, or at
-/// what costs at most 1 + tolerance times what the elementary cells cost. Each gives a number of
-/// view cells, from 1 to the number of elementary cells.
-SL_API uint32_t sl_view_cut_by_count(const sl_view_hierarchy *hierarchy, uint64_t cells);
+/// Where to cut (section 5.1). Each gives a number of view cells, from 1 to the number of
+/// elementary cells.
+///
 /// As many view cells as fit into a number of bytes.
 SL_API sl_status sl_view_cut_by_bytes(sl_context *context, const sl_view_hierarchy *hierarchy,
                                       uint64_t bytes, uint32_t *cells);

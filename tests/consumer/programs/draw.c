@@ -1,6 +1,6 @@
 // The pictures that need cairo: a name with an unknown ending is refused, and
 // a frame shows all of a map.
-#include <sightline/canvas.h>
+#include <sightline/draw.h>
 
 #include <stdio.h>
 

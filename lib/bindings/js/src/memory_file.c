@@ -1,7 +1,7 @@
 /// Files where there are none: what the library writes goes to memory, and no file can be read.
 /// It stands in the place of base/file.c in WebAssembly.
 ///
-/// One file is written at a time. sl_output_commit() keeps its bytes until the next one is written;
+/// One file is written at a time. sl_output_close() keeps its bytes until the next one is written;
 /// `path` is not looked at. bindings.h says how to take them.
 #include "base/base.h"
 #include "base/file_system.h"
@@ -41,7 +41,7 @@ sl_status sl_output_try(sl_context *context, const char *path) {
     return SL_OK;
 }
 
-sl_status sl_output_commit(sl_context *context, sl_output *output) {
+static sl_status commit(sl_context *context, sl_output *output) {
     const int failed = ferror(output->stream);
     const int lost = fclose(output->stream);
     output->stream = NULL;
@@ -49,7 +49,7 @@ sl_status sl_output_commit(sl_context *context, sl_output *output) {
 }
 
 sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status) {
-    if (status == SL_OK) return sl_output_commit(context, output);
+    if (status == SL_OK) return commit(context, output);
     fclose(output->stream);
     output->stream = NULL;
     return status;
