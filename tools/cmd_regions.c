@@ -1,4 +1,5 @@
 /// `sightline regions`: what view cells see, by every from-region method (Laine 2005).
+#include "built.h"
 #include "commands.h"
 #include "help.h"
 #include "inputs.h"
@@ -6,7 +7,6 @@
 #include "pipeline.h"
 #include "regions_report.h"
 #include "sightline/support.h"
-#include "solvers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -135,7 +135,7 @@ static sl_status make_plan(sl_context *context, const char *input, regions_plan 
     plan->what.view_cells = (sl_view_cell_kind)plan->view_cells;
     plan->what.objects = (sl_object_kind)plan->objects;
     plan->how.solver = solver;
-    plan->how.stab = solver_at(plan->stab);
+    plan->how.stab = built_solver(plan->stab);
     if (plan->grid_given && plan->what.view_cells != SL_VIEW_CELLS_GRID)
         return sl_fail(context, SL_BAD_ARGUMENT, "--grid is for --view-cells grid, not %s",
                        view_cell_kinds[plan->view_cells]);
@@ -314,5 +314,6 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, input, &plan));
+    if (plan.output) SL_TRY(built_need_pictures(console->context));
     return run(console->context, &plan);
 }

@@ -1,6 +1,8 @@
 /// The results of a comparison as charts: accuracy against time.
 #include "compare.h"
 
+#include "built.h"
+#include "fields.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
@@ -175,7 +177,7 @@ static void fill_chart(chart_parts *parts, bool dark) {
               .seconds = true},
         .y = {.scale = SL_CHART_SYMLOG, .zero = judged ? "exact" : "not known"},
         .series = parts->series,
-        .width = sl_draw_options_default().width,
+        .width = built_draw_options().width,
         .dark = dark,
     };
     if (judged) {
@@ -206,7 +208,7 @@ sl_status compare_draw(sl_context *context, const compare_result *comparison, bo
     sl_status status = SL_NO_MEMORY;
     if (parts.marks && parts.over && parts.under && parts.texts) {
         fill_chart(&parts, dark);
-        status = sl_draw_chart_file(context, &parts.chart, path);
+        status = built_pictures()->chart(context, &parts.chart, path);
     }
     sl_free(context, parts.marks);
     sl_free(context, parts.over);
@@ -235,9 +237,7 @@ typedef struct eye_chart_parts {
 static void fill_mark(const compare_eye_row *row, eye_mark_text *text, sl_chart_mark *mark) {
     char seconds[SECONDS_TEXT];
     seconds_write(row->seconds, MICRO, seconds);
-    snprintf(text->label, sizeof text->label, "%s", row->name);
-    for (char *at = text->label; *at; at++)
-        if (*at == '_') *at = ' ';
+    words_of(row->name, text->label, sizeof text->label);
     snprintf(text->note, sizeof text->note, "%.2f %% in %s", 100 * row->share, seconds);
     *mark = (sl_chart_mark){
         .x = row->seconds, .y = 100 * row->share, .label = text->label, .note = text->note};
@@ -299,10 +299,10 @@ sl_status compare_eye_draw(sl_context *context, const eye_comparison *comparison
             .y = {.label = "area kept, % of the inside", .scale = scale_of(comparison)},
             .series = parts.series,
             .series_count = comparison->plan->fov_count,
-            .width = sl_draw_options_default().width,
+            .width = built_draw_options().width,
             .dark = dark,
         };
-        status = sl_draw_chart_file(context, &chart, path);
+        status = built_pictures()->chart(context, &chart, path);
     }
     sl_free(context, parts.marks);
     sl_free(context, parts.texts);
