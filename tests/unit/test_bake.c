@@ -238,7 +238,7 @@ static void the_tree_is_the_search(void **state) {
 
 static void read_two_rooms(sl_context *context, sl_map *map) {
     static const char text[] = "sightline 1\nwalls 0 0 4 0 4 4 0 4 0 0\nwall 2 0 2 3\n";
-    assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), map));
+    assert_ok(context, sli_map_read_text(context, "t", text, strlen(text), map));
 }
 
 /// The first half of a bake, without anybody who wants an account.
