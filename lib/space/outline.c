@@ -239,6 +239,22 @@ static sl_status make_index(sl_context *context, outliner *o) {
     return sli_wall_index_create(context, &map, &o->index);
 }
 
+/// Makes walls of both sides of some portals.
+static void wall_portals(outliner *o, const uint32_t *portals, uint32_t count) {
+    const sl_space *s = o->space;
+    sl_side *sides = o->sides.items;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_cell *cell = &s->cells[s->portals[portals[i]].cell[0]];
+        const uint32_t stop = cell->first_directed + cell->directed_count;
+        uint32_t k = cell->first_directed;
+        while (k < stop && s->directed[k].portal != portals[i]) k++;
+        if (k == stop || !sl_side_is_portal(&sides[o->of_portal[k]])) continue;
+        sl_side *side = &sides[o->of_portal[k]];
+        sides[side->neighbour].neighbour = SL_SIDE_WALL + s->wall_count + i;
+        side->neighbour = SL_SIDE_WALL + s->wall_count + i;
+    }
+}
+
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
     if (!s->neighbour) SL_TRY(make_index(context, o));
@@ -273,10 +289,16 @@ static sl_status keep_cells(sl_context *context, sl_outline *o) {
 }
 
 sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out) {
+    return sli_outline_make_walled(context, space, NULL, 0, out);
+}
+
+sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
+                                  const uint32_t *portals, uint32_t count, sl_outline *out) {
     outliner o = {.space = space};
     sl_outline made = {0};
     sl_status status = start_rooms(context, space, &made);
     if (status == SL_OK) status = outline_all(context, &o, made.first);
+    if (status == SL_OK) wall_portals(&o, portals, count);
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
