@@ -24,8 +24,10 @@
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
 #include "sightline/region.h"
+
 #include "eye_to_cell/cone.h"
-#include "eye_to_cell/region_parts.h"
+#include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/past_boxes.h"
 #include "geometry/length.h"
 
 #include <math.h>
@@ -228,6 +230,8 @@ static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sli_ey
                                   const sli_eye_ray *b, const sli_eye_ray *right,
                                   const sli_eye_ray *left) {
     struct sli_region_memory *m = x->region->memory;
+    if (SLI_BOXES && m->envelope.arcs.count)
+        return sli_region_see_past(x->context, x->region, neighbour, a, b, right, left);
     if (!m->pending || m->piece.neighbour != neighbour || neighbour == SLI_PIECE_FAR)
         SL_TRY(sli_region_start_piece(x->context, x->region, neighbour, a, b, right));
     m->piece.a = a->at;
@@ -513,7 +517,7 @@ sl_status sli_region_start(sl_context *context, const sl_outline *outline, const
     struct sli_region_memory *m = region->memory;
     m->pending = false;
     m->first = SLI_PIECE_FAR;
-    m->frames.count = m->reflected_views.count = 0;
+    m->frames.count = m->reflected_views.count = m->envelope.arcs.count = 0;
     m->mirrors = NULL;
     m->eye = sli_eye_place_at(view->eye);
     m->limit = sli_eye_limit(outline->space, view);
@@ -524,9 +528,17 @@ sl_status sli_region_start(sl_context *context, const sl_outline *outline, const
 
 sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
                          double range, sl_region *region) {
+    return sli_region_make_past(context, outline, NULL, 0, view, range, region);
+}
+
+sl_status sli_region_make_past(sl_context *context, const sl_outline *outline,
+                               const sl_moving_box *boxes, size_t count, const sl_view *view,
+                               double range, sl_region *region) {
     region->count = 0;
     SL_TRY(sli_region_check_view(context, view, range));
     SL_TRY(sli_region_start(context, outline, view, range, region));
+    if (SLI_BOXES && count)
+        SL_TRY(sli_box_envelope_make(context, boxes, count, view->eye, &region->memory->envelope));
     region->cell = sli_eye_cell(outline->space, view->eye);
     const sl_status status = sli_region_spread(context, outline, region);
     if (status != SL_OK) region->count = 0;
@@ -539,6 +551,8 @@ void sli_region_settle(sl_context *context, sl_region *region) {
         sl_free(context, region->memory->fan.items);
         sl_free(context, region->memory->whole.items);
         sl_free(context, region->memory->reflected_views.items);
+        sl_free(context, region->memory->envelope.arcs.items);
+        sl_free(context, region->memory->envelope.scratch.items);
     }
     sl_free(context, region->memory);
     region->memory = NULL;

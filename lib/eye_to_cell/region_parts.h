@@ -51,10 +51,29 @@ typedef struct sli_region_corner {
     sl_region_edge edge;
 } sli_region_corner;
 
+/// The directions from `right` to `left`, less than half a turn, in which one side of a box is the
+/// nearest of all.
+typedef struct sli_box_arc {
+    sl_point right, left; ///< on its rays
+    sl_point a, b;        ///< the side, as the eye sees it from right to left
+    double at;            ///< the side's x (axis 0) or y (axis 1)
+    int axis;
+    uint32_t wall; ///< of its edges
+} sli_box_arc;
+
+typedef SL_ARRAY(sli_box_arc) sli_box_arcs;
+
+/// The lower envelope of the sides of boxes about an eye (past_boxes.h).
+typedef struct sli_box_envelope {
+    sli_box_arcs arcs; ///< counter-clockwise from +x
+    sli_box_arcs scratch;
+} sli_box_envelope;
+
 struct sli_region_memory {
     sli_eye_place eye;
     const struct sl_room_mirrors *mirrors; ///< reflected views are taken of these; NULL for none
     SL_ARRAY(sli_reflected_view) reflected_views; ///< counter-clockwise
+    sli_box_envelope envelope;                    ///< of the boxes; empty for none
     SL_ARRAY(sli_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's rooms, counter-clockwise
     double limit;           ///< see sli_eye_limit

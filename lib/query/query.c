@@ -3,7 +3,8 @@
 ///     the space, its map and its visible sets
 ///       doors and one-way glass: changed in place (sight_space.h)
 ///         what answers: the search of cells, the outline of rooms, mirrors
-///       boxes that block: a copy of the space, cut; then its glass is one-way
+///       boxes that block: of a region and of lines between points, compared with what is found
+///       without them; for the rest a copy of the space, cut, whose glass then is one-way
 ///
 /// Each is made where a question calls for it, and kept until a setting below it changes. A door
 /// changes the cells and sides that it touches, and of the visible sets nothing: which pairs are
@@ -14,6 +15,7 @@
 #include "cell_to_cell/pvs_rows.h"
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
+#include "eye_to_cell/past_boxes.h"
 #include "geometry/crossing.h"
 #include "query/query.h"
 #include "query/sight_space.h"
@@ -426,6 +428,12 @@ static sl_status look_by_lists(sl_context *context, sl_query *q, const sl_view *
     return status;
 }
 
+/// The outline without boxes. Those that block must be such as can be cut in.
+static sl_status make_bare_outline(sl_context *context, sl_query *q, const sl_outline **out) {
+    if (has_blocks(q) && q->asked->loose) SL_TRY(make_moving(context, q));
+    return sli_sight_space_outline(context, &q->sight, out);
+}
+
 /// The outline that sight goes by: with the boxes, if some of them block.
 static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
     if (has_blocks(q)) {
@@ -527,14 +535,23 @@ sl_status sl_query_mirrors(sl_context *context, sl_query *query, const sl_room_m
     return SL_OK;
 }
 
+/// What boxes do to the line between two points. Where it only touches some, the cut space knows.
+static sli_between between(const sl_query *q, sl_point eye, sl_point point) {
+    if (!has_blocks(q)) return SLI_CLEAR;
+    const sli_between by_boxes = sli_boxes_between(q->boxes, q->box_count, eye, point);
+    return by_boxes == SLI_TOUCHED && q->rows.sight == SL_OPEN ? SLI_HIDDEN : by_boxes;
+}
+
 sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
                         bool *out) {
     const sl_outline *outline;
-    bool sees;
+    bool sees = false;
     SL_TRY(make_layers(context, query));
     const sl_sight sight = query->rows.sight;
-    SL_TRY(make_outline(context, query, &outline));
-    SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
+    const sli_between by_boxes = between(query, eye, point);
+    SL_TRY(by_boxes == SLI_TOUCHED ? make_outline(context, query, &outline)
+                                   : make_bare_outline(context, query, &outline));
+    if (by_boxes != SLI_HIDDEN) SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
     if (sees && query->range > 0)
         sees = sli_distance_compare(eye, point, query->range) < (sight == SL_CLOSED ? 1 : 0);
     *out = sees;
@@ -681,8 +698,14 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
                           sl_region *out) {
     const sl_outline *outline;
     SL_TRY(make_layers(context, query));
-    SL_TRY(make_outline(context, query, &outline));
-    return sl_region_make(context, outline, view, query->range, out);
+    const bool blocks = has_blocks(query);
+    if (blocks && sli_boxes_touch(query->boxes, query->box_count, view->eye)) {
+        SL_TRY(make_outline(context, query, &outline));
+        return sl_region_make(context, outline, view, query->range, out);
+    }
+    SL_TRY(make_bare_outline(context, query, &outline));
+    return sli_region_make_past(context, outline, query->boxes, blocks ? query->box_count : 0, view,
+                                query->range, out);
 }
 
 sl_status sl_query_mirrored_region_to(sl_context *context, sl_query *query, const sl_view *view,

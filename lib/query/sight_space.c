@@ -16,6 +16,7 @@
 #include "geometry/orient.h"
 #include "sightline/effects.h"
 #include "sightline/support.h"
+#include "space/kd_tree.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -261,35 +262,13 @@ static sl_status find_sides(sl_context *context, sli_sight_space *s) {
     return SL_OK;
 }
 
-/// A copy of the base in which all that may change is a wall. Its doors are those portals, whatever
-/// they are in the map.
-static sl_status make_walled(sl_context *context, const sli_sight_space *s, sl_space *out) {
-    sl_space from = *s->base;
-    const uint32_t count = from.seam_count;
-    bool *shut = sl_alloc_array(context, count, sizeof *shut);
-    sl_seam *seams = sl_alloc_array(context, count, sizeof *seams);
-    sl_status status = shut && seams ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t i = 0; i < count && status == SL_OK; i++) {
-        shut[i] = from.seams[i].kind != SL_SEAM_PLAIN;
-        seams[i] = from.seams[i];
-        seams[i].kind = shut[i] ? SL_SEAM_DOOR : SL_SEAM_PLAIN;
-        seams[i].number = i;
-    }
-    from.seams = seams;
-    const sl_filtered_space filtered = {.shut = shut};
-    if (status == SL_OK) status = sl_filtered_space_make(context, &from, &filtered, NULL, out);
-    sl_free(context, shut);
-    sl_free(context, seams);
-    return status;
-}
-
 static sl_status make_outline(sl_context *context, sli_sight_space *s) {
     sl_outline *o = &s->outline;
-    if (!s->portal_count) return sl_outline_make(context, &s->space, o);
-    sl_space walled = {0};
-    SL_TRY(make_walled(context, s, &walled));
-    sl_status status = sl_outline_make(context, &walled, o);
-    sl_space_destroy(context, &walled);
+    uint32_t *portals = sl_alloc_array(context, s->portal_count, sizeof *portals);
+    if (!portals) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < s->portal_count; i++) portals[i] = s->portals[i].portal;
+    sl_status status = sli_outline_make_walled(context, s->base, portals, s->portal_count, o);
+    sl_free(context, portals);
     o->space = &s->space;
     if (status == SL_OK) status = find_sides(context, s);
     if (status != SL_OK || !s->dark_count) return status;

@@ -76,6 +76,11 @@ void sli_ground_of_cells(sl_space *space);
 
 // --- rooms (rooms.c)
 
+/// As sl_outline_make, with walls in `count` of the portals, which have both directions: rooms end
+/// there. Portal i of the list is the wall space->wall_count + i. (outline.c)
+sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
+                                  const uint32_t *portals, uint32_t count, sl_outline *out);
+
 /// Replaces the boundaries of cells in an outline by those of rooms. Lists for each cell the rooms
 /// that have a part of it.
 sl_status sli_rooms_make(sl_context *context, sl_outline *outline);

@@ -8,9 +8,9 @@
 /// Glass that is dark from one side has a directed portal at the one side and a wall at the other.
 /// While cells are joined, both sides are that wall, which keeps them; then they are linked.
 ///
-/// A mesh knows what each side is. In a kd-tree's space, an index of the walls finds those near a
-/// gap, and an exact sign decides whether a wall lies on it. Then cells are joined to rooms
-/// (rooms.c). No coordinate is computed. Time O(n log n).
+/// A mesh knows what each side is. In a kd-tree's space all is axial, so walls sorted by line say
+/// which of them lie on a gap. Then cells are joined to rooms (rooms.c). No coordinate is computed.
+/// Time O(n log n).
 #include "sightline/outline.h"
 
 #include "geometry/orient.h"
@@ -28,9 +28,18 @@ typedef struct cover {
     uint32_t wall;
 } cover;
 
+/// A wall of a kd-tree's space, on its line.
+typedef struct line_wall {
+    int axis; ///< 0: on the line x = at, 1: on y = at
+    uint32_t wall;
+    double at, lo, hi;
+    double reach; ///< the highest `hi` on the line up to here: walls may overlap
+} line_wall;
+
 typedef struct outliner {
     const sl_space *space;
-    sli_wall_index index;
+    line_wall *lines; ///< sorted; NULL for a mesh
+    uint32_t line_count;
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
     uint32_t *of_portal; ///< the side of each directed portal
@@ -50,28 +59,45 @@ static int compare_covers(const void *left, const void *right) {
     return (a->wall > b->wall) - (a->wall < b->wall);
 }
 
+/// The first of the walls on a line that ends after `lo`, or a later one.
+static uint32_t find_line(const outliner *o, int axis, double at, double lo) {
+    uint32_t first = 0, end = o->line_count;
+    while (first < end) {
+        const uint32_t middle = first + (end - first) / 2;
+        const line_wall *l = &o->lines[middle];
+        const bool before = l->axis != axis ? l->axis < axis
+                            : l->at != at   ? l->at < at
+                                            : l->reach <= lo;
+        if (before)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
+}
+
 static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_point from,
                            sl_point to) {
     const sl_wall *w = &o->space->walls[wall];
-    // Most walls near an axial piece are on another line: that takes no predicate.
-    if (from.x == to.x && (w->a.x != from.x || w->b.x != from.x)) return SL_OK;
-    if (from.y == to.y && (w->a.y != from.y || w->b.y != from.y)) return SL_OK;
-    if (sli_orient(w->a, w->b, from) != 0 || sli_orient(w->a, w->b, to) != 0) return SL_OK;
     const double a = along(from, to, w->a), b = along(from, to, w->b);
-    cover c = {fmin(a, b), fmax(a, b), a < b ? w->a : w->b, a < b ? w->b : w->a, wall};
-    if (c.to <= along(from, to, from) || c.from >= along(from, to, to)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &o->covers, 1));
-    o->covers.items[o->covers.count++] = c;
+    o->covers.items[o->covers.count++] =
+        (cover){fmin(a, b), fmax(a, b), a < b ? w->a : w->b, a < b ? w->b : w->a, wall};
     return SL_OK;
 }
 
 /// Finds the walls on a piece of boundary.
 static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, sl_point to) {
-    const sli_box_list *near = &o->index.near;
+    const int axis = from.x == to.x ? 0 : 1;
+    const double at = axis ? from.y : from.x;
+    const double lo = axis ? fmin(from.x, to.x) : fmin(from.y, to.y);
+    const double hi = axis ? fmax(from.x, to.x) : fmax(from.y, to.y);
     o->covers.count = 0;
-    SL_TRY(sli_walls_near(context, &o->index, (sl_segment){from, to}, 0));
-    for (size_t i = 0; i < near->count; i++)
-        SL_TRY(add_cover(context, o, near->items[i], from, to));
+    for (uint32_t i = find_line(o, axis, at, lo); i < o->line_count; i++) {
+        const line_wall *l = &o->lines[i];
+        if (l->axis != axis || l->at != at || l->lo >= hi) break;
+        if (l->hi > lo) SL_TRY(add_cover(context, o, l->wall, from, to));
+    }
     if (o->covers.count > 1)
         qsort(o->covers.items, o->covers.count, sizeof *o->covers.items, compare_covers);
     return SL_OK;
@@ -233,15 +259,54 @@ static sl_status link_glass(sl_context *context, uint32_t count, sl_outline *out
     return done ? SL_OK : SL_NO_MEMORY;
 }
 
-static sl_status make_index(sl_context *context, outliner *o) {
+static int compare_lines(const void *left, const void *right) {
+    const line_wall *a = left, *b = right;
+    if (a->axis != b->axis) return a->axis - b->axis;
+    if (a->at != b->at) return a->at < b->at ? -1 : 1;
+    return (a->lo > b->lo) - (a->lo < b->lo);
+}
+
+/// Sorts the walls of a kd-tree's space by line.
+static sl_status sort_lines(sl_context *context, outliner *o) {
     const sl_space *s = o->space;
-    const sl_map map = {.walls = s->walls, .wall_count = s->wall_count};
-    return sli_wall_index_create(context, &map, &o->index);
+    o->lines = sl_alloc_array(context, s->wall_count, sizeof *o->lines);
+    if (!o->lines) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < s->wall_count; i++) {
+        const sl_point a = s->walls[i].a, b = s->walls[i].b;
+        const int axis = a.x == b.x ? 0 : 1;
+        const double from = axis ? a.x : a.y, to = axis ? b.x : b.y;
+        if (from == to) continue;
+        o->lines[o->line_count++] =
+            (line_wall){axis, i, axis ? a.y : a.x, fmin(from, to), fmax(from, to), 0};
+    }
+    if (o->line_count) qsort(o->lines, o->line_count, sizeof *o->lines, compare_lines);
+    for (uint32_t i = 0; i < o->line_count; i++) {
+        line_wall *l = &o->lines[i];
+        const bool goes_on = i && l[-1].axis == l->axis && l[-1].at == l->at;
+        l->reach = goes_on ? fmax(l[-1].reach, l->hi) : l->hi;
+    }
+    return SL_OK;
+}
+
+/// Makes walls of both sides of some portals.
+static void wall_portals(outliner *o, const uint32_t *portals, uint32_t count) {
+    const sl_space *s = o->space;
+    sl_side *sides = o->sides.items;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_cell *cell = &s->cells[s->portals[portals[i]].cell[0]];
+        const uint32_t stop = cell->first_directed + cell->directed_count;
+        uint32_t k = cell->first_directed;
+        while (k < stop && s->directed[k].portal != portals[i]) k++;
+        if (k == stop || !sl_side_is_portal(&sides[o->of_portal[k]])) continue;
+        sl_side *side = &sides[o->of_portal[k]];
+        sides[side->neighbour].neighbour = SL_SIDE_WALL + s->wall_count + i;
+        side->neighbour = SL_SIDE_WALL + s->wall_count + i;
+    }
 }
 
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
-    if (!s->neighbour) SL_TRY(make_index(context, o));
+    if (!s->neighbour) SL_TRY(sort_lines(context, o));
     o->of_portal = sl_alloc_array(context, s->directed_count, sizeof *o->of_portal);
     if (!o->of_portal) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->cell_count; i++) {
@@ -273,10 +338,16 @@ static sl_status keep_cells(sl_context *context, sl_outline *o) {
 }
 
 sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out) {
+    return sli_outline_make_walled(context, space, NULL, 0, out);
+}
+
+sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
+                                  const uint32_t *portals, uint32_t count, sl_outline *out) {
     outliner o = {.space = space};
     sl_outline made = {0};
     sl_status status = start_rooms(context, space, &made);
     if (status == SL_OK) status = outline_all(context, &o, made.first);
+    if (status == SL_OK) wall_portals(&o, portals, count);
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
@@ -286,7 +357,7 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
         *out = made;
     else
         sl_outline_destroy(context, &made);
-    sli_wall_index_destroy(context, &o.index);
+    sl_free(context, o.lines);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_portal);
     return status;

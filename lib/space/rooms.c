@@ -30,6 +30,8 @@ typedef struct faces {
     SL_ARRAY(sl_side) sides;
     SL_ARRAY(uint32_t) previous; ///< by side; GONE for a removed side
     SL_ARRAY(uint32_t) unused;   ///< the removed sides
+    bool *stale; ///< by side, while portals are flipped or dropped: what it touches has changed
+                 ///< since it was tried. Others need not be tried again
 } faces;
 
 #define GONE UINT32_MAX
@@ -251,6 +253,37 @@ static double length(sl_point a, sl_point b) {
     return sli_length(b.x - a.x, b.y - a.y);
 }
 
+/// Makes all portals be tried, while no side is added.
+static sl_status start_trying(sl_context *context, faces *m) {
+    sl_free(context, m->stale);
+    m->stale = sl_alloc_array(context, m->sides.count, sizeof *m->stale);
+    for (size_t i = 0; m->stale && i < m->sides.count; i++) m->stale[i] = true;
+    return m->stale ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Whether a portal is there and must be tried.
+static bool is_due(faces *m, uint32_t i) {
+    const bool stale = m->stale[i];
+    m->stale[i] = false;
+    return stale && m->previous.items[i] != GONE && sl_side_is_portal(side(m, i));
+}
+
+/// Makes both sides of a portal be tried again.
+static void retry(faces *m, uint32_t i) {
+    m->stale[i] = true;
+    if (sl_side_is_portal(side(m, i))) m->stale[side(m, i)->neighbour] = true;
+}
+
+/// Makes the sides be tried again that are next to a portal about to be changed.
+static void retry_around(faces *m, uint32_t portal) {
+    const uint32_t other = side(m, portal)->neighbour;
+    retry(m, portal);
+    retry(m, side(m, portal)->next);
+    retry(m, side(m, other)->next);
+    retry(m, m->previous.items[portal]);
+    retry(m, m->previous.items[other]);
+}
+
 /// Flips a portal between two triangles to their other two corners if it is shorter there.
 static sl_status flip(cutter *c, uint32_t portal, bool *any) {
     faces *m = c->mesh;
@@ -263,18 +296,19 @@ static sl_status flip(cutter *c, uint32_t portal, bool *any) {
     if (!(length(p, q) < length(a, b))) return SL_OK;
     if (sli_orient(p, a, q) <= 0 || sli_orient(q, b, p) <= 0) return SL_OK;
     *any = true;
+    retry_around(m, portal);
     SL_TRY(drop_portal(c->context, m, portal));
     return connect(c->context, m, to, from, &(uint32_t){0});
 }
 
 /// Flips until nothing changes. This ends, as each flip makes the sum of lengths smaller.
 static sl_status flip_all(cutter *c) {
+    SL_TRY(start_trying(c->context, c->mesh));
     for (bool any = true; any;) {
         any = false;
         SL_TRY(sl_check_cancelled(c->context));
         for (uint32_t i = 0; i < c->mesh->sides.count; i++)
-            if (c->mesh->previous.items[i] != GONE && sl_side_is_portal(side(c->mesh, i)))
-                SL_TRY(flip(c, i, &any));
+            if (is_due(c->mesh, i)) SL_TRY(flip(c, i, &any));
     }
     return SL_OK;
 }
@@ -349,10 +383,9 @@ static bool leaves_convex(const joiner *j, uint32_t portal) {
                        end_of(&j->mesh, after));
 }
 
-/// Tries every portal once, the longest first. *any: whether one was dropped.
-static sl_status join_round(sl_context *context, joiner *j, bool *any) {
-    faces *m = &j->mesh;
-    j->candidates.count = 0;
+/// Sorts the portals, the longest first.
+static sl_status sort_portals(sl_context *context, joiner *j) {
+    const faces *m = &j->mesh;
     for (uint32_t i = 0; i < m->sides.count; i++) {
         if (m->previous.items[i] == GONE || !sl_side_is_portal(side_of(j, i)) ||
             side_of(j, i)->neighbour < i)
@@ -362,17 +395,33 @@ static sl_status join_round(sl_context *context, joiner *j, bool *any) {
         j->candidates.items[j->candidates.count++] =
             (candidate){sli_length(b.x - a.x, b.y - a.y), i};
     }
+    if (j->candidates.count)
+        qsort(j->candidates.items, j->candidates.count, sizeof *j->candidates.items,
+              compare_candidates);
+    return SL_OK;
+}
+
+/// Tries the portals once, the longest first. *any: whether one was dropped.
+static sl_status join_round(sl_context *context, joiner *j, bool *any) {
+    faces *m = &j->mesh;
     *any = false;
-    if (!j->candidates.count) return SL_OK;
-    qsort(j->candidates.items, j->candidates.count, sizeof *j->candidates.items,
-          compare_candidates);
     for (size_t i = 0; i < j->candidates.count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
         const uint32_t portal = j->candidates.items[i].side;
-        if (!leaves_convex(j, portal) || !leaves_convex(j, side_of(j, portal)->neighbour)) continue;
+        if (!is_due(m, portal) || !leaves_convex(j, portal) ||
+            !leaves_convex(j, side_of(j, portal)->neighbour))
+            continue;
+        retry_around(m, portal);
         SL_TRY(drop_portal(context, m, portal));
         *any = true;
     }
+    return SL_OK;
+}
+
+static sl_status join(sl_context *context, joiner *j) {
+    SL_TRY(sort_portals(context, j));
+    SL_TRY(start_trying(context, &j->mesh));
+    for (bool any = true; any;) SL_TRY(join_round(context, j, &any));
     return SL_OK;
 }
 
@@ -523,7 +572,7 @@ static sl_status fill_mesh(sl_context *context, faces *m, const sl_outline *o) {
 static sl_status make(sl_context *context, joiner *j, sl_outline *o) {
     SL_TRY(fill_mesh(context, &j->mesh, o));
     SL_TRY(triangulate_faces(context, &j->mesh));
-    for (bool any = true; any;) SL_TRY(join_round(context, j, &any));
+    SL_TRY(join(context, j));
     SL_TRY(pack(context, j, o));
     return share_all(context, j, o);
 }
@@ -534,6 +583,7 @@ sl_status sli_rooms_make(sl_context *context, sl_outline *o) {
     sl_free(context, j.mesh.sides.items);
     sl_free(context, j.mesh.previous.items);
     sl_free(context, j.mesh.unused.items);
+    sl_free(context, j.mesh.stale);
     sl_free(context, j.candidates.items);
     sl_free(context, j.starts.items);
     sl_free(context, j.shares.items);

@@ -98,6 +98,10 @@ games() {
     bench_boxes "$soda" 1040
 }
 
+changes() {
+    bench_changes city:{4,12,39} city:{4,12,39}:17.3
+}
+
 polygons() {
     local level
     sightline bake maps/office.map -o "$out/office.slv" --quiet
@@ -248,6 +252,7 @@ run cities
 run parts "$doom2"
 run floor "$soda" "$doom2"
 run games "$soda" "$doom2"
+run changes
 run polygons "$soda" "$doom1"
 run effects
 run vga "$gallery"

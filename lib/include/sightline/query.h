@@ -14,8 +14,9 @@
 /// failure. Doors, mirrors, one-way glass, the range and boxes may come together. Numbers of cells
 /// are those of the space that is asked.
 ///
-/// Time: a door costs the cells that it touches. Boxes that block sight cost a copy of the space
-/// with each change of a box or a door. The first region costs the outline of all rooms.
+/// Time: a door costs the cells that it touches. Boxes that block cost sl_query_region and
+/// sl_query_sees nothing but themselves. Other questions past them cost a copy of the space after
+/// each change of a box or a door. The first region costs the outline of all rooms.
 #ifndef SIGHTLINE_QUERY_H
 #define SIGHTLINE_QUERY_H
 
@@ -80,7 +81,9 @@ SL_API void sl_query_set_backwards(sl_context *context, sl_query *query, bool ba
 /// The next question fails with SL_BAD_ARGUMENT for boxes whose corners are not in order, or whose
 /// coordinates sl_coordinate_usable refuses; with SL_UNSUPPORTED for a loose space, and where walls
 /// run along each other within steps of doubles and bend each other without end. If some box
-/// blocks, the cells are cut at the sides of all boxes, and the rest of the space is copied.
+/// blocks, questions other than sl_query_region and sl_query_sees cut the cells at the sides of all
+/// boxes, and copy the rest of the space. So do these two where an eye is on the border of a box,
+/// or a line touches boxes and crosses none.
 ///
 /// Where a side of a box crosses an oblique wall, the wall is bent to the nearest representable
 /// point on that side; all else is exact. In a space of axial walls no coordinate is computed.
@@ -184,7 +187,9 @@ SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, co
 SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
                                      bool *seen, bool *mirrored);
 
-/// The visible region of a view, past boxes and within range (sl_region_make).
+/// The visible region of a view, past boxes and within range (sl_region_make). Edges on the sides of
+/// boxes have walls from SL_BOX_WALL on. For an eye on the border of a box that blocks, walls are
+/// those of sl_query_space.
 SL_API sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *view,
                                  sl_region *out);
 

@@ -12,6 +12,9 @@ extern "C" {
 
 /// The `wall` of an edge that lies on none.
 #define SL_NO_WALL UINT32_MAX
+/// The `wall` of an edge on a side of box i (sl_query_set_boxes) is SL_BOX_WALL + 4 * i + k, with k
+/// 0 for its left side, 1 for the right, 2 for the lower and 3 for the upper one.
+#define SL_BOX_WALL UINT32_C(0x40000000)
 
 /// What an edge of a region lies on.
 typedef enum sl_edge_kind {
@@ -25,7 +28,8 @@ typedef enum sl_edge_kind {
 
 /// An edge of a region.
 typedef struct sl_region_edge {
-    uint32_t wall; ///< index of the space's walls; SL_NO_WALL for all kinds but walls
+    uint32_t wall; ///< index of the space's walls, or of a box's side: SL_BOX_WALL; SL_NO_WALL for
+                   ///< all kinds but walls
     uint8_t kind;  ///< of sl_edge_kind
     bool exact;    ///< its start is a corner of the space (or the eye), not a computed point
 } sl_region_edge;
@@ -81,8 +85,8 @@ SL_API sl_region_measures sl_region_measure(const sl_region *region);
 /// The area alone: faster.
 SL_API double sl_region_area(const sl_region *region);
 
-/// The visible corners of walls: ends of walls that are points of the region, in its order. Writes
-/// up to `room` of them and returns how many there are; at most region->count.
+/// The visible corners of walls, not of boxes: ends of walls that are points of the region, in its
+/// order. Writes up to `room` of them and returns how many there are; at most region->count.
 SL_API size_t sl_region_corners(const sl_region *region, const sl_space *space, sl_point *corners,
                                 size_t room);
 
