@@ -30,7 +30,8 @@ static inline bool mirror_rays_holds(const sl_region *region, sl_point p) {
     for (size_t i = 0; i < region->count; i++) {
         const sl_point a = region->offsets[i], b = region->offsets[(i + 1) % region->count];
         if (!(mirror_rays_cross(o, a, b) > 0) || mirror_rays_cross(o, a, at) < 0 ||
-            mirror_rays_cross(o, at, b) < 0)
+            mirror_rays_cross(o, at, b) < 0 ||
+            (a.x * at.x + a.y * at.y <= 0 && b.x * at.x + b.y * at.y <= 0))
             continue;
         if (region->edges[i].kind == SL_EDGE_ARC ? hypot(at.x, at.y) <= region->range
                                                  : mirror_rays_cross(a, b, at) >= 0)

@@ -69,7 +69,8 @@ static void add_crossing(rays *r, sl_segment side, sl_segment wall) {
     if ((p > 0 && q > 0) || (p < 0 && q < 0)) return;
     const int64_t x = a * (int64_t)(wall.b.x - wall.a.x), y = a * (int64_t)(wall.b.y - wall.a.y);
     assert(x % (a - b) == 0 && y % (a - b) == 0);
-    add_direction(r, (sl_point){wall.a.x + (double)(x / (a - b)), wall.a.y + (double)(y / (a - b))});
+    add_direction(r,
+                  (sl_point){wall.a.x + (double)(x / (a - b)), wall.a.y + (double)(y / (a - b))});
 }
 
 static int by_direction(const void *left, const void *right) {
@@ -111,7 +112,8 @@ static box_sight along(const rays *r, sl_point to, bool single, double range) {
         if (two_points_on(start.walls[i], start.p)) continue;
         const place wall = meet(start.p, to, start.walls[i], false);
         // A side that a wall covers is not seen. One that a wall crosses there may be touched.
-        if (is_before(wall, first) || (!single && i < r->cover && wall.den && !is_before(first, wall)))
+        if (is_before(wall, first) ||
+            (!single && i < r->cover && wall.den && !is_before(first, wall)))
             return BOX_HIDDEN;
         open |= wall.den && !is_before(first, wall);
     }
@@ -123,8 +125,12 @@ static box_sight along(const rays *r, sl_point to, bool single, double range) {
 
 /// The nearest point of the box is out of range.
 static bool is_far(sl_point eye, sl_box box, double range) {
-    const double x = eye.x < box.min.x ? box.min.x - eye.x : eye.x > box.max.x ? eye.x - box.max.x : 0;
-    const double y = eye.y < box.min.y ? box.min.y - eye.y : eye.y > box.max.y ? eye.y - box.max.y : 0;
+    const double x = eye.x < box.min.x   ? box.min.x - eye.x
+                     : eye.x > box.max.x ? eye.x - box.max.x
+                                         : 0;
+    const double y = eye.y < box.min.y   ? box.min.y - eye.y
+                     : eye.y > box.max.y ? eye.y - box.max.y
+                                         : 0;
     return range > 0 && x * x + y * y > range * range;
 }
 
@@ -144,7 +150,8 @@ box_sight box_rays_sight(const two_points *eye, size_t cover, sl_box box, const 
         const sl_point p = {eye->p.x + d.x, eye->p.y + d.y};
         const sl_point between = {p.x + next.x, p.y + next.y};
         box_sight sight = BOX_HIDDEN;
-        if (box_rays_in_view(view, p) || box_rays_on_border(view, p)) sight = along(&r, p, true, range);
+        if (box_rays_in_view(view, p) || box_rays_on_border(view, p))
+            sight = along(&r, p, true, range);
         if (sight > most) most = sight;
         // Opposite directions are both there: neighbours are the same, or less than half a circle
         // apart.

@@ -158,7 +158,8 @@ static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
             if (mirror_rays_depth_in(&t->space, cell, p) < CLEAR * t->size) continue;
             t->rays++;
             const bool baked = sl_pvs_sees(&t->baked.mirrored, from, cell);
-            const bool culled = sl_eye_sees(cells, cell), shown = mirror_rays_show(region, &ray, leg, p);
+            const bool culled = sl_eye_sees(cells, cell),
+                       shown = mirror_rays_show(region, &ray, leg, p);
             if (!baked || !culled || !shown)
                 fail_msg("seed %llu, eye %.17g,%.17g, angle %.17g: reflection %u shows %.17g,%.17g "
                          "in cell %u; bake %d, eye %d, region %d",
@@ -170,8 +171,7 @@ static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
 
 /// A ray to where a wall is seen to be ends on that wall, by the same mirrors.
 static void check_part(trial *t, sl_point eye, const sl_mirrored_region *region, uint32_t number) {
-    const size_t edge =
-        mirror_rays_wrong_edge(&t->map, eye, region, number, t->size, &t->points);
+    const size_t edge = mirror_rays_wrong_edge(&t->map, eye, region, number, t->size, &t->points);
     if (edge != SIZE_MAX)
         fail_msg("seed %llu, eye %.17g,%.17g, part %u: no ray ends at edge %zu",
                  (unsigned long long)t->seed, eye.x, eye.y, number, edge);

@@ -2,7 +2,7 @@
 /// one-way glass, a range and boxes that block, random maps are asked by a query, with and without
 /// a bake, forwards and backwards, while its settings change in any order. The oracle knows the
 /// segments of the map and of boxes alone. Maps are axial, or turned by an angle that leaves
-/// coordinates integers. SIGHTLINE_SEEDS in the environment: how many maps for each set (1 by
+/// coordinates integers. SIGHTLINE_SEEDS in the environment: how many maps for each set (3 by
 /// default); SIGHTLINE_FIRST: the number of the first one.
 #include "mirror_rays.h"
 #include "testing.h"
@@ -51,8 +51,8 @@ typedef struct trial {
     uint32_t depth, baked_depth; ///< of mirrors
     sl_moving_box boxes[BOX_COUNT];
     sl_segment walls[WALLS_MOST]; ///< for the oracle
-    size_t cover; ///< of these: walls and shut doors
-    size_t solid; ///< and boxes: all but glass
+    size_t cover;                 ///< of these: walls and shut doors
+    size_t solid;                 ///< and boxes: all but glass
     size_t asked[2], places[2], cells[2], boxes_seen[4], legs, parts; ///< by what was so
 } trial;
 
@@ -236,8 +236,8 @@ static bool is_clear(const trial *t, const two_points *way) {
     return true;
 }
 
-static void complain(const trial *t, const sl_view *view, sl_point q, const char *who, size_t number,
-                     bool said) {
+static void complain(const trial *t, const sl_view *view, sl_point q, const char *who,
+                     size_t number, bool said) {
     const sl_map *map = &t->map;
     for (size_t i = 0; i < map->wall_count; i++)
         print_error("wall %g %g %g %g\n", map->walls[i].a.x, map->walls[i].a.y, map->walls[i].b.x,
@@ -346,8 +346,7 @@ static void check_places(trial *t, const sl_view *view, const uint64_t *cells) {
     uint64_t row[CELLS_MOST / 64 + 1];
     sl_region region = {0};
     assert_ok(t->context, sl_query_region(t->context, t->query, view, &region));
-    if (!t->bare)
-        assert_ok(t->context, sl_query_row(t->context, t->query, from, false, row));
+    if (!t->bare) assert_ok(t->context, sl_query_row(t->context, t->query, from, false, row));
     for (int i = 0; i < PLACES; i++) {
         way.q = any_point(t);
         const uint32_t to = sl_space_locate(space, way.q);
@@ -384,8 +383,7 @@ static double distance(const sl_space *space, uint32_t number, sl_point p) {
 
 /// The space that brute force takes for an eye; NULL where there is none that it understands. For
 /// an eye in line with glass the side of its cell counts, which only a copy for that eye knows.
-static const sl_space *space_for(trial *t, sl_point eye, sl_space *copy,
-                                 const uint32_t **parents) {
+static const sl_space *space_for(trial *t, sl_point eye, sl_space *copy, const uint32_t **parents) {
     const sl_space *space;
     assert_ok(t->context, sl_query_space(t->context, t->query, &space, parents));
     if (!t->any_blocks) {
@@ -433,9 +431,8 @@ static void check_cells(trial *t, const sl_view *view, const uint64_t *cells,
         const bool glass = t->map.oneway_count; // that a ray comes back to may be dark for it alone
         oracle_mirrored truth =
             oracle_mirrored_of(space, &t->baked.map, view, t->range, glass ? 0 : t->depth);
-        compare_cells(t, view, cells,
-                      t->sight == SL_OPEN ? truth.direct_open : truth.direct_closed, parents,
-                      space->cell_count, "cell");
+        compare_cells(t, view, cells, t->sight == SL_OPEN ? truth.direct_open : truth.direct_closed,
+                      parents, space->cell_count, "cell");
         if (!glass)
             compare_cells(t, view, mirrored, t->sight == SL_OPEN ? truth.open : truth.closed,
                           parents, space->cell_count, "cell in a mirror");
@@ -477,8 +474,7 @@ static void check_boxes(trial *t, const sl_view *view) {
         if (testing_same_point(box.min, box.max) && sight > BOX_HIDDEN)
             sight = is_seen(t, &eye, t->sight) ? BOX_SEEN : BOX_HIDDEN;
         const bool may_be = sight >= BOX_OPEN || (sight == BOX_TOUCHED && t->sight == SL_CLOSED);
-        if (seen[i] ? !may_be : sight == BOX_SEEN)
-            complain(t, view, box.min, "box", i, seen[i]);
+        if (seen[i] ? !may_be : sight == BOX_SEEN) complain(t, view, box.min, "box", i, seen[i]);
         t->boxes_seen[sight]++;
     }
 }
@@ -540,8 +536,8 @@ static void check_boxes_met(const trial *t, const sl_view *view, oracle_leg way,
         const double share = fmin(left / length, 1) + (enter ? 1e-4 / length : 0);
         way.to = (sl_point){way.from.x + share * d.x, way.from.y + share * d.y};
         const sl_box b = t->boxes[i].box;
-        if (enter && !(b.min.x < way.to.x && way.to.x < b.max.x && b.min.y < way.to.y &&
-                       way.to.y < b.max.y))
+        if (enter &&
+            !(b.min.x < way.to.x && way.to.x < b.max.x && b.min.y < way.to.y && way.to.y < b.max.y))
             continue;
         if (!seen[i] && mirror_rays_meet_box(&way, b))
             complain(t, view, end, "box in a mirror", i, false);
@@ -585,7 +581,8 @@ static void check_rays(trial *t, const sl_view *view, const uint64_t *direct,
     for (uint32_t i = 0; i < region.part_count; i++) {
         const size_t edge = mirror_rays_wrong_edge(&map, view->eye, &region, i, 700, &t->parts);
         if (edge != SIZE_MAX)
-            complain(t, view, region.parts[i].region.points[edge], "the edge of a part", edge, true);
+            complain(t, view, region.parts[i].region.points[edge], "the edge of a part", edge,
+                     true);
     }
     sl_mirrored_region_destroy(t->context, &region);
 }
@@ -594,7 +591,8 @@ static void ask(trial *t, bool thorough) {
     const sl_view view = any_view(t, any_point(t));
     uint64_t cells[CELLS_MOST / 64 + 1], mirrored[CELLS_MOST / 64 + 1];
     assert_ok(t->context, sl_query_look(t->context, t->query, &view, NULL, cells, NULL));
-    assert_ok(t->context, sl_query_look_mirrored(t->context, t->query, &view, NULL, mirrored, NULL));
+    assert_ok(t->context,
+              sl_query_look_mirrored(t->context, t->query, &view, NULL, mirrored, NULL));
     check_points(t, view.eye);
     check_places(t, &view, cells);
     check_looser(t, &view, cells, mirrored);
@@ -609,8 +607,7 @@ static void try_query(trial *t) {
     t->backwards = false;
     t->depth = 1;
     if (t->bare)
-        assert_ok(context,
-                  sl_query_over(context, &t->baked.space, &t->baked.map, NULL, &t->query));
+        assert_ok(context, sl_query_over(context, &t->baked.space, &t->baked.map, NULL, &t->query));
     else
         assert_ok(context, sl_query_create(context, &t->baked, &t->query));
     for (uint64_t i = 0; i < 4 + DOOR_COUNT; i++) change(t, i);
@@ -626,7 +623,7 @@ static void each_set_of_effects(void **state) {
     testing_memory memory = {0};
     trial t = {.context = testing_context(&memory)};
     const char *first = getenv("SIGHTLINE_FIRST");
-    const uint64_t from = first ? strtoull(first, NULL, 10) : 1, maps = testing_seeds(1);
+    const uint64_t from = first ? strtoull(first, NULL, 10) : 1, maps = testing_seeds(3);
     for (t.seed = from; t.seed < from + maps; t.seed++)
         for (t.effects = 0; t.effects < SUBSETS; t.effects++)
             for (int turned = 0; turned < 2; turned++) {
