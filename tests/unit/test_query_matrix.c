@@ -381,6 +381,14 @@ static double distance(const sl_space *space, uint32_t number, sl_point p) {
     return least;
 }
 
+/// Whether an eye is in line with glass.
+static bool is_in_line(const trial *t, sl_point eye) {
+    bool in_line = false;
+    for (size_t i = 0; i < t->map.oneway_count; i++)
+        in_line |= !two_points_cross(glass_of(t, i).a, glass_of(t, i).b, eye);
+    return in_line;
+}
+
 /// The space that brute force takes for an eye; NULL where there is none that it understands. For
 /// an eye in line with glass the side of its cell counts, which only a copy for that eye knows.
 static const sl_space *space_for(trial *t, sl_point eye, sl_space *copy, const uint32_t **parents) {
@@ -390,23 +398,22 @@ static const sl_space *space_for(trial *t, sl_point eye, sl_space *copy, const u
         assert_ok(t->context, sl_query_copy_space(t->context, t->query, &eye, copy));
         return copy;
     }
-    for (size_t i = 0; i < t->map.oneway_count; i++)
-        if (!t->turned || t->sight == SL_OPEN ||
-            !two_points_cross(glass_of(t, i).a, glass_of(t, i).b, eye))
-            return NULL;
-    return space;
+    const bool one_way = !t->turned || t->sight == SL_OPEN || is_in_line(t, eye);
+    return t->map.oneway_count && one_way ? NULL : space;
 }
 
 static void compare_cells(trial *t, const sl_view *view, const uint64_t *cells, const bool *seen,
                           const uint32_t *parents, uint32_t count, const char *who) {
     const sl_space *asked = &t->baked.space;
+    // Brute force over oblique cells knows no range. Visible sets lack cells behind glass that an
+    // eye on it touches along the glass alone.
+    const bool more = (t->turned && t->range > 0) || (!t->bare && is_in_line(t, view->eye));
     bool wanted[CELLS_MOST] = {false};
     for (uint32_t c = 0; c < count; c++) wanted[parents ? parents[c] : c] |= seen[c];
     for (uint32_t c = 0; c < asked->cell_count; c++) {
         const bool said = sl_eye_sees(cells, c);
         const bool far = t->range > 0 && distance(asked, c, view->eye) > t->range * (1 + 1e-9);
-        // Brute force over oblique cells knows no range.
-        if (t->turned && t->range > 0 ? said && (!wanted[c] || far) : said != wanted[c])
+        if (more ? said && (!wanted[c] || far) : said != wanted[c])
             complain(t, view, asked->vertices[asked->cells[c].first_vertex], who, c, said);
         t->cells[said]++;
     }
@@ -493,12 +500,9 @@ static sl_map map_of_rays(trial *t, sl_point eye, sl_wall *walls, sl_glass *pane
     return map;
 }
 
-/// Whether an eye is on a wall or in line with glass.
-static bool is_on_any(const trial *t, sl_point eye) {
+static bool is_on_wall(const trial *t, sl_point eye) {
     bool on = false;
     for (size_t i = 0; i < t->solid; i++) on |= two_points_on(t->walls[i], eye);
-    for (size_t i = 0; i < t->map.oneway_count; i++)
-        on |= !two_points_cross(glass_of(t, i).a, glass_of(t, i).b, eye);
     return on;
 }
 
@@ -555,7 +559,7 @@ static void check_rays(trial *t, const sl_view *view, const uint64_t *direct,
     uint64_t rows[2][CELLS_MOST / 64 + 1];
     bool seen[BOX_COUNT];
     sl_mirrored_region region = {0};
-    if (is_on_any(t, view->eye)) return;
+    if (is_on_wall(t, view->eye) || is_in_line(t, view->eye)) return;
     assert_ok(t->context, sl_query_boxes_seen(t->context, t->query, view, NULL, seen));
     assert_ok(t->context, sl_query_mirrored_region(t->context, t->query, view, &region));
     for (int i = 0; i < 2 && !t->bare; i++)
