@@ -478,7 +478,8 @@ static void check_boxes(trial *t, const sl_view *view) {
         two_points eye = stand(t, view->eye, i);
         box_sight sight = box_rays_sight(&eye, t->cover, box, view, t->range);
         eye.q = box.min;
-        if (testing_same_point(box.min, box.max) && sight > BOX_HIDDEN)
+        if (testing_same_point(box.min, box.max) && sight > BOX_HIDDEN &&
+            !testing_same_point(box.min, view->eye))
             sight = is_seen(t, &eye, t->sight) ? BOX_SEEN : BOX_HIDDEN;
         const bool may_be = sight >= BOX_OPEN || (sight == BOX_TOUCHED && t->sight == SL_CLOSED);
         if (seen[i] ? !may_be : sight == BOX_SEEN) complain(t, view, box.min, "box", i, seen[i]);
