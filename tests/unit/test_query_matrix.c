@@ -164,6 +164,22 @@ static size_t sides_of(sl_box box, sl_segment sides[4]) {
     return 4;
 }
 
+/// The sides of a box as far as they are in bounds.
+static size_t sides_within(sl_box box, sl_box bounds, sl_segment out[4]) {
+    const sl_box in = {{fmax(box.min.x, bounds.min.x), fmax(box.min.y, bounds.min.y)},
+                       {fmin(box.max.x, bounds.max.x), fmin(box.max.y, bounds.max.y)}};
+    sl_segment sides[4], clipped[4];
+    size_t count = 0;
+    sides_of(box, sides);
+    sides_of(in, clipped);
+    for (int i = 0; i < 4 && in.min.x <= in.max.x && in.min.y <= in.max.y; i++) {
+        const bool is_there =
+            i % 2 ? sides[i].a.x == clipped[i].a.x : sides[i].a.y == clipped[i].a.y;
+        if (is_there && !testing_same_point(clipped[i].a, clipped[i].b)) out[count++] = clipped[i];
+    }
+    return count;
+}
+
 /// Glass is dark at its left; for an eye in line with it, where its cell has a corner there.
 static bool is_dark(const sl_space *s, sl_segment glass, sl_point eye, const sl_cell *cell) {
     const int64_t side = two_points_cross(glass.a, glass.b, eye);
@@ -186,9 +202,8 @@ static two_points stand(trial *t, sl_point eye, size_t without) {
     t->cover = out.count;
     out.count += sides_of(t->baked.space.bounds, t->walls + out.count);
     for (size_t i = 0; i < BOX_COUNT; i++)
-        if (t->boxes[i].blocks && i != without &&
-            !testing_same_point(t->boxes[i].box.min, t->boxes[i].box.max))
-            out.count += sides_of(t->boxes[i].box, t->walls + out.count);
+        if (t->boxes[i].blocks && i != without)
+            out.count += sides_within(t->boxes[i].box, t->baked.space.bounds, t->walls + out.count);
     t->solid = out.count;
     assert_ok(t->context, sl_query_space(t->context, t->query, &space, NULL));
     const sl_cell *cell = &space->cells[sl_space_locate(space, eye)];
