@@ -77,6 +77,12 @@ static void make_map(trial *t) {
     sl_map map = {0};
     sl_bake_options options = sl_bake_options_default();
     random_effects_map(t->context, &t->random, doors | mirrors | glass, GRID, &map);
+    // Glass both ways, and glass in a door.
+    const uint64_t both = below(t, 3);
+    if (map.oneway_count > 1 && both == 1)
+        map.oneways[1].segment = (sl_segment){map.oneways[0].segment.b, map.oneways[0].segment.a};
+    if (map.oneway_count && map.door_count && both == 2)
+        map.oneways[0].segment = map.doors[0].segment;
     for (size_t i = 0; i < map.wall_count; i++) {
         map.walls[i].a = turn(t, map.walls[i].a);
         map.walls[i].b = turn(t, map.walls[i].b);
