@@ -29,12 +29,12 @@ static inline bool mirror_rays_holds(const sl_region *region, sl_point p) {
     const sl_point o = {0, 0}, at = {p.x - region->view.eye.x, p.y - region->view.eye.y};
     for (size_t i = 0; i < region->count; i++) {
         const sl_point a = region->offsets[i], b = region->offsets[(i + 1) % region->count];
-        if (!(mirror_rays_cross(o, a, b) > 0) || mirror_rays_cross(o, a, at) < 0 ||
-            mirror_rays_cross(o, at, b) < 0 ||
-            (a.x * at.x + a.y * at.y <= 0 && b.x * at.x + b.y * at.y <= 0))
-            continue;
-        if (region->edges[i].kind == SL_EDGE_ARC ? hypot(at.x, at.y) <= region->range
-                                                 : mirror_rays_cross(a, b, at) >= 0)
+        const bool arc = region->edges[i].kind == SL_EDGE_ARC; // up to half a circle
+        const bool ahead = a.x * at.x + a.y * at.y > 0 || b.x * at.x + b.y * at.y > 0 ||
+                           (arc && a.x * b.x + a.y * b.y < 0);
+        if (!ahead || mirror_rays_cross(o, a, at) < 0 || mirror_rays_cross(o, at, b) < 0) continue;
+        if (arc ? hypot(at.x, at.y) <= region->range
+                : mirror_rays_cross(o, a, b) > 0 && mirror_rays_cross(a, b, at) >= 0)
             return true;
     }
     return false;
