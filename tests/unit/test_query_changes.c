@@ -1,13 +1,11 @@
-/// Doors open and shut in place: after any changes a query's rows are those cut to what is left, and
-/// its walls those of a space made anew. Also copies of the space, what is out of range, and rows
-/// backwards. What an eye sees is in test_query_matrix.c.
+/// Doors open and shut in place: after any changes a query's rows are those cut to what is left,
+/// and its walls those of a space made anew. Also what is out of range, and rows backwards. What an
+/// eye sees is in test_query_matrix.c.
 #include "testing.h"
 
 #include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/effects.h"
-#include "sightline/outline.h"
-#include "sightline/sees.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -91,14 +89,6 @@ static sl_point any_point(sl_random *random, const sl_space *space) {
     const sl_box b = space->bounds;
     return (sl_point){b.min.x + sl_random_unit(random) * (b.max.x - b.min.x),
                       b.min.y + sl_random_unit(random) * (b.max.y - b.min.y)};
-}
-
-static void same_region(const sl_region *a, const sl_region *b) {
-    assert_int_equal(a->count, b->count);
-    for (size_t i = 0; i < a->count; i++) {
-        assert_memory_equal(&a->points[i], &b->points[i], sizeof *a->points);
-        assert_int_equal(a->edges[i].kind, b->edges[i].kind);
-    }
 }
 
 /// The walls that stand are those of the space made anew.
@@ -198,51 +188,6 @@ static void visible_sets_may_come_later(void **state) {
     assert_int_equal(memory.live, 0);
 }
 
-/// A copy of the query, and one of the space as an eye finds it, show what the query shows.
-static void copies_of_the_space_answer_alike(void **state) {
-    (void)state;
-    testing_memory memory = {0};
-    sl_context *context = testing_context(&memory);
-    for (uint64_t seed = 1; seed <= MAPS; seed++) {
-        sl_random random = {seed};
-        sl_baked baked = {0};
-        sl_query *query;
-        sl_region region = {0}, other = {0};
-        bake_rooms(context, seed, seed % 2, &baked);
-        assert_ok(context, sl_query_create(context, &baked, &query));
-        for (int i = 0; i < 30; i++) {
-            const sl_point eye = any_point(&random, &baked.space);
-            const sl_view view = sl_query_view(query, eye, 0, 360);
-            sl_query_set_door_at(context, query, sl_random_below(&random, baked.map.door_count),
-                                 i % 2);
-            assert_ok(context, sl_query_region(context, query, &view, &region));
-            sl_space space = {0};
-            sl_outline outline = {0};
-            assert_ok(context, sl_query_copy_space(context, query, eye, &space));
-            assert_int_equal(space.cell_count, baked.space.cell_count);
-            assert_ok(context, sl_outline_make(context, &space, &outline));
-            assert_ok(context, sl_region_make(context, &outline, &view, 0, &other));
-            same_region(&region, &other);
-            sl_outline_destroy(context, &outline);
-            sl_space_destroy(context, &space);
-            sl_query *copy;
-            sl_query_set_backwards(context, query, i % 3 == 0);
-            assert_ok(context, sl_query_region(context, query, &view, &region));
-            assert_ok(context, sl_query_copy(context, query, &copy));
-            assert_ok(context, sl_query_region(context, copy, &view, &other));
-            same_region(&region, &other);
-            sl_query_destroy(context, copy);
-            sl_query_set_backwards(context, query, false);
-        }
-        sl_region_destroy(context, &region);
-        sl_region_destroy(context, &other);
-        sl_query_destroy(context, query);
-        sl_baked_destroy(context, &baked);
-    }
-    sl_context_destroy(context);
-    assert_int_equal(memory.live, 0);
-}
-
 /// Cells out of range: none that the exact method keeps, and all that are so by a distance that is
 /// counted with room for rounding.
 static void far_cells_are_dropped(void **state) {
@@ -314,7 +259,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doors_in_place_leave_the_rows_of_new_spaces),
         cmocka_unit_test(visible_sets_may_come_later),
-        cmocka_unit_test(copies_of_the_space_answer_alike),
         cmocka_unit_test(far_cells_are_dropped),
         cmocka_unit_test(backwards_a_row_has_those_that_see_it),
     };

@@ -416,7 +416,7 @@ static const sl_space *space_for(trial *t, sl_point eye, sl_space *copy, const u
     const sl_space *space;
     assert_ok(t->context, sl_query_space(t->context, t->query, &space, parents));
     if (!t->any_blocks) {
-        assert_ok(t->context, sl_query_copy_space(t->context, t->query, &eye, copy));
+        assert_ok(t->context, sl_query_copy_space(t->context, t->query, eye, copy));
         return copy;
     }
     const bool one_way = !t->turned || t->sight == SL_OPEN || is_in_line(t, eye);
@@ -627,6 +627,17 @@ static void ask(trial *t, bool thorough) {
     if (thorough) check_cells(t, &view, cells, mirrored);
 }
 
+/// A copy knows all settings but the boxes, and no visible sets.
+static void go_on_with_copy(trial *t) {
+    sl_query *copy;
+    assert_ok(t->context, sl_query_copy(t->context, t->query, &copy));
+    sl_query_destroy(t->context, t->query);
+    t->query = copy;
+    t->bare = true;
+    t->sight = SL_CLOSED;
+    assert_ok(t->context, sl_query_set_boxes(t->context, t->query, t->boxes, BOX_COUNT));
+}
+
 static void try_query(trial *t) {
     sl_context *context = t->context;
     t->sight = t->bare ? SL_CLOSED : t->baked.visibility.sight;
@@ -640,6 +651,7 @@ static void try_query(trial *t) {
     for (int i = 0; i < CHANGES; i++) {
         for (int k = 0; k < EYES; k++) ask(t, k == 0);
         for (uint64_t k = below(t, 4); k < 4; k++) change(t, below(t, 4 + DOOR_COUNT));
+        if (below(t, 4) == 0) go_on_with_copy(t);
     }
     sl_query_destroy(context, t->query);
 }
