@@ -643,6 +643,26 @@ static sl_status write_shares(maker *m) {
     return SL_OK;
 }
 
+// --- the grid
+
+/// An eye on a wall is in the cell that comes first there. So that boxes do not bring it to the
+/// other side, the parts of a cell come where the cell came.
+static sl_status write_grid(maker *m) {
+    SL_TRY(sli_cell_grid_make(m->context, &m->out->space));
+    const sl_cell_grid *g = &m->out->space.grid;
+    const uint32_t *parents = m->out->parents;
+    for (size_t bucket = 0; bucket < (size_t)g->columns * g->rows; bucket++) {
+        uint32_t *cells = g->cells + g->first[bucket];
+        for (uint32_t i = 1; i < g->first[bucket + 1] - g->first[bucket]; i++) {
+            const uint32_t cell = cells[i];
+            uint32_t k = i;
+            for (; k && parents[cells[k - 1]] > parents[cell]; k--) cells[k] = cells[k - 1];
+            cells[k] = cell;
+        }
+    }
+    return SL_OK;
+}
+
 // --- all of it
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
@@ -660,7 +680,7 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(write_portals(m));
     SL_TRY(write_walls(m));
     SL_TRY(write_shares(m));
-    return sli_cell_grid_make(m->context, &m->out->space);
+    return write_grid(m);
 }
 
 sl_status sli_boxes_put_mesh(sl_context *context, const sli_box_ground *ground,

@@ -7,10 +7,10 @@
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
 #include "eye_to_cell/room_mirrors.h"
+#include "mirror_rays.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
-#include "oracle/mirror_ray.h"
 #include "oracle/random_oblique.h"
 
 #include <math.h>
@@ -117,61 +117,6 @@ static void end(trial *t) {
     sl_context_destroy(t->context);
 }
 
-static double cross(sl_point a, sl_point b, sl_point p) {
-    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
-
-/// How far a point is inside a cell, under 0 where it is outside.
-static double depth_in(const sl_space *space, uint32_t cell, sl_point p) {
-    const sl_cell *c = &space->cells[cell];
-    const sl_point *v = space->vertices + c->first_vertex;
-    double least = INFINITY;
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        const sl_point a = v[i], b = v[(i + 1) % c->vertex_count];
-        least = fmin(least, cross(a, b, p) / hypot(b.x - a.x, b.y - a.y));
-    }
-    return least;
-}
-
-static bool polygon_holds(const sl_region *region, sl_point p) {
-    bool in = false;
-    for (size_t i = 0; i < region->count; i++) {
-        const sl_point a = region->points[i], b = region->points[(i + 1) % region->count];
-        if ((a.y > p.y) != (b.y > p.y) && (cross(a, b, p) > 0) == (b.y > a.y)) in = !in;
-    }
-    return in;
-}
-
-/// Whether a part was come to by the mirrors of a ray's first legs.
-static bool has_chain(const sl_mirrored_region *region, uint32_t part, const oracle_ray *ray,
-                      uint32_t leg) {
-    for (; leg > 0 && part != SL_NO_PART; leg--, part = region->parts[part].parent)
-        if (region->parts[part].mirror != ray->legs[leg].mirror) return false;
-    return leg == 0 && part == SL_NO_PART;
-}
-
-static bool is_shown(const sl_mirrored_region *region, const oracle_ray *ray, uint32_t leg,
-                     sl_point p) {
-    for (uint32_t i = 0; i < region->part_count; i++)
-        if (has_chain(region, i, ray, leg) && polygon_holds(&region->parts[i].region, p))
-            return true;
-    return false;
-}
-
-/// Whether a leg has a point well within a box, or on it.
-static bool meets_box(const oracle_leg *leg, sl_box box) {
-    double from = 0, to = 1;
-    const double at[2] = {leg->from.x, leg->from.y}, low[2] = {box.min.x, box.min.y};
-    const double step[2] = {leg->to.x - leg->from.x, leg->to.y - leg->from.y};
-    const double high[2] = {box.max.x, box.max.y};
-    for (int i = 0; i < 2; i++) {
-        const double a = (low[i] - at[i]) / step[i], b = (high[i] - at[i]) / step[i];
-        from = fmax(from, fmin(a, b));
-        to = fmin(to, fmax(a, b));
-    }
-    return from + 1e-6 < to;
-}
-
 /// The boxes that a reflected leg passes or ends at are seen.
 static void check_boxes_met(const trial *t, sl_point eye, const oracle_ray *ray) {
     for (uint32_t leg = 1; leg < ray->count; leg++)
@@ -187,7 +132,7 @@ static void check_boxes_met(const trial *t, sl_point eye, const oracle_ray *ray)
                     continue;
                 way.to = on;
             }
-            if (!t->seen[i] && meets_box(&way, t->boxes[i].box))
+            if (!t->seen[i] && mirror_rays_meet_box(&way, t->boxes[i].box))
                 fail_msg("seed %llu, eye %.17g,%.17g: box %zu is met on the way from %.17g,%.17g "
                          "to %.17g,%.17g",
                          (unsigned long long)t->seed, eye.x, eye.y, i, way.from.x, way.from.y,
@@ -199,7 +144,7 @@ static void check_boxes_met(const trial *t, sl_point eye, const oracle_ray *ray)
 static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
                        const sl_mirrored_region *region) {
     const uint32_t from = sl_space_locate(&t->space, eye);
-    if (depth_in(&t->space, from, eye) < CLEAR * t->size) return;
+    if (mirror_rays_depth_in(&t->space, from, eye) < CLEAR * t->size) return;
     for (int i = 0; i < RAYS; i++) {
         const double angle = sl_random_unit(&t->random) * 6.283185307179586;
         const oracle_ray ray =
@@ -211,10 +156,11 @@ static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
             const double share = sl_random_unit(&t->random);
             const sl_point p = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
             const uint32_t cell = sl_space_locate(&t->space, p);
-            if (depth_in(&t->space, cell, p) < CLEAR * t->size) continue;
+            if (mirror_rays_depth_in(&t->space, cell, p) < CLEAR * t->size) continue;
             t->rays++;
             const bool baked = sl_pvs_sees(&t->baked.mirrored, from, cell);
-            const bool culled = sl_eye_sees(cells, cell), shown = is_shown(region, &ray, leg, p);
+            const bool culled = sl_eye_sees(cells, cell),
+                       shown = mirror_rays_show(region, &ray, leg, p);
             if (!baked || !culled || !shown)
                 fail_msg("seed %llu, eye %.17g,%.17g, angle %.17g: reflection %u shows %.17g,%.17g "
                          "in cell %u; bake %d, eye %d, region %d",
@@ -226,30 +172,10 @@ static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
 
 /// A ray to where a wall is seen to be ends on that wall, by the same mirrors.
 static void check_part(trial *t, sl_point eye, const sl_mirrored_region *region, uint32_t number) {
-    const sl_mirror_part *part = &region->parts[number];
-    const sl_region *r = &part->region;
-    for (size_t i = 0; i < r->count; i++) {
-        const size_t next = (i + 1) % r->count;
-        if (r->edges[i].kind != SL_EDGE_WALL) continue;
-        const sl_point image = {(part->image[i].x + part->image[next].x) / 2,
-                                (part->image[i].y + part->image[next].y) / 2};
-        const sl_point place = {(r->points[i].x + r->points[next].x) / 2,
-                                (r->points[i].y + r->points[next].y) / 2};
-        const oracle_ray ray =
-            oracle_ray_of(&t->map, eye, (sl_point){image.x - eye.x, image.y - eye.y}, part->depth);
-        // Of a wall that is seen all but edge-on the ray may end anywhere.
-        const double aside =
-            fabs(cross(eye, image, part->image[i])) / hypot(image.x - eye.x, image.y - eye.y);
-        if (ray.margin < 1e-7 * t->size || aside < 1e-6 * t->size) continue;
-        t->points++;
-        const sl_point to = ray.count ? ray.legs[ray.count - 1].to : eye;
-        if (ray.count != part->depth + 1 || !has_chain(region, number, &ray, part->depth) ||
-            hypot(to.x - place.x, to.y - place.y) > 1e-7 * t->size)
-            fail_msg("seed %llu, eye %.17g,%.17g, part %u: the wall at %.17g,%.17g, whose image is "
-                     "at %.17g,%.17g: the ray there ends at %.17g,%.17g",
-                     (unsigned long long)t->seed, eye.x, eye.y, number, place.x, place.y, image.x,
-                     image.y, to.x, to.y);
-    }
+    const size_t edge = mirror_rays_wrong_edge(&t->map, eye, region, number, t->size, &t->points);
+    if (edge != SIZE_MAX)
+        fail_msg("seed %llu, eye %.17g,%.17g, part %u: no ray ends at edge %zu",
+                 (unsigned long long)t->seed, eye.x, eye.y, number, edge);
 }
 
 static void check_eye(trial *t, sl_point eye) {
@@ -310,8 +236,8 @@ static double area_in(const sl_region *region, sl_box box) {
         size_t kept = 0;
         for (size_t i = 0; i < count; i++) {
             const sl_point p = in[i], q = in[(i + 1) % count];
-            const double at_p = cross(c[k], c[(k + 1) % 4], p),
-                         at_q = cross(c[k], c[(k + 1) % 4], q);
+            const double at_p = mirror_rays_cross(c[k], c[(k + 1) % 4], p),
+                         at_q = mirror_rays_cross(c[k], c[(k + 1) % 4], q);
             if (at_p >= 0) out[kept++] = p;
             if ((at_p >= 0) != (at_q >= 0)) {
                 const double s = at_p / (at_p - at_q);
@@ -323,7 +249,7 @@ static double area_in(const sl_region *region, sl_box box) {
         memcpy(in, out, count * sizeof *in);
     }
     double sum = 0;
-    for (size_t i = 1; i + 1 < count; i++) sum += cross(in[0], in[i], in[i + 1]) / 2;
+    for (size_t i = 1; i + 1 < count; i++) sum += mirror_rays_cross(in[0], in[i], in[i + 1]) / 2;
     return fabs(sum);
 }
 

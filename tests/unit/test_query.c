@@ -1,9 +1,8 @@
-/// The façade: a map is baked as its stages do one by one, and a query answers as a map does that
-/// is baked with walls where doors are shut, glass blocks the eye, and boxes stand.
+/// The façade: a map is baked as its stages do one by one, and a query of it, or of its file, takes
+/// settings and refuses wrong ones. What it answers is in test_query_matrix.c.
 #include "testing.h"
 
 #include "map/scan.h"
-#include "sightline/support.h"
 
 #include <math.h>
 
@@ -15,10 +14,7 @@ static const char rooms[] = "sightline 1\n"
                             "wall 0 10 4 10\nwall 6 10 30 10\n"
                             "start 5 5 0\n";
 static const char door[] = "door west 10 3 10 5 open\n";
-static const char door_shut[] = "wall 10 3 10 5\n";
 static const char glass[] = "oneway 20 3 20 5\n"; // seen through from the right to the left
-static const char glass_blocked[] = "wall 20 3 20 5\n";
-static const char box_walls[] = "walls 3 6 7 6 7 8 3 8 3 6\n";
 static const sl_moving_box box = {{{3, 6}, {7, 8}}, true};
 
 static void read_map(sl_context *context, const char *const *parts, sl_map *map) {
@@ -34,83 +30,6 @@ static void bake(sl_context *context, const char *const *parts, sl_baked *baked)
     assert_int_equal(map.wall_count + map.start_count, 0);
 }
 
-static double unit(sl_random *random) {
-    return sl_random_unit(random);
-}
-
-static sl_point random_point(sl_random *random) {
-    // Corners, places on lines of walls, and any.
-    if (sl_random_below(random, 3)) return (sl_point){30 * unit(random), 20 * unit(random)};
-    return (sl_point){(double)sl_random_below(random, 31), (double)sl_random_below(random, 21)};
-}
-
-/// Asks a query and a plain one, whose map has walls instead, the same of many points.
-static void compare(sl_context *context, sl_query *query, sl_query *plain, sl_point eye,
-                    double range) {
-    sl_random random = {7};
-    sl_region region = {0}, other = {0};
-    uint64_t cells[8] = {0};
-    const sl_view view = sl_query_view(query, eye, 0, 360);
-    assert_true(sl_eye_words(sl_query_asked(query)) <= 8);
-    assert_ok(context, sl_query_set_range(context, query, range));
-    assert_ok(context, sl_query_set_range(context, plain, range));
-    assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
-    assert_ok(context, sl_query_region(context, query, &view, &region));
-    assert_ok(context, sl_query_region(context, plain, &view, &other));
-    assert_float_equal(sl_region_area(&region), sl_region_area(&other), 1e-9);
-    size_t seen_count = 0;
-    for (int i = 0; i < 400; i++) {
-        const sl_point point = random_point(&random);
-        bool seen, wanted;
-        assert_ok(context, sl_query_sees(context, query, eye, point, &seen));
-        assert_ok(context, sl_query_sees(context, plain, eye, point, &wanted));
-        assert_int_equal(seen, wanted);
-        seen_count += seen;
-        // On a border between cells, the cell beside it may be the one that is seen.
-        if (seen && point.x != floor(point.x))
-            assert_true(sl_eye_sees(cells, sl_query_locate(query, point)));
-        if (seen && range > 0) assert_true(hypot(point.x - eye.x, point.y - eye.y) <= range);
-    }
-    assert_true(seen_count > 0 && seen_count < 400);
-    sl_region_destroy(context, &region);
-    sl_region_destroy(context, &other);
-}
-
-static void settings_hide_as_walls_do(void **state) {
-    (void)state;
-    static const sl_point eyes[] = {{5, 5}, {15, 4}, {25, 4}, {20, 4}, {5, 15}, {10, 4}};
-    testing_memory memory = {0};
-    sl_context *context = testing_context(&memory);
-    const char *const parts[] = {rooms, door, glass, NULL};
-    sl_baked baked = {0};
-    sl_query *query;
-    bake(context, parts, &baked);
-    assert_ok(context, sl_query_create(context, &baked, &query));
-    for (unsigned bits = 0; bits < 16; bits++) {
-        const bool shut = bits & 1, with_box = bits & 2, dark = bits & 4;
-        const double range = bits & 8 ? 9 : 0;
-        const char *const walls[] = {rooms, shut ? door_shut : "", dark ? glass_blocked : "",
-                                     with_box ? box_walls : "", NULL};
-        sl_baked other = {0};
-        sl_query *plain;
-        bake(context, walls, &other);
-        assert_ok(context, sl_query_create(context, &other, &plain));
-        assert_ok(context, sl_query_set_door(context, query, "west", !shut));
-        assert_ok(context, sl_query_set_boxes(context, query, &box, with_box));
-        for (size_t i = 0; i < sizeof eyes / sizeof *eyes; i++) {
-            // From the left of x = 20 the glass is dark; on it the eye stands in the right cell.
-            if ((eyes[i].x < 20) != dark) continue;
-            compare(context, query, plain, eyes[i], range);
-        }
-        sl_query_destroy(context, plain);
-        sl_baked_destroy(context, &other);
-    }
-    sl_query_destroy(context, query);
-    sl_baked_destroy(context, &baked);
-    sl_context_destroy(context);
-    assert_int_equal(memory.live, 0);
-}
-
 static void a_file_answers_as_memory_does(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -124,7 +43,7 @@ static void a_file_answers_as_memory_does(void **state) {
     assert_ok(context, sl_baked_write(context, &baked, path));
     assert_ok(context, sl_query_create(context, &baked, &query));
     assert_ok(context, sl_query_open(context, path, &opened));
-    compare(context, query, opened, (sl_point){5, 5}, 0);
+    assert_true(sl_baked_same_space(&baked.space, sl_query_asked(opened)));
     bool sees;
     const uint32_t from = sl_query_locate(opened, (sl_point){5, 5});
     const uint32_t to = sl_query_locate(opened, (sl_point){15, 4});
@@ -411,73 +330,11 @@ static void without_memory_nothing_leaks(void **state) {
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) ask_without_memory(maps[i]);
 }
 
-/// Doors, mirrors, glass, boxes and a range at once. The mirror shows what walls leave of it; glass
-/// is dark from its left alone, also for a sightline that has come back.
-static void all_effects_at_once(void **state) {
-    (void)state;
-    static const char mirrors[] = "mirror 1 10 3 10\nmirror 22 0 28 0\nmirror 30 1 30 9\n"
-                                  "mirror 12 0 18 0\n";
-    static const sl_point eyes[] = {{5, 5}, {15, 4}, {25, 4}, {20, 4}, {5, 15}, {2, 9}};
-    testing_memory memory = {0};
-    sl_context *context = testing_context(&memory);
-    const char *const parts[] = {rooms, door, mirrors, glass, NULL};
-    const char *const open_parts[] = {rooms, door, mirrors, NULL};
-    sl_baked baked = {0}, open = {0};
-    sl_query *query, *both;
-    double less = 0;
-    bake(context, parts, &baked);
-    bake(context, open_parts, &open);
-    assert_ok(context, sl_query_create(context, &baked, &query));
-    assert_ok(context, sl_query_create(context, &open, &both));
-    for (unsigned bits = 0; bits < 8; bits++) {
-        const char *const walls[] = {rooms,   bits & 1 ? door_shut : "", glass,
-                                     mirrors, bits & 2 ? box_walls : "", NULL};
-        sl_baked other = {0};
-        sl_query *plain;
-        bake(context, walls, &other);
-        assert_ok(context, sl_query_create(context, &other, &plain));
-        sl_query *const all[] = {query, plain, both};
-        for (int i = 0; i < 3; i++) {
-            assert_ok(context, sl_query_set_mirror_depth(context, all[i], 3));
-            assert_ok(context, sl_query_set_range(context, all[i], bits & 4 ? 17 : 0));
-            if (all[i] == plain) continue;
-            assert_ok(context, sl_query_set_door(context, all[i], "west", !(bits & 1)));
-            assert_ok(context, sl_query_set_boxes(context, all[i], &box, bits & 2 ? 1 : 0));
-        }
-        for (size_t i = 0; i < sizeof eyes / sizeof *eyes; i++) {
-            double direct[3], mirrored[3];
-            for (int k = 0; k < 3; k++) {
-                const sl_view view = sl_query_view(all[k], eyes[i], 0, 360);
-                sl_mirrored_region region = {0};
-                assert_ok(context, sl_query_mirrored_region(context, all[k], &view, &region));
-                direct[k] = sl_region_area(&region.direct);
-                mirrored[k] = sl_mirrored_area(&region);
-                sl_mirrored_region_destroy(context, &region);
-            }
-            assert_float_equal(direct[0], direct[1], 1e-9);
-            assert_float_equal(mirrored[0], mirrored[1], 1e-9);
-            assert_true(mirrored[0] <= mirrored[2] + 1e-9);
-            less += mirrored[2] - mirrored[0];
-        }
-        sl_query_destroy(context, plain);
-        sl_baked_destroy(context, &other);
-    }
-    assert_true(less > 100);
-    sl_query_destroy(context, query);
-    sl_query_destroy(context, both);
-    sl_baked_destroy(context, &baked);
-    sl_baked_destroy(context, &open);
-    sl_context_destroy(context);
-    assert_int_equal(memory.live, 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_bake_is_its_stages),
-        cmocka_unit_test(settings_hide_as_walls_do),
         cmocka_unit_test(a_file_answers_as_memory_does),
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
-        cmocka_unit_test(all_effects_at_once),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),
         cmocka_unit_test(an_eye_in_rock_sees_nothing),

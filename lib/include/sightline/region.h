@@ -23,7 +23,7 @@ typedef enum sl_edge_kind {
     SL_EDGE_OCCLUDING, ///< radial: what lies beyond it is hidden by the corner at its near end
     SL_EDGE_CONE,      ///< on a border of the view cone
     SL_EDGE_MIRROR,    ///< of what is seen by mirror: the mirror, nearest to the eye
-    SL_EDGE_ARC,       ///< of less than half a circle about the eye, counter-clockwise: the range
+    SL_EDGE_ARC,       ///< of up to half a circle about the eye, counter-clockwise: the range
 } sl_edge_kind;
 
 /// An edge of a region.

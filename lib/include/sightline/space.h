@@ -22,7 +22,8 @@ typedef struct sl_node {
 
 /// A grid of buckets over the bounds. Bucket b = row * columns + column has the cells that reach
 /// into it, ascending: cells[first[b]] .. cells[first[b + 1] - 1]. It may also have cells that only
-/// come near. Zeroed, there is none.
+/// come near. With boxes in a mesh, parts of a cell come where the cell came. Zeroed, there is
+/// none.
 typedef struct sl_cell_grid {
     uint32_t columns, rows, entry_count;
     uint32_t *first;
