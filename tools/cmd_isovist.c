@@ -291,16 +291,13 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, isov
 
 /// What sight goes by: shut doors are walls of the space by now.
 static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovist_work *w) {
-    const sl_outline *outline;
-    const sl_room_mirrors *mirrors;
     SL_TRY(sl_query_set_range(context, w->query, plan->range));
     SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
     w->scene =
         (isovist_scene){&w->baked.space, w->query, w->baked.map.mirror_count && !plan->together};
-    SL_TRY(sl_query_outline(context, w->query, &outline));
     if (w->baked.map.mirror_count && plan->together)
         sl_note(context, "mirrors are walls here: --union counts what is seen directly");
-    return w->scene.mirrored ? sl_query_mirrors(context, w->query, &mirrors) : SL_OK;
+    return sl_query_prepare(context, w->query);
 }
 
 /// A grid is all that is inside.

@@ -174,11 +174,11 @@ typedef struct look {
 } look;
 
 static sl_segment place(const look *l, sl_segment s) {
-    const sl_room_mirrors *mirrors = l->view->present.mirrors;
+    const sl_map *map = sl_query_map(l->view->present.query);
     const sl_mirrored_region *seen = &l->view->seen.in_mirrors;
     if (l->part == SL_NO_PART) return s;
-    return (sl_segment){sl_mirror_part_place(mirrors, seen, l->part, s.a),
-                        sl_mirror_part_place(mirrors, seen, l->part, s.b)};
+    return (sl_segment){sl_mirror_part_place(map, seen, l->part, s.a),
+                        sl_mirror_part_place(map, seen, l->part, s.b)};
 }
 
 /// Positive where a point is at the left of a segment.
@@ -245,7 +245,7 @@ static void add_part(viewer *v, const sl_mirror_part *part, uint32_t number) {
 /// Parts come after their parents, so the mirrors that show them are there before them.
 static void add_parts(viewer *v, const view_state *view, const sl_map *map) {
     const sl_mirrored_region *seen = &view->seen.in_mirrors;
-    for (uint32_t i = 0; view->present.mirrors && i < seen->part_count; i++) {
+    for (uint32_t i = 0; i < seen->part_count; i++) {
         const sl_mirror_part *part = &seen->parts[i];
         if ((int)part->depth >= v->level_count) continue;
         add_part(v, part, i);

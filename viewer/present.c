@@ -111,7 +111,7 @@ static sl_status update(sl_context *context, present_state *present, const docum
     const sl_space *space;
     SL_TRY(sl_query_space(context, present->query, &space, &present->parents));
     SL_TRY(sl_query_outline(context, present->query, &present->outline));
-    return map->mirror_count ? sl_query_mirrors(context, present->query, &present->mirrors) : SL_OK;
+    return SL_OK;
 }
 
 sl_status present_update(sl_context *context, present_state *present,

@@ -10,15 +10,14 @@
 typedef struct present_state {
     uint32_t version; ///< grows with every change but that of the range; the document's among them
     sl_query *query;  ///< the document's, or `own`
-    const sl_outline *outline;      ///< that sight goes by, with the objects if some of them block
-    const uint32_t *parents;        ///< its cell c is a part of cell parents[c]; NULL: none is cut
-    const sl_room_mirrors *mirrors; ///< of the outline; NULL where the map has none
-    bool still;                     ///< objects cannot be put in as they are now: sight passes them
-    bool has_rows;                  ///< there are visible sets, and they can be believed
-    bool backwards;                 ///< the caller's: as the eye is seen, not as it sees
-    const sl_space *space;          ///< NULL until present_space() has made it
-    sl_space filtered;              ///< what it may be
-    sl_query *own;                  ///< that looks backwards
+    const sl_outline *outline; ///< that sight goes by, with the objects if some of them block
+    const uint32_t *parents;   ///< its cell c is a part of cell parents[c]; NULL: none is cut
+    bool still;                ///< objects cannot be put in as they are now: sight passes them
+    bool has_rows;             ///< there are visible sets, and they can be believed
+    bool backwards;            ///< the caller's: as the eye is seen, not as it sees
+    const sl_space *space;     ///< NULL until present_space() has made it
+    sl_space filtered;         ///< what it may be
+    sl_query *own;             ///< that looks backwards
     sl_visibility no_rows;
     sl_point eye;
     signed char *sides; ///< by glass: the side that the eye is on

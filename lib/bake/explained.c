@@ -5,6 +5,7 @@
 /// are written in one pass, so that nothing is kept in memory but a flag for each door.
 #include "sightline/explained.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "effects/filtered.h"
 
 #include "sightline/json.h"
 #include "sightline/support.h"
@@ -72,7 +73,7 @@ bool sl_way_is_dark(const sl_explained *a, const sl_way *way, uint32_t step) {
     if (step)
         from = way->bent ? way->bent->steps[step - 1].cell
                          : space->directed[sl_way_at(way, step - 1)].cell;
-    return directed != UINT32_MAX && sl_portal_is_blocked(space, from, directed);
+    return directed != UINT32_MAX && sli_portal_is_blocked(space, from, directed);
 }
 
 bool sl_door_is_first(const sl_map *map, const bool *marked, size_t door) {

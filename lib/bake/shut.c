@@ -1,4 +1,5 @@
 /// A baked file with doors shut: what is left to see, without a new bake.
+#include "effects/filtered.h"
 #include "sightline/bake.h"
 
 #include "cell_to_cell/pvs_rows.h"
@@ -35,10 +36,10 @@ static sl_status keep_rows(sl_context *context, const sl_pvs *pvs, const sl_door
 
 sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const bool *shut,
                         sl_space *space, sl_visibility *visibility) {
-    const sl_filtered_space filtered = {.shut = shut};
+    const sli_filtered_space filtered = {.shut = shut};
     const sl_visibility *v = &baked->visibility;
     sl_visibility kept = {.sight = v->sight, .guarantee = v->guarantee, .account = v->account};
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, space));
+    SL_TRY(sli_filtered_space_make(context, &baked->space, &filtered, NULL, space));
     sl_status status = keep_rows(context, &v->pvs, &v->doors, shut, &kept.pvs, &kept.account.pairs);
     if (status == SL_OK && v->mirrored.cell_count)
         status = keep_rows(context, &v->mirrored, &v->mirrored_doors, shut, &kept.mirrored,

@@ -13,6 +13,7 @@
 /// (effects/mirrors.h). Where these places are rounded, open sight takes only lines that keep clear
 /// of all ends by more than rounding moves them: it never sees what no line joins.
 #include "cell_to_cell/dfs.h"
+#include "effects/filtered.h"
 
 #include "base/size.h"
 #include "cell_to_cell/directions.h"
@@ -214,7 +215,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, vo
     if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     if (all->effects->oneway) {
         e->glass_tests++;
-        if (sl_portal_is_blocked(all->space, from->dfs.at.cell, number)) return SL_OK;
+        if (sli_portal_is_blocked(all->space, from->dfs.at.cell, number)) return SL_OK;
     }
     if (from->place.frame.depth && has_been_in(&me->search, directed->cell)) return SL_OK;
     *to = (step){.dfs.at.cell = directed->cell,

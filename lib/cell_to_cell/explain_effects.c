@@ -8,6 +8,7 @@
 /// Each search runs in a space of its own, in which shut doors are walls and glass has no directed
 /// portal on its dark side. The answer is put back into the numbers of the space that was given.
 /// Cost: up to eight searches for what is seen directly, and as many by mirror.
+#include "effects/filtered.h"
 #include "sightline/explain.h"
 
 #include "sightline/support.h"
@@ -79,14 +80,14 @@ static sl_status search(sl_context *context, const job *j, const sl_space *space
 
 /// Explains the pair with some of the effects that can hide something.
 static sl_status explain(sl_context *context, const job *j, unsigned effects, sl_explanation *out) {
-    const sl_filtered_space filtered = {.shut = effects & SL_EFFECT_DOOR ? j->state->shut : NULL,
-                                        .one_way = effects & SL_EFFECT_ONEWAY};
+    const sli_filtered_space filtered = {.shut = effects & SL_EFFECT_DOOR ? j->state->shut : NULL,
+                                         .one_way = effects & SL_EFFECT_ONEWAY};
     if (!filtered.shut && !filtered.one_way) return search(context, j, j->space, effects, out);
     uint32_t *portals = sl_alloc_array(context, j->space->portal_count, sizeof *portals);
     if (!portals) return SL_NO_MEMORY;
     sl_space space = {0};
     uint32_t *numbers = NULL;
-    sl_status status = sl_filtered_space_make(context, j->space, &filtered, portals, &space);
+    sl_status status = sli_filtered_space_make(context, j->space, &filtered, portals, &space);
     if (status == SL_OK) {
         numbers = number_directed(context, j->space, &space, portals);
         status = numbers ? search(context, j, &space, effects, out) : SL_NO_MEMORY;

@@ -12,6 +12,7 @@
 /// first. Cost: linear in the number of directed portals. The set cover goes over all fans once for
 /// each different gain.
 #include "cell_to_cell/fans.h"
+#include "effects/filtered.h"
 
 #include "base/base.h"
 #include "cell_to_cell/methods.h"
@@ -82,7 +83,7 @@ static sl_status copy_directed(sl_context *context, walker *w, const sl_see_opti
                 *other = at;
             else
                 fans->directed[*other].twin = at;
-            if (blocked && sl_portal_is_blocked(space, cell, i)) sl_bits_add(blocked, at);
+            if (blocked && sli_portal_is_blocked(space, cell, i)) sl_bits_add(blocked, at);
             at++;
         }
     }

@@ -25,6 +25,7 @@
 /// it was made with.
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "effects/filtered.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -83,8 +84,8 @@ static bool same_directed(const reusing *c, uint32_t then, uint32_t now) {
         if (e->left.x != f->left.x || e->left.y != f->left.y || e->right.x != f->right.x ||
             e->right.y != f->right.y)
             return false;
-        if (c->glass && sl_portal_is_blocked(c->before, then, a->first_directed + i) !=
-                            sl_portal_is_blocked(c->space, now, b->first_directed + i))
+        if (c->glass && sli_portal_is_blocked(c->before, then, a->first_directed + i) !=
+                            sli_portal_is_blocked(c->space, now, b->first_directed + i))
             return false;
     }
     return true;

@@ -12,6 +12,7 @@
 /// that it enters has seen, by the sweep, all cells that it still comes to: the search goes only
 /// where such a cell is not known yet.
 #include "cell_to_cell/sweep.h"
+#include "effects/filtered.h"
 
 #include "cell_to_cell/dfs.h"
 #include "cell_to_cell/methods.h"
@@ -26,8 +27,8 @@ static sl_status see_shut(sl_context *context, const sl_space *space, const sl_s
     if (!shut) return SL_NO_MEMORY;
     memset(shut, 1, doors * sizeof *shut);
     sl_space walled = {0};
-    const sl_filtered_space filtered = {.shut = shut};
-    sl_status status = sl_filtered_space_make(context, space, &filtered, NULL, &walled);
+    const sli_filtered_space filtered = {.shut = shut};
+    sl_status status = sli_filtered_space_make(context, space, &filtered, NULL, &walled);
     sl_free(context, shut);
     if (status == SL_OK) status = sli_see_sweep(context, &walled, options, out);
     sl_space_destroy(context, &walled);

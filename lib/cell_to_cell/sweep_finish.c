@@ -9,6 +9,7 @@
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/sweep.h"
+#include "effects/filtered.h"
 
 sl_status sli_sweep_finish(sl_context *context, const sl_space *space,
                            const sl_see_options *options, sli_bit_rows *rows, sl_visibility *out) {
@@ -20,7 +21,7 @@ sl_status sli_sweep_finish(sl_context *context, const sl_space *space,
         for (uint32_t i = 0; i < cell->directed_count; i++) {
             const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (options->inside_only && !space->cells[next].inside) continue;
-            if (one_way && sl_portal_is_blocked(space, c, cell->first_directed + i)) continue;
+            if (one_way && sli_portal_is_blocked(space, c, cell->first_directed + i)) continue;
             SL_TRY(sli_bit_rows_add_one(context, rows, c, next));
         }
     }

@@ -9,6 +9,7 @@
 ///         wall   |  -> portal      portal. The wall runs with the dark side at its left.
 ///
 /// Then all that goes from cell to cell sees one way, also after a mirror has turned it round.
+#include "effects/filtered.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
 
@@ -17,7 +18,7 @@
 typedef struct maker {
     const sl_space *from;
     uint32_t eye_cell;
-    const sl_filtered_space *filtered;
+    const sli_filtered_space *filtered;
     uint32_t *portals; ///< new numbers; UINT32_MAX for walls
     bool *barred;      ///< directed portals that are left out, walls' ones among them
     uint32_t *dark; ///< by portal: the directed portal that glass alone bars; UINT32_MAX for none
@@ -169,7 +170,7 @@ static void find_dark(maker *m) {
         for (uint32_t k = f->cells[i].first_directed;
              k < f->cells[i].first_directed + f->cells[i].directed_count; k++) {
             const uint32_t portal = f->directed[k].portal;
-            if (m->portals[portal] == UINT32_MAX || !sl_portal_is_blocked(f, i, k)) continue;
+            if (m->portals[portal] == UINT32_MAX || !sli_portal_is_blocked(f, i, k)) continue;
             if (m->dark[portal] != UINT32_MAX) m->portals[portal] = UINT32_MAX;
             m->dark[portal] = k;
         }
@@ -191,7 +192,7 @@ static sl_status make(sl_context *context, maker *m) {
              k < f->cells[i].first_directed + f->cells[i].directed_count; k++) {
             const uint32_t portal = f->directed[k].portal;
             m->barred[k] = m->portals[portal] == UINT32_MAX ||
-                           (m->filtered->one_way && sl_portal_is_blocked(f, i, k));
+                           (m->filtered->one_way && sli_portal_is_blocked(f, i, k));
         }
     SL_TRY(copy_space(context, m, (size_t)f->portal_count - kept + m->dark_count));
     shut_portals(m);
@@ -206,9 +207,9 @@ static sl_status make(sl_context *context, maker *m) {
     return SL_OK;
 }
 
-sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
-                                 const sl_filtered_space *filtered, uint32_t *portals,
-                                 sl_space *out) {
+sl_status sli_filtered_space_make(sl_context *context, const sl_space *space,
+                                  const sli_filtered_space *filtered, uint32_t *portals,
+                                  sl_space *out) {
     sl_space made = {0};
     maker m = {.from = space, .filtered = filtered, .portals = portals, .out = &made};
     if (filtered->eye) m.eye_cell = sl_space_locate(space, *filtered->eye);
@@ -231,7 +232,7 @@ sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
 
 // --- one-way glass
 
-bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed) {
+bool sli_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed) {
     const uint32_t portal = space->directed[directed].portal;
     const bool forward = space->portals[portal].cell[0] == cell;
     size_t count;
@@ -244,9 +245,9 @@ bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directe
 
 sl_status sli_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
                               sl_space *made, const sl_space **through) {
-    const sl_filtered_space filtered = {.one_way = true};
+    const sli_filtered_space filtered = {.one_way = true};
     const bool called_for = plan && plan->effects & SL_EFFECT_ONEWAY;
-    if (called_for) SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, made));
+    if (called_for) SL_TRY(sli_filtered_space_make(context, space, &filtered, NULL, made));
     *through = called_for ? made : space;
     return SL_OK;
 }

@@ -15,7 +15,7 @@
 ///
 /// Images and rays are kept as sums of two doubles (effects/mirrors.h), so behind axial mirrors all
 /// is exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
-#include "eye_to_cell/room_mirrors.h"
+#include "eye_to_cell/region.h"
 #include "sightline/region.h"
 
 #include "effects/mirrors.h"
@@ -31,22 +31,22 @@ typedef struct finder {
     sl_context *context;
     const sl_outline *outline;
     const sl_map *map;
-    SL_ARRAY(sl_room_mirror) pieces;
+    SL_ARRAY(sli_room_mirror) pieces;
 } finder;
 
 /// Adds a piece without what earlier pieces of the same side, from number `at` on, cover.
-static sl_status add_new(finder *f, size_t at, sl_room_mirror piece) {
+static sl_status add_new(finder *f, size_t at, sli_room_mirror piece) {
     const sl_point from = piece.right, to = piece.left;
     for (; at < f->pieces.count; at++) {
-        const sl_room_mirror have = f->pieces.items[at];
+        const sli_room_mirror have = f->pieces.items[at];
         const double right = sli_mirror_along(from, to, have.right);
         const double left = sli_mirror_along(from, to, have.left);
         if (left <= sli_mirror_along(from, to, from) || right >= sli_mirror_along(from, to, to))
             continue;
         if (right > sli_mirror_along(from, to, from))
-            SL_TRY(add_new(f, at + 1, (sl_room_mirror){from, have.right, piece.mirror}));
+            SL_TRY(add_new(f, at + 1, (sli_room_mirror){from, have.right, piece.mirror}));
         if (left < sli_mirror_along(from, to, to))
-            SL_TRY(add_new(f, at + 1, (sl_room_mirror){have.left, to, piece.mirror}));
+            SL_TRY(add_new(f, at + 1, (sli_room_mirror){have.left, to, piece.mirror}));
         return SL_OK;
     }
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->pieces, 1));
@@ -61,7 +61,7 @@ static sl_status add_side(finder *f, const sl_side *side) {
     for (uint32_t i = 0; i < f->map->mirror_count; i++) {
         const sl_glass *mirror = &f->map->mirrors[i];
         const sl_segment *at = &mirror->segment;
-        sl_room_mirror piece = {.mirror = i};
+        sli_room_mirror piece = {.mirror = i};
         if (sli_orient(wall->a, wall->b, at->a) != 0 || sli_orient(wall->a, wall->b, at->b) != 0 ||
             !sli_mirror_covers(mirror, side->start, f->outline->sides[side->next].start,
                                &piece.right, &piece.left))
@@ -84,12 +84,12 @@ static sl_status find(finder *f, uint32_t *first) {
 }
 
 sl_status sli_room_mirrors_make(sl_context *context, const sl_outline *outline, const sl_map *map,
-                                sl_room_mirrors *out) {
+                                sli_room_mirrors *out) {
     finder f = {.context = context, .outline = outline, .map = map};
     uint32_t *first = sl_alloc_array(context, (size_t)outline->side_count + 1, sizeof *first);
     const sl_status status = first ? find(&f, first) : SL_NO_MEMORY;
     if (status == SL_OK) {
-        *out = (sl_room_mirrors){outline, map, first, f.pieces.items};
+        *out = (sli_room_mirrors){outline, map, first, f.pieces.items};
         return SL_OK;
     }
     sl_free(context, f.pieces.items);
@@ -97,17 +97,17 @@ sl_status sli_room_mirrors_make(sl_context *context, const sl_outline *outline, 
     return status;
 }
 
-void sli_room_mirrors_destroy(sl_context *context, sl_room_mirrors *mirrors) {
+void sli_room_mirrors_destroy(sl_context *context, sli_room_mirrors *mirrors) {
     sl_free(context, mirrors->first);
     sl_free(context, mirrors->pieces);
-    *mirrors = (sl_room_mirrors){0};
+    *mirrors = (sli_room_mirrors){0};
 }
 
 // --- the parts of a mirrored region
 
 typedef struct maker {
     sl_context *context;
-    const sl_room_mirrors *mirrors;
+    const sli_room_mirrors *mirrors;
     uint32_t depth;
     double range;
     sl_mirrored_region *out;
@@ -268,9 +268,9 @@ static void empty(sl_context *context, sl_mirrored_region *region) {
     region->part_count = 0;
 }
 
-sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mirrors,
-                                  const sl_view *view, double range, uint32_t depth,
-                                  sl_mirrored_region *out) {
+sl_status sli_mirrored_region_make(sl_context *context, const sli_room_mirrors *mirrors,
+                                   const sl_view *view, double range, uint32_t depth,
+                                   sl_mirrored_region *out) {
     maker m = {context, mirrors, depth, range, out};
     sl_region *direct = &out->direct;
     empty(context, out);
@@ -305,9 +305,9 @@ static sli_mirror_frame frame_of(const sl_map *map, const sl_mirrored_region *re
     return sli_mirror_frame_reflect(&before, map->mirrors[p->mirror].segment);
 }
 
-sl_point sl_mirror_part_place(const sl_room_mirrors *mirrors, const sl_mirrored_region *region,
-                              uint32_t part, sl_point point) {
-    const sli_mirror_frame frame = frame_of(mirrors->map, region, part);
+sl_point sl_mirror_part_place(const sl_map *map, const sl_mirrored_region *region, uint32_t part,
+                              sl_point point) {
+    const sli_mirror_frame frame = frame_of(map, region, part);
     bool rounded = false;
     return sli_mirror_frame_place(&frame, point, &rounded);
 }

@@ -14,12 +14,14 @@
 ///     |           |          |   |   |   |    cell beside it
 ///     +-----------+          +---+---+---+
 #include "eye_to_cell/moving.h"
+#include "effects/filtered.h"
+#include "space/outline.h"
 
 #include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/region.h"
 #include "geometry/crossing.h"
 #include "sightline/effects.h"
 #include "sightline/map.h"
-#include "sightline/sees.h"
 #include "sightline/support.h"
 #include "space/boxes.h"
 #include "space/index.h"
@@ -228,7 +230,7 @@ struct sli_moving {
 /// Frees all that was made for the boxes.
 static void drop(sl_context *context, sli_moving *m) {
     sli_eye_search_destroy(context, m->search);
-    sl_outline_destroy(context, &m->outline);
+    sli_outline_destroy(context, &m->outline);
     if (m->boxed) sli_boxed_space_destroy(context, m->boxed);
     sl_free(context, m->boxed);
     sl_free(context, m->boxes);
@@ -240,9 +242,9 @@ static void drop(sl_context *context, sli_moving *m) {
 
 /// Makes glass of the space with boxes one-way. Boxes are put in first: a box cuts both sides.
 static sl_status darken(sl_context *context, sl_space *space) {
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sli_filtered_space filtered = {.one_way = true, .dark_walls = true};
     sl_space dark;
-    SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, &dark));
+    SL_TRY(sli_filtered_space_make(context, space, &filtered, NULL, &dark));
     sl_space_destroy(context, space);
     *space = dark;
     return SL_OK;
@@ -327,7 +329,7 @@ const sl_space *sli_moving_space(const sli_moving *moving, const uint32_t **pare
 
 sl_status sli_moving_outline(sl_context *context, sli_moving *moving, const sl_outline **out) {
     if (!moving->outlined)
-        SL_TRY(sl_outline_make(context, &moving->boxed->space, &moving->outline));
+        SL_TRY(sli_outline_make(context, &moving->boxed->space, &moving->outline));
     moving->outlined = true;
     *out = &moving->outline;
     return SL_OK;
@@ -355,7 +357,7 @@ static sl_status see_point(sl_context *context, sli_moving *moving, const sl_vie
     if (moving->set.range > 0 && sli_distance_compare(view->eye, point, moving->set.range) > 0)
         return SL_OK;
     SL_TRY(sli_moving_outline(context, moving, &outline));
-    return sl_sees(context, outline, view->eye, point, moving->set.visibility->sight, seen);
+    return sli_sees(context, outline, view->eye, point, moving->set.visibility->sight, seen);
 }
 
 /// Maps the cells that are seen to the cells of the space without boxes.

@@ -41,11 +41,11 @@ sl_status sli_moving_add_glass(sl_context *context, sli_moving *moving);
 /// block. Cell c of it is cell parents[c] of the space without boxes, or a part of it. Cells and
 /// walls keep their numbers. A cell as narrow as a step of doubles may vanish: the last cell then
 /// takes its number. In a mesh, a crossed wall is several sides of cells (sl_space.cut_walls). With
-/// glass it has walls on the dark sides (sl_filtered_space.dark_walls). Valid until boxes are
+/// glass it has walls on the dark sides (sli_filtered_space.dark_walls). Valid until boxes are
 /// placed again.
 const sl_space *sli_moving_space(const sli_moving *moving, const uint32_t **parents);
 
-/// Its outline, for sl_region_make, sl_sees, sl_ray_cast and sli_room_mirrors_make. Made by the
+/// Its outline, for sli_region_make, sli_sees, sli_ray_cast and sli_room_mirrors_make. Made by the
 /// first call.
 sl_status sli_moving_outline(sl_context *context, sli_moving *moving, const sl_outline **out);
 
@@ -56,7 +56,7 @@ sl_status sli_moving_outline(sl_context *context, sli_moving *moving, const sl_o
 /// if the sides of blocking boxes were walls. `seen`: by box, whether it is seen. A box is seen if
 /// it holds the eye, or if a sightline crosses one of its sides or ends there; with closed sight
 /// also if it touches a side or runs along it. A side that a wall covers is not seen. A box that is
-/// one point is seen where sl_sees says so. Boxes that block also hide each other.
+/// one point is seen where sli_sees says so. Boxes that block also hide each other.
 ///
 /// `account`, which may be NULL, is set, in cells of the space with boxes. Errors are those of the
 /// method "exact".

@@ -20,7 +20,7 @@ typedef enum sli_between {
 
 sli_between sli_boxes_between(const sl_moving_box *boxes, size_t count, sl_point a, sl_point b);
 
-/// As sl_region_make, past those of the boxes that block. The eye is on no border of one. An edge
+/// As sli_region_make, past those of the boxes that block. The eye is on no border of one. An edge
 /// on a box's side has the wall SL_BOX_WALL says.
 sl_status sli_region_make_past(sl_context *context, const sl_outline *outline,
                                const sl_moving_box *boxes, size_t count, const sl_view *view,

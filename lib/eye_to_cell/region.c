@@ -23,6 +23,7 @@
 /// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
+#include "eye_to_cell/region.h"
 #include "sightline/region.h"
 
 #include "eye_to_cell/cone.h"
@@ -245,9 +246,9 @@ static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sli_ey
 static sl_status reflect(expansion *x, uint32_t at, const sli_eye_ray *right,
                          const sli_eye_ray *left) {
     struct sli_region_memory *m = x->region->memory;
-    const sl_room_mirrors *mirrors = m->mirrors;
+    const sli_room_mirrors *mirrors = m->mirrors;
     for (uint32_t i = mirrors->first[at]; i < mirrors->first[at + 1]; i++) {
-        const sl_room_mirror *mirror = &mirrors->pieces[i];
+        const sli_room_mirror *mirror = &mirrors->pieces[i];
         sli_reflected_view seen = {.side = at, .mirror = mirror->mirror};
         seen.right = sli_eye_ray_through(&m->eye, mirror->right);
         seen.left = sli_eye_ray_through(&m->eye, mirror->left);
@@ -526,8 +527,8 @@ sl_status sli_region_start(sl_context *context, const sl_outline *outline, const
     return SL_OK;
 }
 
-sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
-                         double range, sl_region *region) {
+sl_status sli_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
+                          double range, sl_region *region) {
     return sli_region_make_past(context, outline, NULL, 0, view, range, region);
 }
 

@@ -71,7 +71,7 @@ typedef struct sli_box_envelope {
 
 struct sli_region_memory {
     sli_eye_place eye;
-    const struct sl_room_mirrors *mirrors; ///< reflected views are taken of these; NULL for none
+    const struct sli_room_mirrors *mirrors; ///< reflected views are taken of these; NULL for none
     SL_ARRAY(sli_reflected_view) reflected_views; ///< counter-clockwise
     sli_box_envelope envelope;                    ///< of the boxes; empty for none
     SL_ARRAY(sli_region_frame) frames;
@@ -198,7 +198,7 @@ sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_po
 /// Cuts the region to its range.
 sl_status sli_region_cut_range(sl_context *context, sl_region *region);
 
-/// Checks the arguments of sl_region_make.
+/// Checks the arguments of sli_region_make.
 sl_status sli_region_check_view(sl_context *context, const sl_view *view, double range);
 /// Empties a region and makes its memory ready for a view.
 sl_status sli_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,

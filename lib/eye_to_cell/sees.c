@@ -1,6 +1,6 @@
 /// Single lines of sight: do two points see each other, and what does a ray hit?
 ///
-/// sl_sees follows the segment between two points from room to room. Nearly always it leaves each
+/// sli_sees follows the segment between two points from room to room. Nearly always it leaves each
 /// room within one side, and the other point lies before that side or behind it:
 ///
 ///     +--------+---------+     first the side by which the segment leaves a room, as for a ray;
@@ -11,10 +11,10 @@
 /// Then all rooms are tried that it comes to by portals that it meets. It is seen where one of them
 /// holds the point; with open sight it must touch no wall.
 ///
-/// sl_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
+/// sli_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
 /// room to the first side that is no portal. Both decide by exact predicates alone; only the point
 /// where the ray hits is rounded. Cost: O(sides of the rooms on the way).
-#include "sightline/sees.h"
+#include "eye_to_cell/region.h"
 
 #include "eye_to_cell/region_parts.h"
 #include "sightline/support.h"
@@ -150,8 +150,8 @@ static bool in_bounds(const sl_space *space, sl_point p) {
     return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
 }
 
-sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
-                  sl_sight sight, bool *out) {
+sl_status sli_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
+                   sl_sight sight, bool *out) {
     const sl_space *space = outline->space;
     const uint32_t start = sli_eye_cell(space, eye);
     *out = false;
@@ -201,8 +201,8 @@ static void write_hit(const sl_outline *o, sl_point eye, const sli_eye_ray *ray,
     out->point.y = fmin(fmax(eye.y + offset.y, fmin(a.y, b.y)), fmax(a.y, b.y));
 }
 
-sl_status sl_ray_cast(sl_context *context, const sl_outline *outline, sl_point eye,
-                      sl_point through, sl_hit *out) {
+sl_status sli_ray_cast(sl_context *context, const sl_outline *outline, sl_point eye,
+                       sl_point through, sl_hit *out) {
     struct sli_region_memory memory = {0};
     sl_region region = {.view = sl_view_all_round(eye), .memory = &memory};
     region.cell = sli_eye_cell(outline->space, eye);

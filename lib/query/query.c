@@ -10,17 +10,18 @@
 /// changes the cells and sides that it touches, and of the visible sets nothing: which pairs are
 /// hidden is looked up with each row.
 #include "sightline/query.h"
-#include "eye_to_cell/room_mirrors.h"
+#include "effects/filtered.h"
+#include "eye_to_cell/region.h"
 
 #include "cell_to_cell/pvs_rows.h"
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
 #include "eye_to_cell/past_boxes.h"
+#include "eye_to_cell/region.h"
 #include "geometry/crossing.h"
 #include "query/query.h"
 #include "query/sight_space.h"
 #include "sightline/effects.h"
-#include "sightline/sees.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -53,8 +54,8 @@ struct sl_query {
     sli_eye_search *search;
     sli_box_lists lists; ///< of the boxes; `first` NULL if not made
     sli_moving *moving;
-    sl_space moving_ground;   ///< with walls in doors; empty where all are open
-    sl_room_mirrors *mirrors; ///< of the outline that is looked at
+    sl_space moving_ground;    ///< with walls in doors; empty where all are open
+    sli_room_mirrors *mirrors; ///< of the outline that is looked at
 };
 
 // --- making and letting go
@@ -265,8 +266,8 @@ sl_status sl_query_copy(sl_context *context, const sl_query *query, sl_query **o
     if (!copied) return SL_NO_MEMORY;
     sl_status status = sl_map_copy(context, query->map, &copied->map);
     if (status == SL_OK)
-        status = sl_filtered_space_make(context, query->asked, &(sl_filtered_space){0}, NULL,
-                                        &copied->space);
+        status = sli_filtered_space_make(context, query->asked, &(sli_filtered_space){0}, NULL,
+                                         &copied->space);
     if (status == SL_OK) status = sl_query_over(context, &copied->space, &copied->map, NULL, &q);
     if (status != SL_OK) {
         destroy_copied(context, copied);
@@ -374,10 +375,10 @@ static sl_status make_search(sl_context *context, sl_query *q) {
 /// Boxes are cut into a space that lacks nothing: doors are walls in a copy, and glass is open both
 /// ways until the boxes stand.
 static sl_status create_moving(sl_context *context, sl_query *q) {
-    const sl_filtered_space filtered = {.shut = q->shut};
+    const sli_filtered_space filtered = {.shut = q->shut};
     sli_moving *moving;
     if (q->shut_count)
-        SL_TRY(sl_filtered_space_make(context, q->sight.base, &filtered, NULL, &q->moving_ground));
+        SL_TRY(sli_filtered_space_make(context, q->sight.base, &filtered, NULL, &q->moving_ground));
     sl_status status = sli_moving_create(context, q->shut_count ? &q->moving_ground : q->sight.base,
                                          &q->rows, &moving);
     if (status != SL_OK) {
@@ -446,7 +447,7 @@ static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline
 static sl_status make_mirrors(sl_context *context, sl_query *q, const sl_outline *outline) {
     if (q->mirrors && q->mirrors->outline == outline) return SL_OK;
     drop_mirrors(context, q);
-    sl_room_mirrors *mirrors = sl_alloc_array(context, 1, sizeof *mirrors);
+    sli_room_mirrors *mirrors = sl_alloc_array(context, 1, sizeof *mirrors);
     if (!mirrors) return SL_NO_MEMORY;
     const sl_status status = sli_room_mirrors_make(context, outline, q->map, mirrors);
     if (status != SL_OK) {
@@ -516,8 +517,8 @@ sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **
 
 sl_status sl_query_copy_space(sl_context *context, sl_query *query, sl_point eye, sl_space *out) {
     SL_TRY(make_ready(context, query));
-    const sl_filtered_space filtered = {.shut = query->shut, .eye = &eye};
-    return sl_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
+    const sli_filtered_space filtered = {.shut = query->shut, .eye = &eye};
+    return sli_filtered_space_make(context, query->sight.base, &filtered, NULL, out);
 }
 
 sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out) {
@@ -525,14 +526,10 @@ sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outlin
     return make_outline(context, query, out);
 }
 
-sl_status sl_query_mirrors(sl_context *context, sl_query *query, const sl_room_mirrors **out) {
+sl_status sl_query_prepare(sl_context *context, sl_query *query) {
     const sl_outline *outline;
-    *out = NULL;
-    if (!query->map->mirror_count) return SL_OK;
     SL_TRY(sl_query_outline(context, query, &outline));
-    SL_TRY(make_mirrors(context, query, outline));
-    *out = query->mirrors;
-    return SL_OK;
+    return query->map->mirror_count ? make_mirrors(context, query, outline) : SL_OK;
 }
 
 /// What boxes do to the line between two points. Where it only touches some, the cut space knows.
@@ -551,11 +548,18 @@ sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_p
     const sli_between by_boxes = between(query, eye, point);
     SL_TRY(by_boxes == SLI_TOUCHED ? make_outline(context, query, &outline)
                                    : make_bare_outline(context, query, &outline));
-    if (by_boxes != SLI_HIDDEN) SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
+    if (by_boxes != SLI_HIDDEN) SL_TRY(sli_sees(context, outline, eye, point, sight, &sees));
     if (sees && query->range > 0)
         sees = sli_distance_compare(eye, point, query->range) < (sight == SL_CLOSED ? 1 : 0);
     *out = sees;
     return SL_OK;
+}
+
+sl_status sl_query_cast(sl_context *context, sl_query *query, sl_point eye, sl_point through,
+                        sl_hit *out) {
+    const sl_outline *outline;
+    SL_TRY(sl_query_outline(context, query, &outline));
+    return sli_ray_cast(context, outline, eye, through, out);
 }
 
 sl_view sl_query_view(const sl_query *query, sl_point eye, double heading, double fov) {
@@ -701,7 +705,7 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
     const bool blocks = has_blocks(query);
     if (blocks && sli_boxes_touch(query->boxes, query->box_count, view->eye)) {
         SL_TRY(make_outline(context, query, &outline));
-        return sl_region_make(context, outline, view, query->range, out);
+        return sli_region_make(context, outline, view, query->range, out);
     }
     SL_TRY(make_bare_outline(context, query, &outline));
     return sli_region_make_past(context, outline, query->boxes, blocks ? query->box_count : 0, view,
@@ -713,7 +717,7 @@ sl_status sl_query_mirrored_region_to(sl_context *context, sl_query *query, cons
     const sl_outline *outline;
     SL_TRY(sl_query_outline(context, query, &outline));
     SL_TRY(make_mirrors(context, query, outline));
-    return sl_mirrored_region_make(context, query->mirrors, view, query->range, depth, out);
+    return sli_mirrored_region_make(context, query->mirrors, view, query->range, depth, out);
 }
 
 sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,

@@ -12,6 +12,8 @@
 /// For the outline all of these portals are walls first, so that rooms end at them. Then the two
 /// sides of each are linked to each other, or not, as the portal stands.
 #include "query/sight_space.h"
+#include "effects/filtered.h"
+#include "space/outline.h"
 
 #include "geometry/orient.h"
 #include "sightline/effects.h"
@@ -56,7 +58,7 @@ static void find_blocked(const sl_space *base, sli_sight_portal *p) {
         const sl_cell *cell = &base->cells[number];
         for (uint32_t k = cell->first_directed; k < cell->first_directed + cell->directed_count;
              k++) {
-            if (base->directed[k].portal != p->portal || !sl_portal_is_blocked(base, number, k))
+            if (base->directed[k].portal != p->portal || !sli_portal_is_blocked(base, number, k))
                 continue;
             p->sealed = p->blocked != SL_NO_CELL;
             p->blocked = k;
@@ -216,7 +218,7 @@ sl_status sli_sight_space_make(sl_context *context, const sl_space *base, const 
 }
 
 void sli_sight_space_destroy(sl_context *context, sli_sight_space *s) {
-    sl_outline_destroy(context, &s->outline);
+    sli_outline_destroy(context, &s->outline);
     if (s->own) {
         sl_free(context, s->space.cells);
         sl_free(context, s->space.directed);
@@ -281,7 +283,7 @@ sl_status sli_sight_space_outline(sl_context *context, sli_sight_space *s, const
     *out = &s->outline;
     if (s->outline.sides) return SL_OK;
     const sl_status status = make_outline(context, s);
-    if (status != SL_OK) sl_outline_destroy(context, &s->outline);
+    if (status != SL_OK) sli_outline_destroy(context, &s->outline);
     for (uint32_t i = 0; i < s->portal_count && status == SL_OK; i++) link_sides(s, &s->portals[i]);
     return status;
 }

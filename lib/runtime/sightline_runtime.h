@@ -309,7 +309,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// `scratch` are as for sl_runtime_look_past. A guard sees the player by this, and may see him,
 /// somewhere in his cell, by sl_runtime_can_see_past.
 ///
-/// Exact, and as sl_sees of the library: open portals that the line touches, ends included, lead
+/// Exact, and as sli_sees of the library: open portals that the line touches, ends included, lead
 /// from a cell that the eye stands in to a cell that touches the point. So it may graze walls on
 /// either side. (A line that grazes walls on both sides leads sl_runtime_look to no cell: such a
 /// point may be seen though none of its cells is listed.) A point on a wall or on a shut door is
@@ -384,10 +384,10 @@ SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,
 /// most 1/3000 of the range. Between arcs, points are where the circle meets a wall or a line of
 /// sight.
 ///
-/// As sl_region_make of the library: no sign comes from a rounded number. Points are corners of the
-/// map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in a
-/// single direction only is not part of it. Where walls part what is around the eye, it is a point
-/// of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
+/// As sli_region_make of the library: no sign comes from a rounded number. Points are corners of
+/// the map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in
+/// a single direction only is not part of it. Where walls part what is around the eye, it is a
+/// point of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
 /// sound file does not cause. Time: the sides and portals of the cells that are seen.
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,

@@ -76,7 +76,7 @@ void sli_ground_of_cells(sl_space *space);
 
 // --- rooms (rooms.c)
 
-/// As sl_outline_make, with walls in `count` of the portals, which have both directions: rooms end
+/// As sli_outline_make, with walls in `count` of the portals, which have both directions: rooms end
 /// there. Portal i of the list is the wall space->wall_count + i. (outline.c)
 sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
                                   const uint32_t *portals, uint32_t count, sl_outline *out);

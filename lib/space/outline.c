@@ -11,6 +11,7 @@
 /// A mesh knows what each side is. In a kd-tree's space all is axial, so walls sorted by line say
 /// which of them lie on a gap. Then cells are joined to rooms (rooms.c). No coordinate is computed.
 /// Time O(n log n).
+#include "space/outline.h"
 #include "sightline/outline.h"
 
 #include "geometry/orient.h"
@@ -337,7 +338,7 @@ static sl_status keep_cells(sl_context *context, sl_outline *o) {
     return SL_OK;
 }
 
-sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out) {
+sl_status sli_outline_make(sl_context *context, const sl_space *space, sl_outline *out) {
     return sli_outline_make_walled(context, space, NULL, 0, out);
 }
 
@@ -356,14 +357,14 @@ sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
     if (status == SL_OK)
         *out = made;
     else
-        sl_outline_destroy(context, &made);
+        sli_outline_destroy(context, &made);
     sl_free(context, o.lines);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_portal);
     return status;
 }
 
-void sl_outline_destroy(sl_context *context, sl_outline *outline) {
+void sli_outline_destroy(sl_context *context, sl_outline *outline) {
     sl_free(context, outline->sides);
     sl_free(context, outline->first);
     sl_free(context, outline->first_part);

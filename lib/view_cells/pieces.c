@@ -7,6 +7,7 @@
 /// A piece that is cut has what it sees as its refine set: its halves can see nothing else. So the
 /// search from a half costs about what the whole saw, not what the map holds.
 #include "view_cells/pieces.h"
+#include "space/outline.h"
 
 #include "cell_to_cell/sectors.h"
 #include "sightline/outline.h"
@@ -182,9 +183,9 @@ static sl_status make_rooms(sl_context *context, const sl_space *space, sl_view_
         status = take_cells(context, space, &made);
     } else {
         sl_outline outline = {0};
-        status = sl_outline_make(context, space, &outline);
+        status = sli_outline_make(context, space, &outline);
         if (status == SL_OK) status = take_rooms(context, &outline, &made);
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
     }
     if (status == SL_OK) status = find_places(context, &made);
     if (status == SL_OK)

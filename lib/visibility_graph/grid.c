@@ -1,7 +1,7 @@
 /// The grid of visibility graph analysis: which points of a regular grid belong to the plan.
 ///
 /// From a seed the grid is flooded through free steps: a step leads from a point to the one above,
-/// below, left or right of it, if the segment between them meets no wall (sl_sees, open sight). So
+/// below, left or right of it, if the segment between them meets no wall (sli_sees, open sight). So
 /// points in other rooms are reached through doors only, and a point on a wall is never reached.
 /// depthmapX fills its grids in the same way, with its own rounding. Points lie at multiples of the
 /// step, as its points do.
@@ -9,7 +9,7 @@
 /// Cost: one test of sight for each step, O(points).
 #include "sightline/vga.h"
 
-#include "sightline/sees.h"
+#include "eye_to_cell/region.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -54,8 +54,8 @@ static sl_status take(flood *f, uint32_t square) {
 static sl_status step_to(flood *f, uint32_t from, uint32_t to) {
     bool free_step;
     if (sl_bits_has(f->taken, to)) return SL_OK;
-    SL_TRY(sl_sees(f->context, f->outline, point_of(f->grid, from), point_of(f->grid, to), SL_OPEN,
-                   &free_step));
+    SL_TRY(sli_sees(f->context, f->outline, point_of(f->grid, from), point_of(f->grid, to), SL_OPEN,
+                    &free_step));
     return free_step ? take(f, to) : SL_OK;
 }
 
@@ -73,7 +73,7 @@ static sl_status spread(flood *f) {
     return SL_OK;
 }
 
-/// Takes all points inside. sl_sees from a point to itself, with open sight, says whether it is on
+/// Takes all points inside. sli_sees from a point to itself, with open sight, says whether it is on
 /// a wall.
 static sl_status take_inside(flood *f) {
     const sl_space *space = f->outline->space;
@@ -84,7 +84,7 @@ static sl_status take_inside(flood *f) {
         bool is_free = false;
         if (s % 4096 == 0) SL_TRY(sl_check_cancelled(f->context));
         if (cell != SL_NO_CELL && space->cells[cell].inside)
-            SL_TRY(sl_sees(f->context, f->outline, at, at, SL_OPEN, &is_free));
+            SL_TRY(sli_sees(f->context, f->outline, at, at, SL_OPEN, &is_free));
         if (is_free) SL_TRY(take(f, s));
     }
     return SL_OK;

@@ -4,6 +4,7 @@
 // value of the line that it is held against (the one before, where the last column names none).
 #include "bench.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "effects/filtered.h"
 
 #include "baked_bytes.h"
 #include "sightline/sightline.h"
@@ -110,11 +111,11 @@ static uint64_t look_in_range(bench *b, size_t i) {
 
 /// What an eye of the library needs of a change: the space with walls in the doors.
 static uint64_t make_filtered(bench *b, size_t i) {
-    const sl_filtered_space filtered = {.shut = b->shut_flags};
+    const sli_filtered_space filtered = {.shut = b->shut_flags};
     sl_space walled;
     (void)i;
     bench_must(b->context,
-               sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
+               sli_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
     const uint64_t portals = walled.portal_count;
     sl_space_destroy(b->context, &walled);
     return portals;
@@ -122,12 +123,12 @@ static uint64_t make_filtered(bench *b, size_t i) {
 
 /// What a change costs who has no sets of doors.
 static uint64_t bake_afresh(bench *b, size_t i) {
-    const sl_filtered_space filtered = {.shut = b->shut_flags};
+    const sli_filtered_space filtered = {.shut = b->shut_flags};
     sl_space walled;
     sl_visibility seen = {0};
     (void)i;
     bench_must(b->context,
-               sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
+               sli_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
     see(b, &walled, NULL, &seen);
     const uint64_t pairs = seen.account.pairs;
     sl_visibility_destroy(b->context, &seen);

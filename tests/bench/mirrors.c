@@ -6,7 +6,8 @@
 //                                    rounded
 #include "bench.h"
 #include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/room_mirrors.h"
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 
 #include "sightline/draw.h"
 #include "sightline/io.h"
@@ -32,7 +33,7 @@ typedef struct scene {
     sl_map map;
     sl_space space;
     sl_outline outline;
-    sl_room_mirrors mirrors;
+    sli_room_mirrors mirrors;
     sl_point eyes[EYES];
 } scene;
 
@@ -43,7 +44,7 @@ static void read_scene(scene *s, const char *path) {
     bench_must(s->context, sl_map_clean(s->context, &s->map, NULL, NULL));
     bench_must(s->context,
                sl_subdivision_for(&s->map)->subdivide(s->context, &s->map, NULL, &s->space));
-    bench_must(s->context, sl_outline_make(s->context, &s->space, &s->outline));
+    bench_must(s->context, sli_outline_make(s->context, &s->space, &s->outline));
     bench_must(s->context, sli_room_mirrors_make(s->context, &s->outline, &s->map, &s->mirrors));
     sl_random random = {7};
     const sl_box *b = &s->space.bounds;
@@ -111,8 +112,8 @@ static figure see_regions(const scene *s, uint32_t depth) {
     figure out = {0};
     for (int i = 0; i < EYES; i++) {
         const sl_view view = sl_view_all_round(s->eyes[i]);
-        bench_must(s->context, sl_mirrored_region_make(s->context, &s->mirrors, &view, s->map.range,
-                                                       depth, &region));
+        bench_must(s->context, sli_mirrored_region_make(s->context, &s->mirrors, &view,
+                                                        s->map.range, depth, &region));
         out.shown += sl_region_area(&region.direct) + sl_mirrored_area(&region);
         for (size_t k = 0; k < region.part_count; k++) out.rounded += region.parts[k].rounded;
     }
@@ -202,7 +203,7 @@ int main(int argc, char **argv) {
     }
     draw(&s, figures, argv[2]);
     sli_room_mirrors_destroy(s.context, &s.mirrors);
-    sl_outline_destroy(s.context, &s.outline);
+    sli_outline_destroy(s.context, &s.outline);
     sl_space_destroy(s.context, &s.space);
     sl_map_destroy(s.context, &s.map);
     sl_context_destroy(s.context);

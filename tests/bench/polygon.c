@@ -6,6 +6,9 @@
 // nanoseconds of the library and of the runtime, their ratio. Each batch of eyes is timed three
 // times by both, in turn, and the least counts. Exits with 1 if polygons differ.
 #include "bench.h"
+#include "effects/filtered.h"
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 
 #include "polygon_same.h"
 
@@ -74,7 +77,7 @@ static void fill_eyes(bench *b, bool special) {
 
 static void ask_library(bench *b, sl_point eye) {
     const sl_view view = sl_view_all_round(eye);
-    bench_must(b->context, sl_region_make(b->context, &b->outline, &view, b->range, &b->region));
+    bench_must(b->context, sli_region_make(b->context, &b->outline, &view, b->range, &b->region));
 }
 
 static uint32_t ask_header(bench *b, sl_point eye) {
@@ -140,10 +143,10 @@ static void open_file(bench *b, const char *name) {
     if (!shut || !b->shut || !b->scratch) bench_fail("out of memory");
     for (uint32_t i = 0; i < doors; i++)
         b->shut[i] = shut[i] = !sl_runtime_door_open(&b->runtime, i);
-    const sl_filtered_space filtered = {.shut = shut};
+    const sli_filtered_space filtered = {.shut = shut};
     bench_must(b->context,
-               sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &b->walled));
-    bench_must(b->context, sl_outline_make(b->context, &b->walled, &b->outline));
+               sli_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &b->walled));
+    bench_must(b->context, sli_outline_make(b->context, &b->walled, &b->outline));
     b->range = b->baked.map.range;
     b->random = (sl_random){7};
     free(shut);

@@ -5,8 +5,9 @@
 //                          portals passed, nanoseconds for two points, and the share that see each
 //                          other
 #include "bench.h"
+#include "space/outline.h"
 
-#include "sightline/sees.h"
+#include "eye_to_cell/region.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -31,7 +32,7 @@ static void measure(sl_context *context, const char *path, const sl_space *space
     static sl_point eyes[QUERIES];
     sl_outline outline = {0};
     sl_region region = {0};
-    bench_must(context, sl_outline_make(context, space, &outline));
+    bench_must(context, sli_outline_make(context, space, &outline));
     fill_eyes(space, eyes);
     double start = bench_seconds();
     uint64_t sum = 0;
@@ -41,7 +42,7 @@ static void measure(sl_context *context, const char *path, const sl_space *space
     start = bench_seconds();
     for (int i = 0; i < QUERIES; i++) {
         const sl_view view = sl_view_all_round(eyes[i]);
-        bench_must(context, sl_region_make(context, &outline, &view, 0, &region));
+        bench_must(context, sli_region_make(context, &outline, &view, 0, &region));
         points += region.count;
         passed += region.portals_passed;
     }
@@ -51,7 +52,7 @@ static void measure(sl_context *context, const char *path, const sl_space *space
     for (int i = 0; i < QUERIES; i++) {
         bool sees = false;
         bench_must(context,
-                   sl_sees(context, &outline, eyes[i], eyes[(i + 1) % QUERIES], SL_CLOSED, &sees));
+                   sli_sees(context, &outline, eyes[i], eyes[(i + 1) % QUERIES], SL_CLOSED, &sees));
         seen += sees;
     }
     const double pairs = bench_seconds() - start;
@@ -64,7 +65,7 @@ static void measure(sl_context *context, const char *path, const sl_space *space
            1e9 * whole / QUERIES, sum ? 1e9 * locate / QUERIES : 0, (double)points / QUERIES,
            (double)passed / QUERIES, 1e9 * pairs / QUERIES, (double)seen / QUERIES);
     sl_region_destroy(context, &region);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
 }
 
 int main(int argc, char **argv) {

@@ -4,6 +4,7 @@
 //       goes into SECONDS: the time that another program takes for the part (0: none).
 //       PART: this part alone.
 #include "bench.h"
+#include "space/outline.h"
 
 #include "sightline/sightline.h"
 #include "sightline/support.h"
@@ -42,7 +43,7 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     sl_outline outline = {0};
     sl_vga_grid grid = {0};
     sl_vga_graph graph = {0};
-    bench_must(context, sl_outline_make(context, space, &outline));
+    bench_must(context, sli_outline_make(context, space, &outline));
     double start = bench_seconds();
     bench_must(context, sl_vga_grid_make(context, &outline, step, NULL, 0, &grid));
     bench_must(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
@@ -66,7 +67,7 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     sl_free(context, measures);
     sl_vga_graph_destroy(context, &graph);
     sl_vga_grid_destroy(context, &grid);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
 }
 
 int main(int argc, char **argv) {

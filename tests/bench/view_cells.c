@@ -13,6 +13,7 @@
 //          chart=FILE.png, drawn beside the table
 // CSV on stdout. Seconds are of this process's processor time.
 #include "bench.h"
+#include "space/outline.h"
 
 #include "sightline/draw.h"
 #include "sightline/io.h"
@@ -83,7 +84,7 @@ static void read_map(bench *b, const sl_import_options *options, const sl_point 
     if (b->turn != 0) turn_map(b);
     bench_must(b->context,
                sl_subdivision_for(&b->map)->subdivide(b->context, &b->map, NULL, &b->space));
-    bench_must(b->context, sl_outline_make(b->context, &b->space, &b->outline));
+    bench_must(b->context, sli_outline_make(b->context, &b->space, &b->outline));
     bench_must(b->context, sl_view_places_inside(b->context, &b->space, &b->places));
     b->scene = (sl_view_scene){&b->space, b->objects, sl_render_cost_default(), &b->places};
 }
@@ -408,7 +409,7 @@ int main(int argc, char **argv) {
     sl_view_segments_destroy(b.context, &b.segments);
     sl_view_segments_destroy(b.context, &b.others);
     sl_view_places_destroy(b.context, &b.places);
-    sl_outline_destroy(b.context, &b.outline);
+    sli_outline_destroy(b.context, &b.outline);
     sl_space_destroy(b.context, &b.space);
     sl_map_destroy(b.context, &b.map);
     sl_context_destroy(b.context);

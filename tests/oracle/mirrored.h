@@ -22,8 +22,8 @@ typedef struct oracle_mirrored {
 } oracle_mirrored;
 
 /// Of a space with cells that are boxes, whose directed portals say where glass is dark
-/// (sl_filtered_space_make); the eye is within the bounds. Mirrors that lie on one another count as
-/// the first of them.
+/// (sli_filtered_space_make); the eye is within the bounds. Mirrors that lie on one another count
+/// as the first of them.
 oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, const sl_view *view,
                                    double range, uint32_t depth);
 void oracle_mirrored_free(oracle_mirrored *o);

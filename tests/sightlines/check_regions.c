@@ -8,7 +8,9 @@
 // Prints a line of CSV with its heading: regions compared, the largest difference of their areas as
 // a share of the larger one, and how many differ by more than 1e-9. Exit status: 0 none does, 1
 // some do (the first few are named on stderr), 2 wrong arguments or files.
+#include "eye_to_cell/region.h"
 #include "oracle/blockers.h"
+#include "space/outline.h"
 
 #include "sightline/sightline.h"
 #include "sightline/support.h"
@@ -174,7 +176,7 @@ static void compare(check *c) {
     const sl_point eye = {b.min.x + sl_random_unit(&c->random) * (b.max.x - b.min.x),
                           b.min.y + sl_random_unit(&c->random) * (b.max.y - b.min.y)};
     const sl_view view = sl_view_all_round(eye);
-    must(c, sl_region_make(c->context, &c->outline, &view, 0, &c->region));
+    must(c, sli_region_make(c->context, &c->outline, &view, 0, &c->region));
     c->sweep.eye = eye;
     const double area = sl_region_area(&c->region), due = area_by_sweep(&c->sweep);
     const double off = fabs(area - due) / fmax(area, due);
@@ -202,7 +204,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     must(&c, sl_baked_read(c.context, argv[optind], &c.baked));
-    must(&c, sl_outline_make(c.context, &c.baked.space, &c.outline));
+    must(&c, sli_outline_make(c.context, &c.baked.space, &c.outline));
     prepare(&c);
     for (uint64_t i = 0; i < c.count; i++) compare(&c);
     printf("file,regions,worst,wrong\n%s,%llu,%.3g,%llu\n", argv[optind],
@@ -212,7 +214,7 @@ int main(int argc, char **argv) {
     free(c.sweep.active);
     free(c.sweep.place);
     sl_region_destroy(c.context, &c.region);
-    sl_outline_destroy(c.context, &c.outline);
+    sli_outline_destroy(c.context, &c.outline);
     sl_baked_destroy(c.context, &c.baked);
     sl_context_destroy(c.context);
     return c.wrong ? 1 : 0;

@@ -1,5 +1,6 @@
 /// The all-line map: turning or mirroring a plan turns or mirrors its lines, and strips narrower
 /// than any tolerance have lines too.
+#include "space/outline.h"
 #include "testing.h"
 
 #include "oracle/random_map.h"
@@ -37,9 +38,9 @@ static void find_lines(sl_context *context, const sl_map *map, unsigned threads,
     sl_space space = {0};
     sl_outline outline = {0};
     assert_ok(context, sl_subdivision_for(map)->subdivide(context, map, NULL, &space));
-    assert_ok(context, sl_outline_make(context, &space, &outline));
+    assert_ok(context, sli_outline_make(context, &space, &outline));
     assert_ok(context, sl_axial_all_lines(context, &outline, threads, lines));
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
 }
 

@@ -1,5 +1,6 @@
 // Each stage of a bake asks again and again whether to go on, ends when it is told to stop, and
 // leaves its result alone.
+#include "space/outline.h"
 #include "testing.h"
 
 #include "sightline/bake.h"
@@ -73,10 +74,10 @@ static sl_status check(sl_context *context, work *w) {
 
 static sl_status outline(sl_context *context, work *w) {
     sl_outline made = {0};
-    const sl_status status = sl_outline_make(context, &w->space, &made);
+    const sl_status status = sli_outline_make(context, &w->space, &made);
     assert_true((status == SL_OK) == (made.room_count > 0));
     if (status != SL_OK) return status;
-    sl_outline_destroy(context, &w->outline);
+    sli_outline_destroy(context, &w->outline);
     w->outline = made;
     return SL_OK;
 }
@@ -193,14 +194,14 @@ static void run_all(double turned) {
             assert_int_equal(sl_view_places_inside(context, &w.space, &w.places), SL_OK);
         run_stage(context, &p, &stages[i], &w);
         // The outline is that of the space as it is now.
-        if (stages[i].run == subdivide) sl_outline_destroy(context, &w.outline);
+        if (stages[i].run == subdivide) sli_outline_destroy(context, &w.outline);
     }
     sl_view_hierarchy_destroy(context, &w.merged);
     sl_view_sets_destroy(context, &w.sets);
     sl_view_tree_destroy(context, &w.tree);
     sl_view_segments_destroy(context, &w.segments);
     sl_view_places_destroy(context, &w.places);
-    sl_outline_destroy(context, &w.outline);
+    sli_outline_destroy(context, &w.outline);
     sl_space_destroy(context, &w.space);
     sl_map_destroy(context, &w.clean);
     sl_map_destroy(context, &w.map);

@@ -2,6 +2,7 @@
 /// shut, by the library and by the runtime for games.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "baked_bytes.h"
+#include "effects/filtered.h"
 #include "runtime_maps.h"
 
 #include "cell_to_cell/door_table.h"
@@ -36,11 +37,11 @@ static void compare(sl_context *context, const baked_file *f, const bool *shut) 
     const sl_visibility *v = &f->baked.visibility;
     sl_space walled;
     sl_visibility fresh = {0};
-    const sl_filtered_space filtered = {.shut = shut};
+    const sli_filtered_space filtered = {.shut = shut};
     sl_see_options options = sl_see_options_default();
     unsigned char bytes[DOORS];
     for (int i = 0; i < DOORS; i++) bytes[i] = shut[i];
-    assert_ok(context, sl_filtered_space_make(context, space, &filtered, NULL, &walled));
+    assert_ok(context, sli_filtered_space_make(context, space, &filtered, NULL, &walled));
     assert_ok(context, testing_method("sweep")->see(context, &walled, &options, &fresh));
     for (uint32_t a = 0; a < space->cell_count; a++)
         for (uint32_t b = 0; b < space->cell_count; b++) {
@@ -135,9 +136,9 @@ static void doors_in_one_place_shut_it_each(void **state) {
     assert_int_equal(map.door_count, 2);
     for (int shut = 0; shut < 4; shut++) {
         const bool doors[2] = {shut & 1, shut & 2};
-        const sl_filtered_space filtered = {.shut = doors};
+        const sli_filtered_space filtered = {.shut = doors};
         sl_space walled;
-        assert_ok(context, sl_filtered_space_make(context, &space, &filtered, NULL, &walled));
+        assert_ok(context, sli_filtered_space_make(context, &space, &filtered, NULL, &walled));
         assert_int_equal(space.portal_count - walled.portal_count, shut ? 1 : 0);
         sl_space_destroy(context, &walled);
     }
@@ -158,8 +159,8 @@ static void shut_doors_are_walls_of_sides(void **state) {
                   &map, &space);
     assert_non_null(space.neighbour);
     const bool shut = true;
-    const sl_filtered_space filtered = {.shut = &shut};
-    assert_ok(context, sl_filtered_space_make(context, &space, &filtered, NULL, &walled));
+    const sli_filtered_space filtered = {.shut = &shut};
+    assert_ok(context, sli_filtered_space_make(context, &space, &filtered, NULL, &walled));
     assert_ok(context, sl_space_check(context, &walled));
     uint32_t left = 0, right = 0;
     for (uint32_t i = 0; i < space.vertex_count; i++) {

@@ -1,6 +1,7 @@
 /// Effects against an oracle that knows them, on random maps with all their combinations; doors
 /// against bakes with walls in those that are shut.
 #include "cell_to_cell/pvs_rows.h"
+#include "effects/filtered.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
@@ -211,11 +212,11 @@ static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
 /// With some doors shut the sets say what a search past walls in their places finds.
 static void compare_shut(const trial *t, const sl_visibility *by_dfs, const bool *shut) {
     const uint32_t n = t->space.cell_count;
-    const sl_filtered_space filtered = {.shut = shut, .one_way = t->map.oneway_count > 0};
+    const sli_filtered_space filtered = {.shut = shut, .one_way = t->map.oneway_count > 0};
     sl_plan plan = t->plan;
     sl_space past;
     sl_visibility fresh = {0};
-    assert_ok(t->context, sl_filtered_space_make(t->context, &t->space, &filtered, NULL, &past));
+    assert_ok(t->context, sli_filtered_space_make(t->context, &t->space, &filtered, NULL, &past));
     plan.effects &= ~(unsigned)SL_EFFECT_DOOR;
     see(t->context, &past, &plan, "dfs", by_dfs->sight, &fresh);
     for (uint32_t a = 0; a < n; a++)
@@ -256,8 +257,8 @@ static void effects_among_oblique_walls(void **state) {
 static void compare_with_walls(const trial *t, const sl_visibility *all_open, const bool *shut) {
     sl_space walled;
     sl_visibility fresh = {0};
-    const sl_filtered_space filtered = {.shut = shut};
-    assert_ok(t->context, sl_filtered_space_make(t->context, &t->space, &filtered, NULL, &walled));
+    const sli_filtered_space filtered = {.shut = shut};
+    assert_ok(t->context, sli_filtered_space_make(t->context, &t->space, &filtered, NULL, &walled));
     assert_ok(t->context, sl_space_check(t->context, &walled));
     see(t->context, &walled, NULL, "sweep", all_open->sight, &fresh);
     for (uint32_t a = 0; a < t->space.cell_count; a++)

@@ -1,6 +1,8 @@
 /// What one viewpoint sees among oblique walls, by all that tells of it, beside sightlines that
 /// touch no wall: none may be lost, and the answers go together.
 #include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
@@ -34,7 +36,7 @@ static bool begin(trial *t) {
     assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     if (!t->map.wall_count) return false;
     assert_ok(t->context, sli_subdivide_mesh(t->context, &t->map, &t->space));
-    assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
+    assert_ok(t->context, sli_outline_make(t->context, &t->space, &t->outline));
     sl_see_options options = sl_see_options_default();
     options.sight = t->sight;
     options.solver = sl_funnel();
@@ -46,7 +48,7 @@ static bool begin(trial *t) {
 
 static void end(trial *t) {
     sl_visibility_destroy(t->context, &t->seen);
-    sl_outline_destroy(t->context, &t->outline);
+    sli_outline_destroy(t->context, &t->outline);
     sl_space_destroy(t->context, &t->space);
     sl_map_destroy(t->context, &t->map);
 }
@@ -87,7 +89,7 @@ static void cull(trial *t, const sl_view *view, uint64_t *cells) {
 static void check_ray(const trial *t, sl_point eye, sl_point point) {
     sl_hit hit;
     if (t->seed % OBLIQUE_GRIDS >= OBLIQUE_FAR || (eye.x == point.x && eye.y == point.y)) return;
-    assert_ok(t->context, sl_ray_cast(t->context, &t->outline, eye, point, &hit));
+    assert_ok(t->context, sli_ray_cast(t->context, &t->outline, eye, point, &hit));
     const double there = hypot(point.x - eye.x, point.y - eye.y);
     const double scale = fmax(fmax(fabs(eye.x), fabs(eye.y)), fmax(fabs(point.x), fabs(point.y)));
     const double reach = hypot(hit.point.x - eye.x, hit.point.y - eye.y);

@@ -1,6 +1,9 @@
 /// Meshes of random maps, oblique, degenerate, turned and moved: cells tile the bounds, exact
 /// methods agree, no free sightline is lost, and what is set among walls is as tight as they are.
+#include "effects/filtered.h"
 #include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 #include "space/subdivide.h"
 #include "unit/grid_walls.h"
 #include "unit/mesh_scene.h"
@@ -297,8 +300,8 @@ static uint64_t check_twins(const twins *t, uint64_t seed) {
     uint32_t *parts[2] = {parts_of(t->one), parts_of(t->other)};
     sl_random random = {seed};
     uint64_t seen_count = 0;
-    assert_ok(t->context, sl_outline_make(t->context, t->one, &outlines[0]));
-    assert_ok(t->context, sl_outline_make(t->context, t->other, &outlines[1]));
+    assert_ok(t->context, sli_outline_make(t->context, t->one, &outlines[0]));
+    assert_ok(t->context, sli_outline_make(t->context, t->other, &outlines[1]));
     for (int i = 0; i < 60; i++) {
         const sl_point p = oblique_random_point(&random, t->walls, t->one->bounds);
         const sl_point q = oblique_random_point(&random, t->walls, t->one->bounds);
@@ -307,7 +310,7 @@ static uint64_t check_twins(const twins *t, uint64_t seed) {
         if (a[0] == SL_NO_CELL || b[0] == SL_NO_CELL || !is_plain(t->walls, p, q)) continue;
         bool seen[2];
         for (int k = 0; k < 2; k++)
-            assert_ok(t->context, sl_sees(t->context, &outlines[k], p, q, SL_CLOSED, &seen[k]));
+            assert_ok(t->context, sli_sees(t->context, &outlines[k], p, q, SL_CLOSED, &seen[k]));
         const bool is_free = oblique_is_free(t->walls, p, q);
         if (seen[0] != is_free || seen[1] != is_free)
             fail_msg("%s: %a %a sees %a %a: %d, %d, by walls %d", t->name, p.x, p.y, q.x, q.y,
@@ -318,7 +321,7 @@ static uint64_t check_twins(const twins *t, uint64_t seed) {
         seen_count += is_free;
     }
     for (int k = 0; k < 2; k++) {
-        sl_outline_destroy(t->context, &outlines[k]);
+        sli_outline_destroy(t->context, &outlines[k]);
         free(parts[k]);
     }
     return seen_count;
@@ -354,14 +357,14 @@ static void wall_up(const scene *s, const sl_point *eye, sl_map *out) {
 }
 
 /// A space past doors that are shut, or glass for an eye, beside that of walls in their place.
-static uint64_t check_walled(const scene *s, const sl_filtered_space *filtered, uint64_t seed) {
+static uint64_t check_walled(const scene *s, const sli_filtered_space *filtered, uint64_t seed) {
     sl_map map = {0};
     sl_space walled = {0}, past = {0};
     char why[ORACLE_WHY];
     wall_up(s, filtered->eye, &map);
     assert_ok(s->context, sl_map_clean(s->context, &map, NULL, NULL));
     assert_ok(s->context, sli_subdivide_mesh(s->context, &map, &walled));
-    assert_ok(s->context, sl_filtered_space_make(s->context, &s->space, filtered, NULL, &past));
+    assert_ok(s->context, sli_filtered_space_make(s->context, &s->space, filtered, NULL, &past));
     assert_ok(s->context, sl_space_check(s->context, &past));
     if (!oracle_is_tiling(&past, why)) fail_msg("%s, past doors: %s", s->name, why);
     const twins t = {s->context, s->name, &past, &walled, &map};
@@ -375,7 +378,7 @@ static uint64_t check_walled(const scene *s, const sl_filtered_space *filtered, 
 static void shut_doors_are_as_tight_as_walls(void **state) {
     (void)state;
     const bool shut[3] = {true, true, true};
-    const sl_filtered_space all_shut = {.shut = shut}, all_open = {0};
+    const sli_filtered_space all_shut = {.shut = shut}, all_open = {0};
     const uint64_t seeds = testing_seeds(12);
     uint64_t seen = 0;
     for (int grid = 0; grid < OBLIQUE_GRIDS; grid++)
@@ -390,7 +393,7 @@ static void shut_doors_are_as_tight_as_walls(void **state) {
                 seen += check_walled(&s, &all_shut, seed);
                 sl_space past;
                 assert_ok(s.context,
-                          sl_filtered_space_make(s.context, &s.space, &all_open, NULL, &past));
+                          sli_filtered_space_make(s.context, &s.space, &all_open, NULL, &past));
                 assert_int_equal(past.portal_count, s.space.portal_count);
                 sl_space_destroy(s.context, &past);
             }
@@ -418,7 +421,7 @@ static void dark_glass_is_as_tight_as_walls(void **state) {
             if (scene_make(&s, -1)) {
                 scene_prove(&s);
                 const sl_point eye = oblique_random_point(&random, &s.map, s.space.bounds);
-                const sl_filtered_space filtered = {.eye = &eye};
+                const sli_filtered_space filtered = {.eye = &eye};
                 bool on_glass = false;
                 for (size_t i = 0; i < s.map.oneway_count; i++) {
                     const sl_segment glass = s.map.oneways[i].segment;
@@ -455,9 +458,9 @@ static void a_door_beside_an_oblique_wall(void **state) {
                             "wall 5 1 3 4\n");
     const sl_point eye = {6, 2.5};
     const bool shut = true;
-    const sl_filtered_space filtered = {.shut = &shut};
+    const sli_filtered_space filtered = {.shut = &shut};
     sl_space past;
-    assert_ok(s.context, sl_filtered_space_make(s.context, &s.space, &filtered, NULL, &past));
+    assert_ok(s.context, sli_filtered_space_make(s.context, &s.space, &filtered, NULL, &past));
     sl_visibility seen = scene_see(&s, &past, "sweep", SL_CLOSED);
     for (int i = 0; i < 40; i++) {
         const sl_point behind = {8.05 + 0.09 * i, 0.1 + 0.12 * i};

@@ -2,16 +2,18 @@
 /// axial maps with all combinations of effects, on a grid where images are doubles and on one where
 /// they are not. SIGHTLINE_SEEDS in the environment: how many maps (96 by default).
 #include "cell_to_cell/pvs_rows.h"
+#include "effects/filtered.h"
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
-#include "eye_to_cell/room_mirrors.h"
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
 #include "oracle/mirrored.h"
 #include "oracle/random_effects.h"
 
-#include "sightline/sees.h"
+#include "eye_to_cell/region.h"
 
 #include <math.h>
 
@@ -46,14 +48,14 @@ static void begin(trial *t, uint64_t seed) {
     assert_ok(t->context, sli_subdivide_kd(t->context, &t->map, &options, &t->whole));
     bool *shut = t->is_shut;
     for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
-    sl_filtered_space filtered = {.shut = shut, .one_way = true};
+    sli_filtered_space filtered = {.shut = shut, .one_way = true};
     assert_ok(t->context,
-              sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->space));
+              sli_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->space));
     filtered.dark_walls = true;
     assert_ok(t->context,
-              sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->walled));
-    const sl_filtered_space doors = {.shut = shut};
-    assert_ok(t->context, sl_filtered_space_make(t->context, &t->whole, &doors, NULL, &t->shut));
+              sli_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->walled));
+    const sli_filtered_space doors = {.shut = shut};
+    assert_ok(t->context, sli_filtered_space_make(t->context, &t->whole, &doors, NULL, &t->shut));
     assert_true(t->space.cell_count <= CELLS_MOST);
 }
 
@@ -166,15 +168,15 @@ static void check_part(const trial *t, const sl_view *view, const sl_mirror_part
 static void ask_region(const trial *t, const sl_space *space, const sl_view *view,
                        const oracle_mirrored *truth) {
     sl_outline outline;
-    sl_room_mirrors mirrors;
+    sli_room_mirrors mirrors;
     sl_mirrored_region region = {0};
     const size_t chains = oracle_chains(&t->map, t->depth);
     double *areas = calloc(chains, sizeof *areas);
     assert_non_null(areas);
-    assert_ok(t->context, sl_outline_make(t->context, space, &outline));
+    assert_ok(t->context, sli_outline_make(t->context, space, &outline));
     assert_ok(t->context, sli_room_mirrors_make(t->context, &outline, &t->map, &mirrors));
-    assert_ok(t->context,
-              sl_mirrored_region_make(t->context, &mirrors, view, t->map.range, t->depth, &region));
+    assert_ok(t->context, sli_mirrored_region_make(t->context, &mirrors, view, t->map.range,
+                                                   t->depth, &region));
     areas[0] = sl_region_area(&region.direct);
     for (uint32_t i = 0; i < region.part_count; i++) {
         areas[chain_of(t, &region, i)] += sl_region_area(&region.parts[i].region);
@@ -182,7 +184,7 @@ static void ask_region(const trial *t, const sl_space *space, const sl_view *vie
         for (size_t k = 0; k < region.parts[i].region.count; k++) {
             const sl_point image = region.parts[i].image[k];
             const sl_point placed =
-                sl_mirror_part_place(&mirrors, &region, i, region.parts[i].region.points[k]);
+                sl_mirror_part_place(mirrors.map, &region, i, region.parts[i].region.points[k]);
             if (placed.x != image.x || placed.y != image.y)
                 complain(t, view, "a corner of a part is not placed where its image is");
         }
@@ -196,7 +198,7 @@ static void ask_region(const trial *t, const sl_space *space, const sl_view *vie
     }
     sl_mirrored_region_destroy(t->context, &region);
     sli_room_mirrors_destroy(t->context, &mirrors);
-    sl_outline_destroy(t->context, &outline);
+    sli_outline_destroy(t->context, &outline);
     free(areas);
 }
 
@@ -258,18 +260,18 @@ static void past_glass(void **state) {
         t.depth = 0;
         for (int i = 0; i < EYES; i++) {
             const sl_view view = random_view(&t);
-            const sl_filtered_space filtered = {.eye = &view.eye};
+            const sli_filtered_space filtered = {.eye = &view.eye};
             const sl_visibility bare = {.sight = SL_OPEN};
             uint64_t cells[CELLS_MOST / 64 + 1];
             sl_eye_account account;
             sli_eye_search *search;
             trial past = t, all = t;
             // Of what the glass itself says, and of its being a wall.
-            const sl_filtered_space one_way = {.one_way = true};
+            const sli_filtered_space one_way = {.one_way = true};
             assert_ok(t.context,
-                      sl_filtered_space_make(t.context, &t.whole, &one_way, NULL, &all.space));
+                      sli_filtered_space_make(t.context, &t.whole, &one_way, NULL, &all.space));
             assert_ok(t.context,
-                      sl_filtered_space_make(t.context, &t.whole, &filtered, NULL, &past.space));
+                      sli_filtered_space_make(t.context, &t.whole, &filtered, NULL, &past.space));
             assert_ok(t.context, sl_space_check(t.context, &past.space));
             oracle_mirrored truth = oracle_mirrored_of(&all.space, &t.map, &view, t.map.range, 0);
             if (!truth.on_wall) ask_region(&past, &past.space, &view, &truth);
@@ -334,13 +336,13 @@ static void compare_past(const trial *t, sli_moving *moving, const sl_view *view
 static oracle_mirrored ask_past(const trial *t, const sl_moving_box *boxes, size_t count,
                                 const sl_view *view) {
     const sl_visibility bare = {.sight = SL_OPEN};
-    const sl_filtered_space one_way = {.one_way = true};
+    const sli_filtered_space one_way = {.one_way = true};
     sli_moving *moving;
     sl_space dark;
     assert_ok(t->context, sli_moving_create(t->context, &t->shut, &bare, &moving));
     assert_ok(t->context, sli_moving_set_boxes(t->context, moving, boxes, count));
-    assert_ok(t->context, sl_filtered_space_make(t->context, sli_moving_space(moving, NULL),
-                                                 &one_way, NULL, &dark));
+    assert_ok(t->context, sli_filtered_space_make(t->context, sli_moving_space(moving, NULL),
+                                                  &one_way, NULL, &dark));
     oracle_mirrored truth = oracle_mirrored_of(&dark, &t->map, view, t->map.range, t->depth);
     sl_space_destroy(t->context, &dark);
     sli_moving_destroy(t->context, moving);

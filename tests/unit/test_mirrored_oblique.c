@@ -4,10 +4,12 @@
 /// move, and boxes on the way are found. Against single rays in rationals, on random maps with
 /// walls, mirrors and one-way glass in any direction. SIGHTLINE_SEEDS in the environment: how many
 /// maps (60 by default).
+#include "effects/filtered.h"
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
-#include "eye_to_cell/room_mirrors.h"
+#include "eye_to_cell/region.h"
 #include "mirror_rays.h"
+#include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
@@ -28,7 +30,7 @@ typedef struct trial {
     sl_space space;
     sl_space dark; ///< with a wall on the dark side of glass
     sl_outline outline;
-    sl_room_mirrors mirrors;
+    sli_room_mirrors mirrors;
     sl_visibility baked;
     double size;
     sl_moving_box boxes[BOXES];
@@ -100,9 +102,9 @@ static void begin(trial *t, uint64_t seed) {
     add_glass(t, grids[seed % 3]);
     assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     assert_ok(t->context, sli_subdivide_mesh(t->context, &t->map, &t->space));
-    const sl_filtered_space one_way = {.one_way = true, .dark_walls = true};
-    assert_ok(t->context, sl_filtered_space_make(t->context, &t->space, &one_way, NULL, &t->dark));
-    assert_ok(t->context, sl_outline_make(t->context, &t->dark, &t->outline));
+    const sli_filtered_space one_way = {.one_way = true, .dark_walls = true};
+    assert_ok(t->context, sli_filtered_space_make(t->context, &t->space, &one_way, NULL, &t->dark));
+    assert_ok(t->context, sli_outline_make(t->context, &t->dark, &t->outline));
     assert_ok(t->context, sli_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
     bake(t);
 }
@@ -110,7 +112,7 @@ static void begin(trial *t, uint64_t seed) {
 static void end(trial *t) {
     sl_visibility_destroy(t->context, &t->baked);
     sli_room_mirrors_destroy(t->context, &t->mirrors);
-    sl_outline_destroy(t->context, &t->outline);
+    sli_outline_destroy(t->context, &t->outline);
     sl_space_destroy(t->context, &t->space);
     sl_space_destroy(t->context, &t->dark);
     sl_map_destroy(t->context, &t->map);
@@ -192,7 +194,7 @@ static void check_eye(trial *t, sl_point eye) {
     assert_ok(t->context, sli_eye_search_add_mirrors(t->context, search, &t->map, DEPTH));
     assert_ok(t->context, exact->mirrored(t->context, search, &view, cells, &account));
     assert_ok(t->context,
-              sl_mirrored_region_make(t->context, &t->mirrors, &view, 0, DEPTH, &region));
+              sli_mirrored_region_make(t->context, &t->mirrors, &view, 0, DEPTH, &region));
     check_rays(t, eye, cells, &region);
     for (uint32_t i = 0; i < region.part_count; i++) check_part(t, eye, &region, i);
     sl_mirrored_region_destroy(t->context, &region);
@@ -277,7 +279,7 @@ static void check_boxes(trial *t, sl_point eye) {
     sli_moving *moving;
     sl_eye_account account;
     const sl_outline *outline;
-    sl_room_mirrors mirrors = {0};
+    sli_room_mirrors mirrors = {0};
     sl_mirrored_region region = {0};
     t->box_count = BOXES;
     for (size_t i = 0; i < BOXES; i++)
@@ -290,7 +292,7 @@ static void check_boxes(trial *t, sl_point eye) {
               sli_moving_look_mirrored(t->context, moving, &view, cells, t->seen, &account));
     assert_ok(t->context, sli_moving_outline(t->context, moving, &outline));
     assert_ok(t->context, sli_room_mirrors_make(t->context, outline, &map, &mirrors));
-    assert_ok(t->context, sl_mirrored_region_make(t->context, &mirrors, &view, 0, DEPTH, &region));
+    assert_ok(t->context, sli_mirrored_region_make(t->context, &mirrors, &view, 0, DEPTH, &region));
     add_box_walls(t, &map);
     check_rays(t, eye, cells, &region);
     for (uint32_t i = 0; i < region.part_count; i++) check_part(t, eye, &region, i);

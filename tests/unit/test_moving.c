@@ -3,6 +3,7 @@
 /// SIGHTLINE_SEEDS in the environment: how many maps (16 by default).
 #include "eye_to_cell/cone.h"
 #include "eye_to_cell/moving.h"
+#include "eye_to_cell/region.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
@@ -206,7 +207,7 @@ static void compare_region(trial *t, const sl_view *view) {
     sl_region region = {0};
     const oracle_isovist isovist = oracle_isovist_of(&t->fresh, view);
     assert_ok(t->context, sli_moving_outline(t->context, t->moving, &outline));
-    assert_ok(t->context, sl_region_make(t->context, outline, view, 0, &region));
+    assert_ok(t->context, sli_region_make(t->context, outline, view, 0, &region));
     const double area = sl_region_area(&region);
     if (!(fabs(area - isovist.area) <= 1e-9 * isovist.area)) {
         print_error("area %.17g, not %.17g\n", area, isovist.area);
@@ -419,7 +420,7 @@ static void from_within_a_box(void **state) {
     sl_region region = {0};
     const sl_view view = sl_view_all_round((sl_point){2, 5});
     assert_ok(r.context, sli_moving_outline(r.context, r.moving, &outline));
-    assert_ok(r.context, sl_region_make(r.context, outline, &view, 0, &region));
+    assert_ok(r.context, sli_region_make(r.context, outline, &view, 0, &region));
     assert_true(fabs(sl_region_area(&region) - 3.5) < 1e-12);
     sl_region_destroy(r.context, &region);
     leave(&r);

@@ -7,6 +7,7 @@
 /// what is free or hidden between two points, by rationals, so must the space. SIGHTLINE_SEEDS in
 /// the environment: how many maps (50 by default).
 #include "eye_to_cell/moving.h"
+#include "eye_to_cell/region.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
@@ -262,8 +263,8 @@ static void judge_point(trial *t, sl_point eye, sl_point p, const sl_outline *ou
     const sl_segment way = {eye, p};
     bool sees[2] = {false, false};
     if (ground == SL_NO_CELL) return;
-    assert_ok(t->context, sl_sees(t->context, outline, eye, p, SL_CLOSED, &sees[0]));
-    assert_ok(t->context, sl_sees(t->context, outline, eye, p, SL_OPEN, &sees[1]));
+    assert_ok(t->context, sli_sees(t->context, outline, eye, p, SL_CLOSED, &sees[0]));
+    assert_ok(t->context, sli_sees(t->context, outline, eye, p, SL_OPEN, &sees[1]));
     if (is_hidden(&t->straight, eye, p) && is_hidden(&t->bent, eye, p)) {
         if (sees[0] || sees[1]) complain(t, eye, p, "hidden, but seen", 0);
         if (side_of_region(t, region, p) > 0) complain(t, eye, p, "in the region", 0);
@@ -387,7 +388,7 @@ static void try_eye(trial *t) {
     if (sl_space_locate(&t->space, eye) == SL_NO_CELL) return;
     assert_ok(t->context, sli_moving_look(t->context, t->moving, &view, cells, seen, &account));
     assert_ok(t->context, sli_moving_outline(t->context, t->moving, &outline));
-    assert_ok(t->context, sl_region_make(t->context, outline, &view, 0, &region));
+    assert_ok(t->context, sli_region_make(t->context, outline, &view, 0, &region));
     gather_segments(t);
     t->straight.blockers = blockers_create(t->straight.items, t->straight.count);
     t->bent.blockers = blockers_create(t->bent.items, t->bent.count);

@@ -1,7 +1,9 @@
 // What fails once in what compares, measures, draws up and converts, at any allocation.
 #include "eye_to_cell/eye_search.h"
 #include "one_failure.h"
+#include "space/outline.h"
 
+#include "eye_to_cell/region.h"
 #include "map_same.h"
 #include "sightline/axial.h"
 #include "sightline/explain.h"
@@ -9,7 +11,6 @@
 #include "sightline/from_region.h"
 #include "sightline/generate.h"
 #include "sightline/io.h"
-#include "sightline/sees.h"
 #include "sightline/stab.h"
 #include "sightline/steps.h"
 #include "sightline/vga.h"
@@ -32,18 +33,18 @@ static sl_status outline_of(sl_context *context, one_failure *on) {
     bool sees = false;
     sl_hit hit = {0};
     const sl_point eye = {1, 1}, to = {5, 7};
-    sl_status status = sl_outline_make(context, &on->baked.space, &outline);
-    if (status == SL_OK) status = sl_sees(context, &outline, eye, to, SL_CLOSED, &sees);
-    if (status == SL_OK) status = sl_ray_cast(context, &outline, eye, to, &hit);
+    sl_status status = sli_outline_make(context, &on->baked.space, &outline);
+    if (status == SL_OK) status = sli_sees(context, &outline, eye, to, SL_CLOSED, &sees);
+    if (status == SL_OK) status = sli_ray_cast(context, &outline, eye, to, &hit);
     const sl_view view = sl_view_all_round(eye);
-    if (status == SL_OK) status = sl_region_make(context, &outline, &view, 7, &region);
+    if (status == SL_OK) status = sli_region_make(context, &outline, &view, 7, &region);
     one_failure_ends(on);
     const double area = status == SL_OK ? sl_region_area(&region) : 0;
     MIX(on, sees);
     MIX(on, hit.wall);
     MIX(on, area);
     sl_region_destroy(context, &region);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     return status;
 }
 
@@ -176,7 +177,7 @@ static sl_status make_views(sl_context *context, one_failure *on, const sl_view_
     sl_view_subdivision rules = sl_view_subdivision_default();
     rules.cells = 5;
     rules.threads = 1;
-    SL_TRY(sl_outline_make(context, space, &v->outline));
+    SL_TRY(sli_outline_make(context, space, &v->outline));
     SL_TRY(sl_view_places_inside(context, space, &v->places));
     SL_TRY(sl_view_sample(context, &v->outline, &sampling, &v->segments));
     const sl_view_scene scene = {space, SL_VIEW_CELLS, sl_render_cost_default(), &v->places};
@@ -213,7 +214,7 @@ static sl_status divide_view(sl_context *context, one_failure *on) {
         sl_view_tree_destroy(context, &v.tree);
         sl_view_segments_destroy(context, &v.segments);
         sl_view_places_destroy(context, &v.places);
-        sl_outline_destroy(context, &v.outline);
+        sli_outline_destroy(context, &v.outline);
     }
     one_failure_ends(on);
     return status;
@@ -247,10 +248,10 @@ typedef sl_status measurer(sl_context *context, one_failure *on, const sl_outlin
 
 static sl_status in_outline(sl_context *context, one_failure *on, measurer *measure) {
     sl_outline outline = {0};
-    sl_status status = sl_outline_make(context, &on->baked.space, &outline);
+    sl_status status = sli_outline_make(context, &on->baked.space, &outline);
     if (status == SL_OK) status = measure(context, on, &outline);
     one_failure_ends(on);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     return status;
 }
 

@@ -1,5 +1,6 @@
 /// The outline's rooms on random maps: convex, without a corner that no wall ends at, covering the
 /// bounds once; and the room of a point.
+#include "space/outline.h"
 #include "testing.h"
 
 #include "geometry/orient.h"
@@ -80,10 +81,10 @@ static void rooms_of_random_maps(void **state) {
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
             assert_ok(context, sli_subdivide_kd(context, &map, &options, &space));
-            assert_ok(context, sl_outline_make(context, &space, &outline));
+            assert_ok(context, sli_outline_make(context, &space, &outline));
             check_outline(&outline, seed);
         }
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
@@ -108,10 +109,10 @@ static void rooms_of_turned_maps(void **state) {
         assert_ok(context, sl_generate(context, &kinds[k], &how, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         assert_ok(context, sli_subdivide_mesh(context, &map, &space));
-        assert_ok(context, sl_outline_make(context, &space, &outline));
+        assert_ok(context, sli_outline_make(context, &space, &outline));
         assert_int_equal(outline.room_count, space.cell_count);
         check_outline(&outline, k);
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }

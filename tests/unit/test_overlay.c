@@ -1,12 +1,13 @@
-/// What several eyes see together: by hand on small shapes, and on random maps against sl_sees.
+/// What several eyes see together: by hand on small shapes, and on random maps against sli_sees.
+#include "space/outline.h"
 #include "testing.h"
 
+#include "eye_to_cell/region.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/overlay.h"
-#include "sightline/sees.h"
 #include "space/subdivide.h"
 
 #include <math.h>
@@ -243,7 +244,7 @@ static void look(scene *s, sl_random *random) {
         const double size = s->space.bounds.max.x - s->space.bounds.min.x;
         const double range = s->seed % 5 == 0 && i % 2 ? size / 3 : 0;
         sl_region *region = &s->regions[i];
-        assert_ok(s->context, sl_region_make(s->context, &s->outline, &view, range, region));
+        assert_ok(s->context, sli_region_make(s->context, &s->outline, &view, range, region));
         s->ends[i] = sl_region_flatten(region, size / 1000, NULL, 0);
         s->flat[i] = malloc((s->ends[i] + 1) * sizeof *s->flat[i]);
         assert_non_null(s->flat[i]);
@@ -272,7 +273,7 @@ static bool start_scene(sl_context *context, uint64_t seed, scene *s) {
     assert_ok(context, sl_map_clean(context, &s->map, NULL, NULL));
     if (!s->map.wall_count) return false;
     assert_ok(context, sl_subdivision_for(&s->map)->subdivide(context, &s->map, NULL, &s->space));
-    assert_ok(context, sl_outline_make(context, &s->space, &s->outline));
+    assert_ok(context, sli_outline_make(context, &s->space, &s->outline));
     assert_ok(context, sl_shape_of_inside(context, &s->space, &s->inside));
     const sl_box *b = &s->space.bounds;
     const double largest =
@@ -292,7 +293,7 @@ static void end_scene(scene *s) {
         free(s->flat[i]);
     }
     sl_shape_destroy(s->context, &s->inside);
-    sl_outline_destroy(s->context, &s->outline);
+    sli_outline_destroy(s->context, &s->outline);
     sl_space_destroy(s->context, &s->space);
     sl_map_destroy(s->context, &s->map);
 }
@@ -349,8 +350,8 @@ static uint32_t check_pieces(const scene *s, const sl_overlay *overlay) {
             if (s->regions[i].range > 0)
                 sees = winding_of(&s->shapes[i], p) != 0;
             else
-                assert_ok(s->context, sl_sees(s->context, &s->outline, s->regions[i].view.eye, p,
-                                              SL_CLOSED, &sees));
+                assert_ok(s->context, sli_sees(s->context, &s->outline, s->regions[i].view.eye, p,
+                                               SL_CLOSED, &sees));
             seen += sees;
         }
         if (seen != overlay->counts[c] || inside != overlay->pieces.cells[c].inside)

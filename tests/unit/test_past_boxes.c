@@ -3,14 +3,14 @@
 /// boxes are cut into. Boxes touch walls, each other and the eye's lines; some are huge or tiny.
 #include "testing.h"
 
+#include "eye_to_cell/moving.h"
+#include "eye_to_cell/region.h"
 #include "geometry/orient.h"
 #include "oracle/isovist.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/effects.h"
-#include "sightline/moving.h"
 #include "sightline/query.h"
-#include "sightline/sees.h"
 
 #include <math.h>
 
@@ -255,7 +255,8 @@ static void points_see_as_past_walls(void **state) {
                 const sl_point eye = any_point(&s), point = any_point(&s);
                 bool seen, expected;
                 assert_ok(s.context, sl_query_sees(s.context, s.query, eye, point, &seen));
-                assert_ok(s.context, sl_sees(s.context, outline, eye, point, SL_CLOSED, &expected));
+                assert_ok(s.context,
+                          sli_sees(s.context, outline, eye, point, SL_CLOSED, &expected));
                 if (seen != expected)
                     fail_msg("seed %llu: %d, not %d: %.17g %.17g to %.17g %.17g",
                              (unsigned long long)seed, seen, expected, eye.x, eye.y, point.x,

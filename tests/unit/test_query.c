@@ -61,6 +61,32 @@ static void a_file_answers_as_memory_does(void **state) {
     assert_int_equal(remove(path), 0);
 }
 
+/// A ray ends at the door where it is shut, and in the next room where it is open.
+static void rays_meet_what_stands(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const parts[] = {rooms, door, NULL};
+    sl_baked baked = {0};
+    sl_query *query;
+    bake(context, parts, &baked);
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    for (int open = 0; open < 2; open++) {
+        const sl_space *space;
+        sl_hit hit;
+        sl_query_set_doors(context, query, open);
+        assert_ok(context, sl_query_prepare(context, query));
+        assert_ok(context, sl_query_cast(context, query, (sl_point){5, 4}, (sl_point){6, 4}, &hit));
+        assert_float_equal(hit.point.x, open ? 30 : 10, 0);
+        assert_float_equal(hit.point.y, 4, 0);
+        assert_ok(context, sl_query_space(context, query, &space, NULL));
+        assert_true(hit.wall < space->wall_count);
+        assert_true((hit.wall < sl_query_asked(query)->wall_count) == open);
+    }
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 static void mirrors_show_what_the_depth_allows(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -334,6 +360,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_bake_is_its_stages),
         cmocka_unit_test(a_file_answers_as_memory_does),
+        cmocka_unit_test(rays_meet_what_stands),
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),

@@ -1,6 +1,7 @@
 /// Doors open and shut in place: after any changes a query's rows are those cut to what is left,
 /// and its walls those of a space made anew. Also what is out of range, and rows backwards. What an
 /// eye sees is in test_query_matrix.c.
+#include "effects/filtered.h"
 #include "testing.h"
 
 #include "map/scan.h"
@@ -71,10 +72,10 @@ typedef struct fresh {
 } fresh;
 
 static void make_fresh(sl_context *context, const sl_baked *baked, const bool *shut, fresh *f) {
-    const sl_filtered_space glass = {.one_way = true, .dark_walls = true};
+    const sli_filtered_space glass = {.one_way = true, .dark_walls = true};
     *f = (fresh){0};
     assert_ok(context, sl_baked_shut(context, baked, shut, &f->shut, &f->rows));
-    assert_ok(context, sl_filtered_space_make(context, &f->shut, &glass, NULL, &f->space));
+    assert_ok(context, sli_filtered_space_make(context, &f->shut, &glass, NULL, &f->space));
 }
 
 static void destroy_fresh(sl_context *context, fresh *f) {

@@ -1,5 +1,7 @@
 /// The visible region where the answer is known: measures, range, cones, eyes in odd places,
 /// memory.
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 #include "testing.h"
 
 #include "sightline/region.h"
@@ -19,19 +21,19 @@ typedef struct place {
 static void enter(place *p, testing_memory *memory, const char *statements) {
     *p = (place){.context = testing_context(memory)};
     testing_space(p->context, statements, &p->map, &p->space);
-    assert_ok(p->context, sl_outline_make(p->context, &p->space, &p->outline));
+    assert_ok(p->context, sli_outline_make(p->context, &p->space, &p->outline));
 }
 
 static void leave(place *p) {
     sl_region_destroy(p->context, &p->region);
-    sl_outline_destroy(p->context, &p->outline);
+    sli_outline_destroy(p->context, &p->outline);
     sl_space_destroy(p->context, &p->space);
     sl_map_destroy(p->context, &p->map);
     sl_context_destroy(p->context);
 }
 
 static sl_region_measures look(place *p, sl_view view, double range) {
-    assert_ok(p->context, sl_region_make(p->context, &p->outline, &view, range, &p->region));
+    assert_ok(p->context, sli_region_make(p->context, &p->outline, &view, range, &p->region));
     return sl_region_measure(&p->region);
 }
 
@@ -147,7 +149,7 @@ static void range_on_a_floor(void **state) {
         const sl_view view = sl_view_all_round(eye);
         const double range = 0.5 + 0.1 * i;
         look(&p, view, 0);
-        assert_ok(p.context, sl_region_make(p.context, &p.outline, &view, range, &cut));
+        assert_ok(p.context, sli_region_make(p.context, &p.outline, &view, range, &cut));
         // By the sum over the whole region's edges of what lies within the circle, sampled finely.
         double area = 0;
         for (size_t k = 0; k < p.region.count; k++) {
@@ -223,7 +225,7 @@ static void arguments_are_checked(void **state) {
     const double ranges[3] = {0, 0, -1};
     for (int i = 0; i < 3; i++) {
         look(&p, sl_view_all_round(eye), 0);
-        assert_int_equal(sl_region_make(p.context, &p.outline, &views[i], ranges[i], &p.region),
+        assert_int_equal(sli_region_make(p.context, &p.outline, &views[i], ranges[i], &p.region),
                          SL_BAD_ARGUMENT);
         assert_int_equal(p.region.count, 0);
     }
@@ -244,7 +246,7 @@ static void memory_is_kept_and_may_fail(void **state) {
     for (long n = 1;; n++) {
         memory.calls = 0;
         memory.fail_at = n;
-        const sl_status status = sl_region_make(p.context, &p.outline, &view, 3, &p.region);
+        const sl_status status = sli_region_make(p.context, &p.outline, &view, 3, &p.region);
         memory.fail_at = 0;
         sl_region_destroy(p.context, &p.region);
         if (status == SL_OK) break;
@@ -254,9 +256,9 @@ static void memory_is_kept_and_may_fail(void **state) {
         sl_outline outline = {0};
         memory.calls = 0;
         memory.fail_at = n;
-        const sl_status status = sl_outline_make(p.context, &p.space, &outline);
+        const sl_status status = sli_outline_make(p.context, &p.space, &outline);
         memory.fail_at = 0;
-        sl_outline_destroy(p.context, &outline);
+        sli_outline_destroy(p.context, &outline);
         if (status == SL_OK) break;
         assert_int_equal(status, SL_NO_MEMORY);
     }

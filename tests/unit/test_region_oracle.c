@@ -1,6 +1,8 @@
 /// The visible region against a brute-force sweep in rationals, on random maps with every way to
 /// place an eye: anywhere, in line with walls, on walls, on their ends, on portals and on corners
 /// of cells, on the border.
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 #include "testing.h"
 
 #include "oracle/isovist.h"
@@ -86,7 +88,7 @@ static void check_shape(const sl_region *region, const sl_space *space, uint64_t
 /// `accuracy`: relative, of what is measured.
 static void check_eye(sl_context *context, const sl_outline *outline, const sl_view *view,
                       double accuracy, uint64_t seed, sl_region *region) {
-    assert_ok(context, sl_region_make(context, outline, view, 0, region));
+    assert_ok(context, sli_region_make(context, outline, view, 0, region));
     if (sl_space_locate(outline->space, view->eye) == SL_NO_CELL) {
         assert_int_equal(region->count, 0); // mixed from two points and rounded, out of the bounds
         return;
@@ -117,7 +119,7 @@ static void as_the_sweep_says(void **state) {
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
             assert_ok(context, sli_subdivide_kd(context, &map, &options, &space));
-            assert_ok(context, sl_outline_make(context, &space, &outline));
+            assert_ok(context, sli_outline_make(context, &space, &outline));
             sl_random random = {seed};
             for (uint64_t i = 0; i < 12; i++) {
                 const sl_point eye = place_eye(&space, &random, i);
@@ -125,7 +127,7 @@ static void as_the_sweep_says(void **state) {
                 check_eye(context, &outline, &view, 1e-12, seed, &region);
             }
         }
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
@@ -151,13 +153,13 @@ static void among_turned_walls(void **state) {
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
             assert_ok(context, sli_subdivide_mesh(context, &map, &space));
-            assert_ok(context, sl_outline_make(context, &space, &outline));
+            assert_ok(context, sli_outline_make(context, &space, &outline));
             for (uint64_t i = 0; i < 12; i++) {
                 const sl_view view = random_view(&space, &random, place_eye(&space, &random, 0));
                 check_eye(context, &outline, &view, move > 0 ? 1e-6 : 1e-11, seed, &region);
             }
         }
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }

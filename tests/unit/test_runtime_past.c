@@ -1,8 +1,11 @@
 /// The runtime's eye past shut doors and within a range, against the library's eye in a space with
 /// walls in those doors and against the visible region.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "effects/filtered.h"
 #include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/region.h"
 #include "runtime_maps.h"
+#include "space/outline.h"
 
 #include "sightline/support.h"
 
@@ -138,8 +141,8 @@ static void try_eye(trial *t) {
 
     sl_outline outline = {0};
     sl_region region = {0};
-    assert_ok(t->context, sl_outline_make(t->context, &t->walled, &outline));
-    assert_ok(t->context, sl_region_make(t->context, &outline, &view, 0, &region));
+    assert_ok(t->context, sli_outline_make(t->context, &t->walled, &outline));
+    assert_ok(t->context, sli_region_make(t->context, &outline, &view, 0, &region));
     for (int i = 0; i < 3 && region.count; i++) {
         const double range = 0.25 + below(t, 10 * SIZE) / 16;
         look(t, &view, range, said);
@@ -158,7 +161,7 @@ static void try_eye(trial *t) {
         }
     }
     sl_region_destroy(t->context, &region);
-    sl_outline_destroy(t->context, &outline);
+    sli_outline_destroy(t->context, &outline);
 }
 
 static void as_walls_in_the_doors(void **state) {
@@ -175,9 +178,9 @@ static void as_walls_in_the_doors(void **state) {
             bool shut[DOORS];
             for (int k = 0; k < DOORS; k++)
                 t.shut[k] = shut[k] = sl_random_below(&t.random, STATES) < (uint64_t)i;
-            const sl_filtered_space filtered = {.shut = shut};
-            assert_ok(t.context, sl_filtered_space_make(t.context, &t.file.baked.space, &filtered,
-                                                        NULL, &t.walled));
+            const sli_filtered_space filtered = {.shut = shut};
+            assert_ok(t.context, sli_filtered_space_make(t.context, &t.file.baked.space, &filtered,
+                                                         NULL, &t.walled));
             for (int k = 0; k < 6; k++) try_eye(&t);
             sl_space_destroy(t.context, &t.walled);
         }

@@ -2,8 +2,11 @@
 // and past shut doors and one-way glass against a space with walls there.
 //   test_runtime_polygon [EYES]    so many eyes instead of ten thousand
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "effects/filtered.h"
+#include "eye_to_cell/region.h"
 #include "polygon_same.h"
 #include "runtime_maps.h"
+#include "space/outline.h"
 
 #include "sightline/support.h"
 
@@ -27,7 +30,7 @@ typedef struct trial {
 
 static trial trial_of(sl_context *context, const baked_file *f, const sl_space *space) {
     trial t = {.context = context, .f = f, .random = {23}};
-    assert_ok(context, sl_outline_make(context, space, &t.outline));
+    assert_ok(context, sli_outline_make(context, space, &t.outline));
     t.scratch = malloc(sl_runtime_scratch_count(&f->runtime) * sizeof *t.scratch);
     assert_non_null(t.scratch);
     return t;
@@ -36,7 +39,7 @@ static trial trial_of(sl_context *context, const baked_file *f, const sl_space *
 static void trial_end(trial *t) {
     free(t->scratch);
     sl_region_destroy(t->context, &t->region);
-    sl_outline_destroy(t->context, &t->outline);
+    sli_outline_destroy(t->context, &t->outline);
 }
 
 static bool has(const sl_point *points, size_t count, sl_point at) {
@@ -185,7 +188,7 @@ static void compare(trial *t, const sl_view *view) {
         sl_runtime_visible_polygon(r, &same, t->shut, t->range, t->scratch, &points[0].x, ROOM);
     assert_true(count <= ROOM);
     assert_ok(t->context,
-              sl_region_make(t->context, &t->outline, view, ranges_meet(t), &t->region));
+              sli_region_make(t->context, &t->outline, view, ranges_meet(t), &t->region));
     const sl_region *is = &t->region;
     t->asked++;
     const double size = fmax(r->max_x - r->min_x, r->max_y - r->min_y);
@@ -265,8 +268,8 @@ static void look_past(sl_context *context, const baked_file *f, const unsigned c
     bool is_shut[64] = {false};
     sl_space walled = {0};
     for (uint32_t i = 0; i < f->runtime.door_count; i++) is_shut[i] = shut[i];
-    const sl_filtered_space filtered = {.shut = is_shut, .eye = &eye};
-    assert_ok(context, sl_filtered_space_make(context, &f->baked.space, &filtered, NULL, &walled));
+    const sli_filtered_space filtered = {.shut = is_shut, .eye = &eye};
+    assert_ok(context, sli_filtered_space_make(context, &f->baked.space, &filtered, NULL, &walled));
     trial t = trial_of(context, f, &walled);
     t.shut = shut;
     t.random = (sl_random){seed};

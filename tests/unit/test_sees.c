@@ -1,9 +1,10 @@
 /// Single lines of sight on random maps of small integers, beside every wall taken by itself.
+#include "space/outline.h"
 #include "testing.h"
 
+#include "eye_to_cell/region.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
-#include "sightline/sees.h"
 #include "space/subdivide.h"
 
 #include <math.h>
@@ -63,9 +64,9 @@ static void check_pair(sl_context *context, const sl_outline *outline, sl_point 
                        tally *count) {
     const sl_space *space = outline->space;
     bool closed = false, open = false, back = false, free = true, crossed = false, on_wall = false;
-    assert_ok(context, sl_sees(context, outline, eye, point, SL_CLOSED, &closed));
-    assert_ok(context, sl_sees(context, outline, eye, point, SL_OPEN, &open));
-    assert_ok(context, sl_sees(context, outline, point, eye, SL_CLOSED, &back));
+    assert_ok(context, sli_sees(context, outline, eye, point, SL_CLOSED, &closed));
+    assert_ok(context, sli_sees(context, outline, eye, point, SL_OPEN, &open));
+    assert_ok(context, sli_sees(context, outline, point, eye, SL_CLOSED, &back));
     for (uint32_t i = 0; i < space->wall_count; i++) {
         const sl_wall *w = &space->walls[i];
         free = free && !touches(eye, point, w);
@@ -82,7 +83,7 @@ static void check_pair(sl_context *context, const sl_outline *outline, sl_point 
     if (on_wall || (eye.x == point.x && eye.y == point.y)) return;
     sl_hit hit;
     uint32_t wall;
-    assert_ok(context, sl_ray_cast(context, outline, eye, point, &hit));
+    assert_ok(context, sli_ray_cast(context, outline, eye, point, &hit));
     const double share = first_wall(space, eye, point, &wall);
     assert_int_equal(hit.wall, wall);
     if (wall == UINT32_MAX) return;
@@ -104,13 +105,13 @@ static void as_every_wall_says(void **state) {
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
         if (map.wall_count && sli_subdivide_kd(context, &map, &options, &space) == SL_OK) {
-            assert_ok(context, sl_outline_make(context, &space, &outline));
+            assert_ok(context, sli_outline_make(context, &space, &outline));
             sl_random random = {seed};
             for (int i = 0; i < 200; i++)
                 check_pair(context, &outline, random_point(&space, &random),
                            random_point(&space, &random), &count);
         }
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
@@ -134,7 +135,7 @@ static void among_oblique_walls(void **state) {
         assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const bool made = sli_subdivide_mesh(context, &map, &space) == SL_OK;
-        if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
+        if (made) assert_ok(context, sli_outline_make(context, &space, &outline));
         for (int i = 0; i < 100 && made; i++) {
             const sl_point p = oblique_random_point(&random, &map, space.bounds);
             const sl_point q = i % 9 ? oblique_random_point(&random, &map, space.bounds) : p;
@@ -142,13 +143,13 @@ static void among_oblique_walls(void **state) {
                 sl_space_locate(&space, q) == SL_NO_CELL)
                 continue;
             bool seen;
-            assert_ok(context, sl_sees(context, &outline, p, q, SL_OPEN, &seen));
+            assert_ok(context, sli_sees(context, &outline, p, q, SL_OPEN, &seen));
             if (seen != oblique_is_free(&map, p, q))
                 fail_msg("seed %d: %.17g %.17g to %.17g %.17g: %d", (int)seed, p.x, p.y, q.x, q.y,
                          seen);
             counts[seen]++;
         }
-        sl_outline_destroy(context, &outline);
+        sli_outline_destroy(context, &outline);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
@@ -171,14 +172,14 @@ static void beside_a_crossing(void **state) {
                   "wall 40.41421690502257 60.54203689753292 48.438723260249034 92.03684148481929\n"
                   "wall 43.59653998247251 16.703498914055103 45.2564001827991 135.8753794682971\n",
                   &map, &space);
-    assert_ok(context, sl_outline_make(context, &space, &outline));
+    assert_ok(context, sli_outline_make(context, &space, &outline));
     const sl_point eye = {44.426470082635802, 76.289439191176129};
     const sl_point point = {41.888425542764288, 109.38618019456719};
     assert_true(oblique_is_free(&map, eye, point));
     bool seen;
-    assert_ok(context, sl_sees(context, &outline, eye, point, SL_OPEN, &seen));
+    assert_ok(context, sli_sees(context, &outline, eye, point, SL_OPEN, &seen));
     assert_true(seen);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -194,7 +195,7 @@ static void plain_pairs_take_no_memory(void **state) {
     sl_outline outline = {0};
     testing_space(context, "walls 0 0 8 0 8 8 0 8 0 0\nwall 2 0 2 4\nwall 4 4 4 8\nwall 5 1 7 2\n",
                   &map, &space);
-    assert_ok(context, sl_outline_make(context, &space, &outline));
+    assert_ok(context, sli_outline_make(context, &space, &outline));
     const struct {
         sl_point eye, point;
         bool seen;
@@ -205,14 +206,14 @@ static void plain_pairs_take_no_memory(void **state) {
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         bool seen = !pairs[i].seen;
         assert_ok(context,
-                  sl_sees(context, &outline, pairs[i].eye, pairs[i].point, SL_OPEN, &seen));
+                  sli_sees(context, &outline, pairs[i].eye, pairs[i].point, SL_OPEN, &seen));
         assert_int_equal(seen, pairs[i].seen);
         assert_ok(context,
-                  sl_sees(context, &outline, pairs[i].point, pairs[i].eye, SL_CLOSED, &seen));
+                  sli_sees(context, &outline, pairs[i].point, pairs[i].eye, SL_CLOSED, &seen));
         assert_int_equal(seen, pairs[i].seen);
     }
     assert_int_equal(memory.calls, calls);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -228,33 +229,33 @@ static void corners_and_slits(void **state) {
         context,
         "walls 0 0 8 0 8 8 0 8 0 0\nwall 2 0 2 4\nwall 4 4 4 8\nwall 6 0 6 4\nwall 6 4 6 8\n", &map,
         &space);
-    assert_ok(context, sl_outline_make(context, &space, &outline));
+    assert_ok(context, sli_outline_make(context, &space, &outline));
     bool seen = false;
     // Along y = 4: past one corner on its upper and one on its lower side.
     assert_ok(context,
-              sl_sees(context, &outline, (sl_point){1, 4}, (sl_point){5, 4}, SL_CLOSED, &seen));
+              sli_sees(context, &outline, (sl_point){1, 4}, (sl_point){5, 4}, SL_CLOSED, &seen));
     assert_true(seen);
     assert_ok(context,
-              sl_sees(context, &outline, (sl_point){1, 4}, (sl_point){5, 4}, SL_OPEN, &seen));
+              sli_sees(context, &outline, (sl_point){1, 4}, (sl_point){5, 4}, SL_OPEN, &seen));
     assert_false(seen);
     // Where two walls meet in a corner there is no way between them.
     assert_ok(context,
-              sl_sees(context, &outline, (sl_point){1, 4}, (sl_point){7, 4}, SL_CLOSED, &seen));
+              sli_sees(context, &outline, (sl_point){1, 4}, (sl_point){7, 4}, SL_CLOSED, &seen));
     assert_false(seen);
     assert_ok(context,
-              sl_sees(context, &outline, (sl_point){9, 4}, (sl_point){7, 4}, SL_CLOSED, &seen));
+              sli_sees(context, &outline, (sl_point){9, 4}, (sl_point){7, 4}, SL_CLOSED, &seen));
     assert_false(seen);
     sl_hit hit;
     const sl_point eye = {1, 4}, outside = {9, 9};
-    assert_ok(context, sl_ray_cast(context, &outline, eye, (sl_point){2, 4}, &hit));
+    assert_ok(context, sli_ray_cast(context, &outline, eye, (sl_point){2, 4}, &hit));
     assert_true(hit.point.x == 4 && hit.point.y == 4);
-    assert_ok(context, sl_ray_cast(context, &outline, (sl_point){2, 1}, (sl_point){1, 1}, &hit));
+    assert_ok(context, sli_ray_cast(context, &outline, (sl_point){2, 1}, (sl_point){1, 1}, &hit));
     assert_true(hit.point.x == 2 && hit.point.y == 1);
-    assert_int_equal(sl_ray_cast(context, &outline, eye, eye, &hit), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_ray_cast(context, &outline, outside, eye, &hit), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_ray_cast(context, &outline, eye, (sl_point){NAN, 0}, &hit),
+    assert_int_equal(sli_ray_cast(context, &outline, eye, eye, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_ray_cast(context, &outline, outside, eye, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sli_ray_cast(context, &outline, eye, (sl_point){NAN, 0}, &hit),
                      SL_BAD_ARGUMENT);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);

@@ -1,11 +1,13 @@
-/// Visibility graphs: each pair beside sl_sees, measures beside sums over all pairs.
+/// Visibility graphs: each pair beside sli_sees, measures beside sums over all pairs.
+#include "effects/filtered.h"
+#include "space/outline.h"
 #include "testing.h"
 
+#include "eye_to_cell/region.h"
 #include "map/scan.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/effects.h"
-#include "sightline/sees.h"
 #include "sightline/vga.h"
 #include "space/subdivide.h"
 #include "visibility_graph/paths.h"
@@ -24,7 +26,7 @@ typedef struct fixture {
 static void fixture_destroy(sl_context *context, fixture *f) {
     sl_vga_graph_destroy(context, &f->graph);
     sl_vga_grid_destroy(context, &f->grid);
-    sl_outline_destroy(context, &f->outline);
+    sli_outline_destroy(context, &f->outline);
     sl_space_destroy(context, &f->space);
     sl_map_destroy(context, &f->map);
 }
@@ -35,7 +37,7 @@ static bool has_edge(const sl_vga_graph *graph, uint32_t a, uint32_t b) {
 
 /// Half of a unit puts points on walls' lines, at ends and on portals.
 static void fill_and_connect(sl_context *context, double step, fixture *f) {
-    assert_ok(context, sl_outline_make(context, &f->space, &f->outline));
+    assert_ok(context, sli_outline_make(context, &f->space, &f->outline));
     assert_ok(context, sl_vga_grid_make(context, &f->outline, step, NULL, 0, &f->grid));
     assert_ok(context, sl_vga_graph_make(context, &f->outline, &f->grid, 0, 1, &f->graph));
 }
@@ -47,8 +49,8 @@ static size_t check_pairs(sl_context *context, const fixture *f) {
         for (uint32_t b = 0; b < f->grid.count; b++) {
             bool sees;
             if (a == b) continue;
-            assert_ok(context, sl_sees(context, &f->outline, f->grid.points[a], f->grid.points[b],
-                                       SL_CLOSED, &sees));
+            assert_ok(context, sli_sees(context, &f->outline, f->grid.points[a], f->grid.points[b],
+                                        SL_CLOSED, &sees));
             assert_int_equal(has_edge(&f->graph, a, b), sees);
             assert_int_equal(has_edge(&f->graph, b, a), sees);
             seen += sees;
@@ -478,14 +480,14 @@ static void paths_lead_through_glass_one_way(void **state) {
         "2 4\n"
         "wall 6 1 6 4\noneway 3.75 3 3.75 2\n"};
     sl_context *context = testing_context(NULL);
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sli_filtered_space filtered = {.one_way = true, .dark_walls = true};
     for (size_t i = 0; i < 2; i++) {
         fixture f = {0};
         sl_space plain = {0};
         assert_ok(context, sli_map_read_text(context, "plan", texts[i], strlen(texts[i]), &f.map));
         assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
         assert_ok(context, sli_subdivide_mesh(context, &f.map, &plain));
-        assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
+        assert_ok(context, sli_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
         fill_and_connect(context, 0.5, &f);
         sl_vga_options options = sl_vga_options_default();
         options.parts = SL_VGA_GLOBAL | SL_VGA_METRIC | SL_VGA_ANGULAR;
@@ -514,7 +516,7 @@ static void seeds_stay_in_their_room(void **state) {
     assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
     assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
     assert_ok(context, sli_subdivide_mesh(context, &f.map, &f.space));
-    assert_ok(context, sl_outline_make(context, &f.space, &f.outline));
+    assert_ok(context, sli_outline_make(context, &f.space, &f.outline));
     const sl_point seed = {0.9, 1.1}, outside = {9, 9};
     assert_ok(context, sl_vga_grid_make(context, &f.outline, 0.5, &seed, 1, &f.grid));
     assert_int_equal(f.grid.count, 9);
@@ -535,19 +537,19 @@ static void glass_is_seen_through_one_way(void **state) {
     sl_context *context = testing_context(NULL);
     fixture f = {0};
     sl_space plain = {0};
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sli_filtered_space filtered = {.one_way = true, .dark_walls = true};
     assert_ok(context, sli_map_read_text(context, "plan", text, sizeof text - 1, &f.map));
     assert_ok(context, sl_map_clean(context, &f.map, NULL, NULL));
     assert_ok(context, sli_subdivide_mesh(context, &f.map, &plain));
-    assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
+    assert_ok(context, sli_filtered_space_make(context, &plain, &filtered, NULL, &f.space));
     fill_and_connect(context, 0.5, &f);
     size_t one_way = 0;
     for (uint32_t a = 0; a < f.grid.count; a++) {
         for (uint32_t b = 0; b < f.grid.count; b++) {
             bool sees;
             if (a == b) continue;
-            assert_ok(context, sl_sees(context, &f.outline, f.grid.points[a], f.grid.points[b],
-                                       SL_CLOSED, &sees));
+            assert_ok(context, sli_sees(context, &f.outline, f.grid.points[a], f.grid.points[b],
+                                        SL_CLOSED, &sees));
             assert_int_equal(has_edge(&f.graph, a, b), sees);
             if (sees && !has_edge(&f.graph, b, a)) {
                 assert_true(f.grid.points[a].x >= 2 && f.grid.points[b].x < 2);
@@ -659,11 +661,11 @@ static void check_no_value_is_infinite(const sl_vga_measures *m, uint32_t count)
 /// All visual measures of a plan's grid of step 1. One-way glass is as it stands.
 static sl_vga_measures *measure_text(sl_context *context, const char *text, fixture *f) {
     sl_space plain = {0};
-    const sl_filtered_space filtered = {.one_way = true, .dark_walls = true};
+    const sli_filtered_space filtered = {.one_way = true, .dark_walls = true};
     assert_ok(context, sli_map_read_text(context, "plan", text, strlen(text), &f->map));
     assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
     assert_ok(context, sli_subdivide_mesh(context, &f->map, &plain));
-    assert_ok(context, sl_filtered_space_make(context, &plain, &filtered, NULL, &f->space));
+    assert_ok(context, sli_filtered_space_make(context, &plain, &filtered, NULL, &f->space));
     sl_space_destroy(context, &plain);
     fill_and_connect(context, 1, f);
     const sl_vga_options options = sl_vga_options_default();

@@ -1,4 +1,5 @@
 /// Memory of visibility graph analysis: what is told before, beside what is taken.
+#include "space/outline.h"
 #include "testing.h"
 
 #include "sightline/import.h"
@@ -53,7 +54,7 @@ static void compare(const char *map_name, double step, unsigned parts, unsigned 
     assert_non_null(context);
     assert_ok(context, sl_map_read(context, path, NULL, &map));
     testing_subdivide(context, &map, &space);
-    assert_ok(context, sl_outline_make(context, &space, &outline));
+    assert_ok(context, sli_outline_make(context, &space, &outline));
     assert_ok(context, sl_vga_grid_make(context, &outline, step, NULL, 0, &grid));
     const long long before = g.live;
     assert_ok(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
@@ -70,7 +71,7 @@ static void compare(const char *map_name, double step, unsigned parts, unsigned 
     sl_free(context, measures);
     sl_vga_graph_destroy(context, &graph);
     sl_vga_grid_destroy(context, &grid);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);

@@ -3,6 +3,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "baked_bytes.h"
 #include "cell_to_cell/view_rows.h"
+#include "space/outline.h"
 #include "view_cells_maps.h"
 
 #include "cell_to_cell/pvs_rows.h"
@@ -36,7 +37,7 @@ static void make_cells(sl_context *context, const char *name, viewed *v) {
     view_world *w = &v->world;
     read_map(context, name, &w->map);
     assert_ok(context, sl_subdivision_for(&w->map)->subdivide(context, &w->map, NULL, &w->space));
-    assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
+    assert_ok(context, sli_outline_make(context, &w->space, &w->outline));
     assert_ok(context, sl_view_places_inside(context, &w->space, &w->places));
     w->scene = (sl_view_scene){&w->space, SL_VIEW_WALLS, sl_render_cost_default(), &w->places};
     sl_view_sampling sampling = sl_view_sampling_default();

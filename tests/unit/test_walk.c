@@ -1,6 +1,8 @@
 /// Walks on random maps: nothing that is seen is missed, by any method with any test, and those
 /// that should agree do.
 #include "eye_to_cell/eye_search.h"
+#include "eye_to_cell/region.h"
+#include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"
 
@@ -36,7 +38,7 @@ static void open_world(world *w, const sl_walk_options *like) {
     size_t methods_count, tests_count;
     const sl_walk_method *methods = sl_walk_methods(&methods_count);
     const sl_node_test *tests = sl_node_tests(&tests_count);
-    assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
+    assert_ok(context, sli_outline_make(context, &w->space, &w->outline));
     assert_ok(context, sl_hierarchy_make(context, &w->space, &w->hierarchy));
     w->none.sight = SL_OPEN;
     w->cheap = like->cheap > 0;
@@ -60,7 +62,7 @@ static void close_world(world *w) {
     sl_region_destroy(w->context, &w->region);
     sli_eye_search_destroy(w->context, w->search);
     sl_hierarchy_destroy(w->context, &w->hierarchy);
-    sl_outline_destroy(w->context, &w->outline);
+    sli_outline_destroy(w->context, &w->outline);
     sl_space_destroy(w->context, &w->space);
     sl_map_destroy(w->context, &w->map);
     *w = (world){.context = w->context};
@@ -105,7 +107,7 @@ static bool look_exactly(world *w, const sl_view *view) {
 
 /// By points of the visible region, for every eye.
 static void look_at_region(world *w, const sl_view *view) {
-    assert_ok(w->context, sl_region_make(w->context, &w->outline, view, 0, &w->region));
+    assert_ok(w->context, sli_region_make(w->context, &w->outline, view, 0, &w->region));
     const sl_region *r = &w->region;
     const sl_box b = w->space.bounds;
     const double floor_area = 1e-9 * (b.max.x - b.min.x) * (b.max.y - b.min.y);

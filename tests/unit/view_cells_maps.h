@@ -2,6 +2,7 @@
 #ifndef VIEW_CELLS_MAPS_H
 #define VIEW_CELLS_MAPS_H
 
+#include "space/outline.h"
 #include "testing.h"
 
 #include "map/scan.h"
@@ -62,7 +63,7 @@ static inline void make_world(sl_context *context, const char *statements, bool 
     const sl_subdivide_options kd = sl_subdivide_options_default();
     assert_ok(context, oblique ? sli_subdivide_mesh(context, &w->map, &w->space)
                                : sli_subdivide_kd(context, &w->map, &kd, &w->space));
-    assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
+    assert_ok(context, sli_outline_make(context, &w->space, &w->outline));
     assert_ok(context, sl_view_places_inside(context, &w->space, &w->places));
     w->scene = (sl_view_scene){&w->space, objects, sl_render_cost_default(), &w->places};
     sl_view_sampling sampling = sl_view_sampling_default();
@@ -74,7 +75,7 @@ static inline void make_world(sl_context *context, const char *statements, bool 
 static inline void drop_world(sl_context *context, view_world *w) {
     sl_view_segments_destroy(context, &w->segments);
     sl_view_places_destroy(context, &w->places);
-    sl_outline_destroy(context, &w->outline);
+    sli_outline_destroy(context, &w->outline);
     sl_space_destroy(context, &w->space);
     sl_map_destroy(context, &w->map);
 }

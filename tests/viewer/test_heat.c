@@ -1,5 +1,7 @@
 // The heat map of the viewer: its values are those of the library for the map as it is now, with
 // doors shut or open and after a change; it ends when it is told to.
+#include "effects/filtered.h"
+#include "space/outline.h"
 #include "viewer_app.h"
 
 #include "sightline/bake.h"
@@ -45,12 +47,12 @@ static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh
     bool *shut = calloc(f->baked.map.door_count + 1, sizeof *shut);
     for (size_t i = 0; i < f->baked.map.door_count; i++) shut[i] = !f->baked.map.doors[i].open;
     const bool glass = f->baked.map.oneway_count > 0;
-    const sl_filtered_space filtered = {.shut = shut, .one_way = glass, .dark_walls = glass};
-    assert_int_equal(sl_filtered_space_make(context, &f->baked.space, &filtered, NULL, &f->space),
+    const sli_filtered_space filtered = {.shut = shut, .one_way = glass, .dark_walls = glass};
+    assert_int_equal(sli_filtered_space_make(context, &f->baked.space, &filtered, NULL, &f->space),
                      SL_OK);
     free(shut);
     sl_map_destroy(context, &map);
-    assert_int_equal(sl_outline_make(context, &f->space, &f->outline), SL_OK);
+    assert_int_equal(sli_outline_make(context, &f->space, &f->outline), SL_OK);
     assert_int_equal(sl_vga_grid_make(context, &f->outline, heat_step(app), NULL, 0, &f->grid),
                      SL_OK);
     assert_int_equal(
@@ -67,7 +69,7 @@ static void drop_fresh(sl_context *context, fresh *f) {
     free(f->measures);
     sl_vga_graph_destroy(context, &f->graph);
     sl_vga_grid_destroy(context, &f->grid);
-    sl_outline_destroy(context, &f->outline);
+    sli_outline_destroy(context, &f->outline);
     sl_space_destroy(context, &f->space);
     sl_baked_destroy(context, &f->baked);
 }

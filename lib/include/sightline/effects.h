@@ -67,34 +67,6 @@ SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const 
 SL_API sl_status sl_effects_check_because(sl_context *context, const sl_map *map,
                                           const char *method, unsigned known, const char *reason);
 
-/// The space as sight finds it for the time being, with what holds it back made part of the space:
-/// portals on doors that are shut become walls, and one-way glass has no directed portal on the
-/// side from which it is not seen through, or is a wall where one eye is there. Cells, vertices and
-/// the numbers of portals stay.
-typedef struct sl_filtered_space {
-    const bool *shut; ///< by door of the map; NULL: all are open
-    bool one_way;     ///< with its glass; else that is open both ways
-    /// With `one_way`: the dark side of glass is a wall, after all other walls. Such a space has an
-    /// outline, in which regions see one way (outline.h).
-    bool dark_walls;
-    /// Glass that is dark for this eye is a wall, all other is open both ways: what one eye sees
-    /// straight on, without mirrors, is then what it sees past walls. NULL for none.
-    const sl_point *eye;
-} sl_filtered_space;
-
-/// A copy of a space for a filtered space. It is as sl_space_check wants it where sight is
-/// not one-way: then all methods work on it. With one-way directed portals missing, only those that
-/// go through directed portals do, one way: "dfs", and eye-to-cell, directly and by mirror; with
-/// `dark_walls` also regions and single lines of sight. Portals that are walls have no
-/// directed portals and are left out; `portals` (portal_count of `space`, or NULL) gets the new
-/// number of each, UINT32_MAX for none.
-SL_API sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
-                                        const sl_filtered_space *filtered, uint32_t *portals,
-                                        sl_space *out);
-
-/// Whether one-way glass keeps sight from leaving a cell by a directed portal.
-SL_API bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed);
-
 #ifdef __cplusplus
 }
 #endif

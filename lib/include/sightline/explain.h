@@ -106,7 +106,7 @@ typedef struct sl_explanation {
 /// longer searches, so that a pair that is seen is found before all that is near has been tried; a
 /// hidden pair takes a search of all that `from` sees. Reports stage "explain", unit "tests".
 /// SL_BAD_ARGUMENT where a cell is none of the space or the solver cannot tell. In a space with
-/// directed portals missing (sl_filtered_space.one_way), sight goes through those that are there.
+/// directed portals missing (sl_query_space), sight goes through those that are there.
 SL_API sl_status sl_explain(sl_context *context, const sl_space *space,
                             const sl_explain_options *options, uint32_t from, uint32_t to,
                             sl_explanation *out);

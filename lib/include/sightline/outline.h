@@ -37,14 +37,6 @@ typedef struct sl_outline {
     uint32_t first_dark, *lit;
 } sl_outline;
 
-/// Makes the outline of a space that passes sl_space_check, or of one with glass that is dark from
-/// one side (sl_filtered_space.dark_walls). No coordinate is computed. Cells are
-/// joined to rooms across their longest portals first, where the room is convex. SL_BAD_ARGUMENT
-/// for a piece of a cell's boundary that is neither portal nor wall nor border. Time O(n log n) for
-/// n walls and sides, if few walls are near to one line.
-SL_API sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out);
-SL_API void sl_outline_destroy(sl_context *context, sl_outline *outline); ///< and zeroes it
-
 /// The room that holds a point of a cell, among the rooms with a part of that cell. Time: the sides
 /// of these rooms.
 SL_API uint32_t sl_outline_room(const sl_outline *outline, uint32_t cell, sl_point point);

@@ -28,9 +28,7 @@ extern "C" {
 #endif
 
 /// Serves one thread at a time. What a question needs is made when it is first asked, and kept
-/// until a setting changes. After sl_query_outline(), and sl_query_mirrors() for what is seen by
-/// mirror, several threads may ask at the same time for regions and whether points are seen, each
-/// with a context of its own, until a setting changes; not with boxes that block.
+/// until a setting changes.
 typedef struct sl_query sl_query;
 
 /// A query over a space. `map` is the one that the space was made from: its doors, glass, mirrors
@@ -135,15 +133,27 @@ SL_API sl_status sl_query_copy_space(sl_context *context, sl_query *query, sl_po
 /// for. Valid until a setting changes.
 SL_API sl_status sl_query_outline(sl_context *context, sl_query *query, const sl_outline **out);
 
-/// The mirrors of that outline, for sl_mirror_part_place(); NULL where the map has none. Valid
-/// until a setting changes.
-SL_API sl_status sl_query_mirrors(sl_context *context, sl_query *query,
-                                  const sl_room_mirrors **out);
+/// Makes what regions and sightlines need. Then several threads may ask for regions, whether points
+/// are seen and what rays meet at the same time, each with a context of its own, until a setting
+/// changes; not with boxes that block.
+SL_API sl_status sl_query_prepare(sl_context *context, sl_query *query);
 
-/// Whether an eye sees a point directly, past boxes and within range, as sl_sees says with the
-/// sight of the bake.
+/// Whether an eye sees a point directly, past boxes and within range. Exact. With closed sight,
+/// portals lead from a cell that the eye stands in (view.h) to a cell that touches the point, and
+/// the segment between eye and point touches each of them. It may graze walls on either side, but
+/// crosses none. (One that grazes walls on both sides leads the culling methods to no cell.) With
+/// open sight, if the bake has it, the segment has no point in common with a wall. False where
+/// either point is outside the bounds, and where the eye is in solid ground.
 SL_API sl_status sl_query_sees(sl_context *context, sl_query *query, sl_point eye, sl_point point,
                                bool *out);
+
+/// The first wall on the ray from an eye through a point, whatever the range: just to the left of
+/// the ray, so a corner that the ray touches stops it where the corner's walls reach to its left.
+/// For an eye on a wall, whose ray does not lead into what the eye sees (view.h), it is that wall,
+/// at the eye. The wall is exact; the point is rounded. SL_BAD_ARGUMENT where the eye is outside
+/// the bounds or in solid ground, the two points are the same, or one is not finite.
+SL_API sl_status sl_query_cast(sl_context *context, sl_query *query, sl_point eye, sl_point through,
+                               sl_hit *out);
 
 /// A view from an eye: heading in degrees counter-clockwise from +x, width in degrees. A width of
 /// 360 is all round.
@@ -187,14 +197,31 @@ SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, co
 SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
                                      bool *seen, bool *mirrored);
 
-/// The visible region of a view, past boxes and within range (sl_region_make). Edges on the sides of
-/// boxes have walls from SL_BOX_WALL on. For an eye on the border of a box that blocks, walls are
-/// those of sl_query_space.
+/// The visible region of a view, past boxes and within range, by expanding it through portals from
+/// the cells at the eye (Teller 1992, Visibility Computations in Densely Occluded Polyhedral
+/// Environments, eye-to-region; Bungiu et al. 2014, Efficient Computation of Visibility Polygons).
+///
+/// What an eye sees that is on a wall, on its end or on a portal, view.h says. Where a wall parts
+/// what is around the eye, the eye is a point of its region; so is the eye of a cone. An eye that
+/// sees nothing, and a cone of 0 degrees, have an empty region. SL_BAD_ARGUMENT for a cone's border
+/// that is the eye itself or not finite. On failure the region is empty.
+///
+/// Edges on the sides of boxes have walls from SL_BOX_WALL on. For an eye on the border of a box
+/// that blocks, walls are those of sl_query_space.
 SL_API sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *view,
                                  sl_region *out);
 
-/// The same with what is seen by mirror (sl_mirrored_region_make); without a mirror, the direct
-/// region alone.
+/// The same with what is seen by mirror; without a mirror, the direct region alone. Sightlines are
+/// at most as long as the range, with their reflections.
+///
+/// Behind axial mirrors it is decided exactly which walls are met, and in what order, as in the
+/// direct region. Places in mirrored space are sums of two doubles; `rounded` says where these do
+/// not suffice. Behind oblique mirrors the eye's image and the borders of what is seen are rounded,
+/// at each reflection by a few units in the last place of the largest coordinates. A part is then
+/// exact for an eye and a cone moved by that much.
+///
+/// An eye on a mirror sees nothing in it. Time: that of a region for each part. The number of parts
+/// may grow with the depth as a power of the number of mirrors.
 SL_API sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
                                           sl_mirrored_region *out);
 /// The same with up to `depth` reflections, whatever is set: deeper ones take longer.

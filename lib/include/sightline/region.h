@@ -35,7 +35,7 @@ typedef struct sl_region_edge {
 } sl_region_edge;
 
 /// A region: a counter-clockwise polygon, star-shaped about the eye. Edge i leads from points[i] to
-/// the next point, around. Zero it to start. It keeps its memory from one sl_region_make to the
+/// the next point, around. Zero it to start. It keeps its memory from one sl_query_region to the
 /// next, so repeated calls allocate only while regions grow.
 ///
 /// It is decided exactly which walls are met, and in what order. A point that is no corner is
@@ -56,20 +56,6 @@ typedef struct sl_region {
 } sl_region;
 
 SL_API void sl_region_destroy(sl_context *context, sl_region *region); ///< and zeroes it
-
-/// Makes the region of a view by expanding it through portals, from the cells at the eye (Teller
-/// 1992, Visibility Computations in Densely Occluded Polyhedral Environments, eye-to-region; Bungiu
-/// et al. 2014, Efficient Computation of Visibility Polygons, on triangles). `range` limits how far
-/// is seen; 0 for no limit.
-///
-/// What an eye sees that is on a wall, on its end or on a portal, view.h says. Where a wall parts
-/// what is around the eye, the eye is a point of its region; so is the eye of a cone. An eye that
-/// sees nothing, and a cone of 0 degrees, have an empty region.
-///
-/// SL_BAD_ARGUMENT for a range that is negative or not finite, and for a cone's border that is the
-/// eye itself or not finite. On failure the region is empty.
-SL_API sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
-                                double range, sl_region *region);
 
 /// Measures under the names that depthmapX gives them (isovist.cpp of its salalib), in the map's
 /// unit: measures.h says what each is. All are 0 for an empty region. Arcs count as arcs, not as
@@ -95,22 +81,13 @@ SL_API size_t sl_region_corners(const sl_region *region, const sl_space *space, 
 SL_API size_t sl_region_flatten(const sl_region *region, double tolerance, sl_point *points,
                                 size_t room);
 
+/// What a ray meets (sl_query_cast).
+typedef struct sl_hit {
+    uint32_t wall;  ///< index of the space's walls; SL_NO_WALL: the border of the map
+    sl_point point; ///< rounded; on the wall where that is axial
+} sl_hit;
+
 // --- with what is seen in mirrors, part by part
-
-/// A piece of a room's side on a mirror that reflects there, counter-clockwise around the room.
-typedef struct sl_room_mirror {
-    sl_point right, left;
-    uint32_t mirror; ///< of the map
-} sl_room_mirror;
-
-/// Where the rooms of an outline end at mirrors. Where mirrors lie on each other, the first one of
-/// the map counts.
-typedef struct sl_room_mirrors {
-    const sl_outline *outline; ///< the caller's, as the map; both must stay as long
-    const sl_map *map;
-    uint32_t *first; ///< by side of the outline, and one more: pieces[first[i] .. first[i + 1])
-    sl_room_mirror *pieces;
-} sl_room_mirrors;
 
 /// The parent of a part whose mirror is seen directly.
 #define SL_NO_PART UINT32_MAX
@@ -132,7 +109,7 @@ typedef struct sl_mirror_part {
 
 /// Zero it to start. It keeps the direct region's memory from one to the next.
 typedef struct sl_mirrored_region {
-    sl_region direct;      ///< as sl_region_make gives it
+    sl_region direct;      ///< as sl_query_region gives it
     sl_mirror_part *parts; ///< each after its parent
     size_t part_count, part_room;
 } sl_mirrored_region;
@@ -140,26 +117,10 @@ typedef struct sl_mirrored_region {
 /// Frees a region and zeroes it.
 SL_API void sl_mirrored_region_destroy(sl_context *context, sl_mirrored_region *region);
 
-/// The region of a view, with what is seen by up to `depth` reflections. Sightlines are at most
-/// `range` long, with their reflections; 0 for no limit.
-///
-/// Behind axial mirrors it is decided exactly which walls are met, and in what order, as in the
-/// direct region. Places in mirrored space are sums of two doubles; `rounded` says where these do
-/// not suffice. Behind oblique mirrors the eye's image and the borders of what is seen are rounded,
-/// at each reflection by a few units in the last place of the largest coordinates. A part is then
-/// exact for an eye and a cone moved by that much.
-///
-/// An eye on a mirror sees nothing in it. Time: that of a region for each part. The number of parts
-/// may grow with the depth as a power of the number of mirrors.
-SL_API sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mirrors,
-                                         const sl_view *view, double range, uint32_t depth,
-                                         sl_mirrored_region *out);
-
 /// Where a point of the map seems to be in a part, in mirrored space. Rounded. SL_NO_PART: where it
-/// is. `mirrors` are those that the region was made with.
-SL_API sl_point sl_mirror_part_place(const sl_room_mirrors *mirrors,
-                                     const sl_mirrored_region *region, uint32_t part,
-                                     sl_point point);
+/// is. `map`: whose mirrors are in the region.
+SL_API sl_point sl_mirror_part_place(const sl_map *map, const sl_mirrored_region *region,
+                                     uint32_t part, sl_point point);
 
 /// The area of all parts. What two mirrors show counts twice.
 SL_API double sl_mirrored_area(const sl_mirrored_region *region);

@@ -20,7 +20,6 @@
 #include "sightline/pvs.h"
 #include "sightline/query.h"
 #include "sightline/region.h"
-#include "sightline/sees.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
 #include "sightline/steps.h"

@@ -9,8 +9,8 @@
 ///     sl_vga_measures *measures = calloc(grid.count, sizeof *measures);
 ///     sl_vga_measure(context, &outline, &grid, &graph, &options, measures);
 ///
-/// Which points see each other is exact: closed sight, as sl_sees says. So is the graph, and so are
-/// all counts. Measures are doubles.
+/// Which points see each other is exact: closed sight, as of sl_query_sees. So is the graph, and so
+/// are all counts. Measures are doubles.
 #ifndef SIGHTLINE_VGA_H
 #define SIGHTLINE_VGA_H
 
@@ -35,8 +35,8 @@ typedef struct sl_vga_grid {
 /// the seeds. Each seed stands for the grid point nearest to it. Without seeds: all points inside,
 /// which are neither on a wall nor in solid ground. Points lie at multiples of the step, as
 /// depthmapX puts them. A step through one-way glass is free from where it is seen through.
-/// SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is
-/// not inside the bounds, and for more than 2^31 squares.
+/// SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is not inside the bounds,
+/// and for more than 2^31 squares.
 SL_API sl_status sl_vga_grid_make(sl_context *context, const sl_outline *outline, double step,
                                   const sl_point *seeds, size_t seed_count, sl_vga_grid *out);
 SL_API void sl_vga_grid_destroy(sl_context *context, sl_vga_grid *grid); ///< and zeroes it
@@ -64,7 +64,7 @@ SL_API uint64_t sl_vga_graph_bytes(uint32_t points);
 /// Connects the points of a grid that see each other. `range`: no farther than this; 0 for no
 /// limit. `threads`: 0 for one per core; the graph is the same for any number. SL_NO_MEMORY. Cost:
 /// for each point, the rooms that it sees and the points in them. With one-way glass
-/// (sl_filtered_space.dark_walls) row p has the points that p sees, and measures follow those.
+/// row p has the points that p sees, and measures follow those.
 SL_API sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline,
                                    const sl_vga_grid *grid, double range, unsigned threads,
                                    sl_vga_graph *out);
@@ -101,9 +101,8 @@ SL_API sl_vga_options sl_vga_options_default(void);
 
 /// What depthmapX gives a point. NAN for a measure that is not defined, because its formula divides
 /// by 0 or takes the logarithm of 0 (no neighbour, one point, no point deeper than a step, a
-/// neighbour that sees nothing through one-way glass), or of a part that was not asked for.
-/// Values are never infinite.
-/// measures.h says what each is. Connectivity is of the global measures too.
+/// neighbour that sees nothing through one-way glass), or of a part that was not asked for. Values
+/// are never infinite. measures.h says what each is. Connectivity is of the global measures too.
 typedef struct sl_vga_measures {
     SL_GRAPH_MEASURES(SL_MEASURE_MEMBER)
     SL_GRAPH_COUNTS(SL_MEASURE_MEMBER)
@@ -133,8 +132,7 @@ SL_API sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *out
 /// for a part that was not asked for. The paths are those of sl_vga_measure: "shortest" is the
 /// shortest among those that turn only at points beside walls. It may be longer than the shortest
 /// path of the plan, which turns at corners. Lengths and turns are added up in single precision, as
-/// in depthmapX.
-/// measures.h says what each is.
+/// in depthmapX. measures.h says what each is.
 typedef struct sl_vga_depths {
     SL_DEPTH_MEASURES(SL_MEASURE_MEMBER)
 } sl_vga_depths;

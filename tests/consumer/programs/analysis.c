@@ -1,4 +1,5 @@
 // Visibility graphs: the points of an empty room all see each other.
+#include "space/outline.h"
 #include <sightline/space.h>
 #include <sightline/vga.h>
 
@@ -27,7 +28,7 @@ int main(void) {
     const sl_point seed = {1, 1};
     sl_status status = build(context, &map);
     if (status == SL_OK) status = subdivide(context, &map, &space);
-    if (status == SL_OK) status = sl_outline_make(context, &space, &outline);
+    if (status == SL_OK) status = sli_outline_make(context, &space, &outline);
     if (status == SL_OK) status = sl_vga_grid_make(context, &outline, 1, &seed, 1, &grid);
     if (status == SL_OK) status = sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph);
     printf("%s: %u points, %u pairs\n", sl_status_name(status), graph.count, (unsigned)graph.edges);
@@ -35,7 +36,7 @@ int main(void) {
                       graph.edges == (uint64_t)graph.count * (graph.count - 1);
     sl_vga_graph_destroy(context, &graph);
     sl_vga_grid_destroy(context, &grid);
-    sl_outline_destroy(context, &outline);
+    sli_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
