@@ -8,7 +8,6 @@
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/effects.h"
-#include "sightline/moving.h"
 #include "sightline/query.h"
 #include "sightline/sees.h"
 

@@ -187,9 +187,9 @@ SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, co
 SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
                                      bool *seen, bool *mirrored);
 
-/// The visible region of a view, past boxes and within range (sl_region_make). Edges on the sides of
-/// boxes have walls from SL_BOX_WALL on. For an eye on the border of a box that blocks, walls are
-/// those of sl_query_space.
+/// The visible region of a view, past boxes and within range (sl_region_make). Edges on the sides
+/// of boxes have walls from SL_BOX_WALL on. For an eye on the border of a box that blocks, walls
+/// are those of sl_query_space.
 SL_API sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *view,
                                  sl_region *out);
 
