@@ -12,6 +12,7 @@
 /// all such powers here are written exactly. (Both Steele and White 1990, How to Print
 /// Floating-Point Numbers Accurately, with numbers of at most 128 bits.) Other numbers
 /// are left to printf and strtod.
+#include "base/base.h"
 #include "base/wide.h"
 #include "sightline/support.h"
 
@@ -101,6 +102,13 @@ void sl_number_write(double value, char text[SL_NUMBER_TEXT]) {
         if (strtod(text, NULL) == value) break;
     }
     replace(text, decimal_point(), ".");
+}
+
+/// Not pow(), whose tables make a module of WebAssembly 7 kB larger.
+double sli_power_of_ten(int power) {
+    char text[16];
+    snprintf(text, sizeof text, "1e%d", power);
+    return strtod(text, NULL);
 }
 
 static size_t skip_digits(const char *text, size_t length, size_t at) {
