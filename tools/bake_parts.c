@@ -97,14 +97,9 @@ sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
 
 // --- when to stop
 
-typedef struct patience {
-    double end; ///< by sl_seconds(); 0 for none
-    bool asked; ///< whether Ctrl-C ends it
-} patience;
-
 static bool is_over(void *user) {
-    const patience *p = user;
-    return (p->asked && console_is_asked()) || (p->end > 0 && sl_seconds() >= p->end);
+    const bake_parts *parts = user;
+    return (parts->asked && console_is_asked()) || (parts->end > 0 && sl_seconds() >= parts->end);
 }
 
 // --- what is known before
@@ -133,8 +128,9 @@ static sl_status fail_other(sl_context *context, const char *path, const char *d
                    before->partial.inside_only ? " --inside" : "");
 }
 
-static sl_status take_begun(sl_context *context, const char *path, const sl_see_options *see,
+static sl_status take_begun(sl_context *context, const bake_parts *parts, const sl_see_options *see,
                             const sl_baked *baked, sl_baked *before, sl_partial *partial) {
+    const char *path = parts->resume;
     SL_TRY(sl_baked_read_part(context, path, before));
     if (!sl_partial_begun(&before->partial))
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -148,7 +144,7 @@ static sl_status take_begun(sl_context *context, const char *path, const sl_see_
     }
     const char *other = bake_difference(before, &asked);
     if (other) return fail_other(context, path, other, before);
-    if (before->partial.shard != see->shard || before->partial.shard_count != see->shard_count)
+    if (before->partial.shard != parts->shard || before->partial.shard_count != parts->shard_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        before->partial.shard_count ? "--resume %s: is shard %u of %u; ask for it"
                                                    : "--resume %s: is no shard",
@@ -200,8 +196,8 @@ static sl_status take_known(sl_context *context, const bake_parts *parts,
     sl_baked before = {0};
     sl_status status = SL_OK;
     if (parts->resume)
-        status = take_begun(context, parts->resume, see, baked, &before, partial);
-    else if (parts->previous && !no_use(parts, method, see->plan->effects))
+        status = take_begun(context, parts, see, baked, &before, partial);
+    else if (parts->previous)
         status = take_over(context, parts->previous, method, see, baked, &before, partial);
     sl_baked_destroy(context, &before);
     return status;
@@ -209,39 +205,17 @@ static sl_status take_known(sl_context *context, const bake_parts *parts,
 
 // --- the work
 
-/// Each process of the crew computes its share. The first process gathers all partial results.
-static sl_status look(sl_context *context, const sl_see_method *method, const sl_space *space,
-                      sl_see_options see, sl_partial *partial) {
-    if (crew_size() > 1) {
-        see.shard = crew_rank() + 1;
-        see.shard_count = crew_size();
-    }
-    SL_TRY(crew_agree(context, method->run(context, space, &see, partial)));
+sl_status bake_parts_join(sl_context *context, bake_parts *parts, sl_status outcome,
+                          sl_partial *partial) {
+    SL_TRY(crew_agree(context, outcome));
+    // Ctrl-C has had its effect. The bound may take a quarter of the time limit.
+    parts->asked = false;
+    parts->end = parts->time_limit > 0 ? sl_seconds() + parts->time_limit / 4 : 0;
     if (crew_size() == 1) return SL_OK;
     partial->shard = partial->shard_count = 0;
-    return crew_agree(context, crew_join(context, partial));
-}
-
-static sl_status see_parts(sl_context *context, const bake_parts *parts,
-                           const sl_see_method *method, const sl_see_options *options,
-                           sl_baked *baked, sl_partial *partial, bake_parts_account *account) {
-    sl_see_options see = *options;
-    patience p = {.end = parts->time_limit > 0 ? parts->start + parts->time_limit : 0,
-                  .asked = parts->keep_partial};
-    see.shard = parts->shard;
-    see.shard_count = parts->shard_count;
-    see.enough = is_over;
-    see.enough_user = &p;
-    SL_TRY(crew_agree(context, take_known(context, parts, method, &see, baked, partial)));
-    account->known = partial->done_count;
-    SL_TRY(look(context, method, &baked->space, see, partial));
-    account->units = method->units;
-    account->unit_count = partial->unit_count;
-    account->done = partial->done_count;
-    if (crew_rank() != 0 || parts->shard_count) return SL_OK;
-    // Ctrl-C has had its effect. The bound may take a quarter of the time limit.
-    p = (patience){.end = parts->time_limit > 0 ? sl_seconds() + parts->time_limit / 4 : 0};
-    return method->finish(context, &baked->space, &see, partial, &baked->visibility);
+    SL_TRY(crew_agree(context, crew_join(context, partial)));
+    if (crew_rank() != 0) sl_partial_destroy(context, partial);
+    return SL_OK;
 }
 
 void bake_parts_choose(const bake_parts *parts, const sl_map *map, sl_bake_options *options) {
@@ -250,35 +224,28 @@ void bake_parts_choose(const bake_parts *parts, const sl_map *map, sl_bake_optio
         options->method = sl_see_method_named("prune");
 }
 
-sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
-                         const sl_bake_options *options, sl_baked *baked,
-                         bake_parts_account *account) {
-    const unsigned effects = sl_plan_make(&baked->map).effects;
+sl_status bake_parts_begin(sl_context *context, bake_parts *parts, sl_bake_options *options,
+                           const sl_baked *baked, sl_partial *known) {
+    const unsigned effects = options->see.plan->effects;
+    sl_see_options *see = &options->see;
     const char *why = no_use(parts, options->method, effects);
     if (parts->previous && why && crew_rank() == 0)
         SL_TRY(pass_over(context, parts->previous, why));
-    bake_parts useful = *parts;
-    if (why) useful.previous = NULL;
-    if (!in_parts(&useful)) return sl_bake_see(context, options, baked, NULL);
+    if (why) parts->previous = NULL;
+    options->by_units = in_parts(parts);
+    if (!options->by_units) return SL_OK;
     if (parts->keep_partial) console_ask_first();
-    const sl_see_method *method = options->method;
-    const sl_plan plan = sl_bake_plan(options, baked);
-    sl_see_options see = options->see;
-    see.plan = &plan;
-    if (crew_size() > 1 && plan.effects)
+    if (crew_size() > 1 && effects)
         return sl_fail(context, SL_UNSUPPORTED,
                        "processes of mpirun do not exchange what is found of effects: bake shards "
                        "(--shard), and merge them");
-    sl_partial partial = {0};
-    sl_status status = see_parts(context, parts, method, &see, baked, &partial, account);
-    if (status == SL_OK && (parts->shard_count || !sl_partial_complete(&partial))) {
-        baked->partial = partial;
-        if (parts->shard_count) {
-            baked->visibility.sight = see.sight;
-            baked->visibility.guarantee = method->stabs ? see.solver->guarantee : method->guarantee;
-        }
-        return SL_OK;
-    }
-    sl_partial_destroy(context, &partial);
-    return status;
+    parts->asked = parts->keep_partial;
+    parts->end = parts->time_limit > 0 ? parts->start + parts->time_limit : 0;
+    see->enough = is_over;
+    see->enough_user = parts;
+    SL_TRY(crew_agree(context, take_known(context, parts, options->method, see, baked, known)));
+    // Each process of the crew computes its share.
+    see->shard = crew_size() > 1 ? crew_rank() + 1 : parts->shard;
+    see->shard_count = crew_size() > 1 ? crew_size() : parts->shard_count;
+    return SL_OK;
 }

@@ -15,6 +15,10 @@ typedef struct bake_parts {
     uint32_t shard, shard_count; ///< 0, 0 for all
     const char *shard_text;      ///< "3/8"; NULL for all
     const char *resume, *previous;
+
+    // When to stop.
+    double end; ///< by sl_seconds(); 0 for none
+    bool asked; ///< whether Ctrl-C ends it
 } bake_parts;
 
 /// The command-line options that fill it.
@@ -24,24 +28,20 @@ option_table bake_parts_option_table(bake_parts *parts);
 sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
                           const sl_see_options *see, bake_parts *parts);
 
-/// Call it with the map, before sl_bake_space(). Chooses a method that knows the effects of the map
+/// Call it with the map, before sl_bake(). Chooses a method that knows the effects of the map
 /// where none is asked for and the work is done in parts.
 void bake_parts_choose(const bake_parts *parts, const sl_map *map, sl_bake_options *options);
 
 /// How the bakes of two files differ, as words that follow "was baked". NULL: they are alike.
 const char *bake_difference(const sl_baked *a, const sl_baked *b);
 
-/// How much of the work is done, for the report.
-typedef struct bake_parts_account {
-    const char *units; ///< NULL where the bake was done in one go
-    uint32_t unit_count, done;
-    uint32_t known; ///< of `done`: before this run
-} bake_parts_account;
+/// Call it between the halves of sl_bake(), as sl_bake_options.between. Chooses whether the bake
+/// works by units, and takes what --resume and --previous know.
+sl_status bake_parts_begin(sl_context *context, bake_parts *parts, sl_bake_options *options,
+                           const sl_baked *baked, sl_partial *known);
 
-/// Call it after sl_bake_space(). Sets the visible sets of a baked file, or the partial results of
-/// its shard.
-sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
-                         const sl_bake_options *options, sl_baked *baked,
-                         bake_parts_account *account);
+/// Call it as sl_bake_options.join. The first process of the crew gathers all partial results.
+sl_status bake_parts_join(sl_context *context, bake_parts *parts, sl_status outcome,
+                          sl_partial *partial);
 
 #endif

@@ -19,11 +19,7 @@ typedef struct bake_report {
     const char *input, *output;
     const sl_baked *baked;
     sl_bake_account account;
-    bake_parts_account parts;
-    struct {
-        double read; ///< cleaning included
-        double see, write;
-    } seconds;
+    double read_seconds, write_seconds; ///< cleaning included in the first
 } bake_report;
 
 // --- the report
@@ -32,25 +28,25 @@ typedef struct bake_report {
 
 static void add_seconds(json_fields *fields, const bake_report *report) {
     json_open(fields, "seconds");
-    json_add_real(fields, "read", report->seconds.read);
+    json_add_real(fields, "read", report->read_seconds);
     json_add_real(fields, "subdivide", report->account.seconds.subdivide);
     if (report->account.checked) json_add_real(fields, "check", report->account.seconds.check);
-    json_add_real(fields, "cell_to_cell", report->seconds.see);
-    json_add_real(fields, "write", report->seconds.write);
+    json_add_real(fields, "cell_to_cell", report->account.seconds.see);
+    json_add_real(fields, "write", report->write_seconds);
     json_close(fields);
 }
 
 /// How much of the work was done, if the bake was not done in one go.
 static void add_parts(json_fields *fields, const bake_report *report) {
-    const bake_parts_account *parts = &report->parts;
+    const sl_bake_account *account = &report->account;
     const sl_partial *partial = &report->baked->partial;
     json_add_flag(fields, "finished", !sl_partial_begun(partial));
-    if (!parts->units) return;
+    if (!account->work.units) return;
     json_open(fields, "work");
-    json_add_text(fields, "units", parts->units);
-    json_add_count(fields, "count", parts->unit_count);
-    json_add_count(fields, "known_before", parts->known);
-    json_add_count(fields, "done", parts->done);
+    json_add_text(fields, "units", account->work.units);
+    json_add_count(fields, "count", account->work.count);
+    json_add_count(fields, "known_before", account->work.known);
+    json_add_count(fields, "done", account->work.done);
     if (partial->shard_count) {
         json_add_count(fields, "shard", partial->shard);
         json_add_count(fields, "shards", partial->shard_count);
@@ -126,15 +122,16 @@ static sl_status bake_report_print_json(sl_context *context, const bake_report *
 // --- text
 
 static void print_parts(const bake_report *report) {
-    const bake_parts_account *parts = &report->parts;
+    const sl_bake_account *account = &report->account;
     const sl_partial *partial = &report->baked->partial;
+    const char *units = account->work.units;
     char text[SL_PARTIAL_TEXT];
-    if (!parts->units) return;
-    printf("  %-9s %" PRIu32 ", %" PRIu32 " of them done, %" PRIu32 " known before\n", parts->units,
-           parts->unit_count, parts->done, parts->known);
+    if (!units) return;
+    printf("  %-9s %" PRIu32 ", %" PRIu32 " of them done, %" PRIu32 " known before\n", units,
+           account->work.count, account->work.done, account->work.known);
     if (partial->shard_count) {
         printf("  shard     %" PRIu32 " of %" PRIu32 ", %" PRIu32 " %s left\n", partial->shard,
-               partial->shard_count, sl_partial_left(partial), parts->units);
+               partial->shard_count, sl_partial_left(partial), units);
         return;
     }
     sl_baked_say_partial(report->baked, text);
@@ -196,10 +193,10 @@ static void print_visibility(const sl_baked *baked) {
 }
 
 static void print_seconds(const bake_report *report) {
-    printf("  seconds   read %.3f, subdivide %.3f", report->seconds.read,
+    printf("  seconds   read %.3f, subdivide %.3f", report->read_seconds,
            report->account.seconds.subdivide);
     if (report->account.checked) printf(", check %.3f", report->account.seconds.check);
-    printf(", cell to cell %.3f, write %.3f\n", report->seconds.see, report->seconds.write);
+    printf(", cell to cell %.3f, write %.3f\n", report->account.seconds.see, report->write_seconds);
 }
 
 static sl_status bake_report_print(sl_context *context, const bake_report *report) {
@@ -300,13 +297,6 @@ static sl_status name_output(sl_context *context, const char *input, char **name
 
 // --- the work
 
-/// Seconds since *last, which is set to now.
-static double lap(double *last) {
-    const double before = *last;
-    *last = sl_seconds();
-    return *last - before;
-}
-
 /// With --check: reads the file again that was written.
 static sl_status check_file(sl_context *context, const bake_plan *plan) {
     sl_baked again = {0};
@@ -316,24 +306,36 @@ static sl_status check_file(sl_context *context, const bake_plan *plan) {
     return SL_OK;
 }
 
+static sl_status between(sl_context *context, void *user, sl_bake_options *options,
+                         const sl_baked *baked, sl_partial *known) {
+    bake_plan *plan = user;
+    if (crew_rank() == 0)
+        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
+    return bake_parts_begin(context, &plan->parts, options, baked, known);
+}
+
+static sl_status join(sl_context *context, void *user, sl_status outcome, sl_partial *partial) {
+    bake_plan *plan = user;
+    return bake_parts_join(context, &plan->parts, outcome, partial);
+}
+
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
                       bake_report *report) {
     sl_bake_options *options = &plan->pipeline.bake;
-    double time = sl_seconds();
+    const double start = sl_seconds();
     SL_TRY(pipeline_read(context, &plan->pipeline, map));
-    report->seconds.read = lap(&time);
+    report->read_seconds = sl_seconds() - start;
     bake_parts_choose(&plan->parts, map, options);
-    SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
-    if (crew_rank() == 0)
-        SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));
-    report->seconds.read += report->account.seconds.clean;
-    lap(&time);
-    SL_TRY(bake_parts_see(context, &plan->parts, options, baked, &report->parts));
-    report->seconds.see = lap(&time);
+    options->user = plan;
+    options->between = between;
+    options->join = join;
+    SL_TRY(sl_bake(context, map, options, baked, &report->account));
+    report->read_seconds += report->account.seconds.clean;
     if (crew_rank() != 0) return SL_OK;
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
+    const double seen = sl_seconds();
     SL_TRY(sl_baked_write(context, baked, plan->output));
-    report->seconds.write = lap(&time);
+    report->write_seconds = sl_seconds() - seen;
     return check_file(context, plan);
 }
 

@@ -118,12 +118,12 @@ static sl_status read_map(sl_context *context, bake_job *job) {
 
 /// Finds what `options` ask for. It uses a map of the job, since the baked map belongs to the main
 /// thread by now.
-static sl_status see(sl_context *context, bake_job *job, const sl_bake_options *options,
+static sl_status see(sl_context *context, const bake_job *job, sl_bake_options *options,
                      sl_visibility *out) {
-    sl_baked own = {.map = job->clean, .space = job->baked->space};
-    SL_TRY(sl_bake_see(context, options, &own, NULL));
-    *out = own.visibility;
-    return SL_OK;
+    sl_plan plan = sl_plan_make(&job->clean);
+    plan.mirror_depth = job->mirror_depth;
+    options->see.plan = &plan;
+    return options->method->see(context, &job->baked->space, &options->see, out);
 }
 
 /// The search also finds the stab trees. If it takes too long there are none.

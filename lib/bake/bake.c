@@ -78,22 +78,51 @@ sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *optio
     return SL_OK;
 }
 
-sl_plan sl_bake_plan(const sl_bake_options *options, const sl_baked *baked) {
-    sl_plan plan = sl_plan_make(&baked->map);
-    plan.mirror_depth = options->mirror_depth;
-    plan.door_limit = options->door_limit;
-    return plan;
+/// Finds the visible sets unit by unit, or what is known of them when the bake stops.
+static sl_status see_by_units(sl_context *context, sl_bake_options *options, sl_partial *partial,
+                              sl_baked *baked, sl_bake_account *account) {
+    const sl_see_method *method = options->method;
+    sl_see_options *see = &options->see;
+    if (!method->run || see->trees)
+        return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not work by units%s",
+                       method->name, method->run ? " with stab trees" : "");
+    account->work.known = partial->done_count;
+    sl_status status = method->run(context, &baked->space, see, partial);
+    if (options->join) status = options->join(context, options->user, status, partial);
+    SL_TRY(status);
+    account->work.units = method->units;
+    account->work.count = partial->unit_count;
+    account->work.done = partial->done_count;
+    if (partial->shard_count) {
+        baked->visibility.sight = see->sight;
+        baked->visibility.guarantee = method->stabs ? see->solver->guarantee : method->guarantee;
+    } else if (sl_partial_begun(partial)) {
+        SL_TRY(method->finish(context, &baked->space, see, partial, &baked->visibility));
+    }
+    if (!partial->shard_count && sl_partial_complete(partial)) return SL_OK;
+    baked->partial = *partial;
+    *partial = (sl_partial){0};
+    return SL_OK;
 }
 
-sl_status sl_bake_see(sl_context *context, const sl_bake_options *options, sl_baked *baked,
-                      sl_bake_account *account) {
+static sl_status find_sets(sl_context *context, sl_bake_options *options, sl_baked *baked,
+                           sl_bake_account *account) {
+    sl_plan plan = sl_plan_make(&baked->map);
+    sl_partial partial = {0};
+    sl_status status = SL_OK;
+    plan.mirror_depth = options->mirror_depth;
+    plan.door_limit = options->door_limit;
+    options->see.plan = &plan;
+    if (options->between)
+        status = options->between(context, options->user, options, baked, &partial);
     double time = sl_seconds();
-    const sl_plan plan = sl_bake_plan(options, baked);
-    sl_see_options see = options->see;
-    see.plan = &plan;
-    SL_TRY(options->method->see(context, &baked->space, &see, &baked->visibility));
-    if (account) account->seconds.see = lap(&time);
-    return SL_OK;
+    if (status == SL_OK)
+        status = options->by_units ? see_by_units(context, options, &partial, baked, account)
+                                   : options->method->see(context, &baked->space, &options->see,
+                                                          &baked->visibility);
+    account->seconds.see = lap(&time);
+    sl_partial_destroy(context, &partial);
+    return status;
 }
 
 sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options *options, sl_baked *out,
@@ -101,7 +130,7 @@ sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options *optio
     sl_bake_options chosen = options ? *options : sl_bake_options_default();
     sl_bake_account done = {0};
     SL_TRY(sl_bake_space(context, map, &chosen, out, &done));
-    const sl_status status = sl_bake_see(context, &chosen, out, &done);
+    const sl_status status = find_sets(context, &chosen, out, &done);
     if (status != SL_OK)
         sl_baked_destroy(context, out);
     else if (account)

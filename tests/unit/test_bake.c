@@ -236,20 +236,150 @@ static void the_tree_is_the_search(void **state) {
     free(text);
 }
 
-/// The two halves of a bake, without anybody who wants an account.
-static void halves_need_no_account(void **state) {
-    (void)state;
+static void read_two_rooms(sl_context *context, sl_map *map) {
     static const char text[] = "sightline 1\nwalls 0 0 4 0 4 4 0 4 0 0\nwall 2 0 2 3\n";
+    assert_ok(context, sli_map_read_text(context, "t", text, strlen(text), map));
+}
+
+/// The first half of a bake, without anybody who wants an account.
+static void the_first_half_needs_no_account(void **state) {
+    (void)state;
     sl_context *context = testing_context(NULL);
     sl_bake_options options = sl_bake_options_default();
     sl_map map = {0};
     sl_baked baked = {0};
-    assert_ok(context, sli_map_read_text(context, "t", text, strlen(text), &map));
+    read_two_rooms(context, &map);
     assert_ok(context, sl_bake_space(context, &map, &options, &baked, NULL));
-    assert_ok(context, sl_bake_see(context, &options, &baked, NULL));
-    assert_true(sli_pvs_pairs(&baked.visibility.pvs) > baked.space.cell_count);
+    assert_true(baked.space.cell_count > 1 && options.method);
+    assert_int_equal(baked.visibility.pvs.cell_count, 0);
     sl_baked_destroy(context, &baked);
     sl_context_destroy(context);
+}
+
+/// What the functions of a bake by units are asked to do.
+typedef struct units_trial {
+    const sl_baked *before; ///< to take over; NULL for none
+    sl_status between, join;
+    bool leave_out; ///< the partial results are another process's
+    int calls[2];
+} units_trial;
+
+static sl_status trial_between(sl_context *context, void *user, sl_bake_options *options,
+                               const sl_baked *baked, sl_partial *known) {
+    units_trial *t = user;
+    t->calls[0]++;
+    assert_true(baked->space.cell_count && options->method && options->see.plan);
+    if (t->before)
+        SL_TRY(sl_partial_reuse(context, &t->before->space, &t->before->visibility, &baked->space,
+                                options->method, &options->see, known));
+    return t->between == SL_OK ? SL_OK : sl_fail(context, t->between, "between");
+}
+
+static sl_status trial_join(sl_context *context, void *user, sl_status outcome,
+                            sl_partial *partial) {
+    units_trial *t = user;
+    t->calls[1]++;
+    assert_int_equal(outcome, SL_OK);
+    if (t->leave_out) sl_partial_destroy(context, partial);
+    return t->join == SL_OK ? SL_OK : sl_fail(context, t->join, "join");
+}
+
+static bool at_once(void *user) {
+    return user == NULL;
+}
+
+static sl_status bake_by_units(sl_context *context, units_trial *trial, sl_bake_options options,
+                               sl_baked *out, sl_bake_account *account) {
+    sl_map map = {0};
+    read_two_rooms(context, &map);
+    options.by_units = true;
+    options.user = trial;
+    options.between = trial_between;
+    options.join = trial_join;
+    const sl_status status = sl_bake(context, &map, &options, out, account);
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+static void same_pairs(const sl_baked *a, const sl_baked *b) {
+    const sl_pvs *p = &a->visibility.pvs, *q = &b->visibility.pvs;
+    assert_int_equal(p->cell_count, q->cell_count);
+    assert_memory_equal(p->offsets, q->offsets, (p->cell_count + 1) * sizeof *p->offsets);
+    assert_memory_equal(p->bytes, q->bytes, p->offsets[p->cell_count]);
+}
+
+/// By units a bake finds what it finds in one go, also from what is known and from shards.
+static void units_make_the_same_sets(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_bake_options options = sl_bake_options_default();
+    sl_bake_account account;
+    sl_map map = {0};
+    sl_baked whole = {0}, other = {0}, shard = {0};
+    read_two_rooms(context, &map);
+    assert_ok(context, sl_bake(context, &map, NULL, &whole, &account));
+    assert_null(account.work.units);
+    units_trial trial = {0};
+    assert_ok(context, bake_by_units(context, &trial, options, &other, &account));
+    assert_true(trial.calls[0] == 1 && trial.calls[1] == 1);
+    assert_string_equal(account.work.units, "corners");
+    assert_true(account.work.count > 0 && account.work.known == 0);
+    assert_int_equal(account.work.done, account.work.count);
+    assert_false(sl_partial_begun(&other.partial));
+    same_pairs(&other, &whole);
+    sl_baked_destroy(context, &other);
+    trial.before = &whole;
+    assert_ok(context, bake_by_units(context, &trial, options, &other, &account));
+    assert_int_equal(account.work.known, account.work.count);
+    same_pairs(&other, &whole);
+    sl_baked_destroy(context, &other);
+    trial.before = NULL;
+    options.see.shard_count = 2;
+    options.see.shard = 1;
+    assert_ok(context, bake_by_units(context, &trial, options, &other, &account));
+    options.see.shard = 2;
+    assert_ok(context, bake_by_units(context, &trial, options, &shard, &account));
+    assert_true(sl_baked_is_shard(&other) && sl_baked_is_shard(&shard));
+    assert_int_equal(shard.visibility.guarantee, SL_EXACT);
+    assert_ok(context, sl_partial_merge(context, &other.partial, &shard.partial));
+    assert_true(sl_partial_complete(&other.partial));
+    sl_baked_destroy(context, &other);
+    sl_baked_destroy(context, &shard);
+    sl_baked_destroy(context, &whole);
+    sl_context_destroy(context);
+}
+
+static void units_that_are_stopped_are_kept(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_bake_options options = sl_bake_options_default();
+    sl_bake_account account;
+    sl_baked baked = {0};
+    units_trial trial = {0};
+    options.see.enough = at_once;
+    assert_ok(context, bake_by_units(context, &trial, options, &baked, &account));
+    assert_true(sl_partial_begun(&baked.partial) && !sl_partial_complete(&baked.partial));
+    assert_int_equal(baked.visibility.guarantee, SL_CONSERVATIVE);
+    sl_baked_destroy(context, &baked);
+    trial.leave_out = true;
+    assert_ok(context, bake_by_units(context, &trial, options, &baked, &account));
+    assert_false(sl_partial_begun(&baked.partial));
+    assert_int_equal(baked.visibility.pvs.cell_count, 0);
+    sl_baked_destroy(context, &baked);
+    for (int i = 0; i < 3; i++) {
+        trial =
+            (units_trial){.between = i == 0 ? SL_CANCELLED : SL_OK, .join = i == 1 ? SL_IO : SL_OK};
+        if (i == 2) options.method = sl_see_method_named("flood");
+        assert_int_equal(bake_by_units(context, &trial, options, &baked, &account),
+                         i == 0   ? SL_CANCELLED
+                         : i == 1 ? SL_IO
+                                  : SL_UNSUPPORTED);
+        assert_int_equal(baked.space.cell_count, 0);
+        assert_int_equal(trial.calls[1], i == 1);
+    }
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
 }
 
 static void inside_only_looks_at_inside_cells_only(void **state) {
@@ -350,7 +480,9 @@ int main(void) {
         cmocka_unit_test(a_baked_file_reads_back_the_same),
         cmocka_unit_test(a_damaged_file_is_refused),
         cmocka_unit_test(the_tree_is_the_search),
-        cmocka_unit_test(halves_need_no_account),
+        cmocka_unit_test(the_first_half_needs_no_account),
+        cmocka_unit_test(units_make_the_same_sets),
+        cmocka_unit_test(units_that_are_stopped_are_kept),
         cmocka_unit_test(inside_only_looks_at_inside_cells_only),
         cmocka_unit_test(a_search_can_be_interrupted),
         cmocka_unit_test(memory_may_fail_at_any_call),

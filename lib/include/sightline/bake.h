@@ -38,6 +38,22 @@ typedef struct sl_bake_options {
     sl_see_options see;          ///< its `plan` is not looked at; no solver: sl_funnel()
     uint32_t mirror_depth;       ///< reflections of a sightline at most, 0 to 16; 1 by default
     uint32_t door_limit;         ///< sets of doors kept of a pair at most; 16 by default
+
+    /// Work unit by unit, so that `see.enough` can stop the bake and `see.shard` can share it. The
+    /// result is the same; of a bake that is stopped, and of a shard, sl_baked.partial is kept. For
+    /// methods that have units (sl_see_method.run), without stab trees.
+    bool by_units;
+    void *user; ///< of the functions below, each of which may be NULL
+    /// Called when the map is cut into cells. `options` are those of the bake, with the method that
+    /// is chosen and the plan: it may change `see` and `by_units`. It may fill `known`, which is
+    /// zeroed, with partial results of the same space and options (sl_partial_reuse); with
+    /// `by_units` they are not computed again.
+    sl_status (*between)(sl_context *context, void *user, struct sl_bake_options *options,
+                         const sl_baked *baked, sl_partial *known);
+    /// Called when the units are done, with the outcome, which it may replace: processes that share
+    /// a bake join what they found (sl_partial_merge). Where it leaves `partial` zeroed, the bake
+    /// ends with neither visible sets nor partial results.
+    sl_status (*join)(sl_context *context, void *user, sl_status outcome, sl_partial *partial);
 } sl_bake_options;
 
 /// What the command line does without options.
@@ -48,6 +64,12 @@ typedef struct sl_bake_account {
     sl_clean_account cleaning;
     const sl_subdivision *subdivision; ///< the one that was taken
     bool checked;                      ///< whether the space was checked
+    /// The work by units; zeroed where the bake is done in one go.
+    struct {
+        const char *units; ///< what they are, plural
+        uint32_t count, done;
+        uint32_t known; ///< of `done`: before
+    } work;
     struct {
         double clean, subdivide, check, see;
     } seconds;
@@ -67,19 +89,10 @@ typedef struct sl_bake_account {
 SL_API sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options *options,
                          sl_baked *out, sl_bake_account *account);
 
-/// The two halves of sl_bake(), for those who show the space first or do the second half in parts.
-/// The first half cleans and subdivides. It also chooses: where `options` names no method or
-/// solver, it gets them. `account` may be NULL.
+/// The first half alone: cleans and subdivides, for those who need no visible sets. It also
+/// chooses: where `options` names no method or solver, it gets them. `account` may be NULL.
 SL_API sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options,
                                sl_baked *out, sl_bake_account *account);
-
-/// The second half finds the visible sets by what the first has chosen, so `options` must be those
-/// that the first has filled in. `account` may be NULL.
-SL_API sl_status sl_bake_see(sl_context *context, const sl_bake_options *options, sl_baked *baked,
-                             sl_bake_account *account);
-
-/// The plan of the effects that a baked map calls for, as the options say. `baked` must outlive it.
-SL_API sl_plan sl_bake_plan(const sl_bake_options *options, const sl_baked *baked);
 
 /// Whether reports and pictures count a cell: the bake looked from it, it is not solid ground, and
 /// it is inside, where the map's starts say what inside is.
