@@ -1,4 +1,5 @@
 /// `sightline axial`: the axial lines of a plan, or drawn ones, and their measures.
+#include "built.h"
 #include "commands.h"
 #include "help.h"
 #include "line_table.h"
@@ -173,7 +174,7 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
     axial_plan plan = {.pipeline = pipeline_default(),
                        .lines = LINES_FEWEST,
                        .measure = sl_measure_find(SL_AXIAL, "integration_hh"),
-                       .drawing = sl_draw_options_default()};
+                       .drawing = built_draw_options()};
     const name_table lines = {"kind of lines", kinds, sizeof *kinds, sizeof kinds / sizeof *kinds,
                               NULL};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);

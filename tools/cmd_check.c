@@ -1,4 +1,5 @@
 /// `sightline check`: leaks, gaps, overlaps and thin cells of a map; closes gaps with --snap.
+#include "built.h"
 #include "commands.h"
 #include "faults_report.h"
 #include "sightline/draw.h"
@@ -129,7 +130,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     if (plan->output) {
         sl_draw_options drawing = plan->drawing;
         drawing.faults = &c->faults;
-        SL_TRY(sl_draw_file(context, &c->baked, &drawing, plan->output));
+        SL_TRY(built_pictures()->file(context, &c->baked, &drawing, plan->output));
     }
     console->fault = plan->strict && checked_has_fault(c);
     progress_line_clear(&console->line);
@@ -211,8 +212,7 @@ static void print_tables(void) {
 }
 
 sl_status cmd_check(command_console *console, int argc, char **argv) {
-    check_plan plan = {
-        .pipeline = pipeline_default(), .drawing = sl_draw_options_default(), .most = 10};
+    check_plan plan = {.pipeline = pipeline_default(), .drawing = built_draw_options(), .most = 10};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_spec options[] = {
         {"gap", 0, "SIZE",

@@ -1,4 +1,5 @@
 /// `sightline draw`: a picture of a baked file.
+#include "built.h"
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
@@ -90,11 +91,11 @@ static sl_status check_stab_tree(sl_context *context, const char *path, const sl
 static sl_status draw(sl_context *context, draw_plan *plan, const sl_baked *baked) {
     SL_TRY(choose_cell(context, plan, baked, &plan->drawing.cell));
     SL_TRY(check_stab_tree(context, plan->input, baked, &plan->drawing));
-    return sl_draw_file(context, baked, &plan->drawing, plan->output);
+    return built_pictures()->file(context, baked, &plan->drawing, plan->output);
 }
 
 static void print_layers(void) {
-    const unsigned usual = sl_draw_options_default().layers;
+    const unsigned usual = built_draw_options().layers;
     puts("\nlayers (* without --layers):");
     for (size_t i = 0; i < LAYER_COUNT; i++)
         printf("  %-10s%c %s\n", layers[i].name, usual & (unsigned)layers[i].bit ? '*' : ' ',
@@ -102,7 +103,7 @@ static void print_layers(void) {
 }
 
 sl_status cmd_draw(command_console *console, int argc, char **argv) {
-    draw_plan plan = {.drawing = sl_draw_options_default()};
+    draw_plan plan = {.drawing = built_draw_options()};
     const option_table picture = picture_option_table(&plan.drawing, "output", true);
     const option_spec options[] = {
         {"output", 'o', "PICTURE", "the picture: .png, .svg or .pdf", .text = &plan.output,

@@ -1,4 +1,5 @@
 /// `sightline explain`: why a cell does or does not see another.
+#include "built.h"
 #include "commands.h"
 #include "explain_text.h"
 #include "inputs.h"
@@ -44,7 +45,7 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
 /// Draws the pair as it is; where effects hide it, the line that they stop.
 static sl_status draw(sl_context *context, const explain_plan *plan, const sl_explained *a) {
     const sl_explanation *e = a->e.direct.without ? &a->e.without : &a->e.now;
-    return sl_draw_explanation(context, a->baked, e, &plan->drawing, plan->output);
+    return built_pictures()->explanation(context, a->baked, e, &plan->drawing, plan->output);
 }
 
 static sl_status tell(command_console *console, const explain_plan *plan, const sl_explained *a) {
@@ -80,7 +81,7 @@ static sl_status explain(command_console *console, const explain_plan *plan, sl_
 sl_status cmd_explain(command_console *console, int argc, char **argv) {
     explain_plan plan = {.options = sl_explain_options_default(),
                          .mirror_depth = 1,
-                         .drawing = sl_draw_options_default()};
+                         .drawing = built_draw_options()};
     const option_table picture = picture_option_table(&plan.drawing, "output", false);
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {

@@ -1,4 +1,5 @@
 /// `sightline eye`: what one viewpoint sees, by every culling method.
+#include "built.h"
 #include "commands.h"
 #include "eye_files.h"
 #include "eye_run.h"
@@ -207,8 +208,8 @@ static sl_status draw_space(sl_context *context, const eye_plan *plan, const sl_
                                 objects->count ? &objects->mirrored_region : &run->mirrored, false,
                                 &parts);
     if (status == SL_OK)
-        status = sl_draw_eye(context, baked, &run->view, layers, count, parts.items, parts.count,
-                             &options, plan->output);
+        status = built_pictures()->eye(context, baked, &run->view, layers, count, parts.items,
+                                       parts.count, &options, plan->output);
     seen_parts_destroy(context, &parts);
     sl_free(context, boxes);
     return status;
@@ -279,7 +280,7 @@ static void print_methods(void) {
 }
 
 sl_status cmd_eye(command_console *console, int argc, char **argv) {
-    eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = sl_draw_options_default()};
+    eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = built_draw_options()};
     option_table picture = picture_option_table(&plan.drawing, "output", false);
     for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
     const option_table doors = door_option_table(&plan.doors);

@@ -1,4 +1,5 @@
 /// `sightline info`: the contents of a map or of a baked file.
+#include "built.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json_print.h"
@@ -6,7 +7,6 @@
 #include "options.h"
 #include "outputs.h"
 #include "report.h"
-#include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -20,7 +20,8 @@ typedef struct info_request {
     bool json;
     sl_bytes bytes; ///< the file
     bool is_drawing;
-    sl_drawing_layers layers; ///< of a drawing
+    const built_io *io; ///< of a drawing, as the next
+    sl_drawing_layers layers;
 } info_request;
 
 /// For people: without the rounding noise of the last two digits.
@@ -295,9 +296,11 @@ static sl_status inform_of_map(command_console *console, info_request *request) 
     sl_map map = {0};
     sl_clean_account cleaning;
     sl_context_set_limits(console->context, &request->input.limits);
-    if (request->is_drawing)
-        SL_TRY(sl_drawing_layers_dxf(console->context, request->path, request->bytes.data,
-                                     request->bytes.size, &request->layers));
+    if (request->is_drawing) {
+        SL_TRY(built_need_io(console->context, request->path, &request->io));
+        SL_TRY(request->io->layers_dxf(console->context, request->path, request->bytes.data,
+                                       request->bytes.size, &request->layers));
+    }
     SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
                         &request->input.import, &map));
     const size_t oblique = count_oblique(&map);
@@ -475,6 +478,6 @@ sl_status cmd_info(command_console *console, int argc, char **argv) {
     SL_TRY(sl_file_read(console->context, request.path, &request.bytes));
     const sl_status status = inform(console, &request);
     sl_free(console->context, request.bytes.data);
-    sl_drawing_layers_destroy(console->context, &request.layers);
+    if (request.io) request.io->layers_destroy(console->context, &request.layers);
     return status;
 }

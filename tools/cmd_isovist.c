@@ -1,4 +1,5 @@
 /// `sightline isovist`: visible regions of many points, their measures, heat maps.
+#include "built.h"
 #include "commands.h"
 #include "eye_run.h"
 #include "heat_map.h"
@@ -283,9 +284,9 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, isov
     char caption[256];
     write_caption(w, caption, sizeof caption);
     if (!plan->together) SL_TRY(gather_parts(context, w));
-    return sl_draw_regions_file(context, &w->baked, w->parts.items, w->parts.count,
-                                w->eyes.list.count == 1 || plan->together ? caption : NULL,
-                                &plan->drawing, plan->picture);
+    return built_pictures()->regions(context, &w->baked, w->parts.items, w->parts.count,
+                                     w->eyes.list.count == 1 || plan->together ? caption : NULL,
+                                     &plan->drawing, plan->picture);
 }
 
 /// What sight goes by: shut doors are walls of the space by now.
@@ -350,7 +351,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     isovist_plan plan = {.pipeline = pipeline_default(),
                          .like = {.fov = 360},
                          .mirror_depth = 1,
-                         .drawing = sl_draw_options_default()};
+                         .drawing = built_draw_options()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);

@@ -1,4 +1,5 @@
 /// `sightline regions`: what view cells see, by every from-region method (Laine 2005).
+#include "built.h"
 #include "commands.h"
 #include "help.h"
 #include "inputs.h"
@@ -314,5 +315,6 @@ sl_status cmd_regions(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, input, &plan));
+    if (plan.output) SL_TRY(built_need_pictures(console->context));
     return run(console->context, &plan);
 }

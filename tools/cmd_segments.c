@@ -1,4 +1,5 @@
 /// `sightline segments`: angular analysis of a network of drawn lines.
+#include "built.h"
 #include "commands.h"
 #include "help.h"
 #include "line_table.h"
@@ -128,7 +129,7 @@ static void print_tables(void) {
 sl_status cmd_segments(command_console *console, int argc, char **argv) {
     segments_plan plan = {.reading = input_options_default(),
                           .measure = sl_measure_find(SL_SEGMENTS, "t1024_choice"),
-                          .drawing = sl_draw_options_default()};
+                          .drawing = built_draw_options()};
     const option_table reading = input_option_table(&plan.reading);
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_spec options[] = {

@@ -1,4 +1,5 @@
 /// `sightline vga`: visibility graph analysis of a grid of points, as tables and heat maps.
+#include "built.h"
 #include "commands.h"
 #include "heat_map.h"
 #include "help.h"
@@ -495,7 +496,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     vga_plan plan = {.pipeline = pipeline_default(),
                      .options = sl_vga_options_default(),
                      .agents = sl_vga_agents_default(),
-                     .drawing = sl_draw_options_default()};
+                     .drawing = built_draw_options()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);

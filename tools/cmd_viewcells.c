@@ -1,4 +1,5 @@
 /// `sightline viewcells`: view cells that adapt to what is seen (Mattausch et al. 2006).
+#include "built.h"
 #include "commands.h"
 #include "help.h"
 #include "inputs.h"
@@ -301,7 +302,7 @@ static sl_status view_report_draw(sl_context *context, const view_report *report
         sl_view_borders(context, &run->tree, run->view_cells, &lines, &patches.line_count);
     patches.lines = lines;
     if (status == SL_OK)
-        status = sl_draw_patches_file(context, &run->baked, &patches, caption, options, path);
+        status = built_pictures()->patches(context, &run->baked, &patches, caption, options, path);
     sl_free(context, lines);
     sl_free(context, values);
     return status;
@@ -459,7 +460,7 @@ static void print_tables(void) {
 sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
     viewcells_plan plan = {
         .pipeline = pipeline_default(),
-        .drawing = sl_draw_options_default(),
+        .drawing = built_draw_options(),
         .run = {.sampling = sl_view_sampling_default(),
                 .subdivision = sl_view_subdivision_default(),
                 .tolerance = 0.1},

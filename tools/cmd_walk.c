@@ -1,4 +1,5 @@
 /// `sightline walk`: culling frame by frame without visible sets (Bittner and Havran 2002).
+#include "built.h"
 #include "commands.h"
 #include "help.h"
 #include "inputs.h"
@@ -163,8 +164,8 @@ static sl_status draw(sl_context *context, const lines *l, const char *title, sl
                             .y = y,
                             .series = l->series,
                             .series_count = l->count,
-                            .width = sl_draw_options_default().width};
-    return sl_draw_chart_file(context, &chart, path);
+                            .width = built_draw_options().width};
+    return built_pictures()->chart(context, &chart, path);
 }
 
 static sl_status walk_draw_speeds(sl_context *context, const walk_rows *rows,
@@ -575,6 +576,7 @@ sl_status cmd_walk(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, &plan));
+    if (plan.output) SL_TRY(built_need_pictures(console->context));
     walk_work w = {0};
     const sl_status status = work(console, &plan, &w);
     sl_free(console->context, w.rows.items);

@@ -1,4 +1,5 @@
 /// The results of a comparison as charts: accuracy against time.
+#include "built.h"
 #include "compare.h"
 
 #include "inputs.h"
@@ -175,7 +176,7 @@ static void fill_chart(chart_parts *parts, bool dark) {
               .seconds = true},
         .y = {.scale = SL_CHART_SYMLOG, .zero = judged ? "exact" : "not known"},
         .series = parts->series,
-        .width = sl_draw_options_default().width,
+        .width = built_draw_options().width,
         .dark = dark,
     };
     if (judged) {
@@ -206,7 +207,7 @@ sl_status compare_draw(sl_context *context, const compare_result *comparison, bo
     sl_status status = SL_NO_MEMORY;
     if (parts.marks && parts.over && parts.under && parts.texts) {
         fill_chart(&parts, dark);
-        status = sl_draw_chart_file(context, &parts.chart, path);
+        status = built_pictures()->chart(context, &parts.chart, path);
     }
     sl_free(context, parts.marks);
     sl_free(context, parts.over);
@@ -299,10 +300,10 @@ sl_status compare_eye_draw(sl_context *context, const eye_comparison *comparison
             .y = {.label = "area kept, % of the inside", .scale = scale_of(comparison)},
             .series = parts.series,
             .series_count = comparison->plan->fov_count,
-            .width = sl_draw_options_default().width,
+            .width = built_draw_options().width,
             .dark = dark,
         };
-        status = sl_draw_chart_file(context, &chart, path);
+        status = built_pictures()->chart(context, &chart, path);
     }
     sl_free(context, parts.marks);
     sl_free(context, parts.texts);

@@ -1,5 +1,6 @@
 #include "heat_map.h"
 
+#include "built.h"
 #include "json_print.h"
 #include "sightline/support.h"
 
@@ -45,5 +46,5 @@ sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_m
     sl_draw_options drawing = *heat->drawing;
     if (!drawing.title) drawing.title = title;
     field->name = measure;
-    return sl_draw_field_file(context, baked, field, &drawing, heat->path);
+    return built_pictures()->field(context, baked, field, &drawing, heat->path);
 }

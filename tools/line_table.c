@@ -1,9 +1,9 @@
 #include "line_table.h"
 
+#include "built.h"
 #include "heat_map.h"
 #include "number_table.h"
 #include "sightline/geojson.h"
-#include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -182,7 +182,7 @@ sl_status line_table_draw(sl_context *context, const line_table *table, const li
                                   .count = table->count,
                                   .alone = !baked};
     const sl_status status =
-        sl_draw_lines_file(context, baked ? baked : &page, &lines, &options, path);
+        built_pictures()->lines(context, baked ? baked : &page, &lines, &options, path);
     sl_baked_destroy(context, &page);
     return status;
 }
@@ -228,8 +228,11 @@ bool lines_are_drawn(const char *path) {
 static sl_status parse_lines(sl_context *context, const char *path, const sl_bytes *bytes,
                              const input_options *input, sl_map *map) {
     const bool piped = strcmp(path, "-") == 0;
-    if (input_ends_with(path, ".geojson"))
-        return sl_lines_read_geojson(context, path, bytes->data, bytes->size, map);
+    if (input_ends_with(path, ".geojson")) {
+        const built_io *io;
+        SL_TRY(built_need_io(context, path, &io));
+        return io->lines_read_geojson(context, path, bytes->data, bytes->size, map);
+    }
     if (input_ends_with(path, ".csv") ||
         (piped && number_table_begins(bytes->data, bytes->size, 4)))
         return parse_table(context, path, bytes, map);

@@ -1,5 +1,6 @@
 #include "regions_report.h"
 
+#include "built.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -173,10 +174,10 @@ sl_status regions_draw_refine(sl_context *context, const regions_rows *rows, boo
             .y = {.label = "hierarchy's mean refine set / multipass's"},
             .series = p.series,
             .series_count = p.series_count,
-            .width = sl_draw_options_default().width,
+            .width = built_draw_options().width,
             .dark = dark,
         };
-        status = sl_draw_chart_file(context, &chart, path);
+        status = built_pictures()->chart(context, &chart, path);
     }
     sl_free(context, p.marks);
     return status;
@@ -197,10 +198,10 @@ sl_status regions_draw_work(sl_context *context, const regions_rows *rows, bool 
             .y = {.label = "candidates / relations"},
             .series = p.series,
             .series_count = p.series_count,
-            .width = sl_draw_options_default().width,
+            .width = built_draw_options().width,
             .dark = dark,
         };
-        status = sl_draw_chart_file(context, &chart, path);
+        status = built_pictures()->chart(context, &chart, path);
     }
     sl_free(context, p.marks);
     return status;

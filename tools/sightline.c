@@ -1,4 +1,5 @@
 /// The program `sightline`: finds the command and runs it.
+#include "built.h"
 #include "built_with.h"
 #include "commands.h"
 #include "crew.h"
@@ -20,12 +21,12 @@ static const command commands[] = {
     {"info", "show what a map or a baked file holds", cmd_info, "maps"},
     {"check", "find faults of a map: leaks, gaps, overlaps, thin cells", cmd_check, NULL},
     {"convert", "write a map in another format", cmd_convert, NULL},
-    {"generate", "generate a maze, office, city, or another map", cmd_generate, NULL},
+    {"generate", "generate a maze, office, city, or another map", built_run, NULL},
     {"bake", "compute cells, portals and cell-to-cell visibility", cmd_bake, "bake"},
     {"merge", "join the shards of a bake", cmd_merge, NULL},
-    {"reject", "compute the REJECT tables of a Doom WAD", cmd_reject, NULL},
+    {"reject", "compute the REJECT tables of a Doom WAD", built_run, NULL},
     {"export", "write a baked file for other programs", cmd_export, NULL},
-    {"draw", "draw a baked file", cmd_draw, NULL},
+    {"draw", "draw a baked file", built_run, NULL},
     {"eye", "show what one viewpoint sees", cmd_eye, "questions"},
     {"isovist", "compute visible regions, their measures and heat maps", cmd_isovist, NULL},
     {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
@@ -33,9 +34,9 @@ static const command commands[] = {
     {"segments", "compute angular segment analysis of a street network", cmd_segments, NULL},
     {"explain", "show why a cell does or does not see another", cmd_explain, NULL},
     {"compare", "run every method on one map: accuracy against time", cmd_compare, "studies"},
-    {"walk", "cull frame by frame, without visible sets", cmd_walk, NULL},
-    {"regions", "compute what view cells see, by several methods", cmd_regions, NULL},
-    {"viewcells", "make view cells that adapt to what is seen", cmd_viewcells, NULL},
+    {"walk", "cull frame by frame, without visible sets", built_run, NULL},
+    {"regions", "compute what view cells see, by several methods", built_run, NULL},
+    {"viewcells", "make view cells that adapt to what is seen", built_run, NULL},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 

@@ -1,6 +1,6 @@
 #include "view_run.h"
 
-#include "sightline/io.h"
+#include "built.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 
@@ -8,8 +8,10 @@
 static sl_status places_by_picture(sl_context *context, const char *path, view_run *run) {
     sl_bytes bytes;
     sl_image image = {0};
+    const built_io *io;
     SL_TRY(sl_file_read(context, path, &bytes));
-    sl_status status = sl_image_read(context, path, bytes.data, bytes.size, &image);
+    sl_status status = built_need_io(context, path, &io);
+    if (status == SL_OK) status = io->image_read(context, path, bytes.data, bytes.size, &image);
     sl_free(context, bytes.data);
     SL_TRY(status);
     const size_t count = image.width * image.height;
@@ -23,7 +25,7 @@ static sl_status places_by_picture(sl_context *context, const char *path, view_r
         status = sl_view_places_density(context, &run->baked.space, values, (uint32_t)image.width,
                                         (uint32_t)image.height, &run->places);
     sl_free(context, values);
-    sl_image_destroy(context, &image);
+    io->image_destroy(context, &image);
     return status;
 }
 

@@ -1,7 +1,15 @@
 #include "built.h"
+#include "commands.h"
 
-#include "sightline/io.h"
+static const built_command commands[] = {{"reject", cmd_reject}, {0}};
 
-sl_status built_use_formats(sl_context *context) {
-    return sl_io_use(context);
-}
+static const built_io io = {
+    .use = sl_io_use,
+    .lines_read_geojson = sl_lines_read_geojson,
+    .layers_dxf = sl_drawing_layers_dxf,
+    .layers_destroy = sl_drawing_layers_destroy,
+    .image_read = sl_image_read,
+    .image_destroy = sl_image_destroy,
+};
+
+const built_part with_io = {.commands = commands, .io = &io};
