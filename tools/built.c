@@ -1,6 +1,7 @@
 #include "built.h"
 
 #include "built_with.h"
+#include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <string.h>
@@ -44,6 +45,7 @@ static const sl_solver absent[] = {ABSENT("glpk", SL_ROUNDED), ABSENT("hybrid", 
                                    ABSENT("glpk-exact", SL_EXACT)};
 
 const sl_solver *built_solver(size_t index) {
+    if (index-- == 0) return sl_funnel();
     for (size_t i = 0; parts[i]; i++)
         for (size_t k = 0; parts[i]->solvers && k <= index; k++)
             if (!parts[i]->solvers[k] || k == index)

@@ -63,8 +63,8 @@ extern const built_part with_io, with_study, with_glpk, with_draw;
 /// Runs a command of a part, by its name, argv[0]. SL_UNSUPPORTED where the part is off.
 sl_status built_run(command_console *console, int argc, char **argv);
 
-/// The solver of a part, by its number; NULL past the last. Where the part is off, solvers that
-/// refuse.
+/// The solver of a number, from 0, which is the default; NULL past the last. Where the part is off,
+/// it refuses.
 const sl_solver *built_solver(size_t index);
 
 /// Adds foreign formats to those that the context reads and writes, or formats that refuse.

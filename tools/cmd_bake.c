@@ -1,5 +1,6 @@
 /// `sightline bake`: cells, portals and cell-to-cell visibility of a map, into a file.
 #include "bake_parts.h"
+#include "built.h"
 #include "commands.h"
 #include "crew.h"
 #include "inputs.h"
@@ -9,7 +10,6 @@
 #include "pipeline.h"
 #include "report.h"
 #include "sightline/support.h"
-#include "solvers.h"
 #include "system.h"
 
 #include <inttypes.h>
@@ -273,7 +273,7 @@ static sl_status check_method(sl_context *context, const bake_plan *plan,
 static sl_status make_plan(sl_context *context, bake_plan *plan) {
     sl_bake_options *bake = &plan->pipeline.bake;
     SL_TRY(pipeline_plan(context, plan->input, &plan->pipeline));
-    if (plan->solver_given) bake->see.solver = solver_at(plan->solver);
+    if (plan->solver_given) bake->see.solver = built_solver(plan->solver);
     if (plan->method_given) bake->method = &sl_see_methods(&(size_t){0})[plan->method];
     const sl_see_method *method =
         bake->method ? bake->method : sl_see_method_for(&(sl_map){0}, &bake->see);

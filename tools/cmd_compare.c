@@ -6,7 +6,6 @@
 #include "outputs.h"
 #include "pipeline.h"
 #include "sightline/support.h"
-#include "solvers.h"
 
 enum { MAX_REPEAT = 100000 };
 #define MAX_LIMIT      1e9
@@ -72,9 +71,9 @@ static sl_status list_runs(sl_context *context, comparing *all) {
     for (size_t m = 0; m < count; m++) {
         if (!(all->plan->methods >> m & 1)) continue;
         if (!methods[m].stabs) SL_TRY(add_run(context, all, &methods[m], NULL));
-        for (size_t s = 0; methods[m].stabs && solver_at(s); s++)
+        for (size_t s = 0; methods[m].stabs && built_solver(s); s++)
             if (all->plan->solvers >> s & 1)
-                SL_TRY(add_run(context, all, &methods[m], solver_at(s)));
+                SL_TRY(add_run(context, all, &methods[m], built_solver(s)));
     }
     return all->runs.count ? SL_OK
                            : sl_fail(context, SL_BAD_ARGUMENT,

@@ -1,10 +1,10 @@
 /// `sightline merge`: puts the shards of a bake together.
 #include "bake_parts.h"
+#include "built.h"
 #include "commands.h"
 #include "inputs.h"
 #include "outputs.h"
 #include "sightline/support.h"
-#include "solvers.h"
 #include "system.h"
 
 #include <inttypes.h>
@@ -88,8 +88,8 @@ static sl_status take_part(sl_context *context, const merge_plan *plan, uint32_t
 }
 
 static const sl_solver *find_solver(const char *name) {
-    for (size_t i = 0; solver_at(i); i++)
-        if (strcmp(solver_at(i)->name, name) == 0) return solver_at(i);
+    for (size_t i = 0; built_solver(i); i++)
+        if (strcmp(built_solver(i)->name, name) == 0) return built_solver(i);
     return NULL;
 }
 

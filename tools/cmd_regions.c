@@ -7,7 +7,6 @@
 #include "pipeline.h"
 #include "regions_report.h"
 #include "sightline/support.h"
-#include "solvers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -136,7 +135,7 @@ static sl_status make_plan(sl_context *context, const char *input, regions_plan 
     plan->what.view_cells = (sl_view_cell_kind)plan->view_cells;
     plan->what.objects = (sl_object_kind)plan->objects;
     plan->how.solver = solver;
-    plan->how.stab = solver_at(plan->stab);
+    plan->how.stab = built_solver(plan->stab);
     if (plan->grid_given && plan->what.view_cells != SL_VIEW_CELLS_GRID)
         return sl_fail(context, SL_BAD_ARGUMENT, "--grid is for --view-cells grid, not %s",
                        view_cell_kinds[plan->view_cells]);

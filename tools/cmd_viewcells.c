@@ -1,6 +1,7 @@
 /// `sightline viewcells`: view cells that adapt to what is seen (Mattausch et al. 2006).
 #include "built.h"
 #include "commands.h"
+#include "fields.h"
 #include "help.h"
 #include "inputs.h"
 #include "json_print.h"
@@ -157,12 +158,6 @@ static sl_status view_report_print_json(sl_context *context, const view_report *
     return json_print(context, &fields);
 }
 
-static void put(FILE *out, double value, char after) {
-    char text[SL_NUMBER_TEXT];
-    sl_number_write(value, text);
-    fprintf(out, "%s%c", text, after);
-}
-
 static sl_point middle_of(const sl_view_tree *tree, uint32_t leaf) {
     sl_point sum = {0, 0};
     const uint32_t first = tree->first[leaf], count = tree->first[leaf + 1] - first;
@@ -208,21 +203,30 @@ static uint32_t members_count(const members *of, uint32_t view_cell) {
     return of->first[view_cell + 1] - of->first[view_cell];
 }
 
-static sl_status write_rows(const view_run *run, const members *of, FILE *out) {
+/// What the table is of.
+typedef struct cell_rows {
+    const view_run *run;
+    members of;
+} cell_rows;
+
+/// Number, probability, cost, objects, bytes, number of elementary cells, and a point in the
+/// largest of them.
+static size_t list_fields(const void *of, size_t row, table_field fields[FIELDS_MOST]) {
+    const cell_rows *rows = of;
+    const view_run *run = rows->run;
     const sl_view_hierarchy *h = view_run_told(run);
-    fputs("view_cell,probability,cost,objects,bytes,elementary_cells,x,y\n", out);
-    for (uint32_t i = 0; i < run->cell_count; i++) {
-        const uint32_t number = run->numbers[i];
-        const sl_point at = middle_of(&run->tree, of->largest[i]);
-        fprintf(out, "%u,", i);
-        put(out, h->mass[number], ',');
-        put(out, h->cost[number], ',');
-        fprintf(out, "%u,%" PRIu64 ",%u,", h->objects[number], h->bytes[number],
-                members_count(of, i));
-        put(out, at.x, ',');
-        put(out, at.y, '\n');
-    }
-    return SL_OK;
+    const uint32_t number = run->numbers[row];
+    const sl_point at = middle_of(&run->tree, rows->of.largest[row]);
+    size_t count = 0;
+    fields[count++] = field_count("view_cell", row);
+    fields[count++] = field_real("probability", h->mass[number]);
+    fields[count++] = field_real("cost", h->cost[number]);
+    fields[count++] = field_count("objects", h->objects[number]);
+    fields[count++] = field_count("bytes", h->bytes[number]);
+    fields[count++] = field_count("elementary_cells", members_count(&rows->of, (uint32_t)row));
+    fields[count++] = field_real("x", at.x);
+    fields[count++] = field_real("y", at.y);
+    return count;
 }
 
 static void put_members(sl_json_writer *json, const members *of, uint32_t view_cell) {
@@ -234,25 +238,16 @@ static void put_members(sl_json_writer *json, const members *of, uint32_t view_c
 }
 
 /// Each view cell as its shape, with the columns of its line in the table and its members.
-static sl_status write_places(sl_context *context, const view_run *run, const members *of,
-                              FILE *file) {
-    const sl_view_hierarchy *h = view_run_told(run);
+static sl_status write_places(sl_context *context, const field_rows *rows, FILE *file) {
+    const cell_rows *of = rows->of;
+    const view_run *run = of->run;
     sl_shapes shapes;
     SL_TRY(sl_view_shapes(context, &run->tree, run->view_cells, run->cell_count, &shapes));
     sl_geojson_writer out = sl_geojson_begin(file);
     for (uint32_t i = 0; i < run->cell_count && !ferror(file); i++) {
-        const uint32_t number = run->numbers[i];
-        const sl_point at = middle_of(&run->tree, of->largest[i]);
         sl_geojson_put_shape(&out, "view_cell", &shapes, i);
-        sl_geojson_add_count(&out, "view_cell", i);
-        sl_geojson_add_real(&out, "probability", h->mass[number]);
-        sl_geojson_add_real(&out, "cost", h->cost[number]);
-        sl_geojson_add_count(&out, "objects", h->objects[number]);
-        sl_geojson_add_count(&out, "bytes", h->bytes[number]);
-        sl_geojson_add_count(&out, "elementary_cells", members_count(of, i));
-        sl_geojson_add_real(&out, "x", at.x);
-        sl_geojson_add_real(&out, "y", at.y);
-        put_members(&out.json, of, i);
+        fields_add_properties(&out, rows, i);
+        put_members(&out.json, &of->of, i);
         sl_geojson_end_feature(&out);
     }
     sl_geojson_end(&out);
@@ -260,19 +255,20 @@ static sl_status write_places(sl_context *context, const view_run *run, const me
     return SL_OK;
 }
 
-/// Writes a row or a feature for each view cell: number, probability, cost, objects, bytes, number
-/// of elementary cells, and a point in the largest of them.
+/// Writes a row or a feature for each view cell.
 static sl_status view_report_write(sl_context *context, const view_run *run, const char *path) {
-    members of;
+    cell_rows of = {.run = run};
+    const field_rows rows = {list_fields, &of, run->cell_count};
     sl_output output;
-    sl_status status = members_find(context, run, &of);
-    if (status == SL_OK) status = sl_output_open(context, path, &output);
-    if (status == SL_OK)
-        status = sl_output_close(context, &output,
-                                 input_ends_with(path, ".geojson")
-                                     ? write_places(context, run, &of, output.stream)
-                                     : write_rows(run, &of, output.stream));
-    members_destroy(context, &of);
+    sl_status status = members_find(context, run, &of.of);
+    if (status == SL_OK && !input_ends_with(path, ".geojson")) {
+        status = fields_write_csv(context, &rows, path);
+    } else if (status == SL_OK) {
+        status = sl_output_open(context, path, &output);
+        if (status == SL_OK)
+            status = sl_output_close(context, &output, write_places(context, &rows, output.stream));
+    }
+    members_destroy(context, &of.of);
     return status;
 }
 

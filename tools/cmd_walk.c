@@ -1,6 +1,7 @@
 /// `sightline walk`: culling frame by frame without visible sets (Bittner and Havran 2002).
 #include "built.h"
 #include "commands.h"
+#include "fields.h"
 #include "help.h"
 #include "inputs.h"
 #include "names.h"
@@ -72,65 +73,53 @@ static void walk_print(const walk_rows *rows) {
 
 // --- CSV
 
-static void put_number(FILE *out, double value, char end) {
-    char text[SL_NUMBER_TEXT];
-    sl_number_write(value, text);
-    fprintf(out, "%s%c", text, end);
+static size_t list_choice(const walk_row *row, table_field fields[FIELDS_MOST]) {
+    fields[0] = field_text("method", walk_choice_name(&row->choice));
+    fields[1] = field_text("test", walk_choice_test(&row->choice));
+    return 2;
 }
 
-static void put_choice(FILE *out, const walk_row *r) {
-    fprintf(out, "%s,%s,", walk_choice_name(&r->choice), walk_choice_test(&r->choice));
-}
-
-static void put_figures(FILE *out, const double figures[FIGURES]) {
-    for (int f = 0; f < FIGURES; f++) put_number(out, figures[f], f + 1 < FIGURES ? ',' : '\n');
-}
-
-static void put_figure_names(FILE *out) {
+/// Adds the figures behind the first `count` fields.
+static size_t add_figures(const double *figures, size_t count, table_field fields[FIELDS_MOST]) {
     for (int f = 0; f < FIGURES; f++)
-        fprintf(out, "%s%c", walk_figure_name((walk_figure)f), f + 1 < FIGURES ? ',' : '\n');
+        fields[count++] = field_real(walk_figure_name((walk_figure)f), figures[f]);
+    return count;
+}
+
+static size_t list_row(const void *of, size_t number, table_field fields[FIELDS_MOST]) {
+    const walk_rows *rows = of;
+    const walk_row *r = &rows->items[number];
+    size_t count = list_choice(r, fields);
+    fields[count++] = field_real("p_vp", r->choice.options.p_vp);
+    fields[count++] = field_real("p_skip", r->choice.options.p_skip);
+    fields[count++] = field_real("speed", r->speed);
+    fields[count++] = field_count("steps", r->steps);
+    fields[count++] = field_real("saved", saving(rows, number));
+    return add_figures(r->means, count, fields);
 }
 
 /// All figures of all rows as CSV.
 static sl_status walk_write_rows(sl_context *context, const walk_rows *rows, const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    fputs("method,test,p_vp,p_skip,speed,steps,saved,", output.stream);
-    put_figure_names(output.stream);
-    for (size_t i = 0; i < rows->count; i++) {
-        const walk_row *r = &rows->items[i];
-        put_choice(output.stream, r);
-        put_number(output.stream, r->choice.options.p_vp, ',');
-        put_number(output.stream, r->choice.options.p_skip, ',');
-        put_number(output.stream, r->speed, ',');
-        fprintf(output.stream, "%zu,", r->steps);
-        put_number(output.stream, saving(rows, i), ',');
-        put_figures(output.stream, r->means);
-    }
-    return sl_output_close(context, &output, SL_OK);
+    return fields_write_csv(context, &(field_rows){list_row, rows, rows->count}, path);
 }
 
-/// Frames as CSV: `frames[i]` has those of row i, or is NULL.
-static sl_status walk_write_frames(sl_context *context, const walk_rows *rows,
-                                   const eye_places *eyes, double *const *frames,
-                                   const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    fputs("method,test,frame,x,y,heading,", output.stream);
-    put_figure_names(output.stream);
-    for (size_t i = 0; i < rows->count; i++) {
-        if (!frames[i]) continue;
-        for (size_t k = 0; k < eyes->list.count; k++) {
-            const eye_place *eye = &eyes->list.items[k];
-            put_choice(output.stream, &rows->items[i]);
-            fprintf(output.stream, "%zu,", k);
-            put_number(output.stream, eye->at.x, ',');
-            put_number(output.stream, eye->at.y, ',');
-            put_number(output.stream, eye->heading, ',');
-            put_figures(output.stream, frames[i] + k * FIGURES);
-        }
-    }
-    return sl_output_close(context, &output, SL_OK);
+/// Frames of all rows, row by row.
+typedef struct walk_frames {
+    const walk_rows *rows;
+    const eye_places *eyes;
+    double *const *frames; ///< by row
+} walk_frames;
+
+static size_t list_frame(const void *of, size_t number, table_field fields[FIELDS_MOST]) {
+    const walk_frames *all = of;
+    const size_t row = number / all->eyes->list.count, frame = number % all->eyes->list.count;
+    const eye_place *eye = &all->eyes->list.items[frame];
+    size_t count = list_choice(&all->rows->items[row], fields);
+    fields[count++] = field_count("frame", frame);
+    fields[count++] = field_real("x", eye->at.x);
+    fields[count++] = field_real("y", eye->at.y);
+    fields[count++] = field_real("heading", eye->heading);
+    return add_figures(all->frames[row] + frame * FIGURES, count, fields);
 }
 
 // --- charts
@@ -361,7 +350,10 @@ static sl_status walk_once(command_console *console, const walk_plan *plan, walk
     progress_line_clear(&console->line);
     if (status == SL_OK && plan->table) status = walk_write_rows(context, &w->rows, plan->table);
     if (status == SL_OK && plan->frames)
-        status = walk_write_frames(context, &w->rows, &eyes, frames, plan->frames);
+        status = fields_write_csv(context,
+                                  &(field_rows){list_frame, &(walk_frames){&w->rows, &eyes, frames},
+                                                w->rows.count * eyes.list.count},
+                                  plan->frames);
     if (status == SL_OK) {
         printf("%zu steps of %g, %zu nodes, %zu walls, view cone of %g degrees; means a frame\n",
                eyes.list.count, w->step * plan->speed, (size_t)w->hierarchy.node_count,

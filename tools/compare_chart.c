@@ -1,7 +1,8 @@
 /// The results of a comparison as charts: accuracy against time.
-#include "built.h"
 #include "compare.h"
 
+#include "built.h"
+#include "fields.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
@@ -236,9 +237,7 @@ typedef struct eye_chart_parts {
 static void fill_mark(const compare_eye_row *row, eye_mark_text *text, sl_chart_mark *mark) {
     char seconds[SECONDS_TEXT];
     seconds_write(row->seconds, MICRO, seconds);
-    snprintf(text->label, sizeof text->label, "%s", row->name);
-    for (char *at = text->label; *at; at++)
-        if (*at == '_') *at = ' ';
+    words_of(row->name, text->label, sizeof text->label);
     snprintf(text->note, sizeof text->note, "%.2f %% in %s", 100 * row->share, seconds);
     *mark = (sl_chart_mark){
         .x = row->seconds, .y = 100 * row->share, .label = text->label, .note = text->note};

@@ -2,7 +2,7 @@
 #include "compare.h"
 
 #include "eye_run.h"
-#include "json_print.h"
+#include "fields.h"
 #include "names.h"
 #include "pipeline.h"
 #include "report.h"
@@ -392,38 +392,40 @@ void compare_eye_print(const eye_comparison *comparison) {
 
 // --- CSV and JSON
 
-/// NAN leaves the field blank.
-static void write_real(FILE *stream, double value) {
-    char text[SL_NUMBER_TEXT] = "";
-    if (!isnan(value)) sl_number_write(value, text);
-    fprintf(stream, ",%s", text);
+static table_field of_paper(const char *key, bool known, double real) {
+    table_field field = field_real(key, real);
+    if (!known) field.kind = FIELD_LEFT_OUT;
+    return field;
+}
+
+static size_t list_fields(const void *of, size_t number, table_field fields[FIELDS_MOST]) {
+    const eye_comparison *comparison = of;
+    const compare_eye_row *row = &comparison->rows[number];
+    double share = 0, reduction = 0;
+    const bool paper = compare_eye_paper(row->name, row->fov, &share, &reduction);
+    size_t count = 0;
+    fields[count++] = field_real("fov", row->fov);
+    fields[count++] = field_text("method", row->name);
+    fields[count++] = field_text("guarantee", sl_guarantee_name(row->guarantee));
+    fields[count++] = field_real("share", row->share);
+    fields[count++] = field_real("reduction", reduction_of(row));
+    fields[count++] = field_real("cells", row->cells);
+    fields[count++] = field_real("nodes", row->nodes);
+    fields[count++] = field_real("orientations", row->orientations);
+    fields[count++] = field_real("seconds", row->seconds);
+    fields[count++] = of_paper("paper_share", paper, share);
+    fields[count++] = of_paper("paper_reduction", paper, reduction);
+    return count;
+}
+
+static field_rows rows_of(const eye_comparison *comparison) {
+    return (field_rows){list_fields, comparison, comparison->row_count};
 }
 
 sl_status compare_eye_write_csv(sl_context *context, const eye_comparison *comparison,
                                 const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    fputs("fov,method,guarantee,share,reduction,cells,nodes,orientations,seconds,paper_share,"
-          "paper_reduction\n",
-          output.stream);
-    for (size_t i = 0; i < comparison->row_count; i++) {
-        const compare_eye_row *row = &comparison->rows[i];
-        const double values[] = {row->share, reduction_of(row), row->cells,
-                                 row->nodes, row->orientations, row->seconds};
-        double share, reduction;
-        char fov[SL_NUMBER_TEXT];
-        sl_number_write(row->fov, fov);
-        fprintf(output.stream, "%s,%s,%s", fov, row->name, sl_guarantee_name(row->guarantee));
-        for (size_t k = 0; k < sizeof values / sizeof *values; k++)
-            write_real(output.stream, values[k]);
-        if (compare_eye_paper(row->name, row->fov, &share, &reduction)) {
-            write_real(output.stream, share);
-            write_real(output.stream, reduction);
-            fputc('\n', output.stream);
-        } else
-            fputs(",,\n", output.stream);
-    }
-    return sl_output_close(context, &output, SL_OK);
+    const field_rows rows = rows_of(comparison);
+    return fields_write_csv(context, &rows, path);
 }
 
 void compare_eye_print_columns(void) {
@@ -439,30 +441,9 @@ void compare_eye_print_columns(void) {
          "                      what Teller & Sequin 1991 tell of Soda Hall");
 }
 
-static void add_row(json_fields *fields, const compare_eye_row *row) {
-    json_open_item(fields);
-    double share, reduction;
-    json_add_real(fields, "fov", row->fov);
-    json_add_text(fields, "method", row->name);
-    json_add_text(fields, "guarantee", sl_guarantee_name(row->guarantee));
-    json_add_real(fields, "share", row->share);
-    json_add_real(fields, "reduction", reduction_of(row));
-    if (isnan(row->cells))
-        json_add_text(fields, "cells", NULL);
-    else
-        json_add_real(fields, "cells", row->cells);
-    json_add_real(fields, "nodes", row->nodes);
-    json_add_real(fields, "orientations", row->orientations);
-    json_add_real(fields, "seconds", row->seconds);
-    if (compare_eye_paper(row->name, row->fov, &share, &reduction)) {
-        json_add_real(fields, "paper_share", share);
-        json_add_real(fields, "paper_reduction", reduction);
-    }
-    json_close(fields);
-}
-
 sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comparison) {
     const sl_space *space = comparison->space;
+    const field_rows rows = rows_of(comparison);
     json_fields fields = json_begin();
     json_add_text(&fields, "map", comparison->input);
     json_add_text(&fields, "sight", sight_name(comparison->sight));
@@ -474,8 +455,6 @@ sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comp
     json_add_count(&fields, "viewpoints", comparison->plan->viewpoints);
     json_add_count(&fields, "seed", comparison->plan->seed);
     json_add_real(&fields, "cell_to_cell_seconds", comparison->pvs_seconds);
-    json_open_list(&fields, "rows");
-    for (size_t i = 0; i < comparison->row_count; i++) add_row(&fields, &comparison->rows[i]);
-    json_close_list(&fields);
+    fields_add_json(&fields, "rows", &rows);
     return json_print(context, &fields);
 }

@@ -1,7 +1,7 @@
 /// The results of a comparison as a table, as CSV and as JSON.
 #include "compare.h"
 
-#include "json_print.h"
+#include "fields.h"
 #include "names.h"
 #include "report.h"
 #include "sightline/support.h"
@@ -9,23 +9,9 @@
 #include <inttypes.h>
 #include <string.h>
 
-typedef enum column_value_kind {
-    VALUE_NONE,
-    VALUE_TEXT,
-    VALUE_REAL,
-    VALUE_COUNT
-} column_value_kind;
-
-typedef struct column_value {
-    column_value_kind kind;
-    const char *text;
-    double real;
-    uint64_t count;
-} column_value;
-
 typedef struct compare_column {
     const char *name, *what;
-    column_value (*value)(const compare_result *comparison, const compare_run *run);
+    table_field (*value)(const compare_result *comparison, const compare_run *run);
 } compare_column;
 
 // --- columns
@@ -37,16 +23,16 @@ static const char *outcome_name(run_outcome outcome) {
     return names[outcome];
 }
 
-static column_value of_text(const char *text) {
-    return (column_value){.kind = text ? VALUE_TEXT : VALUE_NONE, .text = text};
+static table_field of_text(const char *text) {
+    return field_text(NULL, text);
 }
 
-static column_value real_if(bool known, double real) {
-    return (column_value){.kind = known ? VALUE_REAL : VALUE_NONE, .real = real};
+static table_field real_if(bool known, double real) {
+    return known ? field_real(NULL, real) : of_text(NULL);
 }
 
-static column_value count_if(bool known, uint64_t count) {
-    return (column_value){.kind = known ? VALUE_COUNT : VALUE_NONE, .count = count};
+static table_field count_if(bool known, uint64_t count) {
+    return known ? field_count(NULL, count) : of_text(NULL);
 }
 
 static bool done(const compare_run *run) {
@@ -59,9 +45,11 @@ static const sl_see_account *account(const compare_run *run) {
 
 /// One function a column: its name, and the value it gives for `run`.
 #define COLUMN(name, expression)                                                                   \
-    static column_value column_##name(const compare_result *comparison, const compare_run *run) {  \
+    static table_field column_##name(const compare_result *comparison, const compare_run *run) {   \
         (void)comparison, (void)run;                                                               \
-        return expression;                                                                         \
+        table_field field = expression;                                                            \
+        field.key = #name;                                                                         \
+        return field;                                                                              \
     }
 
 COLUMN(method, of_text(run->method->name))
@@ -129,41 +117,23 @@ static const compare_column *compare_columns(size_t *count) {
 
 // --- CSV
 
-static void write_value(FILE *stream, column_value value) {
-    char number[SL_NUMBER_TEXT];
-    switch (value.kind) {
-    case VALUE_NONE:
-        return;
-    case VALUE_TEXT:
-        fputs(value.text, stream);
-        return;
-    case VALUE_REAL:
-        sl_number_write(value.real, number);
-        fputs(number, stream);
-        return;
-    case VALUE_COUNT:
-        fprintf(stream, "%" PRIu64, value.count);
-        return;
-    }
+static size_t list_fields(const void *of, size_t row, table_field fields[FIELDS_MOST]) {
+    const compare_result *comparison = of;
+    size_t count;
+    const compare_column *columns = compare_columns(&count);
+    for (size_t i = 0; i < count; i++)
+        fields[i] = columns[i].value(comparison, &comparison->runs[row]);
+    return count;
+}
+
+static field_rows rows_of(const compare_result *comparison) {
+    return (field_rows){list_fields, comparison, comparison->run_count};
 }
 
 sl_status compare_write_csv(sl_context *context, const compare_result *comparison,
                             const char *path) {
-    sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    size_t count;
-    const compare_column *columns = compare_columns(&count);
-    for (size_t i = 0; i < count; i++)
-        fprintf(output.stream, "%s%s", i ? "," : "", columns[i].name);
-    for (size_t k = 0; k < comparison->run_count; k++) {
-        fputc('\n', output.stream);
-        for (size_t i = 0; i < count; i++) {
-            if (i) fputc(',', output.stream);
-            write_value(output.stream, columns[i].value(comparison, &comparison->runs[k]));
-        }
-    }
-    fputc('\n', output.stream);
-    return sl_output_close(context, &output, SL_OK);
+    const field_rows rows = rows_of(comparison);
+    return fields_write_csv(context, &rows, path);
 }
 
 void compare_print_columns(void) {
@@ -365,34 +335,9 @@ void compare_print(const compare_result *comparison) {
 
 // --- JSON
 
-static void add_value(json_fields *fields, const char *key, column_value value) {
-    switch (value.kind) {
-    case VALUE_NONE:
-        json_add_text(fields, key, NULL);
-        return;
-    case VALUE_TEXT:
-        json_add_text(fields, key, value.text);
-        return;
-    case VALUE_REAL:
-        json_add_real(fields, key, value.real);
-        return;
-    case VALUE_COUNT:
-        json_add_count(fields, key, value.count);
-        return;
-    }
-}
-
-static void add_run(json_fields *fields, const compare_result *comparison, const compare_run *run) {
-    size_t count;
-    const compare_column *columns = compare_columns(&count);
-    json_open_item(fields);
-    for (size_t i = 0; i < count; i++)
-        add_value(fields, columns[i].name, columns[i].value(comparison, run));
-    json_close(fields);
-}
-
 sl_status compare_print_json(sl_context *context, const compare_result *comparison) {
     const sl_space *space = comparison->space;
+    const field_rows rows = rows_of(comparison);
     char reference[RUN_NAME] = "";
     if (comparison->reference != NO_RUN)
         run_name(&comparison->runs[comparison->reference], reference);
@@ -406,10 +351,7 @@ sl_status compare_print_json(sl_context *context, const compare_result *comparis
     json_add_count(&fields, "threads", 1);
     json_add_real(&fields, "time_limit", comparison->limit);
     json_add_text(&fields, "reference", reference[0] ? reference : NULL);
-    json_open_list(&fields, "runs");
-    for (size_t i = 0; i < comparison->run_count; i++)
-        add_run(&fields, comparison, &comparison->runs[i]);
-    json_close_list(&fields);
+    fields_add_json(&fields, "runs", &rows);
     compare_subdivisions_add_json(&fields, &comparison->subdivisions);
     return json_print(context, &fields);
 }

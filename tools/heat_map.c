@@ -1,17 +1,11 @@
 #include "heat_map.h"
 
 #include "built.h"
-#include "json_print.h"
+#include "fields.h"
 #include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
-
-void heat_map_words(const char *measure, char *text, size_t size) {
-    snprintf(text, size, "%s", measure);
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
-}
 
 void heat_map_title(const char *input, const char *map, const char *measure, char *text,
                     size_t size) {
@@ -41,7 +35,7 @@ void heat_map_scale(sl_context *context, bool given, const double *values, const
 sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
                         sl_field *field) {
     char measure[64], title[512];
-    heat_map_words(heat->measure, measure, sizeof measure);
+    words_of(heat->measure, measure, sizeof measure);
     heat_map_title(heat->input, heat->map, measure, title, sizeof title);
     sl_draw_options drawing = *heat->drawing;
     if (!drawing.title) drawing.title = title;

@@ -24,9 +24,6 @@ sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_m
 void heat_map_scale(sl_context *context, bool given, const double *values, const uint32_t *sizes,
                     uint32_t count, double *least, double *most);
 
-/// The name of a measure in words: "visual control".
-void heat_map_words(const char *measure, char *text, size_t size);
-
 /// The title of a picture: "office: area", or "doom.wad E1M1: area".
 void heat_map_title(const char *input, const char *map, const char *measure, char *text,
                     size_t size);

@@ -1,6 +1,7 @@
 #include "isovist.h"
 
 #include "eye_run.h"
+#include "fields.h"
 #include "inputs.h"
 #include "sightline/support.h"
 #include "within.h"
@@ -304,65 +305,44 @@ sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye
     return sl_work_run(context, &work, bundles, threads);
 }
 
-static void put(FILE *out, double value, char after) {
-    char text[SL_NUMBER_TEXT];
-    sl_number_write(value, text);
-    fputs(text, out);
-    putc(after, out);
-}
+/// What the table is of.
+typedef struct isovist_rows {
+    bool mirrored;
+    const eye_places *eyes;
+    const isovist_result *isovists;
+} isovist_rows;
 
-static sl_status write_rows(sl_context *context, bool mirrors, const eye_places *eyes,
-                            const isovist_result *isovists, FILE *out) {
-    size_t count;
-    const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
-    fputs("x,y,heading,fov,", out);
-    for (size_t k = 0; k < count; k++) fprintf(out, "%s,", measures[k].name);
-    fputs(mirrors ? "corners,mirrored_area,parts\n" : "corners\n", out);
-    for (size_t i = 0; i < eyes->list.count; i++) {
-        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        const eye_place *eye = &eyes->list.items[i];
-        put(out, eye->at.x, ',');
-        put(out, eye->at.y, ',');
-        put(out, eye->heading, ',');
-        put(out, eye->fov, ',');
-        for (size_t k = 0; k < count; k++)
-            put(out, sl_measure_value(&measures[k], &isovists[i].measures), ',');
-        fprintf(out, "%zu", isovists[i].corners);
-        if (mirrors) {
-            putc(',', out);
-            put(out, isovists[i].mirrored_area, ',');
-            fprintf(out, "%zu", isovists[i].parts);
-        }
-        putc('\n', out);
-    }
-    return SL_OK;
-}
-
-/// The region of an eye, with the columns of its line in the table.
-static void put_direct(sl_geojson_writer *out, bool mirrors, const eye_place *eye,
-                       const isovist_result *isovist, const sl_drawn_region *part) {
-    sl_geojson_put_polygon(out, "isovist", part->points, part->count);
-    sl_geojson_add_real(out, "x", eye->at.x);
-    sl_geojson_add_real(out, "y", eye->at.y);
-    sl_geojson_add_real(out, "heading", eye->heading);
-    sl_geojson_add_real(out, "fov", eye->fov);
-    isovist_put_measures(out, &isovist->measures);
-    sl_geojson_add_count(out, "corners", isovist->corners);
-    if (mirrors) sl_geojson_add_real(out, "mirrored_area", isovist->mirrored_area);
-    if (mirrors) sl_geojson_add_count(out, "parts", isovist->parts);
-    sl_geojson_end_feature(out);
+/// The columns of the table, and the properties of the region.
+static size_t list_fields(const void *of, size_t row, table_field fields[FIELDS_MOST]) {
+    const isovist_rows *rows = of;
+    const eye_place *eye = &rows->eyes->list.items[row];
+    const isovist_result *isovist = &rows->isovists[row];
+    size_t measure_count, count = 0;
+    const sl_measure *measures = sl_measures(SL_ISOVIST, &measure_count);
+    fields[count++] = field_real("x", eye->at.x);
+    fields[count++] = field_real("y", eye->at.y);
+    fields[count++] = field_real("heading", eye->heading);
+    fields[count++] = field_real("fov", eye->fov);
+    for (size_t k = 0; k < measure_count; k++)
+        fields[count++] =
+            field_real(measures[k].name, sl_measure_value(&measures[k], &isovist->measures));
+    fields[count++] = field_count("corners", isovist->corners);
+    if (rows->mirrored) fields[count++] = field_real("mirrored_area", isovist->mirrored_area);
+    if (rows->mirrored) fields[count++] = field_count("parts", isovist->parts);
+    return count;
 }
 
 static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isovist_scene *scene,
-                         const eye_place *eye, const isovist_result *isovist,
-                         sl_mirrored_region *region) {
-    const sl_space *space = scene->space;
-    const sl_view view = eye_view(space, eye);
+                         const field_rows *rows, size_t row, sl_mirrored_region *region) {
+    const isovist_rows *of = rows->of;
+    const sl_view view = eye_view(scene->space, &of->eyes->list.items[row]);
     seen_parts parts = {0};
     SL_TRY(isovist_look(context, scene, &view, region));
-    const sl_status status = seen_parts_add(context, space, region, true, &parts);
+    const sl_status status = seen_parts_add(context, scene->space, region, true, &parts);
     if (status == SL_OK) {
-        put_direct(out, scene->mirrored, eye, isovist, &parts.items[0]);
+        sl_geojson_put_polygon(out, "isovist", parts.items[0].points, parts.items[0].count);
+        fields_add_properties(out, rows, row);
+        sl_geojson_end_feature(out);
         seen_parts_put_mirrored(out, region, parts.items + 1);
     }
     seen_parts_destroy(context, &parts);
@@ -371,15 +351,14 @@ static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isov
 
 /// Regions are found anew: those of all eyes at once may take much memory.
 static sl_status write_places(sl_context *context, const isovist_scene *scene,
-                              const eye_places *eyes, const isovist_result *isovists, FILE *file) {
+                              const field_rows *rows, FILE *file) {
     sl_geojson_writer out = sl_geojson_begin(file);
     sl_mirrored_region region = {0};
     sl_status status = SL_OK;
-    for (size_t i = 0; i < eyes->list.count && status == SL_OK && !ferror(file); i++) {
+    for (size_t i = 0; i < rows->count && status == SL_OK && !ferror(file); i++) {
         status = sl_check_cancelled(context);
-        if (status == SL_OK)
-            status = put_eye(context, &out, scene, &eyes->list.items[i], &isovists[i], &region);
-        sl_report(context, "write", "regions", i + 1, eyes->list.count);
+        if (status == SL_OK) status = put_eye(context, &out, scene, rows, i, &region);
+        sl_report(context, "write", "regions", i + 1, rows->count);
     }
     sl_mirrored_region_destroy(context, &region);
     sl_geojson_end(&out);
@@ -388,11 +367,10 @@ static sl_status write_places(sl_context *context, const isovist_scene *scene,
 
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                         const isovist_result *isovists, const char *path) {
+    const isovist_rows of = {scene->mirrored, eyes, isovists};
+    const field_rows rows = {list_fields, &of, eyes->list.count};
+    if (!input_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    const sl_status status =
-        input_ends_with(path, ".geojson")
-            ? write_places(context, scene, eyes, isovists, output.stream)
-            : write_rows(context, scene->mirrored, eyes, isovists, output.stream);
-    return sl_output_close(context, &output, status);
+    return sl_output_close(context, &output, write_places(context, scene, &rows, output.stream));
 }

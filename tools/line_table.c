@@ -1,10 +1,12 @@
 #include "line_table.h"
 
 #include "built.h"
+#include "fields.h"
 #include "heat_map.h"
 #include "number_table.h"
 #include "sightline/geojson.h"
 #include "sightline/support.h"
+#include "summary.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -46,23 +48,20 @@ const line_column *line_table_column(const line_table *table, size_t measure) {
 
 // --- files
 
-static void put(FILE *out, const char *before, double value) {
-    char text[SL_NUMBER_TEXT] = "";
-    if (!isnan(value)) sl_number_write(value, text);
-    fprintf(out, "%s%s", before, text);
-}
-
 static sl_status write_csv(sl_context *context, const line_table *t, FILE *out) {
     fputs("x1,y1,x2,y2", out);
     for (size_t k = 0; k < t->columns.count; k++) fprintf(out, ",%s", t->columns.items[k].name);
     putc('\n', out);
     for (uint32_t i = 0; i < t->count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        put(out, "", t->lines[i].a.x);
-        put(out, ",", t->lines[i].a.y);
-        put(out, ",", t->lines[i].b.x);
-        put(out, ",", t->lines[i].b.y);
-        for (size_t k = 0; k < t->columns.count; k++) put(out, ",", t->columns.items[k].values[i]);
+        csv_put(out, t->lines[i].a.x, ",");
+        csv_put(out, t->lines[i].a.y, ",");
+        csv_put(out, t->lines[i].b.x, ",");
+        csv_put(out, t->lines[i].b.y, "");
+        for (size_t k = 0; k < t->columns.count; k++) {
+            putc(',', out);
+            csv_put(out, t->columns.items[k].values[i], "");
+        }
         putc('\n', out);
     }
     return SL_OK;
@@ -94,41 +93,20 @@ sl_status line_table_write(sl_context *context, const line_table *table, const c
 
 // --- the summary
 
-enum { BEST = 10 };
-
-static void print_mean(const line_table *t, const line_column *c) {
-    double sum = 0, squares = 0, count = 0;
-    for (uint32_t i = 0; i < t->count; i++) {
-        if (isnan(c->values[i])) continue;
-        sum += c->values[i];
-        count++;
-    }
-    if (count == 0) {
-        printf("  %-36s %12s\n", c->name, "not defined");
-        return;
-    }
-    for (uint32_t i = 0; i < t->count; i++)
-        if (!isnan(c->values[i]))
-            squares += (c->values[i] - sum / count) * (c->values[i] - sum / count);
-    printf("  %-36s %12.6g %12.6g\n", c->name, sum / count, sqrt(squares / count));
+static double value_at(const void *of, size_t index) {
+    const line_column *column = of;
+    return column->values[index];
 }
 
 void line_table_print(const line_table *table, const char *what, const line_column *column) {
-    uint32_t best[BEST];
-    size_t count = 0;
-    for (uint32_t i = 0; i < table->count; i++) {
-        const double value = column->values[i];
-        size_t at = count;
-        if (isnan(value)) continue;
-        while (at && value > column->values[best[at - 1]]) at--;
-        if (at == BEST) continue;
-        if (count < BEST) count++;
-        for (size_t k = count - 1; k > at; k--) best[k] = best[k - 1];
-        best[at] = i;
-    }
+    size_t best[SUMMARY_BEST];
+    const size_t count = summary_best(&(summary_values){value_at, column, table->count}, best);
     printf("%" PRIu32 " %s%s\n  %-36s %12s %12s\n", table->count, what,
            table->count == 1 ? "" : "s", "measure", "mean", "deviation");
-    for (size_t k = 0; k < table->columns.count; k++) print_mean(table, &table->columns.items[k]);
+    for (size_t k = 0; k < table->columns.count; k++) {
+        const line_column *c = &table->columns.items[k];
+        summary_print_mean(c->name, &(summary_values){value_at, c, table->count});
+    }
     if (count)
         printf("highest %s:\n  %12s %12s %12s %12s %12s\n", column->name, "x1", "y1", "x2", "y2",
                "value");
@@ -173,7 +151,7 @@ sl_status line_table_draw(sl_context *context, const line_table *table, const li
     if (!table->count) return sl_fail(context, SL_BAD_ARGUMENT, "there is no line to draw");
     if (!baked) SL_TRY(make_page(context, table, &page));
     sl_draw_options options = *drawing;
-    heat_map_words(column->name, measure, sizeof measure);
+    words_of(column->name, measure, sizeof measure);
     heat_map_title(input, map, measure, title, sizeof title);
     if (!options.title) options.title = title;
     const sl_drawn_lines lines = {.name = measure,

@@ -1,9 +1,9 @@
 #include "names.h"
 
+#include "built.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/effects.h"
 #include "sightline/space.h"
-#include "solvers.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -115,11 +115,11 @@ name_table subdivision_table(void) {
 }
 
 static const char *solver_name(size_t index) {
-    return solver_at(index)->name;
+    return built_solver(index)->name;
 }
 
 name_table solver_table(void) {
     name_table table = {.kind = "solver", .at = solver_name};
-    while (solver_at(table.count)) table.count++;
+    while (built_solver(table.count)) table.count++;
     return table;
 }

@@ -32,7 +32,7 @@ name_table measure_table(sl_analysis analysis);
 name_table method_table(void);
 name_table effect_table(void);
 name_table subdivision_table(void);
-/// Numbered as by solver_at().
+/// Numbered as by built_solver().
 name_table solver_table(void);
 
 const char *sight_name(sl_sight sight);

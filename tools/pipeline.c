@@ -1,11 +1,11 @@
 #include "pipeline.h"
 
+#include "built.h"
 #include "help.h"
 #include "inputs.h"
 #include "sightline/effects.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
-#include "solvers.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -363,7 +363,7 @@ void pipeline_print_methods(void) {
                   methods[i].stabs ? "as exact as the solver"
                                    : sl_guarantee_name(methods[i].guarantee));
     puts("\nsolvers:");
-    for (size_t i = 0; solver_at(i); i++)
-        help_name(solver_at(i)->name, 12, solver_at(i)->what,
-                  sl_guarantee_name(solver_at(i)->guarantee));
+    for (size_t i = 0; built_solver(i); i++)
+        help_name(built_solver(i)->name, 12, built_solver(i)->what,
+                  sl_guarantee_name(built_solver(i)->guarantee));
 }

@@ -1,8 +1,10 @@
 #include "vga_change.h"
 
+#include "fields.h"
 #include "inputs.h"
 #include "sightline/geojson.h"
 #include "sightline/support.h"
+#include "summary.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -57,12 +59,6 @@ static double change_of(const vga_change *c, size_t measure, const vga_pair *pai
 
 static const char *const endings[VALUES] = {"", "_other", "_change"};
 
-static void put(FILE *out, double value, const char *missing) {
-    char text[SL_NUMBER_TEXT];
-    if (!isnan(value)) sl_number_write(value, text);
-    fputs(isnan(value) ? missing : text, out);
-}
-
 static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) {
     const name_table names = measure_table(SL_VGA);
     double values[VALUES];
@@ -73,15 +69,14 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
     putc('\n', out);
     for (size_t n = 0; n < c->count; n++) {
         if (n % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        put(out, c->pairs[n].at.x, "");
-        putc(',', out);
-        put(out, c->pairs[n].at.y, "");
+        csv_put(out, c->pairs[n].at.x, ",");
+        csv_put(out, c->pairs[n].at.y, "");
         for (size_t k = 0; k < names.count; k++) {
             if (!(c->before->parts & vga_measure_part(k))) continue;
             values_of(c, k, &c->pairs[n], values);
             for (size_t i = 0; i < VALUES; i++) {
                 putc(',', out);
-                put(out, values[i], "");
+                csv_put(out, values[i], "");
             }
         }
         putc('\n', out);
@@ -147,48 +142,32 @@ sl_status vga_change_field(sl_context *context, const vga_change *change, size_t
 
 // --- the summary
 
-/// Mean and standard deviation of one of the three values; false where there is none.
-static bool find_mean(const vga_change *c, size_t measure, size_t which, double *mean,
-                      double *deviation) {
-    double sum = 0, squares = 0, count = 0, values[VALUES];
-    for (size_t n = 0; n < c->count; n++) {
-        values_of(c, measure, &c->pairs[n], values);
-        if (isnan(values[which])) continue;
-        sum += values[which];
-        count++;
-    }
-    *mean = sum / count;
-    for (size_t n = 0; n < c->count; n++) {
-        values_of(c, measure, &c->pairs[n], values);
-        if (!isnan(values[which])) squares += (values[which] - *mean) * (values[which] - *mean);
-    }
-    *deviation = sqrt(squares / count);
-    return count > 0;
+/// One of the three values of a measure, or gains alone: changes times `sign`.
+typedef struct change_measure {
+    const vga_change *change;
+    size_t measure, which;
+    int sign;
+} change_measure;
+
+static double value_at(const void *of, size_t index) {
+    const change_measure *m = of;
+    double values[VALUES];
+    values_of(m->change, m->measure, &m->change->pairs[index], values);
+    return values[m->which];
 }
 
-enum { BEST = 10 };
-
-/// The places of the largest gains, or of the largest losses with a sign of -1; the first of equal
-/// ones.
-static size_t find_best(const vga_change *c, size_t measure, int sign, size_t best[BEST]) {
-    size_t count = 0;
-    for (size_t n = 0; n < c->count; n++) {
-        const double value = sign * change_of(c, measure, &c->pairs[n]);
-        size_t at = count;
-        if (!(value > 0)) continue;
-        while (at && value > sign * change_of(c, measure, &c->pairs[best[at - 1]])) at--;
-        if (at == BEST) continue;
-        if (count < BEST) count++;
-        for (size_t k = count - 1; k > at; k--) best[k] = best[k - 1];
-        best[at] = n;
-    }
-    return count;
+static double gain_at(const void *of, size_t index) {
+    const change_measure *m = of;
+    const double gain = m->sign * change_of(m->change, m->measure, &m->change->pairs[index]);
+    return gain > 0 ? gain : NAN;
 }
 
+/// The largest gains, or the largest losses with a sign of -1.
 static void print_best(const vga_change *c, size_t measure, int sign) {
     const name_table names = measure_table(SL_VGA);
-    size_t best[BEST];
-    const size_t count = find_best(c, measure, sign, best);
+    size_t best[SUMMARY_BEST];
+    const change_measure of = {c, measure, 0, sign};
+    const size_t count = summary_best(&(summary_values){gain_at, &of, c->count}, best);
     if (count)
         printf("largest %s of %s:\n  %12s %12s %12s\n", sign > 0 ? "gains" : "losses",
                name_table_at(&names, measure), "x", "y", "change");
@@ -215,8 +194,11 @@ void vga_change_print(const vga_change *change, size_t measure) {
         double mean[VALUES], deviation[VALUES];
         if (!(change->before->parts & vga_measure_part(k))) continue;
         bool known = true;
-        for (size_t i = 0; i < VALUES; i++)
-            known &= find_mean(change, k, i, &mean[i], &deviation[i]);
+        for (size_t i = 0; i < VALUES; i++) {
+            const change_measure of = {change, k, i, 1};
+            const summary_values values = {value_at, &of, change->count};
+            known &= summary_mean(&values, &mean[i], &deviation[i]);
+        }
         if (known)
             printf("  %-36s %12.6g %12.6g %12.6g %12.6g\n", name_table_at(&names, k), mean[0],
                    mean[1], mean[2], deviation[2]);

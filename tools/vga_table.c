@@ -1,7 +1,9 @@
 #include "vga_table.h"
 
+#include "fields.h"
 #include "inputs.h"
 #include "sightline/support.h"
+#include "summary.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -9,7 +11,7 @@
 /// Groups as they can be chosen, in the order of the bits.
 static const sl_measure_group groups[] = {SL_GROUP_LOCAL, SL_GROUP_THROUGH, SL_GROUP_METRIC,
                                           SL_GROUP_ANGULAR, SL_GROUP_ISOVIST};
-enum { GROUPS = sizeof groups / sizeof *groups, BEST = 10 };
+enum { GROUPS = sizeof groups / sizeof *groups };
 
 static const char *part_name(size_t index) {
     return index < GROUPS ? sl_measure_group_name(groups[index]) : "all";
@@ -42,57 +44,34 @@ double vga_value(const vga_table *table, size_t measure, uint32_t point) {
 
 // --- files
 
-static void put(FILE *out, double value, const char *missing) {
-    char text[SL_NUMBER_TEXT];
-    if (isnan(value)) {
-        fputs(missing, out);
-        return;
-    }
-    sl_number_write(value, text);
-    fputs(text, out);
-}
-
-static sl_status write_csv(sl_context *context, const vga_table *table, FILE *out) {
-    size_t count;
-    const sl_measure *measures = columns(&count);
-    fputs("x,y", out);
-    for (size_t k = 0; k < count; k++)
-        if (table->parts & vga_measure_part(k)) fprintf(out, ",%s", measures[k].name);
-    putc('\n', out);
-    for (uint32_t p = 0; p < table->grid.count; p++) {
-        if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        put(out, table->grid.points[p].x, "");
-        putc(',', out);
-        put(out, table->grid.points[p].y, "");
-        for (size_t k = 0; k < count; k++) {
-            if (!(table->parts & vga_measure_part(k))) continue;
-            putc(',', out);
-            put(out, vga_value(table, k, p), "");
-        }
-        putc('\n', out);
-    }
-    return SL_OK;
+/// The point, and then its measures.
+static size_t list_fields(const void *of, size_t point, table_field fields[FIELDS_MOST]) {
+    const vga_table *table = of;
+    size_t measure_count, count = 0;
+    const sl_measure *measures = columns(&measure_count);
+    fields[count++] = field_real("x", table->grid.points[point].x);
+    fields[count++] = field_real("y", table->grid.points[point].y);
+    for (size_t k = 0; k < measure_count; k++)
+        if (table->parts & vga_measure_part(k))
+            fields[count++] = field_real(measures[k].name, vga_value(table, k, (uint32_t)point));
+    return count;
 }
 
 static sl_status write_geojson(sl_context *context, const vga_table *table, FILE *out) {
-    size_t count;
-    const sl_measure *measures = columns(&count);
+    table_field fields[FIELDS_MOST];
     fputs("{\"type\": \"FeatureCollection\", \"features\": [", out);
     for (uint32_t p = 0; p < table->grid.count; p++) {
         if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         fprintf(out, "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"Point\", ",
                 p ? "," : "");
         fputs("\"coordinates\": [", out);
-        put(out, table->grid.points[p].x, "");
-        fputs(", ", out);
-        put(out, table->grid.points[p].y, "");
+        csv_put(out, table->grid.points[p].x, ", ");
+        csv_put(out, table->grid.points[p].y, "");
         fputs("]}, \"properties\": {", out);
-        const char *comma = "";
-        for (size_t k = 0; k < count; k++) {
-            if (!(table->parts & vga_measure_part(k))) continue;
-            fprintf(out, "%s\"%s\": ", comma, measures[k].name);
-            put(out, vga_value(table, k, p), "null");
-            comma = ", ";
+        const size_t count = list_fields(table, p, fields);
+        for (size_t k = 2; k < count; k++) {
+            fprintf(out, "%s\"%s\": ", k > 2 ? ", " : "", fields[k].key);
+            csv_put(out, fields[k].real, fields[k].kind == FIELD_NONE ? "null" : "");
         }
         fputs("}}", out);
     }
@@ -101,65 +80,39 @@ static sl_status write_geojson(sl_context *context, const vga_table *table, FILE
 }
 
 sl_status vga_write(sl_context *context, const vga_table *table, const char *path) {
-    const bool geojson = input_ends_with(path, ".geojson");
+    const field_rows rows = {list_fields, table, table->grid.count};
+    if (!input_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output,
-                           geojson ? write_geojson(context, table, output.stream)
-                                   : write_csv(context, table, output.stream));
+    return sl_output_close(context, &output, write_geojson(context, table, output.stream));
 }
 
 // --- the summary
 
-static void print_mean(const vga_table *table, size_t measure) {
-    const char *name = columns(&(size_t){0})[measure].name;
-    double sum = 0, squares = 0, count = 0;
-    for (uint32_t p = 0; p < table->grid.count; p++) {
-        const double value = vga_value(table, measure, p);
-        if (isnan(value)) continue;
-        sum += value;
-        count++;
-    }
-    if (count == 0) {
-        printf("  %-36s %12s\n", name, "not defined");
-        return;
-    }
-    const double mean = sum / count;
-    for (uint32_t p = 0; p < table->grid.count; p++) {
-        const double value = vga_value(table, measure, p);
-        if (!isnan(value)) squares += (value - mean) * (value - mean);
-    }
-    printf("  %-36s %12.6g %12.6g\n", name, mean, sqrt(squares / count));
-}
+typedef struct table_measure {
+    const vga_table *table;
+    size_t measure;
+} table_measure;
 
-/// The points of the highest values, the first of equal ones.
-static size_t find_best(const vga_table *table, size_t measure, uint32_t best[BEST]) {
-    size_t count = 0;
-    for (uint32_t p = 0; p < table->grid.count; p++) {
-        const double value = vga_value(table, measure, p);
-        size_t at = count;
-        if (isnan(value)) continue;
-        while (at && value > vga_value(table, measure, best[at - 1])) at--;
-        if (at == BEST) continue;
-        if (count < BEST) count++;
-        for (size_t k = count - 1; k > at; k--) best[k] = best[k - 1];
-        best[at] = p;
-    }
-    return count;
+static double value_at(const void *of, size_t index) {
+    const table_measure *m = of;
+    return vga_value(m->table, m->measure, (uint32_t)index);
 }
 
 void vga_print_summary(const vga_table *table, size_t measure) {
-    uint32_t best[BEST];
-    size_t columns_count;
-    const char *name = columns(&columns_count)[measure].name;
-    const size_t count = find_best(table, measure, best);
+    size_t best[SUMMARY_BEST], columns_count;
+    const sl_measure *measures = columns(&columns_count);
+    table_measure of = {table, measure};
+    const summary_values values = {value_at, &of, table->grid.count};
+    const size_t count = summary_best(&values, best);
     printf("%" PRIu32 " points\n  %-36s %12s %12s\n", table->grid.count, "measure", "mean",
            "deviation");
-    for (size_t k = 0; k < columns_count; k++)
-        if (table->parts & vga_measure_part(k)) print_mean(table, k);
+    for (of.measure = 0; of.measure < columns_count; of.measure++)
+        if (table->parts & vga_measure_part(of.measure))
+            summary_print_mean(measures[of.measure].name, &values);
     if (!count) return;
-    printf("highest %s:\n  %12s %12s %12s\n", name, "x", "y", "value");
+    printf("highest %s:\n  %12s %12s %12s\n", measures[measure].name, "x", "y", "value");
     for (size_t k = 0; k < count; k++)
         printf("  %12.6g %12.6g %12.6g\n", table->grid.points[best[k]].x,
-               table->grid.points[best[k]].y, vga_value(table, measure, best[k]));
+               table->grid.points[best[k]].y, vga_value(table, measure, (uint32_t)best[k]));
 }
