@@ -17,7 +17,6 @@
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
 #include "eye_to_cell/past_boxes.h"
-#include "eye_to_cell/region.h"
 #include "geometry/crossing.h"
 #include "query/query.h"
 #include "query/sight_space.h"
