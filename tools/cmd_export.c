@@ -48,9 +48,8 @@ static sl_status check_effects(sl_context *context, const sl_export_format *form
     if (format->shows_mirrors) return SL_OK;
     char name[64];
     snprintf(name, sizeof name, "export --format %s", format->name);
-    return sl_effects_check_because(context, map, name,
-                                    SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
-                                    "it has one bit for a pair, and Doom no mirrors");
+    return sl_effects_check(context, map, name, SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
+                            "it has one bit for a pair, and Doom no mirrors");
 }
 
 sl_status cmd_export(command_console *console, int argc, char **argv) {

@@ -331,9 +331,9 @@ sl_status cmd_eye(command_console *console, int argc, char **argv) {
                        plan.picture_given, plan.output);
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, plan.input, &baked));
-    sl_status status =
-        sl_effects_check(console->context, &baked.map, "eye",
-                         SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
+    sl_status status = sl_effects_check(
+        console->context, &baked.map, "eye",
+        SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE, NULL);
     if (status == SL_OK) status = doors_shut(console->context, &plan.doors, &baked);
     if (status == SL_OK) status = look(console, &plan, &baked);
     sl_baked_destroy(console->context, &baked);

@@ -175,8 +175,8 @@ static sl_status read_map(sl_context *context, const regions_plan *plan, const c
     const char *base = input_base_name(path, &length);
     snprintf(read->name, sizeof read->name, "%.*s", (int)length, base);
     SL_TRY(pipeline_read_clean(context, &pipeline, &read->map, NULL));
-    SL_TRY(sl_effects_check_because(context, &read->map, "regions", 0,
-                                    "the methods that it compares know walls alone"));
+    SL_TRY(sl_effects_check(context, &read->map, "regions", 0,
+                            "the methods that it compares know walls alone"));
     return note_inside(context, &pipeline, &read->map);
 }
 

@@ -407,8 +407,8 @@ static sl_status read_space(sl_context *context, viewcells_plan *plan, view_run 
     sl_baked *baked = &run->baked;
     const double start = sl_seconds();
     SL_TRY(pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
-    SL_TRY(sl_effects_check_because(context, &baked->map, "viewcells", 0,
-                                    "the lines that it samples end at walls alone"));
+    SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0,
+                            "the lines that it samples end at walls alone"));
     const double read = sl_seconds();
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     SL_TRY(pipeline_note_inside(context, &plan->pipeline, &baked->map, &baked->space));

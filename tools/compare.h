@@ -5,8 +5,8 @@
 #include "console.h"
 #include "json_print.h"
 #include "sightline/cell_to_cell.h"
-#include "sightline/eye_to_cell.h"
 #include "sightline/space.h"
+#include "sightline/view.h"
 
 typedef enum run_outcome {
     RUN_REFUSED,  ///< the map calls for what the method does not know

@@ -6,9 +6,9 @@
 #include "json_print.h"
 #include "options.h"
 #include "sightline/draw.h"
-#include "sightline/eye_to_cell.h"
 #include "sightline/json.h"
 #include "sightline/query.h"
+#include "sightline/view.h"
 
 /// The answer of one method.
 typedef struct eye_result {

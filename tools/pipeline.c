@@ -232,9 +232,9 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     sl_bake_options options = pipeline->bake;
     sl_bake_account account = {0};
     SL_TRY(read_map_or_baked(context, pipeline, &map, baked, &is_baked));
-    if (is_baked) return sl_effects_check_because(context, &baked->map, user, effects, reason);
+    if (is_baked) return sl_effects_check(context, &baked->map, user, effects, reason);
     sl_status status = pipeline_prepare(context, pipeline, &map);
-    if (status == SL_OK) status = sl_effects_check_because(context, &map, user, effects, reason);
+    if (status == SL_OK) status = sl_effects_check(context, &map, user, effects, reason);
     if (status == SL_OK) status = sl_bake_space(context, &map, &options, baked, &account);
     sl_map_destroy(context, &map);
     return status;

@@ -3,7 +3,7 @@
 #define VGA_GRID_H
 
 #include "pipeline.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 #include "sightline/vga.h"
 #include "within.h"
 

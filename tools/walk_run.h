@@ -5,7 +5,7 @@
 #include "console.h"
 #include "isovist.h"
 #include "sightline/bake.h"
-#include "sightline/eye_to_cell.h"
+#include "sightline/view.h"
 #include "sightline/walk.h"
 
 typedef SL_ARRAY(sl_point) walk_way;

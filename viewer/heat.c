@@ -156,9 +156,9 @@ static sl_status begin(app_state *app) {
     if (!layer->shut) return SL_NO_MEMORY;
     layer->door_count = map->door_count;
     for (size_t i = 0; i < map->door_count; i++) layer->shut[i] = !map->doors[i].open;
-    SL_TRY(sl_effects_check_because(app->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
-                                    "steps and paths lead straight to points, not to mirror "
-                                    "images"));
+    SL_TRY(sl_effects_check(app->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
+                            "steps and paths lead straight to points, not to mirror "
+                            "images"));
     SL_TRY(sl_query_copy(app->context, app->view.present.query, &layer->graph.query));
     return start(app, layer);
 }

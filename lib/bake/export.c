@@ -472,7 +472,7 @@ sl_status sli_export_json(sl_context *context, const sl_baked *baked,
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no JSON version %u; the newest is %d",
                        version, SL_JSON_VERSION);
     if (version == 1)
-        SL_TRY(sl_effects_check_because(
+        SL_TRY(sl_effects_check(
             context, &baked->map, "JSON version 1",
             SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
             "it has no member for what is seen by mirror, and its readers would take a pair that "

@@ -43,7 +43,7 @@ sl_status sli_plan_check_solver(sl_context *context, const sl_plan *plan, const 
 
 sl_status sl_see_check(sl_context *context, const sl_see_method *method, const sl_solver *solver,
                        const sl_map *map) {
-    SL_TRY(sl_effects_check_because(context, map, method->name, method->knows, method->lacks));
+    SL_TRY(sl_effects_check(context, map, method->name, method->knows, method->lacks));
     const sl_plan plan = sl_plan_make(map);
     return method->stabs ? sli_plan_check_solver(context, &plan, solver) : SL_OK;
 }

@@ -12,7 +12,7 @@ typedef struct sli_filtered_space {
     const bool *shut; ///< by door of the map; NULL: all are open
     bool one_way;     ///< with its glass; else that is open both ways
     /// With `one_way`: the dark side of glass is a wall, after all other walls. Such a space has an
-    /// outline, in which regions see one way (outline.h).
+    /// outline, in which regions see one way (space.h).
     bool dark_walls;
     /// Glass that is dark for this eye is a wall, all other is open both ways: what one eye sees
     /// straight on, without mirrors, is then what it sees past walls. NULL for none.

@@ -206,12 +206,7 @@ static void append(char *text, size_t size, const char *between, const char *mor
 }
 
 sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
-                           unsigned known) {
-    return sl_effects_check_because(context, map, method, known, NULL);
-}
-
-sl_status sl_effects_check_because(sl_context *context, const sl_map *map, const char *method,
-                                   unsigned known, const char *reason) {
+                           unsigned known, const char *reason) {
     const unsigned unknown = sl_plan_make(map).effects & ~known;
     if (!unknown) return SL_OK;
     char several[128] = "", names[64] = "";

@@ -2,8 +2,9 @@
 #ifndef SL_MOVING_H
 #define SL_MOVING_H
 
-#include "sightline/eye_to_cell.h"
-#include "sightline/outline.h"
+#include "sightline/cell_to_cell.h"
+#include "sightline/space.h"
+#include "sightline/view.h"
 
 /// A space with boxes in it. For one thread at a time.
 typedef struct sli_moving sli_moving;

@@ -62,7 +62,7 @@ sl_status sli_mirrored_region_make(sl_context *context, const sli_room_mirrors *
 /// Whether an eye sees a point. Exact. SL_CLOSED: portals lead from a cell that the eye stands in
 /// (view.h) to a cell that touches the point, and the segment between eye and point touches each of
 /// them. It may graze walls on either side, but crosses none. (One that grazes walls on both sides
-/// leads the culling methods to no cell, as eye_to_cell.h says.) SL_OPEN: the same, and the segment
+/// leads the culling methods to no cell, as view.h says.) SL_OPEN: the same, and the segment
 /// has no point in common with a wall. False where either point is outside the bounds, and where
 /// the eye is in solid ground.
 sl_status sli_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,

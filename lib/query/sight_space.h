@@ -3,7 +3,7 @@
 #ifndef SL_SIGHT_SPACE_H
 #define SL_SIGHT_SPACE_H
 
-#include "sightline/outline.h"
+#include "sightline/space.h"
 
 /// A portal on doors or one-way glass.
 typedef struct sli_sight_portal {

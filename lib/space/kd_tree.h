@@ -3,7 +3,6 @@
 #define SL_KD_TREE_H
 
 #include "sightline/map.h"
-#include "sightline/outline.h"
 #include "sightline/space.h"
 #include "sightline/support.h"
 

@@ -12,7 +12,7 @@
 /// which of them lie on a gap. Then cells are joined to rooms (rooms.c). No coordinate is computed.
 /// Time O(n log n).
 #include "space/outline.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -2,7 +2,7 @@
 #ifndef SL_OUTLINE_H
 #define SL_OUTLINE_H
 
-#include "sightline/outline.h"
+#include "sightline/space.h"
 
 /// Makes the outline of a space that passes sl_space_check, or of one with glass that is dark from
 /// one side (sli_filtered_space.dark_walls). No coordinate is computed. Cells are

@@ -19,7 +19,7 @@
 /// is. No coordinate is computed.
 #include "geometry/length.h"
 #include "geometry/orient.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
 

@@ -10,7 +10,7 @@
 #include "space/outline.h"
 
 #include "cell_to_cell/sectors.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 #include "sightline/support.h"
 
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "sightline/bake.h"
 #include "sightline/faults.h"
 #include "sightline/generate.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 #include "sightline/support.h"
 #include "sightline/view_cells.h"
 

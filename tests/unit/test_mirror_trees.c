@@ -7,8 +7,8 @@
 
 #include "effects/mirrors.h"
 #include "oracle/random_effects.h"
-#include "sightline/eye_to_cell.h"
 #include "sightline/stab.h"
+#include "sightline/view.h"
 
 enum { MAPS = 96, EYES = 4, CELLS_MOST = 128 };
 

@@ -6,8 +6,8 @@
 
 #include "geometry/crossing.h"
 #include "sightline/bake.h"
-#include "sightline/eye_to_cell.h"
 #include "sightline/support.h"
+#include "sightline/view.h"
 
 #include <math.h>
 

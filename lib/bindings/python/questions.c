@@ -408,9 +408,8 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
     sl_context *context = level->base.context;
     const sl_outline *outline;
     slp_level_forget(level);
-    SL_TRY(
-        sl_effects_check_because(context, &level->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
-                                 "steps and paths lead straight to points, not to mirror images"));
+    SL_TRY(sl_effects_check(context, &level->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
+                            "steps and paths lead straight to points, not to mirror images"));
     SL_TRY(slp_level_queries(level, 1));
     SL_TRY(sl_query_outline(context, level->queries.items[0], &outline));
     return fill_and_measure(level, outline, given, seeds, seed_count, from, from_count);

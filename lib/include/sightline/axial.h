@@ -15,7 +15,7 @@
 #define SIGHTLINE_AXIAL_H
 
 #include "sightline/measures.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 
 #ifdef __cplusplus
 extern "C" {

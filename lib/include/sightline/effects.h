@@ -60,12 +60,10 @@ SL_API sl_status sl_effects_settle_doors(sl_context *context, sl_map *map);
 SL_API void sl_effects_note_doors(sl_context *context, const sl_map *map);
 
 /// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
-/// what messages call the method.
+/// what messages call the method; `reason`, which may be NULL, is why it does not know an effect:
+/// "its lines end at walls alone".
 SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
-                                  unsigned known);
-/// The same for a method that has a reason not to know an effect: "its lines end at walls alone".
-SL_API sl_status sl_effects_check_because(sl_context *context, const sl_map *map,
-                                          const char *method, unsigned known, const char *reason);
+                                  unsigned known, const char *reason);
 
 #ifdef __cplusplus
 }

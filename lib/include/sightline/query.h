@@ -20,7 +20,7 @@
 #ifndef SIGHTLINE_QUERY_H
 #define SIGHTLINE_QUERY_H
 
-#include "sightline/eye_to_cell.h"
+#include "sightline/cell_to_cell.h"
 #include "sightline/region.h"
 
 #ifdef __cplusplus

@@ -3,7 +3,7 @@
 #define SIGHTLINE_REGION_H
 
 #include "sightline/measures.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 #include "sightline/view.h"
 
 #ifdef __cplusplus

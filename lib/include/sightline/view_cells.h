@@ -12,7 +12,7 @@
 #define SIGHTLINE_VIEW_CELLS_H
 
 #include "sightline/cell_to_cell.h"
-#include "sightline/outline.h"
+#include "sightline/space.h"
 
 #ifdef __cplusplus
 extern "C" {

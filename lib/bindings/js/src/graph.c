@@ -70,9 +70,8 @@ static sl_status open_map(graph *g, const char *name, const char *bytes, size_t 
     SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &g->baked)
                  : make_space(g, name, bytes, size, entrance));
     const sl_map *map = &g->baked.map;
-    SL_TRY(
-        sl_effects_check_because(context(), map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
-                                 "steps and paths lead straight to points, not to mirror images"));
+    SL_TRY(sl_effects_check(context(), map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
+                            "steps and paths lead straight to points, not to mirror images"));
     return sl_query_over(context(), &g->baked.space, map, NULL, &g->query);
 }
 
