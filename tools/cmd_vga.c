@@ -288,11 +288,9 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     if (plan->options.parts) SL_TRY(check_measures(context, plan, w));
     if (plan->from.count) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
-    plan->options.links = w->links;
-    plan->options.link_count = w->link_count;
     if (plan->options.parts)
-        SL_TRY(
-            sl_vga_measure(context, w->outline, grid, &w->graph, &plan->options, table->measures));
+        SL_TRY(sl_vga_measure_linked(context, w->outline, grid, &w->graph, w->links, w->link_count,
+                                     &plan->options, table->measures));
     return plan->parts & VGA_PART_ISOVIST ? measure_regions(context, plan, w) : SL_OK;
 }
 

@@ -437,7 +437,6 @@ static sl_status measure_steps(sl_context *context, const sl_outline *outline,
     contracted c = {0};
     sl_vga_options options = *job->options;
     options.parts = SL_VGA_GLOBAL;
-    options.link_count = 0;
     sl_status status = contract(context, job->grid, job->graph, joined, &c);
     if (status == SL_OK)
         status = sl_vga_measure(context, outline, &c.grid, &c.graph, &options, c.measures);
@@ -456,18 +455,18 @@ static sl_status measure_steps(sl_context *context, const sl_outline *outline,
     return status;
 }
 
-sl_status sli_vga_measure_linked(sl_context *context, const sl_outline *outline,
-                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
-                                 const sl_vga_options *options, sl_vga_measures *measures) {
+sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *outline,
+                                const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                const sl_vga_link *links, size_t link_count,
+                                const sl_vga_options *options, sl_vga_measures *measures) {
     const unsigned steps = SL_VGA_GLOBAL, paths = SL_VGA_METRIC | SL_VGA_ANGULAR;
+    if (!link_count) return sl_vga_measure(context, outline, grid, graph, options, measures);
     sl_vga_options plain = *options;
     plain.parts &= ~(steps | paths);
-    plain.link_count = 0;
     path_job job = {
         .all = {.grid = grid, .graph = graph, .options = options, .measures = measures}};
     sl_bits *turning = NULL;
-    sl_status status =
-        find_places(context, graph->count, options->links, options->link_count, &job.places);
+    sl_status status = find_places(context, graph->count, links, link_count, &job.places);
     if (status == SL_OK) status = sl_vga_measure(context, outline, grid, graph, &plain, measures);
     if (status == SL_OK && options->parts & steps)
         status = measure_steps(context, outline, &job.all, &job.places);

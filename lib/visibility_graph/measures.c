@@ -154,8 +154,6 @@ sl_vga_options sl_vga_options_default(void) {
 sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
                          const sl_vga_graph *graph, const sl_vga_options *options,
                          sl_vga_measures *measures) {
-    if (options->link_count)
-        return sli_vga_measure_linked(context, outline, grid, graph, options, measures);
     uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
     if (!degree) return SL_NO_MEMORY;
     for (uint32_t p = 0; p < graph->count; p++) {

@@ -36,9 +36,4 @@ sl_status sli_vga_measure_paths(sl_context *context, const sli_vga_job *job);
 /// Through vision of all points.
 sl_status sli_vga_measure_through(sl_context *context, const sli_vga_job *job);
 
-/// sl_vga_measure() with one link or more.
-sl_status sli_vga_measure_linked(sl_context *context, const sl_outline *outline,
-                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
-                                 const sl_vga_options *options, sl_vga_measures *measures);
-
 #endif

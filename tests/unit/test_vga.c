@@ -586,10 +586,8 @@ static void depths_add_up_to_measures(void **state) {
     sl_vga_depths *depths = test_calloc(n, sizeof *depths);
     assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options, measures));
     const sl_vga_link link = {0, n - 1}, loop = {3, 3}, outside = {0, n};
-    sl_vga_options with_links = options;
-    with_links.links = &link;
-    with_links.link_count = 1;
-    assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &with_links, linked));
+    assert_ok(context, sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &link, 1,
+                                             &options, linked));
     for (uint32_t from = 0; from < n; from += 7) {
         for (size_t with = 0; with < 2; with++) {
             const sl_vga_measures *m = with ? &linked[from] : &measures[from];
@@ -618,11 +616,11 @@ static void depths_add_up_to_measures(void **state) {
             assert_true(fabs(straight / count - m->metric_mean_straight_line_distance) < 1e-9);
         }
     }
-    with_links.links = &loop;
-    assert_int_equal(sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &with_links, linked),
-                     SL_BAD_ARGUMENT);
-    with_links.links = &outside;
-    assert_int_equal(sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &with_links, linked),
+    assert_int_equal(
+        sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &loop, 1, &options, linked),
+        SL_BAD_ARGUMENT);
+    assert_int_equal(sl_vga_measure_linked(context, &f.outline, &f.grid, &f.graph, &outside, 1,
+                                           &options, linked),
                      SL_BAD_ARGUMENT);
     test_free(depths);
     test_free(linked);

@@ -79,21 +79,13 @@ typedef enum sl_vga_part {
     SL_VGA_ANGULAR = 1 << SL_GROUP_ANGULAR  ///< of paths that turn least
 } sl_vga_part;
 
-/// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
-/// join all of their points.
-typedef struct sl_vga_link {
-    uint32_t a, b;
-} sl_vga_link;
-
 /// Start from sl_vga_options_default().
 typedef struct sl_vga_options {
-    unsigned parts;           ///< of sl_vga_part; by default local and global
-    uint32_t radius;          ///< steps up to this number; 0 (default): no limit
-    double metric_radius;     ///< paths up to this length; 0 (default): no limit
-    double angular_radius;    ///< paths up to this turn, in right angles; 0 (default): no limit
-    const sl_vga_link *links; ///< linked points count as one place
-    size_t link_count;
-    unsigned threads; ///< 0: one per core; the result is the same for any number
+    unsigned parts;        ///< of sl_vga_part; by default local and global
+    uint32_t radius;       ///< steps up to this number; 0 (default): no limit
+    double metric_radius;  ///< paths up to this length; 0 (default): no limit
+    double angular_radius; ///< paths up to this turn, in right angles; 0 (default): no limit
+    unsigned threads;      ///< 0: one per core; the result is the same for any number
 } sl_vga_options;
 
 /// The default options.
@@ -112,11 +104,6 @@ typedef struct sl_vga_measures {
 /// graph. They turn only at points beside walls, as those of depthmapX do: where a wall touches one
 /// of the nine squares about the point. Their lengths and turns are added up in single precision,
 /// likewise.
-///
-/// With links, as depthmapX treats merged points, linked points count as one place in steps and
-/// paths: a link takes no step, no length and no turn. Local measures and through vision do not
-/// change. Paths may turn at linked points. SL_BAD_ARGUMENT for a link of a point with itself, or
-/// to no point. Cost of metric and angular measures: O(pairs that see each other) for each point.
 SL_API sl_status sl_vga_measure(sl_context *context, const sl_outline *outline,
                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
                                 const sl_vga_options *options, sl_vga_measures *measures);
@@ -128,6 +115,22 @@ SL_API sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *out
                                       const sl_vga_grid *grid, const sl_vga_graph *graph,
                                       const sl_vga_options *options, uint64_t *bytes);
 
+/// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
+/// join all of their points.
+typedef struct sl_vga_link {
+    uint32_t a, b;
+} sl_vga_link;
+
+/// As sl_vga_measure, with links, as depthmapX treats merged points. Linked points count as one
+/// place in steps and paths: a link takes no step, no length and no turn. Local measures and
+/// through vision do not change. Paths may turn at linked points. SL_BAD_ARGUMENT for a link of a
+/// point with itself, or to no point. Cost of metric and angular measures: O(pairs that see each
+/// other) for each point.
+SL_API sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *outline,
+                                       const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                       const sl_vga_link *links, size_t link_count,
+                                       const sl_vga_options *options, sl_vga_measures *measures);
+
 /// How far a point is from chosen points, under depthmapX' names. NAN where nothing leads to it, or
 /// for a part that was not asked for. The paths are those of sl_vga_measure: "shortest" is the
 /// shortest among those that turn only at points beside walls. It may be longer than the shortest
@@ -138,7 +141,7 @@ typedef struct sl_vga_depths {
 } sl_vga_depths;
 
 /// The depths of all points from the nearest of some points. `parts`: SL_VGA_GLOBAL for steps,
-/// SL_VGA_METRIC, SL_VGA_ANGULAR, or-ed. Paths and links are those of sl_vga_measure.
+/// SL_VGA_METRIC, SL_VGA_ANGULAR, or-ed. Paths and links are those of sl_vga_measure_linked.
 /// `depths` has an entry for each point.
 SL_API sl_status sl_vga_depth(sl_context *context, const sl_outline *outline,
                               const sl_vga_grid *grid, const sl_vga_graph *graph,

@@ -97,11 +97,15 @@ SLI_EXPORT(int, map_write, const char *name, const char *text, size_t size, cons
     size_t count;
     const sl_map_format *formats = sl_map_formats(sli_module.context, &count);
     while (count && !is(format, formats[count - 1].name)) count--;
-    if (status == SL_OK && count)
-        status = sl_map_write(sli_module.context, &map, &formats[count - 1], "");
-    else if (status == SL_OK)
+    sl_output output;
+    if (status == SL_OK && !count)
         status = sl_fail(sli_module.context, SL_BAD_ARGUMENT, "format: there is no map format '%s'",
                          format);
+    else if (status == SL_OK)
+        status = sl_output_open(sli_module.context, "", &output);
+    if (status == SL_OK)
+        status = sl_output_close(sli_module.context, &output,
+                                 formats[count - 1].write(sli_module.context, &map, output.stream));
     sl_map_destroy(sli_module.context, &map);
     return (int)(sli_module.status = status);
 }
