@@ -22,6 +22,12 @@
 
 #include "geometry/crossing.h"
 
+/// Where a point is: within a box (1), on its border (0) or outside (-1).
+static int place_in(sl_box box, sl_point p) {
+    if (p.x < box.min.x || p.x > box.max.x || p.y < box.min.y || p.y > box.max.y) return -1;
+    return p.x > box.min.x && p.x < box.max.x && p.y > box.min.y && p.y < box.max.y;
+}
+
 // --- directions about the eye
 
 /// Where a point's direction lies: 0 from +x on, 1 from -x on, 2 for an end at +x, once around.
@@ -132,7 +138,7 @@ static sl_status push_side(sl_context *context, sl_point eye, sli_box_arc side, 
 /// all of them. Returns how many.
 static unsigned sides_of(sl_box box, sl_point eye, uint32_t wall, sli_box_arc sides[4]) {
     const double at[4] = {box.min.x, box.max.x, box.min.y, box.max.y};
-    const bool within = sli_box_place(box, eye) > 0;
+    const bool within = place_in(box, eye) > 0;
     unsigned count = 0;
     for (unsigned k = 0; k < 4; k++) {
         const bool axis = k >= 2, low = k % 2 == 0;
@@ -359,14 +365,9 @@ sl_status sli_region_see_past(sl_context *context, sl_region *region, uint32_t n
 
 // --- lines between two points
 
-int sli_box_place(sl_box box, sl_point p) {
-    if (p.x < box.min.x || p.x > box.max.x || p.y < box.min.y || p.y > box.max.y) return -1;
-    return p.x > box.min.x && p.x < box.max.x && p.y > box.min.y && p.y < box.max.y;
-}
-
 bool sli_boxes_touch(const sl_moving_box *boxes, size_t count, sl_point eye) {
     for (size_t i = 0; i < count; i++)
-        if (boxes[i].blocks && sli_box_place(boxes[i].box, eye) == 0) return true;
+        if (boxes[i].blocks && place_in(boxes[i].box, eye) == 0) return true;
     return false;
 }
 
@@ -379,7 +380,7 @@ static bool apart(double a, double b, double low, double high) {
 static sli_between between_by(sl_box box, sl_point a, sl_point b) {
     if (apart(a.x, b.x, box.min.x, box.max.x) || apart(a.y, b.y, box.min.y, box.max.y))
         return SLI_CLEAR;
-    const int place_a = sli_box_place(box, a), place_b = sli_box_place(box, b);
+    const int place_a = place_in(box, a), place_b = place_in(box, b);
     if (place_a > 0 && place_b > 0) return SLI_CLEAR;
     unsigned left = 0, right = 0;
     for (int k = 0; k < 4; k++) {

@@ -5,9 +5,6 @@
 #include "eye_to_cell/region_parts.h"
 #include "sightline/space.h"
 
-/// Where a point is: within a box (1), on its border (0) or outside (-1).
-int sli_box_place(sl_box box, sl_point p);
-
 /// Whether an eye is on the border of a box that blocks. The sides there part what is around it.
 bool sli_boxes_touch(const sl_moving_box *boxes, size_t count, sl_point eye);
 
