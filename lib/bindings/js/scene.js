@@ -13,7 +13,7 @@ const EDGES = ['wall', 'border', 'occluding', 'cone', 'mirror', 'arc']
 const TABLE = ['cellCount', 'cells', 'vertexCount', 'vertices', 'portalCount', 'portals',
   'directedCount', 'directed', 'wallCount', 'walls', 'nodeCount', 'nodes', 'seamCount', 'seams',
   'seamPortalCount', 'seamPortals', 'neighbours', 'root', 'insideCount', 'doorCount', 'mirrorCount',
-  'onewayCount', 'startCount', 'starts', 'shut', 'sight', 'guarantee', 'method']
+  'onewayCount', 'startCount', 'starts', 'sight', 'guarantee', 'method']
 
 export class Scene {
   #core
@@ -230,8 +230,7 @@ export class Scene {
 
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x, y) {
-    const cell = this.#core.core.scene_locate(this.#place, numberOf('x', x), numberOf('y', y)) >>> 0
-    return cell === NONE ? -1 : cell
+    return this.#core.core.scene_locate(this.#place, numberOf('x', x), numberOf('y', y))
   }
 
   /** The visible set of a cell, with the doors as they stand. */

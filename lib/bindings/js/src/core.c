@@ -17,8 +17,6 @@ typedef struct scene {
     sl_baked baked;
     sl_bake_account account;
     sl_query *query;
-    bool *shut;      ///< by door of the map
-    double range;    ///< as the query has it
     uint64_t *cells; ///< the last set of cells, as bits
     uint32_t *list;  ///< and as numbers
     sl_region region;
@@ -215,7 +213,6 @@ SLI_EXPORT(void, scene_close, scene *s) {
     sl_mirrored_region_destroy(sli_module.context, &s->mirrored);
     sl_steps_destroy(sli_module.context, &s->steps);
     sl_free(sli_module.context, s->flat);
-    sl_free(sli_module.context, s->shut);
     sl_free(sli_module.context, s->cells);
     sl_free(sli_module.context, s->list);
     sl_baked_destroy(sli_module.context, &s->baked);
@@ -224,13 +221,9 @@ SLI_EXPORT(void, scene_close, scene *s) {
 
 /// What questions need, once the map is baked.
 static sl_status equip(scene *s) {
-    const sl_map *map = &s->baked.map;
-    s->shut = sl_alloc_array(sli_module.context, map->door_count, sizeof *s->shut);
     s->cells = sl_alloc_array(sli_module.context, sl_eye_words(&s->baked.space), sizeof *s->cells);
     s->list = sl_alloc_array(sli_module.context, s->baked.space.cell_count, sizeof *s->list);
-    if (!s->shut || !s->cells || !s->list) return SL_NO_MEMORY;
-    for (size_t i = 0; i < map->door_count; i++) s->shut[i] = !map->doors[i].open;
-    s->range = map->range;
+    if (!s->cells || !s->list) return SL_NO_MEMORY;
     return sl_query_create(sli_module.context, &s->baked, &s->query);
 }
 
@@ -327,7 +320,6 @@ SLI_EXPORT(void, scene_describe, const scene *s) {
                               (uint32_t)map->oneway_count,
                               (uint32_t)map->start_count,
                               (uint32_t)(uintptr_t)map->starts,
-                              (uint32_t)(uintptr_t)s->shut,
                               (uint32_t)s->baked.visibility.sight,
                               (uint32_t)s->baked.visibility.guarantee,
                               (uint32_t)(uintptr_t)s->baked.method};
@@ -366,7 +358,7 @@ SLI_EXPORT(void, scene_door, const scene *s, uint32_t number) {
     sli_module.integers[0] = (uint32_t)(uintptr_t)door->name;
     sli_module.integers[1] = (uint32_t)(uintptr_t)(door->parts ? door->parts : &door->segment);
     sli_module.integers[2] = door->parts ? (uint32_t)door->part_count : 1;
-    sli_module.integers[3] = s->shut[number];
+    sli_module.integers[3] = !sl_query_door_is_open(s->query, number);
 }
 
 /// integers: the place of a mirror's (kind 0) or a one-way glass' (kind 1) segment, one-sided.
@@ -378,12 +370,7 @@ SLI_EXPORT(void, scene_glass, const scene *s, int kind, uint32_t number) {
 }
 
 SLI_EXPORT(int, scene_set_door, scene *s, const char *name, int open) {
-    const sl_map *map = &s->baked.map;
-    if (!sli_done(sl_query_set_door(sli_module.context, s->query, name, open)))
-        return (int)sli_module.status;
-    for (size_t i = 0; i < map->door_count; i++)
-        if (is(map->doors[i].name, name)) s->shut[i] = !open;
-    return SL_OK;
+    return (int)(sli_module.status = sl_query_set_door(sli_module.context, s->query, name, open));
 }
 
 SLI_EXPORT(uint32_t, scene_locate, const scene *s, double x, double y) {
@@ -398,14 +385,6 @@ static sl_status check_cell(const scene *s, uint32_t cell) {
                    (unsigned)cell, (unsigned)s->baked.space.cell_count);
 }
 
-/// Takes the cells that shut doors hide out of the set.
-static void leave_out_shut(scene *s, const sl_door_sets *sets, uint32_t cell) {
-    if (!sets->cell_count) return;
-    sl_door_pairs pairs = sl_door_pairs_begin(sets, cell);
-    while (sl_door_pairs_next(&pairs, s->shut))
-        if (!pairs.open && sl_bits_has(s->cells, pairs.cell)) sl_bits_flip(s->cells, pairs.cell);
-}
-
 /// Puts the set of cells into the list; integers: their number and place.
 static void list_cells(scene *s) {
     uint32_t count = 0;
@@ -416,38 +395,23 @@ static void list_cells(scene *s) {
     sli_module.integers[1] = (uint32_t)(uintptr_t)s->list;
 }
 
-/// The row of a cell: of the visible sets (which 0), of what is seen by mirror (1), or of the pairs
-/// that rounding decided (2). integers: number and place.
-SLI_EXPORT(int, scene_row, scene *s, int which, uint32_t cell) {
-    const sl_visibility *v = &s->baked.visibility;
-    const sl_pvs *sets[] = {&v->pvs, &v->mirrored, &v->doubtful};
-    if (!sli_done(check_cell(s, cell))) return (int)sli_module.status;
-    memset(s->cells, 0, sl_eye_words(&s->baked.space) * sizeof *s->cells);
-    if (sets[which]->cell_count)
-        for (sl_pvs_run run = sl_pvs_begin(sets[which], cell); sl_pvs_next(&run);)
-            for (uint32_t to = run.first; to < run.end; to++) sl_bits_add(s->cells, to);
-    if (which == 0) leave_out_shut(s, &v->doors, cell);
-    if (which == 1) leave_out_shut(s, &v->mirrored_doors, cell);
-    list_cells(s);
-    return SL_OK;
+/// The row of a cell, directly or by mirror. integers: number and place.
+SLI_EXPORT(int, scene_row, scene *s, int by_mirror, uint32_t cell) {
+    if (sli_done(sl_query_row(sli_module.context, s->query, cell, by_mirror, s->cells)))
+        list_cells(s);
+    return (int)sli_module.status;
 }
 
 /// integers[0]: whether cell `from` sees cell `to` directly.
 SLI_EXPORT(int, scene_cell_sees, scene *s, uint32_t from, uint32_t to) {
     bool sees = false;
-    if (!sli_done(check_cell(s, from)) || !sli_done(check_cell(s, to)))
-        return (int)sli_module.status;
     sli_done(sl_query_can_see(sli_module.context, s->query, from, to, &sees));
     sli_module.integers[0] = sees;
     return (int)sli_module.status;
 }
 
 static sl_status set_range(scene *s, double range) {
-    const double wanted = range < 0 ? s->baked.map.range : range;
-    if (wanted == s->range) return SL_OK;
-    SL_TRY(sl_query_set_range(sli_module.context, s->query, wanted));
-    s->range = wanted;
-    return SL_OK;
+    return sl_query_set_range(sli_module.context, s->query, range < 0 ? s->baked.map.range : range);
 }
 
 /// integers[0]: whether an eye sees a point. A range below 0 is the map's own, here and below.
@@ -565,30 +529,35 @@ SLI_EXPORT(int, scene_mirror_part, scene *s, uint32_t number, double tolerance) 
 
 // --- why
 
-static sl_status explain(scene *s, uint32_t from, uint32_t to, uint32_t misses, double tests,
-                         uint32_t mirror_depth) {
+static sl_status explain(scene *s, sl_explained *a, uint32_t from, uint32_t to, uint32_t misses,
+                         double tests, uint32_t mirror_depth) {
     sl_explain_options options = sl_explain_options_default();
-    sl_explained a = {.baked = &s->baked, .shut = s->shut};
-    const sl_explain_state state = {s->shut, mirror_depth};
+    const sl_explain_state state = {a->shut, mirror_depth};
     options.sight = s->baked.visibility.sight;
     options.most_misses = misses;
     options.most_tests = (uint64_t)tests;
     SL_TRY(check_cell(s, from));
     SL_TRY(check_cell(s, to));
-    sl_status status = sl_explain_effects(sli_module.context, &s->baked.space, &s->baked.map,
-                                          &state, &options, from, to, &a.e);
+    SL_TRY(sl_explain_effects(sli_module.context, &s->baked.space, &s->baked.map, &state, &options,
+                              from, to, &a->e));
     sl_output output;
-    if (status == SL_OK && (status = sl_output_open(sli_module.context, "", &output)) == SL_OK)
-        status = sl_output_close(sli_module.context, &output,
-                                 sl_explained_json(sli_module.context, &a, output.stream));
-    sl_effect_explanation_destroy(sli_module.context, &a.e);
-    return status;
+    SL_TRY(sl_output_open(sli_module.context, "", &output));
+    return sl_output_close(sli_module.context, &output,
+                           sl_explained_json(sli_module.context, a, output.stream));
 }
 
 /// Why a pair of cells is seen or hidden, as the JSON of `sightline explain`: see written().
 SLI_EXPORT(int, scene_explain, scene *s, uint32_t from, uint32_t to, uint32_t misses, double tests,
            uint32_t mirror_depth) {
-    return (int)(sli_module.status = explain(s, from, to, misses, tests, mirror_depth));
+    sl_explained a = {.baked = &s->baked};
+    bool *shut = sl_alloc_array(sli_module.context, s->baked.map.door_count, sizeof *shut);
+    for (size_t i = 0; shut && i < s->baked.map.door_count; i++)
+        shut[i] = !sl_query_door_is_open(s->query, i);
+    a.shut = shut;
+    sli_module.status = shut ? explain(s, &a, from, to, misses, tests, mirror_depth) : SL_NO_MEMORY;
+    sl_effect_explanation_destroy(sli_module.context, &a.e);
+    sl_free(sli_module.context, shut);
+    return (int)sli_module.status;
 }
 
 /// The depth-first search from a cell. integers: number of steps, their place, whether complete.
