@@ -93,9 +93,10 @@ cmake --build "$folder/wasm" -j2 >"$folder/build.log" 2>&1 || {
 }
 rm -rf "$folder/package"
 cp -R "$folder/wasm/package" "$folder/package"
-# Whole lines of comments stay behind: pages load less, and the .d.ts files document the calls.
+# Comments on lines of their own, indents and empty lines stay behind: pages load less, and the .d.ts
+# files document the calls.
 for file in "$folder"/package/*.js; do
-    sed -e '/^ *\/\*\*.*\*\/$/d' -e '/^ *\/\*\*/,/\*\/$/d' -e '/^ *\/\//d' "$file" >"$folder/stripped.js"
+    sed -e '/^ *\/\*\*.*\*\/$/d' -e '/^ *\/\*\*/,/\*\/$/d' -e '/^ *\/\//d' -e 's/^ *//' -e '/^$/d' "$file" >"$folder/stripped.js"
     mv "$folder/stripped.js" "$file"
 done
 echo "web: $folder/package"

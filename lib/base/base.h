@@ -32,6 +32,9 @@ const void *sli_table_items(const sli_table *table, const void *own, size_t own_
 sl_status sli_table_add(sl_context *context, sli_table *table, size_t size, const void *own,
                         size_t own_count, const void *more, size_t count);
 
+/// 10^power, to the nearest double.
+double sli_power_of_ten(int power);
+
 // --- The checksum of baked files: CRC-32 with the polynomial of ISO 3309, as in zlib, PNG and
 // gzip.
 

@@ -104,6 +104,13 @@ void sl_number_write(double value, char text[SL_NUMBER_TEXT]) {
     replace(text, decimal_point(), ".");
 }
 
+/// Not pow(), whose tables make a module of WebAssembly 7 kB larger.
+double sli_power_of_ten(int power) {
+    char text[16];
+    snprintf(text, sizeof text, "1e%d", power);
+    return strtod(text, NULL);
+}
+
 static size_t skip_digits(const char *text, size_t length, size_t at) {
     while (at < length && text[at] >= '0' && text[at] <= '9') at++;
     return at;

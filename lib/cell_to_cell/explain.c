@@ -8,6 +8,7 @@
 /// grazed are followed as well. For a hidden pair the sequences that came nearest are kept, each
 /// with the few portal ends that stop it.
 #include "sightline/explain.h"
+#include "base/base.h"
 #include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/portal_search.h"
@@ -99,10 +100,10 @@ static bool simplify_line(const sl_space *space, const sl_sequence *sequence, sl
     const sl_box b = space->bounds;
     const double size =
         fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
-    const double first = size > 0 ? 1 - ceil(log10(size)) : 0;
+    const int first = size > 0 ? 1 - (int)ceil(log10(size)) : 0;
     const bool strict = is_strict(space, sequence, *line);
     for (int digits = 0; digits < MOST_DIGITS; digits++) {
-        const double decimals = pow(10, first + digits);
+        const double decimals = sli_power_of_ten(first + digits);
         const sl_line simple = {rounded(line->a, decimals), rounded(line->b, decimals)};
         if (!is_strict(space, sequence, simple)) continue;
         if (strict && !is_near(space, sequence, simple, *line)) continue;

@@ -15,6 +15,7 @@
 /// Many walls may share a piece or cross at one place. Of n walls there, n - 1 pairs are listed and
 /// not all n^2: each wall is named, and each place. Time about O(n log n) for walls that are short
 /// against the map, wherever they lie.
+#include "base/base.h"
 #include "geometry/length.h"
 #include "space/faults.h"
 
@@ -522,7 +523,7 @@ static double tolerance_at_step(const widths *w) {
     }
     if (!(tolerance > 0)) return 0;
     // Rounded up to one digit where that stays below the step.
-    const double unit = pow(10, floor(log10(tolerance)));
+    const double unit = sli_power_of_ten((int)floor(log10(tolerance)));
     const double round = ceil(tolerance / unit) * unit;
     return round < 2 * tolerance ? round : tolerance;
 }

@@ -83,7 +83,7 @@ export class Graph {
 
   /** The point in whose square a place lies, or -1. */
   find(x, y) {
-    return this.#core.core.graph_find(this.#place, numberOf('x', x), numberOf('y', y)) | 0
+    return this.#core.core.graph_find(this.#place, numberOf('x', x), numberOf('y', y))
   }
 
   /** How far all points are from the point at a place: NaN where nothing leads; null without a point there. */

@@ -38,17 +38,17 @@ export class Module {
       host: {
         progress: (stage, done, total) => this.#progress(stage, done, total),
         cancelled: () => (this.watch?.stop() ? 1 : 0),
+        log: Math.log,
+        asinh: Math.asinh,
       },
       wasi_snapshot_preview1: {
+        // The C library mentions these, but nothing is read or written through them.
+        ...Object.fromEntries(WebAssembly.Module.imports(this.module).map(({ name }) => [name, () => 8])),
         clock_time_get: (clock, precision, at) => {
           const now = BigInt(Math.round(performance.now() * 1e6))
           new DataView(this.memory.buffer).setBigUint64(at, now, true)
           return 0
         },
-        // The C library mentions these, but nothing is read or written through them.
-        ...Object.fromEntries(['fd_close', 'fd_fdstat_get', 'fd_prestat_get', 'fd_prestat_dir_name',
-          'fd_read', 'fd_seek', 'fd_write', 'fd_fdstat_set_flags', 'path_filestat_get', 'path_open',
-        ].map((name) => [name, () => 8])),
         proc_exit: () => {
           throw new SightlineError('the module stopped', { code: 'internal' })
         },

@@ -9,7 +9,6 @@ import { SightlineError, bytesOf, compile, direction, textAt } from './host.js'
 
 export { SightlineError }
 
-const NO_CELL = 0xffffffff
 const PAGE = 65536
 const MIRRORS = ['none', 'baked', 'not baked']
 
@@ -36,14 +35,8 @@ export class Level {
   #view = new Float64Array(0)
   #allRound
   #room = 0
-  #cellCount = 0
   #doors = []
-  #starts = []
-  #bounds
   #cells
-  #range
-  #unfinished
-  #mirrors
 
   /**
    * Opens a baked file, which is checked wholly.
@@ -77,22 +70,20 @@ export class Level {
       const message = textAt(this.#memory, core.status_text(status))
       throw new SightlineError(message, { code: 'bad input' })
     }
-    const { integers, numbers } = this.#ask(() => core.describe())
-    const [cells, , doors, starts, scratch, mirrors, unfinished] = integers
-    const [minX, minY, maxX, maxY, range] = numbers
-    this.#cellCount = cells
-    this.#bounds = Object.freeze({ minX, minY, maxX, maxY })
-    this.#range = range
-    this.#unfinished = !!unfinished
-    this.#mirrors = MIRRORS[mirrors]
+    core.describe()
+    const [cells, , doors, starts, scratch, mirrors, unfinished] = this.#integers
+    const [minX, minY, maxX, maxY, range] = this.#numbers
     this.#shut = place(doors)
     this.#scratch = place(4 * scratch)
     this.#list = place(4 * cells + cells)
-    this.#points = end = (end + 15) & ~15
+    this.#points = place(0)
     this.#grow(256)
     for (let i = 0; i < doors; i++) this.#doors.push(this.#readDoor(i))
-    for (let i = 0; i < starts; i++) this.#starts.push(this.#readStart(i))
-    Object.freeze(this.#starts)
+    const known = {
+      bounds: Object.freeze({ minX, minY, maxX, maxY }), range, unfinished: !!unfinished, mirrors: MIRRORS[mirrors],
+      cellCount: cells, starts: Object.freeze(Array.from({ length: starts }, (_, i) => this.#readStart(i))),
+    }
+    for (const name in known) Object.defineProperty(this, name, { value: known[name], enumerable: true })
   }
 
   #reserve(end) {
@@ -115,21 +106,21 @@ export class Level {
     return this.#core
   }
 
-  #ask(call) {
-    call()
-    const { buffer } = this.#memory
-    return {
-      integers: new Uint32Array(buffer, this.#core.integers_place(), 8),
-      numbers: new Float64Array(buffer, this.#core.numbers_place(), 8),
-    }
+  /** What the last call gave. */
+  get #integers() {
+    return new Uint32Array(this.#memory.buffer, this.#core.integers_place(), 8)
+  }
+
+  get #numbers() {
+    return new Float64Array(this.#memory.buffer, this.#core.numbers_place(), 8)
   }
 
   #readDoor(number) {
     const core = this.#core
     const count = core.door(number, this.#points, 0)
     this.#grow(Math.max(this.#room, 2 * count))
-    const { integers } = this.#ask(() => core.door(number, this.#points, count))
-    const [name, length, open] = integers
+    core.door(number, this.#points, count)
+    const [name, length, open] = this.#integers
     new Uint8Array(this.#memory.buffer)[this.#shut + number] = open ? 0 : 1
     const ends = new Float64Array(this.#memory.buffer, this.#points, 4 * count)
     const segments = Array.from({ length: count }, (_, i) => Object.freeze([...ends.subarray(4 * i, 4 * i + 4)]))
@@ -137,40 +128,9 @@ export class Level {
   }
 
   #readStart(number) {
-    const [x, y, heading] = this.#ask(() => this.#core.start(number)).numbers
+    this.#core.start(number)
+    const [x, y, heading] = this.#numbers
     return Object.freeze({ x, y, heading })
-  }
-
-  /** The bounds of the map. */
-  get bounds() {
-    return this.#bounds
-  }
-
-  /** The view range of the map; 0 for no limit. */
-  get range() {
-    return this.#range
-  }
-
-  /** Whether the bake was stopped: cells that were not decided count as seen. */
-  get unfinished() {
-    return this.#unfinished
-  }
-
-  /**
-   * What the file holds of what is seen by mirror: 'none' (the map has no mirrors), 'baked' or 'not
-   * baked'. Mirrors are walls to all calls, but where the option `mirrors` is true.
-   */
-  get mirrors() {
-    return this.#mirrors
-  }
-
-  get cellCount() {
-    return this.#cellCount
-  }
-
-  /** The starts of the map: x, y and heading in degrees. */
-  get starts() {
-    return this.#starts
   }
 
   /** The doors as they stand: name, open, and segments [x0, y0, x1, y1]. setDoor() changes them. */
@@ -201,12 +161,14 @@ export class Level {
   get cells() {
     const core = this.#open
     if (this.#cells) return this.#cells
-    this.#cells = Object.freeze(Array.from({ length: this.#cellCount }, (_, cell) => {
-      const [first, count, firstPortal, portals, inside, solid, hasRow] =
-        [...this.#ask(() => core.cell(cell)).integers]
+    this.#cells = Object.freeze(Array.from({ length: this.cellCount }, (_, cell) => {
+      core.cell(cell)
+      const [first, count, firstPortal, portals, inside, solid, hasRow] = this.#integers
       const corners = new Float64Array(2 * count)
-      for (let i = 0; i < count; i++)
-        corners.set(this.#ask(() => core.vertex(first + i)).numbers.subarray(0, 2), 2 * i)
+      for (let i = 0; i < count; i++) {
+        core.vertex(first + i)
+        corners.set(this.#numbers.subarray(0, 2), 2 * i)
+      }
       return Object.freeze({
         corners,
         portals: Array.from({ length: portals }, (_, i) => this.#readPortal(firstPortal + i)),
@@ -219,15 +181,14 @@ export class Level {
   }
 
   #readPortal(directed) {
-    const { integers, numbers } = this.#ask(() => this.#core.directed_portal(directed))
-    const [portal, cell] = integers
-    return { portal, cell, left: [numbers[0], numbers[1]], right: [numbers[2], numbers[3]] }
+    this.#core.directed_portal(directed)
+    const [portal, cell] = this.#integers, [leftX, leftY, rightX, rightY] = this.#numbers
+    return { portal, cell, left: [leftX, leftY], right: [rightX, rightY] }
   }
 
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x, y) {
-    const cell = this.#open.locate(numberOf('x', x), numberOf('y', y)) >>> 0
-    return cell === NO_CELL ? -1 : cell
+    return this.#open.locate(numberOf('x', x), numberOf('y', y))
   }
 
   /**
@@ -251,7 +212,7 @@ export class Level {
   }
 
   #cellOf(cell) {
-    return indexOf('cell', cell, this.#cellCount)
+    return indexOf('cell', cell, this.cellCount)
   }
 
   #mirrorsOf(options) {
@@ -262,7 +223,7 @@ export class Level {
   /** A cell that the eye sees directly in part can have the point where only a mirror shows it. */
   #mayMirror([x, y], [toX, toY]) {
     const core = this.#open
-    if (this.#range > 0 && Math.hypot(toX - x, toY - y) > this.#range) return false
+    if (this.range > 0 && Math.hypot(toX - x, toY - y) > this.range) return false
     const cells = [...this.#cellsOfBox(toX, toY, toX, toY)]
     return cells.some((cell) => !!core.may_mirror(x, y, cell, this.#shut, this.#scratch))
   }
@@ -290,7 +251,7 @@ export class Level {
   }
 
   #cellsOfBox(minX, minY, maxX, maxY) {
-    return this.#listed(this.#core.box_cells(minX, minY, maxX, maxY, this.#list, this.#cellCount) >>> 0)
+    return this.#listed(this.#core.box_cells(minX, minY, maxX, maxY, this.#list, this.cellCount) >>> 0)
   }
 
   #listed(count) {
@@ -329,7 +290,7 @@ export class Level {
     this.#setView(left, up, view)
     if (flagOf('mirrors', mirrors)) {
       const count = core.look_mirrored(this.#shut, range, this.#scratch, this.#list) >>> 0
-      const [direct] = this.#ask(() => {}).integers
+      const [direct] = this.#integers
       return Object.assign(this.#listed(count), { direct })
     }
     return this.#listed(core.look(this.#shut, range, this.#scratch, this.#list) >>> 0)
@@ -378,17 +339,15 @@ export class Level {
     const bits = this.#scratch
     core.seen_from(this.#list, own.length, this.#shut, bits, +mirrors)
     const bytes = new Uint8Array(this.#memory.buffer)
-    let count = 0
-    const seen = new Uint32Array(this.#cellCount)
-    for (let cell = 0; cell < this.#cellCount; cell++)
-      if ((bytes[bits + (cell >> 3)] >> (cell & 7)) & 1) seen[count++] = cell
-    return seen.slice(0, count)
+    const seen = []
+    for (let cell = 0; cell < this.cellCount; cell++)
+      if ((bytes[bits + (cell >> 3)] >> (cell & 7)) & 1) seen.push(cell)
+    return Uint32Array.from(seen)
   }
 
   /** The view cell of a cell; -1 for none. */
   viewCell(cell) {
-    const view = this.#open.view_cell(this.#cellOf(cell)) >>> 0
-    return view === NO_CELL ? -1 : view
+    return this.#open.view_cell(this.#cellOf(cell))
   }
 
   /** Gives back the memory. */

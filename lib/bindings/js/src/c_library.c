@@ -1,0 +1,58 @@
+/// What takes the place of functions of wasi-libc in a module that a page has to load: theirs are
+/// large, most by tables that no compression makes smaller. This is compiled by itself, as the C
+/// library is: its names are found only after the library was optimized as a whole.
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+int __rem_pio2_large(double *angle, double *turned, int exponent, int count, int precision);
+
+#define HOST(name)                                                                                 \
+    __attribute__((import_module("host"), import_name(#name))) double host_##name(double value)
+HOST(log);
+HOST(asinh);
+
+/// How wasi-libc takes whole turns off angles of 10^5 and more for sin() and cos(), with a table of
+/// digits of 2 / pi: 2 kB. The library's angles are at most one turn.
+int __rem_pio2_large(double *angle, double *turned, int exponent, int count, int precision) {
+    (void)angle, (void)turned, (void)exponent, (void)count, (void)precision;
+    __builtin_trap();
+}
+
+// JavaScript has these anyway: 5 kB. Measures ask for them, once a point or an edge.
+
+double log(double value) {
+    return host_log(value);
+}
+
+double asinh(double value) {
+    return host_asinh(value);
+}
+
+/// Messages of the system, of which there is none: 2 kB.
+char *strerror(int error) {
+    static char none[] = "";
+    (void)error;
+    return none;
+}
+
+/// Of the machine nothing is known.
+long sysconf(int name) {
+    (void)name;
+    return -1;
+}
+
+/// The library looks for short texts in short texts. Without wasi-libc's tables for long ones: 2
+/// kB.
+char *strstr(const char *text, const char *part) {
+    for (;; text++) {
+        size_t same = 0;
+        while (part[same] && text[same] == part[same]) same++;
+        union {
+            const char *given;
+            char *found;
+        } at = {text};
+        if (!part[same]) return at.found;
+        if (!*text) return NULL;
+    }
+}
