@@ -40,6 +40,7 @@ export class Module {
         cancelled: () => (this.watch?.stop() ? 1 : 0),
         log: Math.log,
         asinh: Math.asinh,
+        atan2: Math.atan2,
       },
       wasi_snapshot_preview1: {
         // The C library mentions these, but nothing is read or written through them.
