@@ -38,8 +38,8 @@ static void destroy_nothing(sl_context *context, void *state) {
 
 #define ABSENT(NAME, GUARANTEE)                                                                    \
     {                                                                                              \
-        .name = NAME, .what = "not in this build (SIGHTLINE_GLPK is off)", .guarantee = GUARANTEE, \
-        .create = refuse_solver, .destroy = destroy_nothing                                        \
+        .name = (NAME), .what = "not in this build (SIGHTLINE_GLPK is off)",                       \
+        .guarantee = (GUARANTEE), .create = refuse_solver, .destroy = destroy_nothing              \
     }
 static const sl_solver absent[] = {ABSENT("glpk", SL_ROUNDED), ABSENT("hybrid", SL_EXACT),
                                    ABSENT("glpk-exact", SL_EXACT)};
