@@ -1,10 +1,12 @@
 /// Axial and segment analysis (Hillier and Hanson 1984): the longest lines of sight and access of a
 /// plan, the network that they or drawn lines make, and measures of it under depthmapX' names.
 ///
+///     const sl_outline *outline;
 ///     sl_axial_lines lines = {0};
 ///     sl_line_graph graph = {0};
 ///     sl_axial_options options = {0};
-///     sl_axial_all_lines(context, &outline, 0, &lines);
+///     sl_query_outline(context, query, &outline);
+///     sl_axial_all_lines(context, outline, 0, &lines);
 ///     sl_axial_fewest(context, &lines, true);
 ///     sl_line_graph_make(context, lines.lines, lines.count, &graph);
 ///     sl_axial_measure(context, lines.lines, &graph, &options, measures);

@@ -1,13 +1,15 @@
 /// Visibility graph analysis (Turner, Doxa, O'Sullivan and Penn 2001): a grid of points, which of
 /// them see each other, and measures of that graph under the names that depthmapX gives them.
 ///
+///     const sl_outline *outline;
 ///     sl_vga_grid grid = {0};
 ///     sl_vga_graph graph = {0};
 ///     sl_vga_options options = sl_vga_options_default();
-///     sl_vga_grid_make(context, &outline, 0.5, seeds, seed_count, &grid);
-///     sl_vga_graph_make(context, &outline, &grid, 0, 0, &graph);
+///     sl_query_outline(context, query, &outline);
+///     sl_vga_grid_make(context, outline, 0.5, seeds, seed_count, &grid);
+///     sl_vga_graph_make(context, outline, &grid, 0, 0, &graph);
 ///     sl_vga_measures *measures = calloc(grid.count, sizeof *measures);
-///     sl_vga_measure(context, &outline, &grid, &graph, &options, measures);
+///     sl_vga_measure(context, outline, &grid, &graph, &options, measures);
 ///
 /// Which points see each other is exact: closed sight, as of sl_query_sees. So is the graph, and so
 /// are all counts. Measures are doubles.

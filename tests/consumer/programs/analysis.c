@@ -1,6 +1,5 @@
 // Visibility graphs: the points of an empty room all see each other.
-#include "space/outline.h"
-#include <sightline/space.h>
+#include <sightline/query.h>
 #include <sightline/vga.h>
 
 #include <stdio.h>
@@ -22,21 +21,23 @@ int main(void) {
     if (!context) return 1;
     sl_map map = {0};
     sl_space space = {0};
-    sl_outline outline = {0};
+    sl_query *query = NULL;
+    const sl_outline *outline = NULL;
     sl_vga_grid grid = {0};
     sl_vga_graph graph = {0};
     const sl_point seed = {1, 1};
     sl_status status = build(context, &map);
     if (status == SL_OK) status = subdivide(context, &map, &space);
-    if (status == SL_OK) status = sli_outline_make(context, &space, &outline);
-    if (status == SL_OK) status = sl_vga_grid_make(context, &outline, 1, &seed, 1, &grid);
-    if (status == SL_OK) status = sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph);
+    if (status == SL_OK) status = sl_query_over(context, &space, &map, NULL, &query);
+    if (status == SL_OK) status = sl_query_outline(context, query, &outline);
+    if (status == SL_OK) status = sl_vga_grid_make(context, outline, 1, &seed, 1, &grid);
+    if (status == SL_OK) status = sl_vga_graph_make(context, outline, &grid, 0, 1, &graph);
     printf("%s: %u points, %u pairs\n", sl_status_name(status), graph.count, (unsigned)graph.edges);
     const bool good = status == SL_OK && graph.count > 1 &&
                       graph.edges == (uint64_t)graph.count * (graph.count - 1);
     sl_vga_graph_destroy(context, &graph);
     sl_vga_grid_destroy(context, &grid);
-    sli_outline_destroy(context, &outline);
+    sl_query_destroy(context, query);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
