@@ -49,7 +49,9 @@ sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step,
         eyes->squares.items[eyes->squares.count++] = i;
         SL_TRY(eyes_add(context, eyes, like));
     }
-    return SL_OK;
+    if (eyes->list.count) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "a grid of step %.9g has no point inside the map; choose a smaller step", step);
 }
 
 void eyes_keep_within(const sl_map *outlines, eye_places *eyes) {
