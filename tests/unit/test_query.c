@@ -172,6 +172,81 @@ static void boxes_are_seen_and_wrong_settings_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// A side on dark glass is not seen from there, whether boxes block or not, and of what kind the
+/// cells are. From the lit side it is seen.
+static void dark_glass_covers_sides_of_boxes(void **state) {
+    (void)state;
+    static const char *const grounds[] = {"", "wall 6 0.5 7 1\n"};
+    const sl_moving_box behind = {{{3, 4}, {5, 6}}, false}, blocks = {{{1, 1}, {2, 2}}, true};
+    const sl_moving_box both[] = {behind, blocks}, hides[] = {{behind.box, true}};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 2; i++) {
+        const char *const parts[] = {"sightline 1\nwalls 0 0 10 0 10 10 0 10 0 0\n",
+                                     "oneway 5 9 5 1\nstart 8 5 0\n", grounds[i], NULL};
+        sl_baked baked = {0};
+        sl_query *query;
+        bake(context, parts, &baked);
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        for (int lit = 0; lit < 2; lit++) {
+            const sl_view view = sl_view_all_round((sl_point){8, 5});
+            bool seen[2];
+            sl_query_set_backwards(context, query, lit);
+            assert_ok(context, sl_query_set_boxes(context, query, &behind, 1));
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_int_equal(seen[0], lit);
+            assert_ok(context, sl_query_set_boxes(context, query, both, 2));
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_int_equal(seen[0], lit);
+            assert_ok(context, sl_query_set_boxes(context, query, hides, 1));
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_int_equal(seen[0], lit);
+        }
+        sl_query_destroy(context, query);
+        sl_baked_destroy(context, &baked);
+    }
+    sl_context_destroy(context);
+}
+
+/// An eye on glass sees along it, past the end of a wall, into a cell that the visible sets of its
+/// own cells lack: from the cells below, nobody looks through the glass.
+static void along_glass_a_bake_hides_nothing(void **state) {
+    (void)state;
+    const char *const parts[] = {"sightline 1\nwalls 0 0 10 0 10 10 0 10 0 0\n",
+                                 "wall 8 5 8 10\noneway 10 5 2 5\nstart 5 5 0\n", NULL};
+    const sl_moving_box boxes[] = {{{{8.5, 5}, {9, 6}}, false}, {{{1, 1}, {2, 2}}, true}};
+    const sl_view view = sl_view_all_round((sl_point){6, 5});
+    sl_context *context = testing_context(NULL);
+    sl_baked baked = {0};
+    sl_query *queries[2];
+    bake(context, parts, &baked);
+    const uint32_t behind = sl_space_locate(&baked.space, (sl_point){9, 8});
+    assert_ok(context, sl_query_create(context, &baked, &queries[0]));
+    assert_ok(context, sl_query_over(context, &baked.space, &baked.map, NULL, &queries[1]));
+    for (int bare = 0; bare < 2; bare++) {
+        sl_query *query = queries[bare];
+        uint64_t cells[4];
+        size_t count;
+        bool sees, seen[2];
+        const sl_eye_method *methods = sl_eye_methods(&count);
+        assert_true(sl_eye_words(&baked.space) <= 4);
+        assert_ok(context, sl_query_sees(context, query, view.eye, (sl_point){9, 5}, &sees));
+        assert_true(sees);
+        for (size_t blocks = 0; blocks < 2; blocks++) {
+            assert_ok(context, sl_query_set_boxes(context, query, boxes, 1 + blocks));
+            for (size_t i = 0; i < count; i++) {
+                if (bare && methods[i].needs_pvs) continue;
+                assert_ok(context, sl_query_look(context, query, &view, &methods[i], cells, NULL));
+                assert_true(sl_eye_sees(cells, behind));
+            }
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_true(seen[0]);
+        }
+        sl_query_destroy(context, query);
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 static void a_bake_is_its_stages(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -363,6 +438,8 @@ int main(void) {
         cmocka_unit_test(rays_meet_what_stands),
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
+        cmocka_unit_test(dark_glass_covers_sides_of_boxes),
+        cmocka_unit_test(along_glass_a_bake_hides_nothing),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),
         cmocka_unit_test(an_eye_in_rock_sees_nothing),
         cmocka_unit_test(without_memory_nothing_leaks),
