@@ -1,6 +1,6 @@
 """The binary interface of the shared libraries, against the one stored in abi.txt: functions, and the
 sizes and members of what they take. Programs built before a change must run after it, or the version says
-that they do not.
+that they do not. While the changelog has the major version as unreleased, its interface may change.
 
 abi.py FOLDER           compare the libraries in FOLDER, built with -g
 abi.py FOLDER --store   write abi.txt; refused where the version does not say what the change is
@@ -26,6 +26,12 @@ def version():
     """Within which interfaces stay: the major one, CMake's SOVERSION."""
     text = (ROOT / "lib/include/sightline/version.h").read_text()
     return re.search(r"#define SL_VERSION_MAJOR +(\d+)", text).group(1)
+
+
+def released():
+    """Whether programs may count on the interface of this major version (STABILITY.md)."""
+    text = (ROOT / "lib/CHANGELOG.md").read_text(encoding="utf-8")
+    return not re.search(rf"^## {version()}\.0\.0, unreleased$", text, re.MULTILINE)
 
 
 class Library:
@@ -144,7 +150,7 @@ def main():
     for sign, lines in (("-", gone), ("+", new)):
         for line in lines:
             print(sign, line)
-    if gone and not raised:
+    if gone and not raised and released():
         print(f"programs built for version {version()} would break: raise SL_VERSION in version.h, "
               "or keep what they use")
         return 1
@@ -152,7 +158,7 @@ def main():
         STORED.write_text("\n".join([f"version {version()}", *now]) + "\n")
         return 0
     if gone or new or raised:
-        print(f"new in the interface: store it, python3 {sys.argv[0]} {options.folder} --store")
+        print(f"the interface has changed: store it, python3 {sys.argv[0]} {options.folder} --store")
         return 1
     print(f"{len(now)} lines of the binary interface are as stored, version {version()}")
     return 0

@@ -312,8 +312,8 @@ export class Scene {
     this.#askRegion(x, y, options)
     const region = this.#region([...this.#given(6)])
     this.#core.core.scene_measures(this.#place)
-    const numbers = this.#core.givenNumbers()
-    this.#core.measures.forEach((name, i) => (region[name.replace(/_./g, (at) => at[1].toUpperCase())] = numbers[i]))
+    const { measures } = this.#core, numbers = this.#core.givenNumbers(measures.length)
+    measures.forEach((name, i) => (region[name.replace(/_./g, (at) => at[1].toUpperCase())] = numbers[i]))
     return region
   }
 

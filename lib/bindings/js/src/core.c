@@ -504,6 +504,7 @@ SLI_EXPORT(const char *, region_names, void) {
 /// numbers: the measures of the last region, in the order of sl_region_measures.
 SLI_EXPORT(void, scene_measures, const scene *s) {
     const sl_region_measures m = sl_region_measure(&s->region);
+    _Static_assert(sizeof m <= sizeof sli_module.numbers, "room for all measures");
     memcpy(sli_module.numbers, &m, sizeof m);
 }
 
