@@ -354,10 +354,12 @@ static sl_status see_point(sl_context *context, sli_moving *moving, const sl_vie
     const sl_outline *outline;
     *seen = false;
     if (!sli_view_holds(view, point)) return SL_OK;
-    if (moving->set.range > 0 && sli_distance_compare(view->eye, point, moving->set.range) > 0)
+    const sl_sight sight = moving->set.visibility->sight;
+    const double range = moving->set.range;
+    if (range > 0 && sli_distance_compare(view->eye, point, range) >= (sight == SL_CLOSED ? 1 : 0))
         return SL_OK;
     SL_TRY(sli_moving_outline(context, moving, &outline));
-    return sli_sees(context, outline, view->eye, point, moving->set.visibility->sight, seen);
+    return sli_sees(context, outline, view->eye, point, sight, seen);
 }
 
 /// Maps the cells that are seen to the cells of the space without boxes.

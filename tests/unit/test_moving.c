@@ -395,6 +395,15 @@ static void boxes_without_area(void **state) {
     const sl_moving_box points[] = {
         {{{15, 5}, {15, 5}}, true}, {{{15, 1}, {15, 1}}, false}, {{{2, 5}, {2, 5}}, true}};
     assert_int_equal(look(&r, eye, points, 3), 13);
+    // At just the range a point is seen with closed sight alone.
+    sli_moving_set_range(r.moving, 13);
+    assert_int_equal(look(&r, eye, points, 3), 13);
+    r.bare.sight = SL_OPEN;
+    assert_int_equal(look(&r, eye, points, 3), 3);
+    sli_moving_set_range(r.moving, 13.5);
+    assert_int_equal(look(&r, eye, points, 3), 13);
+    sli_moving_set_range(r.moving, 0);
+    r.bare.sight = SL_CLOSED;
     // A line seen edge-on is touched by closed sight, and hides nothing.
     const sl_moving_box across = {{{12, 4}, {12, 6}}, true}, along = {{{12, 5}, {14, 5}}, true};
     const sl_moving_box far = {{{16, 4.5}, {17, 5.5}}, true};
