@@ -51,11 +51,64 @@ typedef struct gatherer {
     SL_ARRAY(target) targets;
     SL_ARRAY(int32_t) stack;
     sli_piece_list free;
+    sli_piece_list dark[2]; ///< glass, by whether its left end, on the way out of the cell that it
+                            ///< is dark for, is the one at `hi`
+    sli_piece_list lit;     ///< what glass leaves free of a piece
 } gatherer;
 
-static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sl_point left, sl_point right) {
-    SL_TRY(SL_ARRAY_ROOM(g->context, &g->targets, 1));
-    g->targets.items[g->targets.count++] = (target){cell, {box, SL_NO_CELL, left, right}};
+static double along(const sli_piece *side, sl_point p) {
+    return side->axis ? p.x : p.y;
+}
+
+static double across(const sli_piece *side, sl_point p) {
+    return side->axis ? p.y : p.x;
+}
+
+static sl_point on(const sli_piece *side, double at) {
+    return side->axis ? (sl_point){at, side->at} : (sl_point){side->at, at};
+}
+
+/// Adds a directed portal to the dark glass, if it is axial.
+static sl_status add_dark(gatherer *g, const sl_directed_portal *d) {
+    sli_piece piece = {.axis = d->left.y == d->right.y};
+    piece.at = across(&piece, d->left);
+    if (across(&piece, d->right) != piece.at) return SL_OK;
+    const double left = along(&piece, d->left), right = along(&piece, d->right);
+    piece.lo = fmin(left, right);
+    piece.hi = fmax(left, right);
+    sli_piece_list *dark = &g->dark[left > right];
+    SL_TRY(SL_ARRAY_ROOM(g->context, dark, 1));
+    dark->items[dark->count++] = piece;
+    return SL_OK;
+}
+
+/// Lists the dark sides of the ground's glass. In the space with boxes, a box's side may stand in
+/// the place of glass.
+static sl_status list_dark(gatherer *g, const sl_space *ground) {
+    for (uint32_t c = 0; c < ground->cell_count; c++) {
+        const sl_cell *cell = &ground->cells[c];
+        for (uint32_t k = cell->first_directed; k < cell->first_directed + cell->directed_count;
+             k++)
+            if (sli_portal_is_blocked(ground, c, k)) SL_TRY(add_dark(g, &ground->directed[k]));
+    }
+    for (int i = 0; i < 2; i++)
+        if (g->dark[i].count)
+            qsort(g->dark[i].items, g->dark[i].count, sizeof *g->dark[i].items, sli_compare_pieces);
+    return SL_OK;
+}
+
+/// Adds a piece of a cell's boundary, but for what dark glass covers. `left_high`: as for `dark`.
+static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sli_piece piece, bool left_high) {
+    g->lit.count = 0;
+    SL_TRY(sli_piece_add_free(g->context, g->dark[left_high].items, g->dark[left_high].count, piece,
+                              &g->lit));
+    SL_TRY(SL_ARRAY_ROOM(g->context, &g->targets, g->lit.count));
+    for (size_t i = 0; i < g->lit.count; i++) {
+        const sli_piece *p = &g->lit.items[i];
+        const sl_point low = on(p, p->lo), high = on(p, p->hi);
+        g->targets.items[g->targets.count++] =
+            (target){cell, {box, SL_NO_CELL, left_high ? high : low, left_high ? low : high}};
+    }
     return SL_OK;
 }
 
@@ -71,9 +124,8 @@ static sl_status add_on_boundary(gatherer *g, uint32_t cell, const sli_piece *si
     const double hi = fmin(side->hi, side->axis ? max.x : max.y);
     if (!(below || above) || lo >= hi) return SL_OK;
     // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
-    const sl_point a = side->axis ? (sl_point){lo, side->at} : (sl_point){side->at, hi};
-    const sl_point b = side->axis ? (sl_point){hi, side->at} : (sl_point){side->at, lo};
-    return add(g, cell, box, below ? a : b, below ? b : a);
+    return add(g, cell, box, (sli_piece){.at = side->at, .lo = lo, .hi = hi, .axis = side->axis},
+               below == !side->axis);
 }
 
 /// Adds a piece to all cells that it lies on the boundary of.
@@ -99,25 +151,14 @@ static sl_status add_down_tree(gatherer *g, const sli_piece *side, uint32_t box)
 
 // --- where cells are convex
 
-static double along(const sli_piece *side, sl_point p) {
-    return side->axis ? p.x : p.y;
-}
-
-static double across(const sli_piece *side, sl_point p) {
-    return side->axis ? p.y : p.x;
-}
-
-static sl_point on(const sli_piece *side, double at) {
-    return side->axis ? (sl_point){at, side->at} : (sl_point){side->at, at};
-}
-
 /// Adds the part of a piece that lies on a side of a cell, which has the cell to its left.
 static sl_status add_along(gatherer *g, uint32_t number, const sli_piece *piece, uint32_t box,
                            sl_point p, sl_point q) {
     const double from = along(piece, p), to = along(piece, q);
     const double lo = fmax(piece->lo, fmin(from, to)), hi = fmin(piece->hi, fmax(from, to));
     if (across(piece, p) != piece->at || across(piece, q) != piece->at || lo >= hi) return SL_OK;
-    return add(g, number, box, on(piece, from < to ? hi : lo), on(piece, from < to ? lo : hi));
+    return add(g, number, box,
+               (sli_piece){.at = piece->at, .lo = lo, .hi = hi, .axis = piece->axis}, from < to);
 }
 
 /// Adds a piece to all cells that it lies on the boundary of.
@@ -180,18 +221,22 @@ static sl_status gather(gatherer *g, const sli_box_ground *ground, const sl_movi
     return SL_OK;
 }
 
-/// The pieces that no axial wall of the ground covers, in a space with the boxes in it. `out` is
-/// zeroed, and to be destroyed whatever comes.
+/// The pieces that no axial wall of the ground covers, in a space with the boxes in it. With
+/// `one_way`, glass covers what is on its dark side. `out` is zeroed, and to be destroyed whatever
+/// comes.
 static sl_status find_targets(sl_context *context, const sli_box_ground *ground,
-                              const sl_space *space, const sl_moving_box *boxes, size_t count,
-                              box_targets *out) {
+                              const sl_space *space, bool one_way, const sl_moving_box *boxes,
+                              size_t count, box_targets *out) {
     gatherer g = {.context = context, .space = space};
-    sl_status status = gather(&g, ground, boxes, count);
+    sl_status status = one_way ? list_dark(&g, ground->space) : SL_OK;
+    if (status == SL_OK) status = gather(&g, ground, boxes, count);
     if (status == SL_OK) status = write_targets(&g, out);
     sl_free(context, g.done);
     sl_free(context, g.targets.items);
     sl_free(context, g.stack.items);
     sl_free(context, g.free.items);
+    for (int i = 0; i < 2; i++) sl_free(context, g.dark[i].items);
+    sl_free(context, g.lit.items);
     return status;
 }
 
@@ -271,8 +316,8 @@ static sl_status place(sl_context *context, sli_moving *m) {
     if (!m->boxed) return SL_NO_MEMORY;
     SL_TRY(sli_boxes_put(context, &m->set.ground, m->boxes, m->count, m->boxed));
     if (m->set.one_way) SL_TRY(darken(context, &m->boxed->space));
-    SL_TRY(
-        find_targets(context, &m->set.ground, &m->boxed->space, m->boxes, m->count, &m->targets));
+    SL_TRY(find_targets(context, &m->set.ground, &m->boxed->space, m->set.one_way, m->boxes,
+                        m->count, &m->targets));
     SL_TRY(sli_eye_search_create_cut(context, m->boxed, m->set.visibility,
                                      m->set.ground.space->cell_count, &m->search));
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);

@@ -47,13 +47,6 @@ sl_wall sli_piece_wall(const sli_piece *p) {
                    : (sl_wall){.a = {p->at, p->lo}, .b = {p->at, p->hi}};
 }
 
-static int compare_pieces(const void *left, const void *right) {
-    const sli_piece *a = left, *b = right;
-    if (a->axis != b->axis) return a->axis - b->axis;
-    if (a->at != b->at) return a->at < b->at ? -1 : 1;
-    return (a->lo > b->lo) - (a->lo < b->lo);
-}
-
 static sl_status add_piece(sl_context *context, sli_piece_list *list, sli_piece piece) {
     SL_TRY(SL_ARRAY_ROOM(context, list, 1));
     list->items[list->count++] = piece;
@@ -78,7 +71,7 @@ sl_status sli_piece_add_free(sl_context *context, const sli_piece *walls, size_t
 /// Returns the number that is left.
 static size_t sort_out(sli_piece *pieces, size_t count) {
     size_t kept = 0;
-    if (count) qsort(pieces, count, sizeof *pieces, compare_pieces);
+    if (count) qsort(pieces, count, sizeof *pieces, sli_compare_pieces);
     for (size_t i = 0; i < count; i++) {
         sli_piece piece = pieces[i];
         const sli_piece *last = kept ? &pieces[kept - 1] : NULL;

@@ -32,7 +32,7 @@ static int compare_numbers(double a, double b) {
     return (a > b) - (a < b);
 }
 
-static int compare_pieces(const void *left, const void *right) {
+int sli_compare_pieces(const void *left, const void *right) {
     const sli_piece *a = left, *b = right;
     if (a->axis != b->axis) return a->axis - b->axis;
     const int at = compare_numbers(a->at, b->at);
@@ -68,7 +68,7 @@ sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *
     sli_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
     if (!pieces) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) pieces[i] = make_piece(&walls[i]);
-    qsort(pieces, count, sizeof *pieces, compare_pieces);
+    qsort(pieces, count, sizeof *pieces, sli_compare_pieces);
     for (size_t i = 1; i < count; i++) {
         const sli_piece *a = &pieces[i - 1], *b = &pieces[i];
         if (a->axis != b->axis || a->at != b->at || b->lo >= a->hi) continue;

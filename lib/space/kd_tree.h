@@ -16,7 +16,10 @@ typedef struct sli_piece {
     uint32_t seam; ///< 0 for a wall; for a part of a seam, 1 + its number
 } sli_piece;
 
-/// Sorts walls by axis, at, lo. SL_BAD_INPUT names a wall that is not axial, as `map` calls
+/// The order of pieces by axis, at, lo, for qsort.
+int sli_compare_pieces(const void *left, const void *right);
+
+/// Sorts walls so. SL_BAD_INPUT names a wall that is not axial, as `map` calls
 /// it (NULL: none), or a place where two walls overlap.
 sl_status sli_wall_lines(sl_context *context, const sl_map *map, const sl_wall *walls, size_t count,
                          sli_piece **out);

@@ -172,6 +172,41 @@ static void boxes_are_seen_and_wrong_settings_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// A side on dark glass is not seen from there, whether boxes block or not, and of what kind the
+/// cells are. From the lit side it is seen.
+static void dark_glass_covers_sides_of_boxes(void **state) {
+    (void)state;
+    static const char *const grounds[] = {"", "wall 6 0.5 7 1\n"};
+    const sl_moving_box behind = {{{3, 4}, {5, 6}}, false}, blocks = {{{1, 1}, {2, 2}}, true};
+    const sl_moving_box both[] = {behind, blocks}, hides[] = {{behind.box, true}};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 2; i++) {
+        const char *const parts[] = {"sightline 1\nwalls 0 0 10 0 10 10 0 10 0 0\n",
+                                     "oneway 5 9 5 1\nstart 8 5 0\n", grounds[i], NULL};
+        sl_baked baked = {0};
+        sl_query *query;
+        bake(context, parts, &baked);
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        for (int lit = 0; lit < 2; lit++) {
+            const sl_view view = sl_view_all_round((sl_point){8, 5});
+            bool seen[2];
+            sl_query_set_backwards(context, query, lit);
+            assert_ok(context, sl_query_set_boxes(context, query, &behind, 1));
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_int_equal(seen[0], lit);
+            assert_ok(context, sl_query_set_boxes(context, query, both, 2));
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_int_equal(seen[0], lit);
+            assert_ok(context, sl_query_set_boxes(context, query, hides, 1));
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_int_equal(seen[0], lit);
+        }
+        sl_query_destroy(context, query);
+        sl_baked_destroy(context, &baked);
+    }
+    sl_context_destroy(context);
+}
+
 static void a_bake_is_its_stages(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -363,6 +398,7 @@ int main(void) {
         cmocka_unit_test(rays_meet_what_stands),
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
+        cmocka_unit_test(dark_glass_covers_sides_of_boxes),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),
         cmocka_unit_test(an_eye_in_rock_sees_nothing),
         cmocka_unit_test(without_memory_nothing_leaks),

@@ -51,8 +51,9 @@ typedef struct trial {
     uint32_t depth, baked_depth; ///< of mirrors
     sl_moving_box boxes[BOX_COUNT];
     sl_segment walls[WALLS_MOST]; ///< for the oracle
-    size_t cover;                 ///< of these: walls and shut doors
-    size_t solid;                 ///< and boxes: all but glass
+    size_t dark;                  ///< of these: glass
+    size_t cover;                 ///< and walls and shut doors; the rest: the border, boxes
+    size_t count;
     size_t asked[2], places[2], cells[2], boxes_seen[4], legs, parts; ///< by what was so
 } trial;
 
@@ -201,6 +202,11 @@ static two_points stand(trial *t, sl_point eye, size_t without) {
     const sl_map *map = &t->map;
     const sl_space *space;
     two_points out = {.walls = t->walls, .p = eye};
+    assert_ok(t->context, sl_query_space(t->context, t->query, &space, NULL));
+    const sl_cell *cell = &space->cells[sl_space_locate(space, eye)];
+    for (size_t i = 0; i < map->oneway_count; i++)
+        if (is_dark(space, glass_of(t, i), eye, cell)) t->walls[out.count++] = glass_of(t, i);
+    t->dark = out.count;
     for (size_t i = 0; i < map->wall_count; i++)
         t->walls[out.count++] = (sl_segment){map->walls[i].a, map->walls[i].b};
     for (size_t i = 0; i < map->door_count; i++)
@@ -210,15 +216,11 @@ static two_points stand(trial *t, sl_point eye, size_t without) {
     for (size_t i = 0; i < BOX_COUNT; i++)
         if (t->boxes[i].blocks && i != without)
             out.count += sides_within(t->boxes[i].box, t->baked.space.bounds, t->walls + out.count);
-    t->solid = out.count;
-    assert_ok(t->context, sl_query_space(t->context, t->query, &space, NULL));
-    const sl_cell *cell = &space->cells[sl_space_locate(space, eye)];
+    t->count = out.count;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         out.inward.x += space->vertices[cell->first_vertex + i].x - eye.x;
         out.inward.y += space->vertices[cell->first_vertex + i].y - eye.y;
     }
-    for (size_t i = 0; i < map->oneway_count; i++)
-        if (is_dark(space, glass_of(t, i), eye, cell)) t->walls[out.count++] = glass_of(t, i);
     assert_true(out.count <= WALLS_MOST);
     return out;
 }
@@ -514,7 +516,7 @@ static void check_boxes(trial *t, const sl_view *view) {
 static sl_map map_of_rays(trial *t, sl_point eye, sl_wall *walls, sl_glass *panes) {
     sl_map map = {.walls = walls, .oneways = panes, .mirrors = t->baked.map.mirrors};
     stand(t, eye, BOX_COUNT);
-    for (size_t i = 0; i < t->solid; i++)
+    for (size_t i = t->dark; i < t->count; i++)
         walls[map.wall_count++] = (sl_wall){.a = t->walls[i].a, .b = t->walls[i].b};
     for (size_t i = 0; i < t->map.oneway_count; i++)
         panes[map.oneway_count++] = (sl_glass){.segment = glass_of(t, i)};
@@ -524,7 +526,7 @@ static sl_map map_of_rays(trial *t, sl_point eye, sl_wall *walls, sl_glass *pane
 
 static bool is_on_wall(const trial *t, sl_point eye) {
     bool on = false;
-    for (size_t i = 0; i < t->solid; i++) on |= two_points_on(t->walls[i], eye);
+    for (size_t i = t->dark; i < t->count; i++) on |= two_points_on(t->walls[i], eye);
     return on;
 }
 
@@ -543,18 +545,23 @@ static void check_leg(trial *t, const sl_view *view, const sl_mirrored_region *r
         complain(t, view, p, "reflection in the visible sets, cell", cell, false);
 }
 
+static bool ends_at(sl_segment w, sl_point end) {
+    const double dot = (end.x - w.a.x) * (end.x - w.b.x) + (end.y - w.a.y) * (end.y - w.b.y);
+    return dot <= 0 && fabs(mirror_rays_cross(w.a, w.b, end)) < NEAR;
+}
+
 /// A reflected leg, cut at the range, that passes a box or ends at a side of its own sees it.
 static void check_boxes_met(const trial *t, const sl_view *view, oracle_leg way, double away,
                             const bool *seen) {
     const sl_point d = {way.to.x - way.from.x, way.to.y - way.from.y};
     const double length = hypot(d.x, d.y), left = t->range > 0 ? t->range - away - NEAR : length;
     const sl_point end = way.to;
-    size_t walls = 0; // that the leg ends at
+    size_t walls = 0; // that the leg ends at, and dark glass
     if (left <= 0) return;
-    for (size_t i = 0; i < t->solid; i++) {
-        const sl_segment w = t->walls[i];
-        const double dot = (end.x - w.a.x) * (end.x - w.b.x) + (end.y - w.a.y) * (end.y - w.b.y);
-        walls += dot <= 0 && fabs(mirror_rays_cross(w.a, w.b, end)) < NEAR;
+    for (size_t i = t->dark; i < t->count; i++) walls += ends_at(t->walls[i], end);
+    for (size_t i = 0; i < t->map.oneway_count; i++) {
+        const sl_segment w = glass_of(t, i);
+        walls += ends_at(w, end) && mirror_rays_cross(w.a, w.b, way.from) > 0;
     }
     for (size_t i = 0; i < BOX_COUNT; i++) {
         // A little farther: a box that blocks is not entered.
