@@ -84,6 +84,18 @@ static bool is_on(sl_point a, sl_point b, sl_point eye) {
            eye.y <= fmax(a.y, b.y) && sli_orient(a, b, eye) == 0;
 }
 
+/// Adds the visible sets of the cells at glass that the eye is in line with. A line along it may
+/// cross it as the visible sets do not know it; after the last such portal they know all of it.
+static void add_rows_in_line(sli_eye_search *search, sl_point eye) {
+    const sl_space *space = search->space;
+    for (uint32_t i = 0; i < space->seam_portal_count; i++) {
+        const sl_seam *seam = &space->seams[space->seam_portals[i].seam];
+        if (seam->kind != SL_SEAM_ONEWAY || sli_orient(seam->at.a, seam->at.b, eye) != 0) continue;
+        const sl_portal *portal = &space->portals[space->seam_portals[i].portal];
+        for (unsigned side = 0; side < 2; side++) add_rows(search, portal->cell[side]);
+    }
+}
+
 uint32_t sli_eye_cells(const sl_space *space, sl_point eye, uint32_t *cells, uint64_t *marks) {
     uint32_t count = 0;
     cells[0] = sli_eye_cell(space, eye);
@@ -148,6 +160,7 @@ sl_status sli_eye_begin(sl_context *context, sli_eye_search *search, const sl_vi
         memset(search->row, 0, row_words * sizeof *search->row);
         if (!add_rows(search, search->queue[0])) return SL_OK;
         for (uint32_t at = 1; at < count; at++) add_rows(search, search->queue[at]);
+        if (search->in_line) add_rows_in_line(search, view->eye);
     }
     out->fan_count = count;
     out->cone = sli_cone_of(&out->pivot, view);

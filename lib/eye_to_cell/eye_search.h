@@ -54,6 +54,8 @@ typedef struct sli_eye_search {
     const sli_box_lists *boxes;   ///< likewise, with closed sight and without mirrors; NULL: none
     bool *boxes_seen;             ///< by box: whether the search has met it
     bool has_pvs;
+    bool in_line;        ///< with glass, which the space has open both ways, unlike the visible
+                         ///< sets: those of its cells count as well
     sl_bits *row;        ///< the visible sets of the eye's cells
     uint32_t *queue;     ///< cells to spread from, the eye's first
     sli_eye_step *steps; ///< cell_count + 3 of them
@@ -169,6 +171,9 @@ void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool fir
 /// Makes the visible sets those with doors shut (`shut` by door of the map; it must stay, and NULL
 /// is for none). The space has walls there already.
 void sli_moving_set_shut(sli_moving *moving, const bool *shut);
+
+/// Makes it one for eyes in line with glass (sli_eye_search.in_line).
+void sli_moving_set_in_line(sli_moving *moving);
 
 /// Checks boxes as sli_moving_set_boxes does.
 sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count);

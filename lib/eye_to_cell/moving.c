@@ -255,6 +255,7 @@ typedef struct moving_settings {
     const sl_map *mirrors; ///< the map that has them, NULL for none
     uint32_t depth;        ///< of reflections
     bool one_way;          ///< glass counts
+    bool in_line;          ///< sli_eye_search.in_line
 } moving_settings;
 
 struct sli_moving {
@@ -325,6 +326,7 @@ static sl_status place(sl_context *context, sli_moving *m) {
     if (!m->met || !m->cells) return SL_NO_MEMORY;
     sli_eye_search_set_range(m->search, m->set.range);
     m->search->shut = m->set.shut;
+    m->search->in_line = m->set.in_line;
     if (m->set.mirrors)
         SL_TRY(sli_eye_search_add_mirrors(context, m->search, m->set.mirrors, m->set.depth));
     m->search->targets = (sli_eye_targets){m->targets.first, m->targets.items, m->met};
@@ -387,6 +389,10 @@ void sli_moving_set_range(sli_moving *moving, double range) {
 
 void sli_moving_set_shut(sli_moving *moving, const bool *shut) {
     moving->set.shut = moving->search->shut = shut;
+}
+
+void sli_moving_set_in_line(sli_moving *moving) {
+    moving->set.in_line = moving->search->in_line = true;
 }
 
 static bool holds(sl_box box, sl_point p) {

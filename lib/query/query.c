@@ -584,6 +584,7 @@ static sl_status look_in_line(sl_context *context, sl_query *q, const sl_view *v
     sl_status status = sli_eye_search_create(context, &space, &q->rows, &search);
     if (status == SL_OK) {
         search->shut = shut_of(q);
+        search->in_line = true;
         sli_eye_search_set_range(search, q->range);
         status = method->cull(context, search, view, cells, account);
     }
@@ -601,6 +602,7 @@ static sl_status look_past_in_line(sl_context *context, sl_query *q, const sl_vi
     if (status == SL_OK) status = sli_moving_set_boxes(context, moving, q->boxes, q->box_count);
     if (status == SL_OK) {
         sli_moving_set_shut(moving, shut_of(q));
+        sli_moving_set_in_line(moving);
         sli_moving_set_range(moving, q->range);
         status = sli_moving_look(context, moving, view, cells, seen, account);
     }

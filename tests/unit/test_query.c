@@ -207,6 +207,46 @@ static void dark_glass_covers_sides_of_boxes(void **state) {
     sl_context_destroy(context);
 }
 
+/// An eye on glass sees along it, past the end of a wall, into a cell that the visible sets of its
+/// own cells lack: from the cells below, nobody looks through the glass.
+static void along_glass_a_bake_hides_nothing(void **state) {
+    (void)state;
+    const char *const parts[] = {"sightline 1\nwalls 0 0 10 0 10 10 0 10 0 0\n",
+                                 "wall 8 5 8 10\noneway 10 5 2 5\nstart 5 5 0\n", NULL};
+    const sl_moving_box boxes[] = {{{{8.5, 5}, {9, 6}}, false}, {{{1, 1}, {2, 2}}, true}};
+    const sl_view view = sl_view_all_round((sl_point){6, 5});
+    sl_context *context = testing_context(NULL);
+    sl_baked baked = {0};
+    sl_query *queries[2];
+    bake(context, parts, &baked);
+    const uint32_t behind = sl_space_locate(&baked.space, (sl_point){9, 8});
+    assert_ok(context, sl_query_create(context, &baked, &queries[0]));
+    assert_ok(context, sl_query_over(context, &baked.space, &baked.map, NULL, &queries[1]));
+    for (int bare = 0; bare < 2; bare++) {
+        sl_query *query = queries[bare];
+        uint64_t cells[4];
+        size_t count;
+        bool sees, seen[2];
+        const sl_eye_method *methods = sl_eye_methods(&count);
+        assert_true(sl_eye_words(&baked.space) <= 4);
+        assert_ok(context, sl_query_sees(context, query, view.eye, (sl_point){9, 5}, &sees));
+        assert_true(sees);
+        for (size_t blocks = 0; blocks < 2; blocks++) {
+            assert_ok(context, sl_query_set_boxes(context, query, boxes, 1 + blocks));
+            for (size_t i = 0; i < count; i++) {
+                if (bare && methods[i].needs_pvs) continue;
+                assert_ok(context, sl_query_look(context, query, &view, &methods[i], cells, NULL));
+                assert_true(sl_eye_sees(cells, behind));
+            }
+            assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+            assert_true(seen[0]);
+        }
+        sl_query_destroy(context, query);
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 static void a_bake_is_its_stages(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -399,6 +439,7 @@ int main(void) {
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
         cmocka_unit_test(dark_glass_covers_sides_of_boxes),
+        cmocka_unit_test(along_glass_a_bake_hides_nothing),
         cmocka_unit_test(what_a_bake_does_not_know_is_refused),
         cmocka_unit_test(an_eye_in_rock_sees_nothing),
         cmocka_unit_test(without_memory_nothing_leaks),

@@ -428,9 +428,7 @@ static const sl_space *space_for(trial *t, sl_point eye, sl_space *copy, const u
 static void compare_cells(trial *t, const sl_view *view, const uint64_t *cells, const bool *seen,
                           const uint32_t *parents, uint32_t count, const char *who) {
     const sl_space *asked = &t->baked.space;
-    // Brute force over oblique cells knows no range. Visible sets lack cells behind glass that an
-    // eye on it touches along the glass alone.
-    const bool more = (t->turned && t->range > 0) || (!t->bare && is_in_line(t, view->eye));
+    const bool more = t->turned && t->range > 0; // brute force over oblique cells knows no range
     bool wanted[CELLS_MOST] = {false};
     for (uint32_t c = 0; c < count; c++) wanted[parents ? parents[c] : c] |= seen[c];
     for (uint32_t c = 0; c < asked->cell_count; c++) {

@@ -65,6 +65,8 @@ SL_API sl_view sl_view_cone(sl_point eye, double heading, double fov, double rea
 // open sight, too, and within any range. The others keep all. But nothing is seen if the visible
 // set of the first one is empty. The visible sets of all of them count: that of one cell has what
 // is seen through its own portals, and not what is seen from its corner around the end of a wall.
+// For an eye in line with glass that is not dark, those of the cells at that glass count, too: the
+// visible set of a cell on its dark side lacks what an eye sees along the glass.
 //
 // Open sight needs an open set of directions: with it, a cone of 0 degrees sees only cells that
 // the eye stands in.
