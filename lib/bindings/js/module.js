@@ -3,7 +3,7 @@
  * that overflows), the instance is replaced, and what was kept in it is lost.
  */
 import { numberOf, optionsOf, pick } from './arguments.js'
-import { SightlineError, compile } from './host.js'
+import { SightlineError, compile, textAt } from './host.js'
 import { mapText, rename } from './maptext.js'
 
 const PAGE = 65536
@@ -41,6 +41,7 @@ export class Module {
         log: Math.log,
         asinh: Math.asinh,
         atan2: Math.atan2,
+        number: (at) => this.#numberAt(at),
       },
       wasi_snapshot_preview1: {
         // The C library mentions these, but nothing is read or written through them.
@@ -63,6 +64,14 @@ export class Module {
     this.generation++
   }
 
+  /** Letter by letter: for a few letters, a decoder of text takes longer. */
+  #numberAt(at) {
+    const bytes = new Uint8Array(this.memory.buffer)
+    let text = ''
+    while (bytes[at]) text += String.fromCharCode(bytes[at++])
+    return Number(text)
+  }
+
   #progress(stage, done, total) {
     this.watch?.report(this.textAt(stage), done, total)
     return 0
@@ -75,8 +84,7 @@ export class Module {
 
   /** @internal */
   textAt(at) {
-    const bytes = new Uint8Array(this.memory.buffer)
-    return new TextDecoder().decode(bytes.slice(at, bytes.indexOf(0, at)))
+    return textAt(this.memory, at)
   }
 
   /** Calls, and replaces the instance where it stops. @internal */

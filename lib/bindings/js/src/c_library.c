@@ -2,6 +2,7 @@
 /// large, most by tables that no compression makes smaller. This is compiled by itself, as the C
 /// library is: its names are found only after the library was optimized as a whole.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@ int __rem_pio2_large(double *angle, double *turned, int exponent, int count, int
 HOST(log) double host_log(double value);
 HOST(asinh) double host_asinh(double value);
 HOST(atan2) double host_atan2(double y, double x);
+HOST(number) double host_number(const char *text);
 
 /// How wasi-libc takes whole turns off angles of 10^5 and more for sin() and cos(), with a table of
 /// digits of 2 / pi: 2 kB. The library's angles are at most one turn.
@@ -31,6 +33,13 @@ double asinh(double value) {
 
 double atan2(double y, double x) {
     return host_atan2(y, x);
+}
+
+/// JavaScript rounds a number as exactly, and has this anyway: 6 kB. The library has checked the
+/// text, and does not ask where it ends.
+double strtod(const char *text, char **end) {
+    if (end) __builtin_trap();
+    return host_number(text);
 }
 
 // An instruction each, with which wasi-libc was not compiled.
