@@ -22,6 +22,8 @@ function memoryOf(maximum) {
 
 /** A loaded module. All calls are synchronous. */
 export class Module {
+  #bytes
+
   /** @internal */
   constructor(module, maximum) {
     this.module = module
@@ -64,12 +66,10 @@ export class Module {
     this.generation++
   }
 
-  /** Letter by letter: for a few letters, a decoder of text takes longer. */
+  /** For a few letters, a decoder of text takes longer. */
   #numberAt(at) {
-    const bytes = new Uint8Array(this.memory.buffer)
-    let text = ''
-    while (bytes[at]) text += String.fromCharCode(bytes[at++])
-    return Number(text)
+    if (this.#bytes?.buffer !== this.memory.buffer) this.#bytes = new Uint8Array(this.memory.buffer)
+    return Number(String.fromCharCode.apply(null, this.#bytes.subarray(at, this.#bytes.indexOf(0, at))))
   }
 
   #progress(stage, done, total) {
