@@ -293,8 +293,9 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, isov
 static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     SL_TRY(sl_query_set_range(context, w->query, plan->range));
     SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
-    w->scene =
-        (isovist_scene){&w->baked.space, w->query, w->baked.map.mirror_count && !plan->together};
+    w->scene = (isovist_scene){.query = w->query,
+                               .mirrored = w->baked.map.mirror_count && !plan->together};
+    SL_TRY(sl_query_space(context, w->query, &w->scene.space, NULL));
     if (w->baked.map.mirror_count && plan->together)
         sl_note(context, "mirrors are walls here: --union counts what is seen directly");
     return sl_query_prepare(context, w->query);

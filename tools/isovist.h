@@ -61,7 +61,7 @@ sl_view eye_view(const sl_space *space, const eye_place *eye);
 
 /// What is asked. The outline of the query is made, and its mirrors where they count.
 typedef struct isovist_scene {
-    const sl_space *space;
+    const sl_space *space; ///< as the query's settings make it
     sl_query *query;
     bool mirrored; ///< with what is seen by mirror
 } isovist_scene;

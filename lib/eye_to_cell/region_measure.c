@@ -154,7 +154,7 @@ sl_region_measures sl_region_measure(const sl_region *region) {
 }
 
 static bool ends_at(const sl_space *space, const sl_region_edge *edge, sl_point point) {
-    if (edge->kind != SL_EDGE_WALL || edge->wall >= SL_BOX_WALL) return false;
+    if (edge->kind != SL_EDGE_WALL || edge->wall >= space->wall_count) return false;
     const sl_wall *w = &space->walls[edge->wall];
     return (w->a.x == point.x && w->a.y == point.y) || (w->b.x == point.x && w->b.y == point.y);
 }

@@ -72,7 +72,8 @@ SL_API sl_region_measures sl_region_measure(const sl_region *region);
 SL_API double sl_region_area(const sl_region *region);
 
 /// The visible corners of walls, not of boxes: ends of walls that are points of the region, in its
-/// order. Writes up to `room` of them and returns how many there are; at most region->count.
+/// order. `space` is the one that the region is of, with walls in shut doors (sl_query_space).
+/// Writes up to `room` of them and returns how many there are; at most region->count.
 SL_API size_t sl_region_corners(const sl_region *region, const sl_space *space, sl_point *corners,
                                 size_t room);
 
