@@ -23,7 +23,8 @@ table_field field_count(const char *key, uint64_t count) {
 void csv_put(FILE *out, double value, const char *after) {
     char text[SL_NUMBER_TEXT] = "";
     if (!isnan(value)) sl_number_write(value, text);
-    fprintf(out, "%s%s", text, after);
+    fputs(text, out);
+    fputs(after, out);
 }
 
 static sl_status put_rows(sl_context *context, const field_rows *rows, FILE *out) {
