@@ -16,8 +16,9 @@
 /// sides cross. So all signs are exact. Only where a side crosses an oblique wall is a point
 /// rounded, and nothing is compared with that.
 ///
-/// Cost: O(n log n) for n boxes, then for each piece the arcs that it meets (Hershberger 1989,
-/// Finding the upper envelope of n line segments in O(n log n) time: merging; here about an eye).
+/// Cost: O(n log n) for n boxes within reach, then for each piece the arcs that it meets
+/// (Hershberger 1989, Finding the upper envelope of n line segments in O(n log n) time: merging;
+/// here about an eye).
 #include "eye_to_cell/past_boxes.h"
 
 #include "geometry/crossing.h"
@@ -155,15 +156,44 @@ static unsigned sides_of(sl_box box, sl_point eye, uint32_t wall, sli_box_arc si
     return count;
 }
 
+sl_box sli_region_reach(const sl_region *region, const sl_box *bounds) {
+    sl_box reach = {region->points[0], region->points[0]};
+    bool arcs = false;
+    for (size_t i = 0; i < region->count; i++) {
+        const sl_point p = region->points[i];
+        reach.min = (sl_point){fmin(reach.min.x, p.x), fmin(reach.min.y, p.y)};
+        reach.max = (sl_point){fmax(reach.max.x, p.x), fmax(reach.max.y, p.y)};
+        arcs |= region->edges[i].kind == SL_EDGE_ARC;
+    }
+    // Points are rounded by some units in the last place; this is more by far.
+    const double width = bounds->max.x - bounds->min.x, height = bounds->max.y - bounds->min.y;
+    const double far_x = fmax(fabs(bounds->min.x), fabs(bounds->max.x));
+    const double far_y = fmax(fabs(bounds->min.y), fabs(bounds->max.y));
+    const double spare = 1e-9 * (width + height) + 1e-13 * (far_x + far_y);
+    const double round = arcs ? region->range : 0;
+    const sl_point eye = region->view.eye;
+    reach.min = (sl_point){fmin(reach.min.x, eye.x - round), fmin(reach.min.y, eye.y - round)};
+    reach.max = (sl_point){fmax(reach.max.x, eye.x + round), fmax(reach.max.y, eye.y + round)};
+    return (sl_box){{reach.min.x - spare, reach.min.y - spare},
+                    {reach.max.x + spare, reach.max.y + spare}};
+}
+
+static bool counts(const sl_moving_box *box, const sl_box *reach) {
+    const sl_box *b = &box->box;
+    return box->blocks && (!reach || (b->max.x >= reach->min.x && b->min.x <= reach->max.x &&
+                                      b->max.y >= reach->min.y && b->min.y <= reach->max.y));
+}
+
 sl_status sli_box_envelope_make(sl_context *context, const sl_moving_box *boxes, size_t count,
-                                sl_point eye, sli_box_envelope *e) {
+                                sl_point eye, const sl_box *reach, sli_box_envelope *e) {
     enum { RUNS = 64 };
     size_t first[RUNS], rank[RUNS], runs = 0;
     e->arcs.count = 0;
     for (size_t i = 0; i < count; i++) {
         sli_box_arc sides[4];
-        const unsigned n =
-            boxes[i].blocks ? sides_of(boxes[i].box, eye, SL_BOX_WALL + 4 * (uint32_t)i, sides) : 0;
+        const unsigned n = counts(&boxes[i], reach)
+                               ? sides_of(boxes[i].box, eye, SL_BOX_WALL + 4 * (uint32_t)i, sides)
+                               : 0;
         for (unsigned k = 0; k < n; k++) {
             first[runs] = e->arcs.count;
             rank[runs++] = 0;

@@ -25,9 +25,17 @@ sl_status sli_region_make_past(sl_context *context, const sl_outline *outline,
 
 // --- parts of it
 
-/// Makes the envelope of boxes about an eye.
+/// Up to so many boxes are taken as they are. Of more, those count that meet what is seen without
+/// them.
+enum { SLI_FEW_BOXES = 4 };
+
+/// What a region that is not empty lies in, or some more: its points may be rounded.
+sl_box sli_region_reach(const sl_region *region, const sl_box *bounds);
+
+/// Makes the envelope of boxes about an eye: of those that meet `reach`, or of all where that is
+/// NULL.
 sl_status sli_box_envelope_make(sl_context *context, const sl_moving_box *boxes, size_t count,
-                                sl_point eye, sli_box_envelope *envelope);
+                                sl_point eye, const sl_box *reach, sli_box_envelope *envelope);
 
 /// Adds a piece to a region with an envelope, as far as it is seen, and the sides before it. As
 /// see_piece in region.c: from `right` to `left`, or where these are NULL from and to its ends.

@@ -535,11 +535,19 @@ sl_status sli_region_make(sl_context *context, const sl_outline *outline, const 
 sl_status sli_region_make_past(sl_context *context, const sl_outline *outline,
                                const sl_moving_box *boxes, size_t count, const sl_view *view,
                                double range, sl_region *region) {
+    const bool many = SLI_BOXES && count > SLI_FEW_BOXES;
+    sl_box reach = outline->space->bounds;
+    if (many) {
+        SL_TRY(sli_region_make(context, outline, view, range, region));
+        if (!region->count) return SL_OK;
+        reach = sli_region_reach(region, &reach);
+    }
     region->count = 0;
     SL_TRY(sli_region_check_view(context, view, range));
     SL_TRY(sli_region_start(context, outline, view, range, region));
     if (SLI_BOXES && count)
-        SL_TRY(sli_box_envelope_make(context, boxes, count, view->eye, &region->memory->envelope));
+        SL_TRY(sli_box_envelope_make(context, boxes, count, view->eye, many ? &reach : NULL,
+                                     &region->memory->envelope));
     region->cell = sli_eye_cell(outline->space, view->eye);
     const sl_status status = sli_region_spread(context, outline, region);
     if (status != SL_OK) region->count = 0;
