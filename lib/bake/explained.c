@@ -4,9 +4,9 @@
 /// the doors as they are. The map adds names: which doors stand on the way. All members of the JSON
 /// are written in one pass, so that nothing is kept in memory but a flag for each door.
 #include "sightline/explained.h"
+
 #include "cell_to_cell/pvs_rows.h"
 #include "effects/filtered.h"
-
 #include "sightline/json.h"
 #include "sightline/support.h"
 

@@ -3,6 +3,7 @@
 ///
 /// A lookup unites the rows on the way from a view cell to the root. Cost: O(depth) rows.
 #include "cell_to_cell/view_rows.h"
+
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
 

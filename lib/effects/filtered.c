@@ -10,6 +10,7 @@
 ///
 /// Then all that goes from cell to cell sees one way, also after a mirror has turned it round.
 #include "effects/filtered.h"
+
 #include "effects/effects.h"
 #include "geometry/orient.h"
 

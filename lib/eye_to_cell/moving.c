@@ -14,9 +14,8 @@
 ///     |           |          |   |   |   |    cell beside it
 ///     +-----------+          +---+---+---+
 #include "eye_to_cell/moving.h"
-#include "effects/filtered.h"
-#include "space/outline.h"
 
+#include "effects/filtered.h"
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/region.h"
 #include "geometry/crossing.h"
@@ -25,6 +24,7 @@
 #include "sightline/support.h"
 #include "space/boxes.h"
 #include "space/index.h"
+#include "space/outline.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,13 +10,13 @@
 /// changes the cells and sides that it touches, and of the visible sets nothing: which pairs are
 /// hidden is looked up with each row.
 #include "sightline/query.h"
-#include "effects/filtered.h"
-#include "eye_to_cell/region.h"
 
 #include "cell_to_cell/pvs_rows.h"
+#include "effects/filtered.h"
 #include "eye_to_cell/eye_search.h"
 #include "eye_to_cell/moving.h"
 #include "eye_to_cell/past_boxes.h"
+#include "eye_to_cell/region.h"
 #include "geometry/crossing.h"
 #include "query/query.h"
 #include "query/sight_space.h"

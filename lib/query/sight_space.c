@@ -12,13 +12,13 @@
 /// For the outline all of these portals are walls first, so that rooms end at them. Then the two
 /// sides of each are linked to each other, or not, as the portal stands.
 #include "query/sight_space.h"
-#include "effects/filtered.h"
-#include "space/outline.h"
 
+#include "effects/filtered.h"
 #include "geometry/orient.h"
 #include "sightline/effects.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
+#include "space/outline.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -12,9 +12,9 @@
 /// which of them lie on a gap. Then cells are joined to rooms (rooms.c). No coordinate is computed.
 /// Time O(n log n).
 #include "space/outline.h"
-#include "sightline/space.h"
 
 #include "geometry/orient.h"
+#include "sightline/space.h"
 #include "sightline/support.h"
 #include "space/index.h"
 #include "space/kd_tree.h"

@@ -7,11 +7,11 @@
 /// A piece that is cut has what it sees as its refine set: its halves can see nothing else. So the
 /// search from a half costs about what the whole saw, not what the map holds.
 #include "view_cells/pieces.h"
-#include "space/outline.h"
 
 #include "cell_to_cell/sectors.h"
 #include "sightline/space.h"
 #include "sightline/support.h"
+#include "space/outline.h"
 
 #include <stdlib.h>
 

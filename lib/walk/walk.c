@@ -15,6 +15,7 @@
 /// Cost of a frame: one node visibility test for each node reached and not skipped; a test takes
 /// about the logarithm of the number of occluders.
 #include "sightline/walk.h"
+
 #include "eye_to_cell/cone.h"
 #include "walk/walk_parts.h"
 
