@@ -518,7 +518,7 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
 extern "C" {
 #endif
 
-// --- numbers in the file: copied, so that alignment and aliasing do not matter; little endian
+// --- Numbers in the file: copied, so that alignment and aliasing do not matter; little endian
 
 #if defined(__BYTE_ORDER__) && defined(__ORDER_BIG_ENDIAN__)
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
@@ -562,12 +562,12 @@ static double slrt_f64(const unsigned char *at) {
     return value;
 }
 
-// --- the file: layout as in lib/bake/slv.h
-
 // What checks the file runs once: the npm package has it as small as clang can make it.
 #ifdef SL_RUNTIME_SMALL_OPEN
 #pragma clang attribute push(__attribute__((minsize)), apply_to = function)
 #endif
+
+// --- The file: its header, its checksum and its sections. Layout as in lib/bake/slv.h
 
 enum {
     SLRT_HEADER_BYTES = 32,
@@ -710,6 +710,8 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
     return SL_RUNTIME_OK;
 }
 
+// --- What is checked of the space when a file is opened
+
 /// Whether a coordinate is sound: a number of at most 2e150, so that products stay finite. They are
 /// compared as integers, which no fast-math option changes.
 static bool slrt_is_coordinate(double value) {
@@ -845,6 +847,8 @@ static bool slrt_cells_are_sound(const sl_runtime *rt) {
     }
     return true;
 }
+
+// --- What is checked of the rows when a file is opened: of cells, view cells, doors and mirrors
 
 /// A number of a checked row in LEB128: seven bits in a byte, low bits first, the high bit set in
 /// all bytes but the last.
@@ -1100,7 +1104,7 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
 }
 
-// --- the map text: statements in lines, words between blanks, comments after '#'
+// --- The map text: statements in lines, words between blanks, comments after '#'
 
 /// A place in the map text: the rest of a line, or of the text.
 typedef struct slrt_text {
@@ -1295,6 +1299,8 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
            slrt_take_number(&line, false, &out->heading);
 }
 
+// --- Opening a file
+
 /// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
     slrt_text text, line;
@@ -1344,10 +1350,6 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     return SL_RUNTIME_OK;
 }
 
-#ifdef SL_RUNTIME_SMALL_OPEN
-#pragma clang attribute pop
-#endif
-
 SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     switch (status) {
     case SL_RUNTIME_OK:
@@ -1375,6 +1377,12 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     }
     return "unknown status";
 }
+
+#ifdef SL_RUNTIME_SMALL_OPEN
+#pragma clang attribute pop
+#endif
+
+// --- Cells, directed portals and vertices, as they stand in the file
 
 SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell) {
     sl_runtime_cell out;
@@ -1414,7 +1422,7 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
     *y = slrt_f64(at + 8);
 }
 
-// --- doors and starts
+// --- Doors and starts
 
 SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
     sl_runtime_name name;
@@ -1488,7 +1496,7 @@ SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
     return true;
 }
 
-// --- rows
+// --- Rows: which cells see which, with doors as they stand, by mirror, and from view cells
 
 SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t cell) {
     sl_runtime_run run;
@@ -1704,7 +1712,7 @@ SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t vie
     }
 }
 
-// --- signs
+// --- Signs of determinants: exact
 
 /// A vector between two points: rounded, and the two points.
 typedef struct slrt_arm {
@@ -1819,7 +1827,28 @@ static bool slrt_same_way(const slrt_arm *u, const slrt_arm *v) {
            (u->to_y < u->from_y && v->to_y < v->from_y);
 }
 
-// --- from point to cell
+/// A power of two that brings a number to between 1 and 2.
+static double slrt_scale_of(double number) {
+    uint64_t bits;
+    double scale;
+    memcpy(&bits, &number, sizeof bits);
+    bits = bits >> 52 & 0x7ff;
+    if (bits < 1) bits = 1;
+    if (bits > 2045) bits = 2045;
+    bits = (2046 - bits) << 52;
+    memcpy(&scale, &bits, sizeof scale);
+    return scale;
+}
+
+/// Multiplies an exact sum by a number, and adds that to another one.
+static int slrt_add_times(double *parts, int count, const double *factor, int factor_count,
+                          double number) {
+    int i;
+    for (i = 0; i < factor_count; i++) count = slrt_add_product(parts, count, factor[i], number);
+    return count;
+}
+
+// --- From points and boxes to cells
 
 /// As slrt_side, for the ways from a to b and from a to (x, y).
 static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, double x, double y) {
@@ -1956,8 +1985,8 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
     return count;
 }
 
-// --- boxes: the cells that they lie in
-//
+// --- Boxes that move: the cells that they lie in
+
 // Memory: the first free entry, the first entry of each cell, the first entry of each box, and the
 // entries. An entry is four numbers: a cell, a box in it, the cell's next entry, the box's next.
 
@@ -2153,7 +2182,7 @@ SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
     return false;
 }
 
-// --- eye-to-cell
+// --- Eye-to-cell: sectors of directions, and how a portal narrows them
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
     sl_runtime_view view;
@@ -2442,8 +2471,8 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
     s->count++;
 }
 
-// --- boxes: what of them is seen
-//
+// --- Boxes: what of them is seen
+
 // A search enters a cell with a sector of directions. A box in that cell is seen there if box,
 // sector and cell have a point in common. All three are convex, and any two of them meet. So, by
 // Helly's theorem, the three meet unless a side of the cell, a border of the sector and a side of
@@ -2504,27 +2533,6 @@ static bool slrt_box_meets_sector(const slrt_search *s, const sl_runtime_box *bo
         left = left && slrt_side(v, &corner) > 0;
     }
     return !right && !left;
-}
-
-/// A power of two that brings a number to between 1 and 2.
-static double slrt_scale_of(double number) {
-    uint64_t bits;
-    double scale;
-    memcpy(&bits, &number, sizeof bits);
-    bits = bits >> 52 & 0x7ff;
-    if (bits < 1) bits = 1;
-    if (bits > 2045) bits = 2045;
-    bits = (2046 - bits) << 52;
-    memcpy(&scale, &bits, sizeof scale);
-    return scale;
-}
-
-/// Multiplies an exact sum by a number, and adds that to another one.
-static int slrt_add_times(double *parts, int count, const double *factor, int factor_count,
-                          double number) {
-    int i;
-    for (i = 0; i < factor_count; i++) count = slrt_add_product(parts, count, factor[i], number);
-    return count;
 }
 
 /// The sign of u_m (s x (a - e)) - (s x u)(value - e_m), for s = b - a and the coordinate m of the
@@ -2876,6 +2884,8 @@ static void slrt_meet_boxes(slrt_search *s, uint32_t cell, const slrt_sector *se
     }
 }
 
+// --- Eye-to-cell: the search through portals
+
 /// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
 /// path was seen through a wider sector, and a cell that was entered with a wider one needs no
 /// second visit.
@@ -3191,7 +3201,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
     return s.count;
 }
 
-// --- boxes: what is asked
+// --- Boxes: what is asked
 
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
     return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
@@ -3300,23 +3310,7 @@ SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
     return count;
 }
 
-// --- the visible polygon
-//
-// The view spreads from the cells at the eye through open portals, as sectors between two borders:
-//
-//      +---------+--------.-+
-//      |         |    .  left     On the way around the next cell, counter-clockwise from the
-//      |         b .        |     portal ab, pieces of its boundary come that are right of the
-//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
-//      |         a .        |     added to the polygon; a portal is entered with the sector
-//      |         |    .  right    between its ends.
-//      +---------+--------.-+
-//
-// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
-// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
-// in one line join; where one ends is computed only when the next one is known not to join. Cost:
-// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
-// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+// --- The boundary of a cell, piece by piece
 
 /// No directed portal: a wall, or the border of the map. Also: no border, but a piece's own end.
 #define SLRT_NONE UINT32_MAX
@@ -3529,6 +3523,8 @@ static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     return true;
 }
 
+// --- Whether a step passes no wall and no shut door
+
 /// Whether the segments from a to b and from c to d have a point in common.
 static bool slrt_meets(const double *a, const double *b, const double *c, const double *d) {
     int i;
@@ -3623,6 +3619,24 @@ SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, do
     }
     return true;
 }
+
+// --- The visible polygon
+
+// The view spreads from the cells at the eye through open portals, as sectors between two borders:
+//
+//      +---------+--------.-+
+//      |         |    .  left     On the way around the next cell, counter-clockwise from the
+//      |         b .        |     portal ab, pieces of its boundary come that are right of the
+//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
+//      |         a .        |     added to the polygon; a portal is entered with the sector
+//      |         |    .  right    between its ends.
+//      +---------+--------.-+
+//
+// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
+// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// in one line join; where one ends is computed only when the next one is known not to join. Cost:
+// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
+// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
 
 static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
     return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);

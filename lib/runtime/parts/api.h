@@ -1,0 +1,505 @@
+/// Sightline's runtime for games: reads a baked file (.slv) and answers which cells are seen.
+///
+/// One file, C99 or C++. It needs only memcpy, memset and memcmp. It allocates nothing and has no
+/// global state. Copy it into your sources and include it where you need it. In exactly one C or
+/// C++ file, write before the include
+///
+///     #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+///
+/// A baked file holds a map cut into convex cells, numbered from 0. The row of a cell lists the
+/// cells that can be seen from anywhere in it. sl_runtime_open checks the whole file once. After
+/// that no call fails, reads out of bounds or runs without end, whatever the file holds. The bytes
+/// must stay unchanged, and in place, as long as the sl_runtime is used. They may have any
+/// alignment: a mapped file, an array in the program, a piece of an archive.
+///
+/// An open sl_runtime is only read, so any number of threads may use it.
+///
+/// It needs IEEE doubles. Compiled with -ffast-math, or for x87, it is still safe, but
+/// sl_runtime_look is then exact only up to rounding.
+#ifndef SIGHTLINE_RUNTIME_H
+#define SIGHTLINE_RUNTIME_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// Stands before each function. `static` limits them to the file that implements them.
+#ifndef SL_RUNTIME_API
+#define SL_RUNTIME_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum sl_runtime_status {
+    SL_RUNTIME_OK = 0,
+    SL_RUNTIME_NOT_BAKED,  ///< not a baked file
+    SL_RUNTIME_BYTE_ORDER, ///< not little endian: no baked file, or one of an old version from a
+                           ///< machine of other order
+    SL_RUNTIME_VERSION,    ///< a version that this header does not know
+    SL_RUNTIME_SIZE,       ///< cut short, or longer than it says
+    SL_RUNTIME_CHECKSUM,   ///< changed since it was written
+    SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
+    SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
+    SL_RUNTIME_ROW,        ///< a row is damaged
+    SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
+    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
+} sl_runtime_status;
+
+/// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
+/// into mirrors. To all others mirrors are walls.
+typedef enum sl_runtime_mirrors {
+    SL_RUNTIME_NO_MIRRORS = 0,   ///< the map has no mirrors: all that is seen is seen directly
+    SL_RUNTIME_MIRRORS_BAKED,    ///< rows of the cells that are seen by mirror
+    SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
+} sl_runtime_mirrors;
+
+/// The cell of a point outside the map.
+#define SL_RUNTIME_NO_CELL UINT32_MAX
+/// The number of a door that does not exist.
+#define SL_RUNTIME_NO_DOOR UINT32_MAX
+
+/// An open file. Counts and bounds are for reading; the pointers are for the functions only.
+typedef struct sl_runtime {
+    double min_x, min_y, max_x, max_y; ///< bounds of the map
+    double range; ///< the map's view range; 0 for no limit. All calls about eyes keep to it
+    uint32_t cell_count;
+    uint32_t portal_count;   ///< portals have numbers too
+    uint32_t directed_count; ///< two for each portal
+    uint32_t vertex_count;
+    uint32_t node_count;              ///< of the tree that locates points, if all walls are axial
+    int32_t root;                     ///< as a child of a node
+    uint32_t grid_columns, grid_rows; ///< of the grid that locates points in other maps
+    bool loose; ///< a file of format version 1 with oblique walls, or made from one: by rounding,
+                ///< cells may overlap or leave gaps
+    bool unfinished; ///< the bake was stopped: rows miss nothing, but have undecided cells too
+    sl_runtime_mirrors mirrors; ///< if not SL_RUNTIME_NO_MIRRORS: more is seen than directly
+    uint32_t view_cell_count;   ///< 0 for a bake without view cells
+    uint32_t view_node_count;   ///< the rows of view cells and of groups of them
+    uint32_t door_count;        ///< doors are numbered in the order of the map
+    const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
+    const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
+    const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
+    const unsigned char *door_offsets, *door_bytes;     ///< NULL if no pair depends on doors
+    const unsigned char *mirror_offsets, *mirror_bytes; ///< NULL without rows of mirrors
+    const unsigned char *mirror_door_offsets, *mirror_door_bytes;
+    const unsigned char *seams, *seam_portals; ///< NULL for none
+    uint32_t seam_count, seam_portal_count;
+    const unsigned char *walls; ///< NULL in a file without them
+    uint32_t wall_count;
+    const unsigned char *text; ///< what the map holds beside walls, as map text
+    size_t text_bytes;
+    const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
+} sl_runtime;
+
+/// Checks everything. `out` is unchanged on failure.
+SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out);
+
+/// A status as text, for a log.
+SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
+
+/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds and for NaN. Exact, and the
+/// same as sl_space_locate of the library.
+///
+/// If all walls are axial, a point on a split line is in the cell above it (right of it or over
+/// it). A point on the upper or right border is in the cell inside. Time: the depth of the tree. In
+/// other maps, a point on a border between cells is in the cell of the lowest number. Time: the few
+/// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
+/// all cells.
+///
+/// On the border of solid ground, such as the side of a tile, a cell that is not solid comes first.
+/// If all walls are axial, these are asked in turn: the cell right of the point and over it, left
+/// and over, right and under, left and under. In other maps, the lowest number that is not solid
+/// counts. So an eye that leans against rock sees.
+SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
+
+/// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
+/// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
+/// cells; call it again when the box has moved.
+SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
+                                             double max_x, double max_y, uint32_t *cells,
+                                             uint32_t room);
+
+/// Whether anything in cell `to` can be seen directly from anywhere in cell `from`. False if either
+/// is no cell (SL_RUNTIME_NO_CELL), and for a cell without a row. Time: the length of the row. To
+/// test many cells from one, unpack its row (sl_runtime_row_bits).
+SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to);
+
+/// As sl_runtime_can_see while some doors are shut. `shut` has door_count bytes, not 0 for a shut
+/// door. The game keeps it, and a change costs nothing. As exact as the bake: a pair is seen if
+/// some sightline passes no shut door. (Some pairs need more sets of doors than a bake keeps. The
+/// bake reports them, and they always count as seen.) Time: the lengths of the rows.
+SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
+                                            const unsigned char *shut);
+
+// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
+// starts read the map text in the file: call them once after opening.
+
+/// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
+typedef struct sl_runtime_name {
+    const char *text;
+    uint32_t length;
+} sl_runtime_name;
+
+/// A segment, in map units.
+typedef struct sl_runtime_segment {
+    double x0, y0, x1, y1;
+} sl_runtime_segment;
+
+/// A start: a viewpoint of the map. The heading is in degrees, counter-clockwise from +x.
+typedef struct sl_runtime_viewpoint {
+    double x, y, heading;
+} sl_runtime_viewpoint;
+
+/// The name of a door; of length 0 if the door does not exist. Several doors may have one name.
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door);
+
+/// The first door with a name that a 0 ends; SL_RUNTIME_NO_DOOR for none. To open all doors of a
+/// name, compare the names of the doors after it too.
+SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name);
+
+/// Whether the map has the door open at the start. False if the door does not exist. A game that
+/// begins with the doors of the map sets shut[i] = !sl_runtime_door_open(runtime, i).
+SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door);
+
+/// Finds the segments of a door: one, or more if walls cut it. Returns their number, and puts the
+/// first `room` of them into `segments`. Coordinates are exact.
+SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
+                                                 sl_runtime_segment *segments, uint32_t room);
+
+/// The number of starts.
+SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
+
+/// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
+SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
+                                     sl_runtime_viewpoint *out);
+
+/// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
+SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether a cell is inside, if the map says what inside is.
+SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether a cell is solid ground, such as rock. Nobody looks from there, and it has no row.
+SL_RUNTIME_API bool sl_runtime_is_solid(const sl_runtime *runtime, uint32_t cell);
+
+/// A run of cells of a row: first .. end - 1.
+typedef struct sl_runtime_run {
+    uint32_t first, end;
+    const unsigned char *next, *stop; ///< for the iteration only
+} sl_runtime_run;
+
+/// Iterates over the cells seen from a cell, ascending. If the file only has rows of view cells, it
+/// is the row of the cell's view cell.
+///
+///     sl_runtime_run run = sl_runtime_row(&runtime, cell);
+///     while (sl_runtime_next(&run))
+///         for (uint32_t seen = run.first; seen < run.end; seen++) ...
+SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t cell);
+/// Goes on to the next run; false behind the last.
+SL_RUNTIME_API bool sl_runtime_next(sl_runtime_run *run);
+
+/// The number of cells seen from a cell.
+SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell);
+
+/// Unpacks a row: cell c is seen if bits[c / 8] >> c % 8 & 1. `bits` has (cell_count + 7) / 8
+/// bytes.
+SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
+                                        unsigned char *bits);
+
+/// What can be seen directly from anywhere in some cells: the cells that at least one sees. As
+/// bits, as sl_runtime_row_bits does for one cell; returns how many there are. `shut` is as for
+/// sl_runtime_can_see_past, or NULL for none. Numbers that are no cells are left out.
+///
+/// Ask it with what an eye sees (sl_runtime_look) to find what to wake up: all that anything in
+/// view could see. The set is conservative if the bake is: nothing outside of it is seen from any
+/// place in any of these cells, so not from any place in view. It may hold more than what is seen
+/// from the places in view, as it counts whole cells. Time: the rows.
+///
+///     uint32_t count = sl_runtime_look(&runtime, &view, scratch, cells, runtime.cell_count);
+///     sl_runtime_seen_from(&runtime, cells, count, shut, bits);
+SL_RUNTIME_API uint32_t sl_runtime_seen_from(const sl_runtime *runtime, const uint32_t *cells,
+                                             uint32_t count, const unsigned char *shut,
+                                             unsigned char *bits);
+
+// A view cell is a group of cells with one visible set. A game that keeps its draw list from frame
+// to frame changes it only when the eye enters another view cell.
+
+/// The view cell of a cell; SL_RUNTIME_NO_CELL for none. For a point, use
+/// sl_runtime_view_cell(runtime, sl_runtime_locate(runtime, x, y)).
+SL_RUNTIME_API uint32_t sl_runtime_view_cell(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether anything in a cell can be seen from anywhere in a view cell. False if either does not
+/// exist.
+SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t view_cell,
+                                            uint32_t to);
+
+/// Unpacks the visible set of a view cell, as sl_runtime_row_bits does for a cell.
+SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
+                                         unsigned char *bits);
+
+// Where an eye stands, as in view.h of the library: in the cell that sl_runtime_locate gives, and
+// in each cell that open portals at the eye join with it (it is on the portal, or on its end). It
+// sees what it sees from any of these cells. So at the end of a wall and at a corner of solid
+// ground it sees all around. Within a wall or a shut door it sees one side, that of its cell. Where
+// walls meet, it sees the part that has its cell. What is looked at has no side.
+
+/// An eye with its view cone: from the direction `right` counter-clockwise to the direction `left`,
+/// borders included. The directions are vectors of any length from 1e-150 to 1e150. If one is not
+/// (0, NaN), the view is all round.
+typedef struct sl_runtime_view {
+    double x, y;
+    bool all_round; ///< `right` and `left` are ignored
+    double right[2], left[2];
+} sl_runtime_view;
+
+/// A view of the full circle.
+SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
+
+/// A cone of less than 180 degrees about a direction. `tan_half` is the tangent of half its angle:
+/// 1 for 90 degrees. The borders are rounded; make the cone a little wider if the last bit matters.
+SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
+                                                      double direction_y, double tan_half);
+
+/// The size of the scratch memory for sl_runtime_look and sl_runtime_visible_polygon, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
+
+/// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
+/// portals (Teller & Séquin 1991, depth first). Returns their number, and puts the first `room` of
+/// them into `cells`. The cell of sl_runtime_locate comes first, if the cone leads into it; each
+/// other cell comes after one through which it is seen, or the eye stands in it. Returns 0 if the
+/// eye is in no cell or in solid ground, or on a wall and looks into it. `scratch` may hold
+/// anything; each thread needs its own.
+///
+/// Mirrors are walls: sl_runtime_look_mirrored adds what is seen in them.
+///
+/// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
+/// walls. A line may run along portals and cross them to its left or to its right, but not some to
+/// the left and others to the right. One-way glass is a wall for an eye on its dark side. For an
+/// eye on its line, it is dark if any of the cell of sl_runtime_locate is on its dark side. The
+/// cells that the eye stands in are seen if the cone leads into them: some of its directions enter
+/// the cell, or run along its border. All this is as in the library's exact method.
+///
+/// No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of the
+/// eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of the
+/// rows of the cells that it stands in are returned. Nothing beyond the map's own range is, as
+/// sl_runtime_look_past explains. A search that takes very long, which a sound file does not cause,
+/// returns these whole rows, or all cells if there are none.
+SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
+                                        uint32_t *scratch, uint32_t *cells, uint32_t room);
+
+/// As sl_runtime_look, with shut doors and a view range. `shut` is as for sl_runtime_can_see_past,
+/// or NULL for none. `range` is above 0, or 0 for the map's own. The smaller one of both holds.
+///
+/// Doors are exact: a line must reach a cell through portals that are on no shut door. For the
+/// range, the distance to the nearest place that the eye sees of a cell counts. No cell within the
+/// range is missed, but one beyond it may be added: distances are compared in doubles, and what
+/// rounding could do is taken off. For the portal through which the cell is seen, let d be the sum
+/// of the distances to its two ends, and s the sine of the angle at which the seen part of it is
+/// cut off (1 if nothing is cut off). Then a cell is added only if it is beyond the range by at
+/// most 2e-12 of the range and 3e-14 of d / s. The cells that the eye stands in are within any
+/// range. The library's exact method has no such margin; nor has sl_runtime_sees.
+SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
+                                             const unsigned char *shut, double range,
+                                             uint32_t *scratch, uint32_t *cells, uint32_t room);
+
+/// Point to point: whether an eye at (x0, y0) sees the point (x1, y1). `shut`, `range` and
+/// `scratch` are as for sl_runtime_look_past. A guard sees the player by this, and may see him,
+/// somewhere in his cell, by sl_runtime_can_see_past.
+///
+/// Exact, and as sli_sees of the library: open portals that the line touches, ends included, lead
+/// from a cell that the eye stands in to a cell that touches the point. So it may graze walls on
+/// either side. (A line that grazes walls on both sides leads sl_runtime_look to no cell: such a
+/// point may be seen though none of its cells is listed.) A point on a wall or on a shut door is
+/// seen from both sides, but an eye there sees one. Each of two points sees the other or none does,
+/// unless one of them is where walls or shut doors part what is around it, or one-way glass is
+/// between them. (The range is exact if no coordinate but 0 is 1e70 times smaller than another
+/// one.)
+///
+/// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
+/// cells along the line, and of clearing a byte for each cell.
+SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
+                                    double y1, const unsigned char *shut, double range,
+                                    uint32_t *scratch);
+
+/// Whether one may walk straight from one point to another: no point of the way, ends included, is
+/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
+/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
+/// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
+/// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
+/// Time: the cells that the step touches, and all doors; all walls if these are more than 32 cells,
+/// or the step touches the map's border.
+SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
+                                        double y1, const unsigned char *shut);
+
+// Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
+// missed, but cells may be added. The rows count whole cells, all directions and the map's range.
+// So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
+// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+
+/// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
+/// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
+SL_RUNTIME_API sl_runtime_run sl_runtime_mirrored_row(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether anything in cell `to` can be seen from anywhere in cell `from`, directly or by mirror.
+/// `shut` is as for sl_runtime_can_see_past, or NULL for none. True for all cells if the bake did
+/// not look into the map's mirrors.
+SL_RUNTIME_API bool sl_runtime_can_see_mirrored(const sl_runtime *runtime, uint32_t from,
+                                                uint32_t to, const unsigned char *shut);
+
+/// As sl_runtime_look_past, and after these cells those that are seen by mirror alone. The first
+/// `*direct` cells are those of sl_runtime_look_past: exact, but for the margin that it tells of if
+/// there is a range, the map's own or `range`. The others are those of the rows of the cells that
+/// the eye stands in, whatever the cone and `range` are. If the eye's cell has no row, or the bake
+/// did not look into the map's mirrors, they are all other cells but solid ground. Without mirrors
+/// it is sl_runtime_look_past.
+SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
+                                                 const sl_runtime_view *view,
+                                                 const unsigned char *shut, double range,
+                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
+                                                 uint32_t *direct);
+
+/// As sl_runtime_seen_from, directly or by mirror. All cells if the bake did not look into the
+/// map's mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,
+                                                      const uint32_t *cells, uint32_t count,
+                                                      const unsigned char *shut,
+                                                      unsigned char *bits);
+
+/// Eye-to-region: the polygon that the eye sees inside the cone, for fog of war. Returns the number
+/// of its points, and puts the first `room` of them into `points`, as pairs x, y. If there are more
+/// than `room`, ask again with that much room. Returns 0 if nothing is seen: the eye is outside the
+/// map or in solid ground, or the cone is one direction. `shut` and `scratch` are as for
+/// sl_runtime_look_past.
+///
+/// Points go counter-clockwise about the eye, so the triangles (eye, point i, point i + 1) cover
+/// what is seen. With a cone, the eye is the first point. Shut doors, mirrors and one-way glass
+/// that the eye cannot look through count as walls.
+///
+/// `range` is as for sl_runtime_look_past. It cuts the polygon by a circle about the eye. An arc
+/// becomes chords of equal length, of at most 1/128 of the circle. So they lie inside it, by at
+/// most 1/3000 of the range. Between arcs, points are where the circle meets a wall or a line of
+/// sight.
+///
+/// As sli_region_make of the library: no sign comes from a rounded number. Points are corners of
+/// the map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in
+/// a single direction only is not part of it. Where walls part what is around the eye, it is a
+/// point of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
+/// sound file does not cause. Time: the sides and portals of the cells that are seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *scratch, double *points,
+                                                   uint32_t room);
+
+// Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
+// without them, and no bake is made when they move. The header keeps, for each cell, a list of the
+// boxes in it. So a box that moves changes the lists of its own cells alone, and an eye asks only
+// the boxes in the cells that it sees.
+//
+//     sl_runtime_box list[1000];
+//     size_t size = sl_runtime_boxes_count(&runtime, 1000, 8000);
+//     uint32_t *memory = malloc(size * sizeof *memory);
+//     sl_runtime_boxes_start(&boxes, &runtime, list, 1000, 8000, memory);
+//     size_t most = sl_runtime_boxes_scratch_count(&boxes);
+//     uint32_t *boxes_scratch = malloc(most * sizeof *boxes_scratch);
+//     each frame, for each box that moved: sl_runtime_boxes_move(&boxes, i, &box);
+//     for each eye: sl_runtime_boxes_seen(&boxes, &view, shut, 0, boxes_scratch, seen);
+
+/// A box. It may have no width or height, and lie anywhere.
+typedef struct sl_runtime_box {
+    double min_x, min_y, max_x, max_y;
+    bool blocks; ///< it hides what is behind it
+} sl_runtime_box;
+
+/// Many boxes in a level. One thread may move them while no other asks; any number of threads may
+/// ask at a time.
+typedef struct sl_runtime_boxes {
+    const sl_runtime *runtime;
+    uint32_t count, room;
+    sl_runtime_box *boxes; ///< for reading; sl_runtime_boxes_move writes
+    uint32_t *memory;      ///< for the functions only
+} sl_runtime_boxes;
+
+/// The size of the memory for boxes, in uint32_t. `room`: how many pairs of a box and a cell that
+/// it lies in the memory is to hold. Four for each box do if boxes are smaller than rooms.
+SL_RUNTIME_API size_t sl_runtime_boxes_count(const sl_runtime *runtime, uint32_t count,
+                                             uint32_t room);
+
+/// Starts with `count` boxes that are nowhere yet. `list`, of `count` boxes, and `memory` may hold
+/// anything, and are used as long as `out` is.
+SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runtime *runtime,
+                                           sl_runtime_box *list, uint32_t count, uint32_t room,
+                                           uint32_t *memory);
+
+/// Puts a box at its place, or at a new one. A box outside the bounds, one whose minimum is above
+/// its maximum and one with coordinates above 2e150 are in no cell, and never seen. Returns false
+/// if there is no room for its cells. The box then counts as seen by every eye and hides nothing,
+/// until it is moved again. Time: the cells near the box.
+SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
+                                          const sl_runtime_box *to);
+
+/// The size of `boxes_scratch` for the calls below, in uint32_t. It is more than the scratch memory
+/// of the calls without boxes.
+SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
+
+/// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
+/// `shut` and `range` are as for sl_runtime_look_past.
+///
+/// If no box blocks, this is exact, with closed sight: a box is seen if a line from the eye, within
+/// the cone, comes to one of its points in a cell that sl_runtime_look_past sees by that line. A
+/// box that only touches a wall from behind is not seen through it. A flat box that lies along a
+/// wall or a shut door in part counts as if it stood before it. (The signs are of the third degree.
+/// They are exact if no coordinate but 0 is 1e70 times smaller than another one.) With a range, a
+/// seen box counts if any of its points is within range.
+///
+/// Boxes that block hide each other, as a line may touch a box but not pass its inside. That is
+/// exact too if no two boxes overlap. No box hides another one that it overlaps, which may then
+/// count as seen though it is hidden. A box is never missed. The box that holds the eye
+/// is seen. If that one blocks, the eye in it sees no box outside of it.
+///
+/// Time: that of one sl_runtime_look_past and the boxes in the cells seen; if boxes block, two of
+/// them, and for each pair of boxes that are seen past walls.
+SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
+                                              const sl_runtime_view *view,
+                                              const unsigned char *shut, double range,
+                                              uint32_t *boxes_scratch, unsigned char *seen);
+
+/// As sl_runtime_look_past, past boxes that block: it leaves out cells that are hidden. No cell in
+/// sight is missed. A hidden cell may be left in if a box lies across the line of a portal. `seen`,
+/// with a byte for each box, is set as by sl_runtime_boxes_seen.
+SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *boxes_scratch, unsigned char *seen,
+                                                   uint32_t *cells, uint32_t room);
+
+/// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
+/// portals are directed_count directed portals from first_directed on.
+typedef struct sl_runtime_cell {
+    uint32_t first_vertex, vertex_count, first_directed, directed_count;
+} sl_runtime_cell;
+
+/// A directed portal: the cell that it leads to, and its ends as crossed on the way out.
+typedef struct sl_runtime_directed_portal {
+    uint32_t portal, cell;
+    double left[2], right[2];
+} sl_runtime_directed_portal;
+
+/// For drawing, path finding and doors. The number must be less than the count of its kind.
+SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell);
+/// A directed portal; the number must be less than directed_count.
+SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
+                                                                         uint32_t directed);
+/// A vertex; the number must be less than vertex_count.
+SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t vertex, double *x,
+                                          double *y);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

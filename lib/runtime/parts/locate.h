@@ -1,0 +1,136 @@
+/// From points and boxes to cells.
+
+/// As slrt_side, for the ways from a to b and from a to (x, y).
+static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, double x, double y) {
+    const double a_x = slrt_f64(a), a_y = slrt_f64(a + 8);
+    const slrt_arm along = slrt_make_arm(a_x, a_y, slrt_f64(b), slrt_f64(b + 8));
+    const slrt_arm to = slrt_make_arm(a_x, a_y, x, y);
+    return slrt_side(&along, &to);
+}
+
+/// Whether a point is in a cell or on its border.
+static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
+    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
+    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES)
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
+    return true;
+}
+
+/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
+/// cells that only come near, so rounding changes no answer.
+static uint32_t slrt_step(double value, double low, double high, uint32_t count) {
+    const double step = (value - low) / (high - low) * count;
+    const uint32_t whole = step < count ? (uint32_t)step : count - 1;
+    return whole < count ? whole : count - 1; // whatever -ffast-math makes of the line above
+}
+
+/// The first cell that holds a point and is not solid, else the first that holds it. It is among
+/// those of the point's bucket, or among all without a grid. Cells tile the bounds, so the last one
+/// holds the point if no other does.
+static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
+    uint32_t at = 0, end = rt->cell_count, found = SL_RUNTIME_NO_CELL;
+    if (rt->grid_cells) {
+        const size_t bucket =
+            (size_t)slrt_step(y, rt->min_y, rt->max_y, rt->grid_rows) * rt->grid_columns +
+            slrt_step(x, rt->min_x, rt->max_x, rt->grid_columns);
+        at = slrt_u32(rt->grid_offsets + bucket * 4);
+        end = slrt_u32(rt->grid_offsets + bucket * 4 + 4);
+    }
+    for (; at < end; at++) {
+        const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
+        const bool solid = sl_runtime_is_solid(rt, cell), none = found == SL_RUNTIME_NO_CELL;
+        if (!none && solid) continue;
+        if (!(none && at + 1 == end && !rt->loose) && !slrt_holds(rt, cell, x, y)) continue;
+        found = cell;
+        if (!solid) break;
+    }
+    return found;
+}
+
+/// The cell of the tree that a point is in, or that is right of it and over it.
+static uint32_t slrt_descend(const sl_runtime *rt, double x, double y) {
+    int32_t at = rt->root;
+    while (at >= 0) {
+        const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
+        at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
+    }
+    return (uint32_t)~at;
+}
+
+/// The next smaller number: it is below the same split lines, and below one through the number.
+static double slrt_before(double number) {
+    int64_t bits;
+    if (number == 0) return -4.9406564584124654e-324;
+    memcpy(&bits, &number, sizeof bits);
+    bits += number > 0 ? -1 : 1;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
+    uint32_t first = SL_RUNTIME_NO_CELL;
+    int side;
+    if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
+        return SL_RUNTIME_NO_CELL;
+    if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
+    for (side = 0; side < 4; side++) {
+        const uint32_t cell =
+            slrt_descend(runtime, side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
+        if (!sl_runtime_is_solid(runtime, cell)) return cell;
+        if (!side) first = cell;
+    }
+    return first;
+}
+
+// --- from box to cells
+
+/// Whether a cell lies on one side of a box.
+static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell,
+                               const double box[4]) {
+    bool left = true, right = true, under = true, over = true;
+    uint32_t i;
+    for (i = 0; i < cell->vertex_count; i++) {
+        double x, y;
+        sl_runtime_get_vertex(rt, cell->first_vertex + i, &x, &y);
+        left = left && x < box[0];
+        under = under && y < box[1];
+        right = right && x > box[2];
+        over = over && y > box[3];
+    }
+    return left || right || under || over;
+}
+
+/// A cell and a box are convex: if they are apart, a side of one of them separates them.
+static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double box[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
+    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
+    if (slrt_is_beside_box(rt, &cell, box)) return false;
+    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
+        bool outside = true;
+        int k;
+        for (k = 0; k < 4 && outside; k++)
+            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
+        if (outside) return false;
+    }
+    return true;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
+                                             double max_x, double max_y, uint32_t *cells,
+                                             uint32_t room) {
+    double box[4];
+    uint32_t cell, count = 0;
+    if (!(min_x <= max_x && min_y <= max_y)) return 0;
+    box[0] = min_x, box[1] = min_y, box[2] = max_x, box[3] = max_y;
+    for (cell = 0; cell < runtime->cell_count; cell++) {
+        if (!slrt_meets_box(runtime, cell, box)) continue;
+        if (count < room) cells[count] = cell;
+        count++;
+    }
+    return count;
+}

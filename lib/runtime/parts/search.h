@@ -1,0 +1,316 @@
+/// Eye-to-cell: the search through portals.
+
+/// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
+/// path was seen through a wider sector, and a cell that was entered with a wider one needs no
+/// second visit.
+static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    uint32_t *top = s->path + 4 * (size_t)s->depth;
+    unsigned char *marks = s->marks + cell;
+    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
+    if (*marks & SLRT_ON_PATH) return;
+    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
+    slrt_see(s, cell);
+    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
+    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
+                             sector->along);
+    s->sectors[2 * (size_t)cell] = sector->right;
+    s->sectors[2 * (size_t)cell + 1] = sector->left;
+    top[0] = cell;
+    top[1] = 0;
+    top[2] = sector->right;
+    top[3] = sector->left;
+    s->depth++;
+}
+
+static void slrt_see_row(slrt_search *s) {
+    uint32_t i;
+    s->gave_up = true;
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
+}
+
+/// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
+/// start of a search: none leads there.
+static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
+    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    slrt_sector sector;
+    if (s->marks[to] & SLRT_OWN) return;
+    sector.right = top[2];
+    sector.left = top[3];
+    sector.along = s->marks[top[0]] & SLRT_ALONG;
+    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
+    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
+    if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
+    slrt_enter(s, to, &sector);
+}
+
+/// Whether a sector leads into a cell of the eye's: some of its directions enter the cell, or run
+/// along its border. Either the first direction of the sector does, or the sector has the first one
+/// of the cell, which is along a side at the eye.
+static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    const unsigned char *a = s->rt->vertices + (size_t)c.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *b = a + (size_t)(c.vertex_count - 1) * SLRT_VERTEX_BYTES;
+    slrt_arm u, v, p, side;
+    bool enters = true;
+    uint32_t i;
+    if (sector->right == SLRT_ALL_ROUND) return true;
+    u = slrt_border(s, sector->right);
+    v = slrt_border(s, sector->left);
+    for (i = 0; i < c.vertex_count; i++, b = a, a += SLRT_VERTEX_BYTES) {
+        if (slrt_side_of_line(b, a, s->x, s->y)) continue;
+        p = slrt_make_arm(s->x, s->y, slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_within(&p, &u, &v, slrt_side(&u, &p), slrt_side(&p, &v))) return true;
+        side = slrt_make_arm(slrt_f64(b), slrt_f64(b + 8), slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_side(&side, &u) < 0) enters = false;
+    }
+    return enters;
+}
+
+static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    slrt_sector sector;
+    sector.right = right;
+    sector.left = left;
+    sector.along = 0;
+    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
+    while (s->depth) {
+        uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
+        if (top[1] == c.directed_count) {
+            s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
+            s->depth--;
+        } else if (!s->patience) {
+            slrt_see_row(s);
+            s->depth = 0;
+        } else {
+            s->patience--;
+            slrt_search_on(s, top, c.first_directed + top[1]++);
+        }
+    }
+}
+
+static bool slrt_is_direction(const double *d) {
+    const double larger = slrt_larger(d[0], d[1]);
+    return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
+}
+
+/// Replaces a number that is too small for a map by 0, as its products would underflow.
+static double slrt_no_dust(double number) {
+    return number > -1e-200 && number < 1e-200 ? 0 : number;
+}
+
+static slrt_arm slrt_direction(double x, double y) {
+    return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
+}
+
+SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
+    return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
+}
+
+/// Whether the eye is on a directed portal, ends included.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
+}
+
+/// Adds the row of a cell to the cells that the search may enter.
+static void slrt_allow_row(slrt_search *s, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(s->rt, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
+}
+
+/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
+static bool slrt_overlap(double a, double b, double c, double d) {
+    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
+}
+
+/// Whether the way from the eye to a point meets a directed portal, ends included.
+static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
+    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
+    if (right * left > 0) return false;
+    if (!right && !left)
+        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
+               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
+    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+}
+
+/// Lists and marks the eye's cell and those that it leads to through all open portals that a way
+/// meets, until a cell touches the end of the way: then true. NULL for the way that is the eye
+/// alone: the cells are the eye's, and their rows count. Until the search starts, the path is the
+/// list.
+static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, i;
+    s->path[0] = s->eye_cell;
+    s->own_count = 1;
+    s->marks[s->eye_cell] |= SLRT_OWN;
+    for (at = 0; at < s->own_count; at++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
+        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            if (s->marks[to] & SLRT_OWN ||
+                !(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
+                slrt_is_blocked(s, i))
+                continue;
+            s->marks[to] |= SLRT_OWN;
+            s->path[s->own_count++] = to;
+            if (s->has_row) slrt_allow_row(s, to);
+        }
+    }
+    return false;
+}
+
+/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
+/// through a directed portal is one sector. All round from within a cell, each directed portal is
+/// such a piece.
+static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+    const double *right = s->view->right, *left = s->view->left;
+    uint32_t i, pieces = 3, last = 3;
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
+        if (s->own_count == 1) {
+            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+            return;
+        }
+        s->cone[0] = slrt_direction(1, 0);
+        s->cone[1] = slrt_direction(-1, 1);
+        s->cone[2] = slrt_direction(-1, -1);
+        last = 0;
+    } else {
+        s->cone[0] = slrt_direction(right[0], right[1]);
+        s->cone[1] = slrt_direction(-right[1], right[0]);
+        s->cone[2] = slrt_direction(-right[0], -right[1]);
+        s->cone[3] = slrt_direction(left[0], left[1]);
+        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
+            pieces = 1;
+    }
+    for (i = 0; i < pieces; i++)
+        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+}
+
+/// The smaller one of a caller's range and the map's own; 0 for no limit.
+static double slrt_range(const sl_runtime *rt, double range) {
+    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
+                                        uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
+}
+
+/// Prepares a search. False if the eye sees nothing.
+static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
+                              const unsigned char *shut, double range, uint32_t *scratch) {
+    const size_t count = rt->cell_count;
+    memset(s, 0, sizeof *s);
+    s->rt = rt;
+    s->view = view;
+    s->shut = shut;
+    s->range = slrt_range(rt, range);
+    s->x = slrt_no_dust(view->x);
+    s->y = slrt_no_dust(view->y);
+    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
+    s->path = scratch;
+    s->sectors = scratch + 4 * count;
+    s->marks = (unsigned char *)(scratch + 6 * count);
+    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
+}
+
+static void slrt_run_search(slrt_search *s) {
+    sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
+    uint32_t i;
+    s->count = 0;
+    s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
+    memset(s->marks, 0, s->rt->cell_count);
+    s->has_row = run.next != run.stop;
+    while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
+    slrt_follow(s, NULL);
+    slrt_search_cone(s, s->eye_cell);
+    for (i = 0; i < s->rt->cell_count && s->own_count > 1; i++)
+        if (s->marks[i] & SLRT_OWN && i != s->eye_cell) slrt_search_cone(s, i);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
+                                             const unsigned char *shut, double range,
+                                             uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    slrt_search s;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    return s.count;
+}
+
+/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
+/// that no product overflows, and the range is more than any distance where it is left out.
+static bool slrt_is_within(const slrt_search *s, double x, double y) {
+    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
+    const double scale = slrt_scale_of(largest), range = scale * s->range;
+    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
+    double parts[14];
+    int count = 0, i;
+    if (!(s->range > 0) || range > 8) return true;
+    for (i = 0; i < 2; i++) {
+        count = slrt_add_product(parts, count, to[i], to[i]);
+        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
+        count = slrt_add_product(parts, count, from[i], from[i]);
+    }
+    count = slrt_add_product(parts, count, -range, range);
+    return !count || parts[count - 1] <= 0;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
+                                    double y1, const unsigned char *shut, double range,
+                                    uint32_t *scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    const double x = slrt_no_dust(x1), y = slrt_no_dust(y1);
+    slrt_search s;
+    slrt_arm way;
+    if (!slrt_start_search(&s, runtime, &view, shut, range, scratch) ||
+        sl_runtime_locate(runtime, x, y) == SL_RUNTIME_NO_CELL || !slrt_is_within(&s, x, y))
+        return false;
+    way = slrt_make_arm(s.x, s.y, x, y);
+    memset(s.marks, 0, runtime->cell_count);
+    return slrt_follow(&s, &way);
+}
+
+/// Adds to a search that has run what is seen by mirror from somewhere in a cell.
+static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(rows, cell);
+    slrt_door_pairs pairs = slrt_door_pairs_of(rows, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++)
+            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
+}
+
+/// Adds to a search that has run what the eye may see by mirror.
+static void slrt_see_mirrored(slrt_search *s) {
+    const sl_runtime rows = slrt_mirrored(s->rt);
+    const bool known = s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row;
+    uint32_t i;
+    if (known) slrt_see_mirrored_from(s, &rows, s->eye_cell);
+    for (i = 0; i < s->rt->cell_count && !(known && s->own_count == 1); i++) {
+        if (known && s->marks[i] & SLRT_OWN) slrt_see_mirrored_from(s, &rows, i);
+        if (!known && !sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
+    }
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
+                                                 const sl_runtime_view *view,
+                                                 const unsigned char *shut, double range,
+                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
+                                                 uint32_t *direct) {
+    slrt_search s;
+    *direct = 0;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    *direct = s.count;
+    if (runtime->mirrors) slrt_see_mirrored(&s);
+    return s.count;
+}
