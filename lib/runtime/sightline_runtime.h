@@ -44,7 +44,8 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
+    SL_RUNTIME_TEXT,       ///< a door, a start or another thing of the map is damaged
+    SL_RUNTIME_OLD         ///< of a version before 2.0, with SL_RUNTIME_WITHOUT_OLD_FILES
 } sl_runtime_status;
 
 /// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
@@ -54,6 +55,15 @@ typedef enum sl_runtime_mirrors {
     SL_RUNTIME_MIRRORS_BAKED,    ///< rows of the cells that are seen by mirror
     SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
 } sl_runtime_mirrors;
+
+/// How the places of a map stand in other coordinates: a file's, or a screen's. The point (x, y) of
+/// the map is scale * (x - origin_x), scale * (y - origin_y) there, or scale * (origin_y - y) if y
+/// points down there.
+typedef struct sl_runtime_transform {
+    double origin_x, origin_y; ///< the place in the map that is 0, 0 there
+    double scale;              ///< units there in a unit of the map; more than 0
+    bool y_down;
+} sl_runtime_transform;
 
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
@@ -88,8 +98,11 @@ typedef struct sl_runtime {
     uint32_t seam_count, seam_portal_count;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
-    const unsigned char *text; ///< what the map holds beside walls, as map text
+    uint32_t start_count, object_count, path_count, mirror_count;
+    const unsigned char *names, *doors, *starts, *objects, *paths, *path_points, *mirror_lines;
+    const unsigned char *text; ///< of a file before 2.0: doors and starts as text; else NULL
     size_t text_bytes;
+    sl_runtime_transform transform; ///< as sl_runtime_map_transform; scale 0: the file has none
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -134,8 +147,11 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
-// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
-// starts read the map text in the file: call them once after opening.
+// Doors are numbered from 0 to door_count - 1, in the order of the map; so are starts, objects,
+// paths and mirrors. In a file before 2.0, doors and starts are read from its map text: each call
+// takes the time of that text, and there are no objects, paths and segments of mirrors. A program
+// that needs no such files defines SL_RUNTIME_WITHOUT_OLD_FILES where it implements this header.
+// It is smaller, and such files do not open (SL_RUNTIME_OLD).
 
 /// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
 typedef struct sl_runtime_name {
@@ -175,6 +191,47 @@ SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 /// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out);
+
+/// Reads an object, one of `object_count`: its name and its box, from the minimum x0, y0 to the
+/// maximum x1, y1. False if it does not exist; the results are then unchanged, here and below.
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box);
+
+/// Reads a path, one of `path_count`: its name and the number of its points.
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count);
+
+/// Reads the points of a path into `points`, which has room for 2 * point_count numbers.
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points);
+
+/// Reads a mirror, one of `mirror_count`. It reflects on both sides, or on its left only, going
+/// from its first end to its second. Mirrors are walls too.
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided);
+
+/// How the map's places stand in the file that was baked: pixels of a Tiled map with y down, say.
+/// False if the baked file does not have it, as those before 2.0; `out` is then that of the map's
+/// own places. A game may make any other: origin_x, origin_y is the place in the map that is 0, 0
+/// on its screen.
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out);
+
+/// Turns `count` points x, y, x, y ... of other coordinates into places of the map, to ask with.
+/// Exact if the numbers are: for whole numbers, with a scale that is a power of 2. Other numbers
+/// are rounded: what is asked is then asked of the rounded place.
+///
+/// With y down, the picture is the same and only the names of places change. So what is left of an
+/// eye stays left, a polygon still goes counter-clockwise as it is seen (its area by the formula
+/// for y up is then negative), the minimum of y becomes the maximum, the y of a direction changes
+/// its sign, and so does a heading: it goes clockwise. Lengths, as a range, are divided by the
+/// scale.
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count);
+
+/// The other way round: places of the map, such as a visible polygon, for drawing. As exact as
+/// sl_runtime_to_map.
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count);
 
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
@@ -575,7 +632,12 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
-    SLRT_DIRECTED_BYTES = 40
+    SLRT_DIRECTED_BYTES = 40,
+    SLRT_DOOR_BYTES = 12,
+    SLRT_START_BYTES = 24,
+    SLRT_OBJECT_BYTES = 40,
+    SLRT_PATH_BYTES = 16,
+    SLRT_MIRROR_BYTES = 40
 };
 
 enum slrt_tag {
@@ -604,6 +666,14 @@ enum slrt_tag {
     SLRT_MDOO,
     SLRT_MDOB,
     SLRT_WALL,
+    SLRT_MAPI, ///< of files since 2.0, as those up to MIRR: what the map holds, in items
+    SLRT_MAPN,
+    SLRT_DOOR,
+    SLRT_STRT,
+    SLRT_OBJE,
+    SLRT_PATH,
+    SLRT_PAPO,
+    SLRT_MIRR,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -681,6 +751,14 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"MDOO", 8},
                           {"MDOB", 1},
                           {"WALL", 32},
+                          {"MAPI", 40},
+                          {"MAPN", 1},
+                          {"DOOR", SLRT_DOOR_BYTES},
+                          {"STRT", SLRT_START_BYTES},
+                          {"OBJE", SLRT_OBJECT_BYTES},
+                          {"PATH", SLRT_PATH_BYTES},
+                          {"PAPO", SLRT_VERTEX_BYTES},
+                          {"MIRR", SLRT_MIRROR_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -1011,7 +1089,8 @@ static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
     return true;
 }
 
-/// The portals on seams, by portal, so that they can be searched.
+/// The portals on seams, by portal, so that they can be searched. There are as many doors as seams
+/// name, or more.
 static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     const uint64_t count = found[SLRT_SEPO].items ? found[SLRT_SEPO].count : 0;
     uint64_t i;
@@ -1022,8 +1101,15 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    for (i = 0; i < rt->seam_count; i++)
-        if (!slrt_usable(rt->seams + i * 40, 4)) return false;
+    rt->door_count = 0;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + i * 40;
+        const uint32_t number = slrt_u32(seam + 36);
+        if (!slrt_usable(seam, 4)) return false;
+        if (slrt_u32(seam + 32) != 1) continue;
+        if (number >= INT32_MAX) return false;
+        if (number >= rt->door_count) rt->door_count = number + 1;
+    }
     rt->seam_portal_count = (uint32_t)count;
     for (i = 0; i < count; i++) {
         const unsigned char *on = rt->seam_portals + i * 12;
@@ -1062,18 +1148,10 @@ static bool slrt_door_rows_are_sound(const sl_runtime *rt, const slrt_section *o
     return true;
 }
 
+/// The doors are known.
 static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
-    uint64_t i;
-    rt->door_count = 0;
     rt->door_offsets = found[SLRT_DORO].items;
     rt->door_bytes = found[SLRT_DORB].items;
-    for (i = 0; found[SLRT_SEAM].items && i < found[SLRT_SEAM].count; i++) {
-        const unsigned char *seam = found[SLRT_SEAM].items + i * 40;
-        const uint32_t number = slrt_u32(seam + 36);
-        if (slrt_u32(seam + 32) != 1) continue;
-        if (number >= INT32_MAX) return false;
-        if (number >= rt->door_count) rt->door_count = number + 1;
-    }
     return slrt_door_rows_are_sound(rt, &found[SLRT_DORO], &found[SLRT_DORB]);
 }
 
@@ -1090,7 +1168,6 @@ static sl_runtime slrt_mirrored(const sl_runtime *rt) {
 /// Rows of what is seen by mirror, if the file has any.
 static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
     sl_runtime rows;
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
     rt->mirror_offsets = found[SLRT_MIRO].items;
     rt->mirror_bytes = found[SLRT_MIRB].items;
     rt->mirror_door_offsets = found[SLRT_MDOO].items;
@@ -1104,7 +1181,10 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
 }
 
-// --- The map text: statements in lines, words between blanks, comments after '#'
+/// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
+/// words between blanks, comments after '#'. SL_RUNTIME_WITHOUT_OLD_FILES leaves this part out.
+
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
 
 /// A place in the map text: the rest of a line, or of the text.
 typedef struct slrt_text {
@@ -1138,18 +1218,16 @@ static bool slrt_word_is(const slrt_text *word, const char *text) {
     return at == word->end && !*text;
 }
 
-/// The `number`-th statement with this first word; what follows the word is put into `line`. Counts
-/// down `number`, so UINT32_MAX counts the statements.
-static bool slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t *number,
-                                slrt_text *line) {
-    slrt_text text;
-    text.at = rt->text;
+/// What follows the first word of the `number`-th statement with this word, which exists.
+static slrt_text slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t number) {
+    slrt_text text, line;
+    text.at = line.at = line.end = rt->text;
     text.end = rt->text + rt->text_bytes;
-    while (slrt_take_line(&text, line)) {
-        const slrt_text word = slrt_take_word(line);
-        if (slrt_word_is(&word, first) && !(*number)--) return true;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text word = slrt_take_word(&line);
+        if (slrt_word_is(&word, first) && !number--) break;
     }
-    return false;
+    return line;
 }
 
 /// A decimal: digits, of which the last `fraction` are behind the point, and a power of ten.
@@ -1299,34 +1377,144 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
            slrt_take_number(&line, false, &out->heading);
 }
 
-// --- Opening a file
-
 /// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
-static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
+static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
+    const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    uint32_t doors = 0;
     rt->range = 0;
-    rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
-    rt->text_bytes = (size_t)found[SLRT_MAPT].count;
+    rt->door_count = 0;
+    rt->text = section->items ? section->items : (const unsigned char *)"";
+    rt->text_bytes = (size_t)section->count;
     text.at = rt->text;
     text.end = rt->text + rt->text_bytes;
     while (slrt_take_line(&text, &line)) {
         const slrt_text first = slrt_take_word(&line);
         sl_runtime_viewpoint start;
-        if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
         if (slrt_word_is(&first, "range") &&
             (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
             return false;
+        if (slrt_word_is(&first, "start")) {
+            if (!slrt_read_start(line, &start)) return false;
+            rt->start_count++;
+        }
         if (slrt_word_is(&first, "door")) {
             const slrt_text name = slrt_take_word(&line);
             if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
-            doors++;
+            if (rt->door_count++ == INT32_MAX) return false;
         }
-        if (slrt_word_is(&first, "mirror") && !rt->mirrors)
-            rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+        if (slrt_word_is(&first, "mirror")) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
     }
-    return doors >= rt->door_count;
+    return rt->door_count >= seam_doors;
 }
+
+/// A door of the text: its name, and whether it is open.
+static sl_runtime_name slrt_text_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    sl_runtime_name name;
+    slrt_text line = slrt_find_statement(rt, "door", door), word = slrt_take_word(&line);
+    int i;
+    name.text = (const char *)word.at;
+    name.length = (uint32_t)(word.end - word.at);
+    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // four coordinates, and the state
+    *open = !slrt_word_is(&word, "shut");
+    return name;
+}
+
+static bool slrt_text_start(const sl_runtime *rt, uint32_t start, sl_runtime_viewpoint *out) {
+    return slrt_read_start(slrt_find_statement(rt, "start", start), out);
+}
+
+#endif
+
+/// What is checked of the map's things when a file is opened: doors, starts, objects, paths,
+/// mirrors.
+
+static bool slrt_is_finite(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits >> 52 & 0x7ff) != 0x7ff;
+}
+
+/// The items of a section: at most INT32_MAX, each of them, if it is `named`, begins with a name
+/// that is not empty, in the section of names; then come `numbers` coordinates.
+static bool slrt_items_are_sound(const slrt_section *found, int tag, uint32_t item_bytes,
+                                 bool named, int numbers) {
+    const unsigned char *item = found[tag].items;
+    const uint64_t count = found[tag].count, names = found[SLRT_MAPN].count;
+    uint64_t i;
+    for (i = 0; i < count; i++, item += item_bytes) {
+        if (named && (!slrt_u32(item + 4) || slrt_u32(item) > names ||
+                      slrt_u32(item + 4) > names - slrt_u32(item)))
+            return false;
+        if (!slrt_usable(item + (named ? 8 : 0), numbers)) return false;
+    }
+    return count <= INT32_MAX;
+}
+
+static bool slrt_take_map_info(sl_runtime *rt, const slrt_section *section) {
+    const unsigned char *info = section->items;
+    double scale;
+    if (section->count != 1 || !slrt_usable(info + 8, 3) || slrt_u64(info + 32) > 1) return false;
+    rt->range = slrt_f64(info);
+    rt->transform.origin_x = slrt_f64(info + 8);
+    rt->transform.origin_y = slrt_f64(info + 16);
+    rt->transform.scale = scale = slrt_f64(info + 24);
+    rt->transform.y_down = slrt_u64(info + 32) != 0;
+    return slrt_is_finite(rt->range) && rt->range >= 0 && (scale == 0 || scale >= 1e-150);
+}
+
+/// The map's things in a file that has them in sections.
+static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    if (!slrt_take_map_info(rt, &found[SLRT_MAPI]) || found[SLRT_DOOR].count < rt->door_count ||
+        !slrt_items_are_sound(found, SLRT_DOOR, SLRT_DOOR_BYTES, true, 0) ||
+        !slrt_items_are_sound(found, SLRT_STRT, SLRT_START_BYTES, false, 2) ||
+        !slrt_items_are_sound(found, SLRT_OBJE, SLRT_OBJECT_BYTES, true, 4) ||
+        !slrt_items_are_sound(found, SLRT_PATH, SLRT_PATH_BYTES, true, 0) ||
+        !slrt_items_are_sound(found, SLRT_PAPO, SLRT_VERTEX_BYTES, false, 2) ||
+        !slrt_items_are_sound(found, SLRT_MIRR, SLRT_MIRROR_BYTES, false, 4))
+        return false;
+    rt->names = found[SLRT_MAPN].items;
+    rt->doors = found[SLRT_DOOR].items;
+    rt->door_count = (uint32_t)found[SLRT_DOOR].count;
+    rt->starts = found[SLRT_STRT].items;
+    rt->start_count = (uint32_t)found[SLRT_STRT].count;
+    rt->objects = found[SLRT_OBJE].items;
+    rt->object_count = (uint32_t)found[SLRT_OBJE].count;
+    rt->paths = found[SLRT_PATH].items;
+    rt->path_count = (uint32_t)found[SLRT_PATH].count;
+    rt->path_points = found[SLRT_PAPO].items;
+    rt->mirror_lines = found[SLRT_MIRR].items;
+    rt->mirror_count = (uint32_t)found[SLRT_MIRR].count;
+    if (rt->mirror_count) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+    for (i = 0; i < rt->start_count; i++)
+        if (!slrt_is_finite(slrt_f64(rt->starts + (size_t)i * SLRT_START_BYTES + 16))) return false;
+    for (i = 0; i < rt->path_count; i++) {
+        const unsigned char *path = rt->paths + (size_t)i * SLRT_PATH_BYTES;
+        if ((uint64_t)slrt_u32(path + 8) + slrt_u32(path + 12) > found[SLRT_PAPO].count)
+            return false;
+    }
+    return true;
+}
+
+/// What the map holds beside walls. Files before 2.0 have it as text alone.
+static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
+    const bool old = !found[SLRT_MAPI].items;
+    memset(&rt->transform, 0, sizeof rt->transform);
+    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
+    rt->text = NULL;
+    rt->text_bytes = 0;
+#ifdef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (old) return SL_RUNTIME_OLD;
+#else
+    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
+    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
+    rt->mirror_lines = NULL;
+    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+#endif
+    return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+}
+
+// --- Opening a file
 
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
@@ -1341,8 +1529,9 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    status = slrt_take_map(&rt, found);
+    if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
-    if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -1373,7 +1562,9 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
     case SL_RUNTIME_TEXT:
-        return "damaged: a door, a start or the range of the map text";
+        return "damaged: a door, a start or another thing of the map";
+    case SL_RUNTIME_OLD:
+        return "of a version before 2.0, which this program leaves out: bake the map again";
     }
     return "unknown status";
 }
@@ -1422,44 +1613,58 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
     *y = slrt_f64(at + 8);
 }
 
-// --- Doors and starts
+// --- The map's things: doors, starts, objects, paths and mirrors
 
-SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+/// The name that a door, an object or a path begins with.
+static sl_runtime_name slrt_name(const sl_runtime *rt, const unsigned char *item) {
     sl_runtime_name name;
-    slrt_text line;
-    name.text = "";
-    name.length = 0;
-    if (door < runtime->door_count && slrt_find_statement(runtime, "door", &door, &line)) {
-        const slrt_text word = slrt_take_word(&line);
-        name.text = (const char *)word.at;
-        name.length = (uint32_t)(word.end - word.at);
-    }
+    name.text = (const char *)rt->names + slrt_u32(item);
+    name.length = slrt_u32(item + 4);
     return name;
 }
 
+static sl_runtime_segment slrt_segment(const unsigned char *at) {
+    sl_runtime_segment segment;
+    segment.x0 = slrt_f64(at);
+    segment.y0 = slrt_f64(at + 8);
+    segment.x1 = slrt_f64(at + 16);
+    segment.y1 = slrt_f64(at + 24);
+    return segment;
+}
+
+static sl_runtime_name slrt_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    const unsigned char *item;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (rt->text) return slrt_text_door(rt, door, open);
+#endif
+    item = rt->doors + (size_t)door * SLRT_DOOR_BYTES;
+    *open = slrt_u32(item + 8) != 0;
+    return slrt_name(rt, item);
+}
+
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+    sl_runtime_name none;
+    bool open;
+    none.text = "";
+    none.length = 0;
+    return door < runtime->door_count ? slrt_door(runtime, door, &open) : none;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
-    slrt_text text, line;
-    uint32_t door = 0;
-    text.at = runtime->text;
-    text.end = runtime->text + runtime->text_bytes;
-    while (door < runtime->door_count && slrt_take_line(&text, &line)) {
-        slrt_text word = slrt_take_word(&line);
-        if (!slrt_word_is(&word, "door")) continue;
-        word = slrt_take_word(&line);
-        if (slrt_word_is(&word, name)) return door;
-        door++;
+    size_t length = 0;
+    uint32_t door;
+    while (name[length]) length++;
+    for (door = 0; door < runtime->door_count; door++) {
+        const sl_runtime_name own = sl_runtime_door_name(runtime, door);
+        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
     }
     return SL_RUNTIME_NO_DOOR;
 }
 
 SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door) {
-    slrt_text line, word;
-    int i;
-    if (door >= runtime->door_count || !slrt_find_statement(runtime, "door", &door, &line))
-        return false;
-    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // its name and four coordinates
-    word = slrt_take_word(&line);
-    return !slrt_word_is(&word, "shut");
+    bool open = false;
+    if (door < runtime->door_count) slrt_door(runtime, door, &open);
+    return open;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
@@ -1468,32 +1673,94 @@ SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint
     for (i = 0; i < runtime->seam_count; i++) {
         const unsigned char *seam = runtime->seams + (size_t)i * 40;
         if (slrt_u32(seam + 32) != 1 || slrt_u32(seam + 36) != door) continue;
-        if (count < room) {
-            segments[count].x0 = slrt_f64(seam);
-            segments[count].y0 = slrt_f64(seam + 8);
-            segments[count].x1 = slrt_f64(seam + 16);
-            segments[count].y1 = slrt_f64(seam + 24);
-        }
+        if (count < room) segments[count] = slrt_segment(seam);
         count++;
     }
     return count;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
-    uint32_t left = UINT32_MAX;
-    slrt_text line;
-    slrt_find_statement(runtime, "start", &left, &line);
-    return UINT32_MAX - left;
+    return runtime->start_count;
 }
 
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out) {
-    sl_runtime_viewpoint found;
-    slrt_text line;
-    if (!slrt_find_statement(runtime, "start", &start, &line) || !slrt_read_start(line, &found))
-        return false;
-    *out = found;
+    const unsigned char *item;
+    if (start >= runtime->start_count) return false;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (runtime->text) return slrt_text_start(runtime, start, out);
+#endif
+    item = runtime->starts + (size_t)start * SLRT_START_BYTES;
+    out->x = slrt_f64(item);
+    out->y = slrt_f64(item + 8);
+    out->heading = slrt_f64(item + 16);
     return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box) {
+    const unsigned char *item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
+    if (object >= runtime->object_count) return false;
+    *name = slrt_name(runtime, item);
+    *box = slrt_segment(item + 8);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    if (path >= runtime->path_count) return false;
+    *name = slrt_name(runtime, item);
+    *point_count = slrt_u32(item + 12);
+    return true;
+}
+
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    const unsigned char *at = runtime->path_points;
+    uint32_t i;
+    if (path >= runtime->path_count) return;
+    at += (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
+    for (i = 0; i < 2 * slrt_u32(item + 12); i++) points[i] = slrt_f64(at + (size_t)i * 8);
+}
+
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided) {
+    const unsigned char *item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
+    if (mirror >= runtime->mirror_count) return false;
+    *segment = slrt_segment(item);
+    *one_sided = slrt_u64(item + 32) != 0;
+    return true;
+}
+
+// --- Points of a map in other coordinates, such as those of a screen with y down
+
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out) {
+    *out = runtime->transform;
+    if (out->scale > 0) return true;
+    out->scale = 1;
+    return false;
+}
+
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count) {
+    uint32_t i;
+    for (i = 0; i < count; i++, points += 2) {
+        const double y = points[1] / transform->scale;
+        points[0] = transform->origin_x + points[0] / transform->scale;
+        points[1] = transform->y_down ? transform->origin_y - y : transform->origin_y + y;
+    }
+}
+
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count) {
+    uint32_t i;
+    for (i = 0; i < count; i++, points += 2) {
+        points[0] = transform->scale * (points[0] - transform->origin_x);
+        points[1] = transform->scale * (transform->y_down ? transform->origin_y - points[1]
+                                                          : points[1] - transform->origin_y);
+    }
 }
 
 // --- Rows: which cells see which, with doors as they stand, by mirror, and from view cells
