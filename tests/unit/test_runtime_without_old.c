@@ -33,8 +33,8 @@ static void a_file_written_anew_opens(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     baked_file f = {.name = "effects"};
-    assert_ok(context,
-              sl_baked_read(context, SIGHTLINE_SOURCE_DIR "/tests/old_files/effects.slv", &f.baked));
+    assert_ok(context, sl_baked_read(context, SIGHTLINE_SOURCE_DIR "/tests/old_files/effects.slv",
+                                     &f.baked));
     f.bytes = baked_bytes(context, &f.baked, &f.size);
     baked_file_open(&f);
     const sl_map *map = &f.baked.map;
