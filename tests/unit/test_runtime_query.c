@@ -261,7 +261,8 @@ static void looks_are_the_same(const baked_file *f) {
             if (i % 50 == 0) set_doors(&t);
             if (i % 10 == 0)
                 seen_from_is_the_union(&t, point_within(&t.random, &f->baked.space.bounds));
-            const sl_point eye = special_point(&t);
+            const sl_point eye =
+                i % 4 ? special_point(&t) : point_within(&t.random, &f->baked.space.bounds);
             for (int k = 0; k < 3; k++) {
                 const sl_point other = other_point(&t, eye);
                 compare_points(&t, eye, other);
@@ -392,8 +393,9 @@ static void glass_is_dark_from_one_side(void **state) {
     sl_context_destroy(context);
 }
 
-/// A hall of many cells, more than a step is followed through, and a wall in it near its end.
-static void a_long_step_meets_a_wall_far_away(void **state) {
+/// A hall of many cells, more than are listed of a line that touches ends of walls, and a wall in
+/// it near its end.
+static void a_long_line_meets_a_wall_far_away(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     char text[1000] = "walls 0 0 100 0 100 10 0 10 0 0\nwall 97 4 97 6\n";
@@ -406,6 +408,17 @@ static void a_long_step_meets_a_wall_far_away(void **state) {
     assert_false(sl_runtime_can_walk(&f.runtime, 1, 5, 99, 5, NULL));
     assert_false(sl_runtime_can_walk(&f.runtime, 99, 5, 1, 5, NULL));
     assert_true(sl_runtime_can_walk(&f.runtime, 1, 8, 99, 8, NULL));
+    uint32_t *scratch = malloc(sl_runtime_scratch_count(&f.runtime) * sizeof *scratch);
+    assert_non_null(scratch);
+    for (int touching = 0; touching < 2; touching++) {
+        const double y = touching ? 1 : 5; // of 1, the ends of all walls
+        memset(scratch, 0xff, sl_runtime_scratch_count(&f.runtime) * sizeof *scratch);
+        assert_int_equal(sl_runtime_sees(&f.runtime, 1, y, 99, y, NULL, 0, scratch), touching);
+        assert_int_equal(sl_runtime_sees(&f.runtime, 99, y, 1, y, NULL, 0, scratch), touching);
+        assert_true(sl_runtime_sees(&f.runtime, 1, y, 97, y, NULL, 0, scratch));
+        assert_false(sl_runtime_can_walk(&f.runtime, 1, y, 99, y, NULL));
+    }
+    free(scratch);
     baked_file_destroy(context, &f);
     sl_context_destroy(context);
 }
@@ -431,7 +444,7 @@ static void the_range_of_the_level_counts(void **state) {
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glass_is_dark_from_one_side),
-        cmocka_unit_test(a_long_step_meets_a_wall_far_away),
+        cmocka_unit_test(a_long_line_meets_a_wall_far_away),
         cmocka_unit_test(the_range_of_the_level_counts),
         cmocka_unit_test(past_doors_and_glass),
         cmocka_unit_test(past_oblique_doors_and_glass),

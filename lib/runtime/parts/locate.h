@@ -8,15 +8,22 @@ static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, dou
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is in a cell or on its border.
-static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+/// Where a point is: 1 in a cell, 0 on its border, -1 outside.
+static int slrt_place_in(const sl_runtime *rt, uint32_t number, double x, double y) {
     const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
     const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
     const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
-    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES)
-        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
-    return true;
+    int place = 1;
+    for (; corner < stop && place >= 0; before = corner, corner += SLRT_VERTEX_BYTES) {
+        const int side = slrt_side_of_line(before, corner, x, y);
+        if (side < place) place = side;
+    }
+    return place;
+}
+
+static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+    return slrt_place_in(rt, number, x, y) >= 0;
 }
 
 /// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
@@ -70,11 +77,14 @@ static double slrt_before(double number) {
     return number;
 }
 
+static bool slrt_in_bounds(const sl_runtime *rt, double x, double y) {
+    return x >= rt->min_x && x <= rt->max_x && y >= rt->min_y && y <= rt->max_y;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
     uint32_t first = SL_RUNTIME_NO_CELL;
     int side;
-    if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
-        return SL_RUNTIME_NO_CELL;
+    if (!slrt_in_bounds(runtime, x, y)) return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
         const uint32_t cell =
