@@ -116,8 +116,9 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
 /// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
-/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
-/// cells; call it again when the box has moved.
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: the cells
+/// near the box, once for each 8,192 cells that they have numbers among; all cells in a loose file
+/// of version 1. Call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
@@ -1981,17 +1982,105 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     return true;
 }
 
+/// What is done with a cell near a box; false to stop.
+typedef bool slrt_visit(void *context, uint32_t cell);
+
+static bool slrt_visit_all(const sl_runtime *rt, slrt_visit *visit, void *context) {
+    uint32_t i;
+    for (i = 0; i < rt->cell_count; i++)
+        if (!visit(context, i)) return false;
+    return true;
+}
+
+/// The cells of all buckets that a box meets; a cell may come more than once.
+static bool slrt_visit_by_grid(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
+    const double low_x = box[0] > rt->min_x ? box[0] : rt->min_x;
+    const double low_y = box[1] > rt->min_y ? box[1] : rt->min_y;
+    const double high_x = box[2] < rt->max_x ? box[2] : rt->max_x;
+    const double high_y = box[3] < rt->max_y ? box[3] : rt->max_y;
+    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
+    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
+    uint32_t y, x, i;
+    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
+        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
+            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
+            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
+                if (!visit(context, slrt_u32(rt->grid_cells + (size_t)i * 4))) return false;
+        }
+    return true;
+}
+
+static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    enum { MOST = 128 };
+    int32_t stack[MOST];
+    uint32_t count = 1;
+    stack[0] = rt->root;
+    while (count && count < MOST - 1) {
+        const int32_t child = stack[--count];
+        const unsigned char *node;
+        int axis;
+        if (child < 0) {
+            if (!visit(context, (uint32_t)~child)) return false;
+            continue;
+        }
+        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
+        axis = slrt_i32(node + 8) ? 1 : 0;
+        if (box[axis] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
+        if (box[2 + axis] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
+    }
+    return !count || slrt_visit_all(rt, visit, context); // the tree is too deep
+}
+
+/// Visits all cells that a box touches, and some that are near: by the grid or the tree, or all if
+/// there is neither. False if a visit stopped it.
+static bool slrt_visit_near(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                            void *context) {
+    if (box[2] < rt->min_x || box[3] < rt->min_y || box[0] > rt->max_x || box[1] > rt->max_y)
+        return true;
+    if (rt->grid_cells) return slrt_visit_by_grid(rt, box, visit, context);
+    if (rt->nodes) return slrt_visit_by_tree(rt, box, visit, context);
+    return slrt_visit_all(rt, visit, context);
+}
+
+/// Cells by number, from `first` on, as bits.
+enum { SLRT_WINDOW = 8192 };
+typedef struct slrt_window {
+    uint32_t first, next; ///< next: the first one behind the bits
+    uint32_t bits[SLRT_WINDOW / 32];
+} slrt_window;
+
+static bool slrt_note(void *context, uint32_t cell) {
+    slrt_window *w = (slrt_window *)context;
+    const uint32_t at = cell - w->first;
+    if (cell < w->first) return true;
+    if (at < SLRT_WINDOW)
+        w->bits[at / 32] |= UINT32_C(1) << at % 32;
+    else if (cell < w->next)
+        w->next = cell;
+    return true;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room) {
     double box[4];
-    uint32_t cell, count = 0;
+    uint32_t i, bits, cell, count = 0;
+    slrt_window w;
     if (!(min_x <= max_x && min_y <= max_y)) return 0;
     box[0] = min_x, box[1] = min_y, box[2] = max_x, box[3] = max_y;
-    for (cell = 0; cell < runtime->cell_count; cell++) {
-        if (!slrt_meets_box(runtime, cell, box)) continue;
-        if (count < room) cells[count] = cell;
-        count++;
+    for (w.first = 0; w.first != SL_RUNTIME_NO_CELL; w.first = w.next) {
+        w.next = SL_RUNTIME_NO_CELL;
+        memset(w.bits, 0, sizeof w.bits);
+        slrt_visit_near(runtime, box, slrt_note, &w);
+        for (i = 0; i < SLRT_WINDOW / 32; i++)
+            for (bits = w.bits[i], cell = w.first + 32 * i; bits; bits >>= 1, cell++) {
+                if (!(bits & 1) || !slrt_meets_box(runtime, cell, box)) continue;
+                if (count < room) cells[count] = cell;
+                count++;
+            }
     }
     return count;
 }
@@ -2107,86 +2196,48 @@ static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const doubl
     return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
 }
 
+/// A box that is put into its cells.
+typedef struct slrt_placing {
+    sl_runtime_boxes *boxes;
+    uint32_t box;
+    double at[4];
+} slrt_placing;
+
 /// Puts a box into a cell, if it reaches into it. False if there is no room.
-static bool slrt_put_in_cell(sl_runtime_boxes *boxes, uint32_t box, const double at[4],
-                             uint32_t cell) {
-    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, box);
+static bool slrt_put_in_cell(void *context, uint32_t cell) {
+    const slrt_placing *placing = (const slrt_placing *)context;
+    sl_runtime_boxes *boxes = placing->boxes;
+    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, placing->box);
     const uint32_t free = boxes->memory[0];
     uint32_t *entry;
     // The last box that came to a cell is the first in its list: a second bucket has the cell too.
-    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == box) return true;
-    if (!slrt_reaches_into(boxes->runtime, cell, at)) return true;
+    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == placing->box)
+        return true;
+    if (!slrt_reaches_into(boxes->runtime, cell, placing->at)) return true;
     if (free == SLRT_NO_ENTRY) return false;
     entry = slrt_entry(boxes, free);
     boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
     entry[SLRT_ENTRY_CELL] = cell;
-    entry[SLRT_ENTRY_BOX] = box;
+    entry[SLRT_ENTRY_BOX] = placing->box;
     entry[SLRT_ENTRY_IN_CELL] = *first;
     entry[SLRT_ENTRY_OF_BOX] = *own;
     *first = *own = free;
     return true;
 }
 
-/// Puts a box into the cells of all buckets that it meets.
-static bool slrt_put_by_grid(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    const sl_runtime *rt = boxes->runtime;
-    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
-    const double low_x = at[0] > rt->min_x ? at[0] : rt->min_x;
-    const double low_y = at[1] > rt->min_y ? at[1] : rt->min_y;
-    const double high_x = at[2] < rt->max_x ? at[2] : rt->max_x;
-    const double high_y = at[3] < rt->max_y ? at[3] : rt->max_y;
-    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
-    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
-    uint32_t y, x, i;
-    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
-        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
-            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
-            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
-                if (!slrt_put_in_cell(boxes, box, at, slrt_u32(rt->grid_cells + (size_t)i * 4)))
-                    return false;
-        }
-    return true;
-}
-
-/// Puts a box into the cells that the tree has there, or that there are without a tree.
-static bool slrt_put_by_tree(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    enum { MOST = 128 };
-    const sl_runtime *rt = boxes->runtime;
-    int32_t stack[MOST];
-    uint32_t count = 0, i;
-    if (rt->nodes) stack[count++] = rt->root;
-    while (count && count < MOST - 1) {
-        const int32_t child = stack[--count];
-        const unsigned char *node;
-        if (child < 0) {
-            if (!slrt_put_in_cell(boxes, box, at, (uint32_t)~child)) return false;
-            continue;
-        }
-        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
-        i = slrt_i32(node + 8) ? 1 : 0;
-        if (at[i] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
-        if (at[2 + i] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
-    }
-    if (rt->nodes && !count) return true;
-    for (i = 0; i < rt->cell_count; i++) // no tree, or one that is too deep
-        if (!slrt_put_in_cell(boxes, box, at, i)) return false;
-    return true;
-}
-
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
-    const sl_runtime *rt = boxes->runtime;
-    double at[4];
-    bool usable = true;
+    slrt_placing placing;
+    bool usable = to->min_x <= to->max_x && to->min_y <= to->max_y;
     int i;
-    at[0] = to->min_x, at[1] = to->min_y, at[2] = to->max_x, at[3] = to->max_y;
-    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(at[i]);
+    placing.boxes = boxes;
+    placing.box = box;
+    placing.at[0] = to->min_x, placing.at[1] = to->min_y;
+    placing.at[2] = to->max_x, placing.at[3] = to->max_y;
+    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(placing.at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!(usable && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x || at[3] < rt->min_y ||
-        at[0] > rt->max_x || at[1] > rt->max_y)
-        return true;
-    if (rt->grid_cells ? slrt_put_by_grid(boxes, box, at) : slrt_put_by_tree(boxes, box, at))
+    if (!usable || slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
         return true;
     slrt_take_out(boxes, box);
     *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
