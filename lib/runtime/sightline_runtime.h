@@ -86,6 +86,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    bool has_glass; ///< one-way glass, somewhere
+    const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
     const unsigned char *text; ///< what the map holds beside walls, as map text
@@ -577,6 +579,7 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
+    SLRT_PORTAL_BYTES = 40,
     SLRT_DIRECTED_BYTES = 40
 };
 
@@ -662,7 +665,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
-                          {"PORT", 40},
+                          {"PORT", SLRT_PORTAL_BYTES},
                           {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
@@ -747,6 +750,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
     rt->directed = found[SLRT_PORTAL].items;
+    rt->portals = found[SLRT_PORT].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
     rt->unfinished = found[SLRT_PART].items != NULL;
@@ -1021,6 +1025,7 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
     rt->seam_count = 0;
+    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
@@ -1033,6 +1038,8 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
         if (portal < before || portal >= rt->portal_count) return false;
         if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
         before = portal;
+        rt->has_glass =
+            rt->has_glass || slrt_u32(rt->seams + slrt_u32(on + 4) * (size_t)40 + 32) == 2;
     }
     return true;
 }
@@ -3247,6 +3254,21 @@ static void slrt_allow_row(slrt_search *s, uint32_t cell) {
         for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
 }
 
+/// Allows the rows of the cells at glass that the eye is in line with. A line along it may cross it
+/// as rows do not know it; after the last such portal, they know all of it.
+static void slrt_allow_rows_in_line(slrt_search *s) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i;
+    for (i = 0; i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12;
+        const unsigned char *seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        const unsigned char *portal = rt->portals + (size_t)slrt_u32(on) * SLRT_PORTAL_BYTES;
+        if (slrt_u32(seam + 32) != 2 || slrt_side_of_line(seam, seam + 16, s->x, s->y)) continue;
+        slrt_allow_row(s, slrt_u32(portal)); // empty for what is no cell
+        slrt_allow_row(s, slrt_u32(portal + 4));
+    }
+}
+
 /// Whether two ranges of numbers, each with its ends in any order, have a number in common.
 static bool slrt_overlap(double a, double b, double c, double d) {
     return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
@@ -3480,6 +3502,7 @@ static void slrt_run_search(slrt_search *s) {
     s->has_row = run.next != run.stop;
     while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
     slrt_follow(s, NULL);
+    if (s->has_row && s->rt->has_glass) slrt_allow_rows_in_line(s);
     memmove(slrt_own_cells(s), s->path, s->own_count * sizeof *s->path);
     slrt_search_cone(s, s->eye_cell);
     for (i = 1; i < s->own_count; i++) slrt_search_cone(s, slrt_own_cells(s)[i]);

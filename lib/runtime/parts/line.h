@@ -83,6 +83,21 @@ static void slrt_allow_row(slrt_search *s, uint32_t cell) {
         for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
 }
 
+/// Allows the rows of the cells at glass that the eye is in line with. A line along it may cross it
+/// as rows do not know it; after the last such portal, they know all of it.
+static void slrt_allow_rows_in_line(slrt_search *s) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i;
+    for (i = 0; i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12;
+        const unsigned char *seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        const unsigned char *portal = rt->portals + (size_t)slrt_u32(on) * SLRT_PORTAL_BYTES;
+        if (slrt_u32(seam + 32) != 2 || slrt_side_of_line(seam, seam + 16, s->x, s->y)) continue;
+        slrt_allow_row(s, slrt_u32(portal)); // empty for what is no cell
+        slrt_allow_row(s, slrt_u32(portal + 4));
+    }
+}
+
 /// Whether two ranges of numbers, each with its ends in any order, have a number in common.
 static bool slrt_overlap(double a, double b, double c, double d) {
     return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);

@@ -6,6 +6,7 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
+    SLRT_PORTAL_BYTES = 40,
     SLRT_DIRECTED_BYTES = 40
 };
 
@@ -91,7 +92,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
-                          {"PORT", 40},
+                          {"PORT", SLRT_PORTAL_BYTES},
                           {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
