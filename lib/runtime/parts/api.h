@@ -96,6 +96,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    bool has_glass; ///< one-way glass, somewhere
+    const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
     uint32_t start_count, object_count, path_count, mirror_count;
@@ -129,8 +131,9 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
 /// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
-/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
-/// cells; call it again when the box has moved.
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: the cells
+/// near the box, once for each 8,192 cells that they have numbers among; all cells in a loose file
+/// of version 1. Call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
@@ -376,8 +379,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// one.)
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
-/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
-/// cells along the line, and of clearing a byte for each cell.
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
+/// the cells along the line. A line that touches ends of portals in more than 32 cells also clears
+/// a byte for each cell.
 SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
@@ -387,8 +391,8 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
 /// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
 /// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
 /// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the cells that the step touches, and all doors; all walls if these are more than 32 cells,
-/// or the step touches the map's border.
+/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
+/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 

@@ -170,6 +170,7 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
     rt->seam_count = 0;
+    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
@@ -189,6 +190,8 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
         if (portal < before || portal >= rt->portal_count) return false;
         if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
         before = portal;
+        rt->has_glass =
+            rt->has_glass || slrt_u32(rt->seams + slrt_u32(on + 4) * (size_t)40 + 32) == 2;
     }
     return true;
 }
