@@ -69,6 +69,8 @@ typedef struct sl_runtime_transform {
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
 #define SL_RUNTIME_NO_DOOR UINT32_MAX
+/// The number of a box that does not exist.
+#define SL_RUNTIME_NO_BOX UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -537,6 +539,27 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    const unsigned char *shut, double range,
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
+
+/// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
+/// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
+/// It passes a flat box where it crosses that between its ends, and never one that is a point. An
+/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
+/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+///
+/// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
+/// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
+/// whether the eye is inside. Time: as sl_runtime_sees, and the boxes in the cells along the line.
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch);
+
+/// As sl_runtime_can_walk, past boxes that block: no point of the way, ends included, is in such a
+/// box or on its side. Box `except` does not count: that of who walks, or SL_RUNTIME_NO_BOX. Exact,
+/// and the same both ways. Boxes that had no room, or only touch the map's bounds, stop nothing.
+/// Time: as sl_runtime_can_walk, and the boxes in the cells along the step.
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
@@ -2319,8 +2342,12 @@ static bool slrt_visit_near(const sl_runtime *rt, const double box[4], slrt_visi
     return slrt_visit_all(rt, visit, context);
 }
 
+/// So many cells are noted at a time: a number that 32 divides.
+#ifndef SLRT_WINDOW
+#define SLRT_WINDOW 8192
+#endif
+
 /// Cells by number, from `first` on, as bits.
-enum { SLRT_WINDOW = 8192 };
 typedef struct slrt_window {
     uint32_t first, next; ///< next: the first one behind the bits
     uint32_t bits[SLRT_WINDOW / 32];
@@ -2599,6 +2626,7 @@ typedef struct slrt_search {
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
     bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
+    uint32_t except;                   ///< a box that stops nothing
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
     uint32_t *blockers, blocker_count; ///< those that hide something
     uint32_t *chosen;                  ///< room for as many as there are boxes
@@ -4010,7 +4038,8 @@ enum { SLRT_STEP_CELLS = 32 };
 /// are found through portals that it touches, up to its first wall: the cells about a point are
 /// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
 /// on the map's border, which may be wall in part, and for many cells.
-static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from, const double *to) {
+static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
+                                       const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
     slrt_polygon p;
     if (s->rt->loose) return SLRT_TOUCHES;
@@ -4021,6 +4050,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from,
     for (i = 0; i < count; i++) {
         slrt_walk w;
         slrt_piece piece;
+        if (s->stops && s->stops(s, way, cells[i])) return SLRT_STOPS;
         slrt_walk_around(&p, &w, cells[i], 1);
         while (slrt_walk_next(&p, &w, &piece)) {
             uint32_t next;
@@ -4039,8 +4069,9 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from,
     return p.broken ? SLRT_TOUCHES : SLRT_ARRIVES;
 }
 
-/// Whether a step touches no wall, shut door or glass of all there are.
-static bool slrt_step_by_walls(const slrt_search *s, const double *from, const double *to) {
+/// Whether a step touches no wall, shut door, glass or box of all there are.
+static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const double *from,
+                               const double *to) {
     const sl_runtime *rt = s->rt;
     uint32_t i;
     for (i = 0; i < rt->wall_count; i++)
@@ -4052,25 +4083,104 @@ static bool slrt_step_by_walls(const slrt_search *s, const double *from, const d
             slrt_touches(from, to, seam))
             return false;
     }
+    for (i = 0; s->stops && i < rt->cell_count; i++)
+        if (s->stops(s, way, i)) return false;
     return true;
+}
+
+/// Whether who stands at a search's eye can step to a point.
+static bool slrt_can_step(slrt_search *s, double x, double y) {
+    const double from[2] = {s->x, s->y}, to[2] = {slrt_no_dust(x), slrt_no_dust(y)};
+    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
+    slrt_finding found;
+    if (!s->rt->walls || !slrt_in_bounds(s->rt, to[0], to[1])) return false;
+    s->on_foot = true;
+    found = slrt_follow_within(s, &way);
+    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(s, &way, from, to);
+    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
+    return sl_runtime_locate(s->rt, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
+           slrt_step_by_walls(s, &way, from, to);
 }
 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut) {
-    const double from[2] = {slrt_no_dust(x0), slrt_no_dust(y0)};
-    const double to[2] = {slrt_no_dust(x1), slrt_no_dust(y1)};
-    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
     slrt_search s;
-    slrt_finding found;
-    if (!runtime->walls || !slrt_place_eye(&s, runtime, x0, y0, shut) ||
-        !slrt_in_bounds(runtime, to[0], to[1]))
+    return slrt_place_eye(&s, runtime, x0, y0, shut) && slrt_can_step(&s, x1, y1);
+}
+
+// --- Boxes that block: points and steps past them
+
+// A line meets a box in a cell that both have points in, so only the lists of the cells along the
+// line are asked.
+
+static bool slrt_is_in_box(const sl_runtime_box *box, double x, double y) {
+    return box->min_x < x && x < box->max_x && box->min_y < y && y < box->max_y;
+}
+
+/// Whether ranges of numbers have none in common, `touch`: or just an end.
+static bool slrt_is_apart(double a, double b, double low, double high, bool touch) {
+    const double least = a < b ? a : b, most = a < b ? b : a;
+    return touch ? most < low || least > high : most <= low || least >= high;
+}
+
+/// Whether a line passes the inside of a box; `touch`: or touches it. The inside of a flat box is
+/// what lies between its ends. A line and a box are convex: if they are apart, a side of the box or
+/// the line itself separates them.
+static bool slrt_passes_box(const slrt_arm *way, const sl_runtime_box *box, bool touch) {
+    bool left = false, right = false;
+    int k;
+    if (slrt_is_apart(way->from_x, way->to_x, box->min_x, box->max_x, touch) ||
+        slrt_is_apart(way->from_y, way->to_y, box->min_y, box->max_y, touch))
         return false;
-    s.on_foot = true;
-    found = slrt_follow_within(&s, &way);
-    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(&s, from, to);
-    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
-    return sl_runtime_locate(runtime, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
-           slrt_step_by_walls(&s, from, to);
+    for (k = 0; k < 4; k++) {
+        const slrt_arm corner =
+            slrt_make_arm(way->from_x, way->from_y, k & 1 ? box->max_x : box->min_x,
+                          k & 2 ? box->max_y : box->min_y);
+        const int side = slrt_side(way, &corner);
+        left = left || side > 0 || (touch && !side);
+        right = right || side < 0 || (touch && !side);
+    }
+    return left && right;
+}
+
+/// Whether a box in a cell stops a line of sight, or a step.
+static bool slrt_is_stopped(const slrt_search *s, const slrt_arm *way, uint32_t cell) {
+    uint32_t at = *slrt_first_entry(s->boxes, cell);
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(s->boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(s->boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &s->boxes->boxes[number];
+        if (!box->blocks || number == s->except || !slrt_passes_box(way, box, s->on_foot)) continue;
+        if (s->on_foot ||
+            !((slrt_is_in_box(box, s->x, s->y) && slrt_box_holds(box, way->to_x, way->to_y)) ||
+              (slrt_is_in_box(box, way->to_x, way->to_y) && slrt_box_holds(box, s->x, s->y))))
+            return true;
+    }
+    return false;
+}
+
+static void slrt_heed_boxes(slrt_search *s, const sl_runtime_boxes *boxes, uint32_t except) {
+    s->boxes = boxes;
+    s->except = except;
+    s->stops = slrt_is_stopped;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    slrt_search s;
+    if (!slrt_start_search(&s, boxes->runtime, &view, shut, range, boxes_scratch)) return false;
+    slrt_heed_boxes(&s, boxes, SL_RUNTIME_NO_BOX);
+    return slrt_sees_point(&s, x1, y1);
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except) {
+    slrt_search s;
+    if (!slrt_place_eye(&s, boxes->runtime, x0, y0, shut)) return false;
+    slrt_heed_boxes(&s, boxes, except);
+    return slrt_can_step(&s, x1, y1);
 }
 
 // --- The visible polygon

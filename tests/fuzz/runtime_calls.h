@@ -285,6 +285,9 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
                                                           b->cells, r->cell_count);
         FUZZ_CHECK(cells <= r->cell_count);
         for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
+        const double x1 = i ? odd_real(random) : x + range / 8, y1 = y - range / 8;
+        sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
+        sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
     }
     free(scratch);
     free(seen);

@@ -69,6 +69,8 @@ typedef struct sl_runtime_transform {
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
 #define SL_RUNTIME_NO_DOOR UINT32_MAX
+/// The number of a box that does not exist.
+#define SL_RUNTIME_NO_BOX UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -537,6 +539,27 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    const unsigned char *shut, double range,
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
+
+/// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
+/// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
+/// It passes a flat box where it crosses that between its ends, and never one that is a point. An
+/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
+/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+///
+/// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
+/// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
+/// whether the eye is inside. Time: as sl_runtime_sees, and the boxes in the cells along the line.
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch);
+
+/// As sl_runtime_can_walk, past boxes that block: no point of the way, ends included, is in such a
+/// box or on its side. Box `except` does not count: that of who walks, or SL_RUNTIME_NO_BOX. Exact,
+/// and the same both ways. Boxes that had no room, or only touch the map's bounds, stop nothing.
+/// Time: as sl_runtime_can_walk, and the boxes in the cells along the step.
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
