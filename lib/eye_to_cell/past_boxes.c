@@ -128,7 +128,7 @@ sl_status sli_box_envelope_make(sl_context *context, const sl_moving_box *boxes,
 
 /// Adds the part of a side from a to b between two bounds.
 static sl_status put(slrt_sight *s, uint32_t neighbour, const sli_eye_ray *a, const sli_eye_ray *b,
-                     const slrt_bound *from, const slrt_bound *to, bool rounded) {
+                     const slrt_part_end *from, const slrt_part_end *to, bool rounded) {
     sl_region *region = s->region;
     struct sli_region_memory *m = region->memory;
     if (!m->pending || m->piece.neighbour != neighbour || neighbour == SLI_PIECE_FAR) {
@@ -144,7 +144,7 @@ static sl_status put(slrt_sight *s, uint32_t neighbour, const sli_eye_ray *a, co
 }
 
 static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
-                          const slrt_bound *from, const slrt_bound *to) {
+                          const slrt_part_end *from, const slrt_part_end *to) {
     slrt_sight *out = s->sight;
     const bool rounded = from->crosses && s->a.x != s->b.x && s->a.y != s->b.y;
     if (out->status != SL_OK) return;
@@ -178,8 +178,8 @@ static void pass_edge_on(const slrt_sieve *s) {
         else
             stop = sli_crossing((sl_segment){eye, end}, (sl_segment){side.a, side.b});
     }
-    const slrt_bound from = slrt_bound_at(s, starts ? eye : stop, true);
-    const slrt_bound to = slrt_bound_at(s, starts ? stop : eye, true);
+    const slrt_part_end from = slrt_bound_at(s, starts ? eye : stop, true);
+    const slrt_part_end to = slrt_bound_at(s, starts ? stop : eye, true);
     s->sight->status = put(s->sight, s->sight->neighbour, &from.ray, &to.ray, &from, &to, false);
 }
 

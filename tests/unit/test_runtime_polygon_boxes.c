@@ -69,8 +69,8 @@ static void check_order(const trial *t, const sl_view *view, const sl_point *p, 
     }
 }
 
-/// Axial walls: sight and eyes as the sweep has them. (Boxes as walls widen the bounds of a map that
-/// is all in one line.)
+/// Axial walls: sight and eyes as the sweep has them. (Boxes as walls widen the bounds of a map
+/// that is all in one line.)
 static void check_area(trial *t, const sl_view *view, double area) {
     if (memcmp(&t->s.space.bounds, &t->s.other.bounds, sizeof(sl_box)) != 0) return;
     const oracle_isovist expected = oracle_isovist_of(&t->s.other, view);

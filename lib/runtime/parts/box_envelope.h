@@ -275,7 +275,7 @@ static void slrt_push_run(slrt_envelope_maker *m, uint32_t side, slrt_point righ
 }
 
 /// Whether the eye is in a box and the quadrant that it sees too.
-static bool slrt_is_in_box(const slrt_envelope_maker *m, const double *box) {
+static bool slrt_looks_from_within(const slrt_envelope_maker *m, const double *box) {
     const slrt_point eye = slrt_eye_at(m->e.eye);
     return (m->toward[0] > 0 ? box[0] <= eye.x && eye.x < box[2]
                              : box[0] < eye.x && eye.x <= box[2]) &&
@@ -301,7 +301,7 @@ static void slrt_add_box(slrt_envelope_maker *m, uint32_t number) {
     double box[4];
     int k;
     slrt_read_box(m->e.boxes, number, box);
-    is_in = slrt_is_in_box(m, box);
+    is_in = slrt_looks_from_within(m, box);
     for (k = 0; k < 4; k++) {
         slrt_box_side side;
         if (!slrt_sees_side(m, box, is_in, k)) continue;

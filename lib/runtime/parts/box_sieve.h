@@ -20,18 +20,18 @@
 // and define after it the functions that it declares without a body.
 
 /// Where a part starts or ends: at a ray.
-typedef struct slrt_bound {
+typedef struct slrt_part_end {
     slrt_ray ray;
     bool on;      ///< the ray's point is on the part, and is where it ends
     bool crosses; ///< there the piece and a side cross
-} slrt_bound;
+} slrt_part_end;
 
 /// A piece from a to b as the eye sees it, of which the part from `start` to `stop` is asked for.
 typedef struct slrt_sieve {
     const slrt_envelope *envelope;
     slrt_sight *sight;
     slrt_point a, b;
-    slrt_bound start, stop;
+    slrt_part_end start, stop;
 } slrt_sieve;
 
 /// The sign of u_m (s x (a - eye)) - (s x u)(at - eye_m), for s = b - a, the ray's direction u and
@@ -45,10 +45,10 @@ static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_sid
 
 /// Takes what is seen between two bounds: of a side of a box, or of the piece (SLRT_NO_SIDE).
 static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
-                          const slrt_bound *from, const slrt_bound *to);
+                          const slrt_part_end *from, const slrt_part_end *to);
 
-static slrt_bound slrt_bound_at(const slrt_sieve *s, slrt_point p, bool on) {
-    slrt_bound bound;
+static slrt_part_end slrt_bound_at(const slrt_sieve *s, slrt_point p, bool on) {
+    slrt_part_end bound;
     bound.ray = slrt_ray_to(s->envelope->eye, p);
     bound.on = on;
     bound.crosses = false;
@@ -56,8 +56,8 @@ static slrt_bound slrt_bound_at(const slrt_sieve *s, slrt_point p, bool on) {
 }
 
 /// A bound as one of a side, whose end may be on its ray.
-static slrt_bound slrt_bound_on(const slrt_sieve *s, const slrt_bound *at, slrt_point end) {
-    slrt_bound bound = *at;
+static slrt_part_end slrt_bound_on(const slrt_sieve *s, const slrt_part_end *at, slrt_point end) {
+    slrt_part_end bound = *at;
     if (at->crosses) return bound;
     if (!slrt_turn_to(s->envelope->eye, &at->ray, end)) return slrt_bound_at(s, end, true);
     bound.on = false;
@@ -65,8 +65,8 @@ static slrt_bound slrt_bound_on(const slrt_sieve *s, const slrt_bound *at, slrt_
 }
 
 static void slrt_see_side(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
-                          const slrt_bound *from, const slrt_bound *to) {
-    slrt_bound start, stop;
+                          const slrt_part_end *from, const slrt_part_end *to) {
+    slrt_part_end start, stop;
     if (number >= SLRT_AT_EYE) {
         slrt_see_part(s, number, NULL, from, to);
         return;
@@ -86,24 +86,24 @@ static int slrt_depth_at(const slrt_sieve *s, const slrt_box_side *side, const s
 /// How far the parts of a piece have come: what is before `at` is added, but for the piece itself
 /// from `from` on while it is `open`.
 typedef struct slrt_sieving {
-    slrt_bound at, from;
+    slrt_part_end at, from;
     bool open;
 } slrt_sieving;
 
 /// Ends the part of the piece that is open.
-static void slrt_shut(const slrt_sieve *s, slrt_sieving *now, const slrt_bound *at) {
+static void slrt_shut(const slrt_sieve *s, slrt_sieving *now, const slrt_part_end *at) {
     if (now->open) slrt_see_part(s, SLRT_NO_SIDE, NULL, &now->from, at);
     now->open = false;
 }
 
-static void slrt_open(slrt_sieving *now, const slrt_bound *at) {
+static void slrt_open(slrt_sieving *now, const slrt_part_end *at) {
     if (!now->open) now->from = *at;
     now->open = true;
 }
 
 /// Goes on to a bound, with the side of an arc all the way.
 static void slrt_pass_side(const slrt_sieve *s, slrt_sieving *now, uint32_t number,
-                           const slrt_bound *to) {
+                           const slrt_part_end *to) {
     slrt_box_side side;
     int first = 1, last = 1;
     if (number < SLRT_AT_EYE) {
@@ -117,7 +117,7 @@ static void slrt_pass_side(const slrt_sieve *s, slrt_sieving *now, uint32_t numb
         slrt_shut(s, now, &now->at);
         slrt_see_side(s, number, &side, &now->at, to);
     } else {
-        slrt_bound middle = slrt_bound_at(s, slrt_cross_side(s->a, s->b, &side), true);
+        slrt_part_end middle = slrt_bound_at(s, slrt_cross_side(s->a, s->b, &side), true);
         middle.crosses = true;
         if (first < 0) {
             slrt_open(now, &now->at);
@@ -174,7 +174,7 @@ static void slrt_sieve_piece(const slrt_sieve *s) {
     now.at = now.from = s->start;
     now.open = false;
     for (i = 0; i < e->count && !done; i++) {
-        slrt_bound to;
+        slrt_part_end to;
         if (i && !slrt_meets_arc(s, &arc, false, &held)) break;
         if (!held && slrt_turn_to(e->eye, &now.at.ray, arc.right) > 0) {
             slrt_open(&now, &now.at);

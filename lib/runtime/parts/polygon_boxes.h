@@ -32,8 +32,8 @@ static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_sid
     return cross;
 }
 
-static void slrt_place_bound(const slrt_polygon *p, const slrt_bound *at, const slrt_piece *piece,
-                             double *out) {
+static void slrt_place_bound(const slrt_polygon *p, const slrt_part_end *at,
+                             const slrt_piece *piece, double *out) {
     if (at->on) {
         out[0] = at->ray.to_x;
         out[1] = at->ray.to_y;
@@ -43,7 +43,7 @@ static void slrt_place_bound(const slrt_polygon *p, const slrt_bound *at, const 
 }
 
 static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
-                          const slrt_bound *from, const slrt_bound *to) {
+                          const slrt_part_end *from, const slrt_part_end *to) {
     slrt_polygon *p = s->sight;
     const slrt_point a = side ? side->a : s->a, b = side ? side->b : s->b;
     slrt_piece piece;
@@ -60,7 +60,7 @@ static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_s
         slrt_start_piece(p, &piece, end);
     }
     slrt_place_bound(p, to, &piece, end);
-    slrt_go_on(p, &piece, SLRT_NONE, end);
+    slrt_extend_piece(p, &piece, SLRT_NONE, end);
 }
 
 /// What is done with the boxes of a polygon.

@@ -269,7 +269,8 @@ static void slrt_start_piece(slrt_polygon *p, const slrt_piece *piece, const dou
 }
 
 /// Goes on with a piece up to a border, or to a place for SLRT_NONE.
-static void slrt_go_on(slrt_polygon *p, const slrt_piece *piece, uint32_t left, const double *end) {
+static void slrt_extend_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t left,
+                              const double *end) {
     p->pending = true;
     p->piece = *piece;
     p->piece_left = left;
@@ -283,7 +284,7 @@ static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t rig
         slrt_place(p, right, piece->a, piece, start);
         slrt_start_piece(p, piece, start);
     }
-    slrt_go_on(p, piece, left, piece->b);
+    slrt_extend_piece(p, piece, left, piece->b);
 }
 
 /// Adds the eye, where the polygon has it as a corner.
