@@ -270,6 +270,7 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
     const sl_runtime *r = boxes->runtime;
     uint32_t *scratch = room(sl_runtime_boxes_scratch_count(boxes) * sizeof *scratch);
     unsigned char *seen = room(boxes->count);
+    double few[8];
     for (int i = 0; i < 2; i++) {
         const double x = r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
                      y = r->min_y + sl_random_unit(random) * (r->max_y - r->min_y);
@@ -286,6 +287,9 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
         FUZZ_CHECK(cells <= r->cell_count);
         for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
         const double x1 = i ? odd_real(random) : x + range / 8, y1 = y - range / 8;
+        count = sl_runtime_visible_polygon_past_boxes(boxes, &view, shut, range, scratch, few, 4);
+        FUZZ_CHECK(count == 0 || count >= 3);
+        for (uint32_t k = 0; k < 2 * count && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
         sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
         sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
     }
