@@ -122,6 +122,22 @@ static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, doub
     free(points);
 }
 
+/// Parts come after their parents, and share out the points.
+static void check_mirror_parts(const sl_runtime *r, const sl_runtime_view *view, double range,
+                               const buffers *b) {
+    enum { PARTS = 8 };
+    sl_runtime_mirror_part parts[PARTS];
+    double few[8];
+    uint32_t count, all = 0;
+    const uint32_t points = sl_runtime_visible_polygon_mirrored(r, view, NULL, range, 3, b->scratch,
+                                                                parts, PARTS, &count, few, 4);
+    for (uint32_t i = 0; i < count && count <= PARTS; all += parts[i++].count)
+        FUZZ_CHECK(parts[i].first == all && parts[i].count >= 3 && parts[i].depth <= 3 &&
+                   (parts[i].depth ? parts[i].parent < i : i == 0));
+    FUZZ_CHECK(count > PARTS || all == points);
+    for (uint32_t k = 0; k < 2 * points && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
+}
+
 /// Both ends of a line of sight and of a step are in cells, whatever the walls of the file are.
 static void check_points(const sl_runtime *r, double x, double y, sl_random *random,
                          const buffers *b) {
@@ -144,6 +160,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     check_look(r, &round, b);
     check_polygon(r, &round, 0, b);
     check_polygon(r, &round, odd_real(random), b);
+    check_mirror_parts(r, &round, odd_real(random), b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
     check_points(r, x, y, random, b);
     sl_runtime_view cone = round;
@@ -155,6 +172,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     }
     check_look(r, &cone, b);
     check_polygon(r, &cone, sl_random_unit(random) * (r->max_x - r->min_x), b);
+    check_mirror_parts(r, &cone, 0, b);
 }
 
 /// A corner, somewhere within the bounds, or the middle of a portal.
