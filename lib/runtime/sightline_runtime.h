@@ -401,7 +401,8 @@ SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, do
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
-// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+// bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
+// sl_runtime_visible_polygon_mirrored goes on behind them, and needs no rows.
 
 /// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
 /// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
