@@ -4991,8 +4991,11 @@ static bool slrt_pass_portal(const slrt_beams *b, uint32_t directed, uint32_t wa
     slrt_beam before;
     double span[4];
     int k;
-    if ((left->from != SLRT_NONE && slrt_surely(&left->arm, p.right[0], p.right[1]) > 0) ||
-        (right->from != SLRT_NONE && slrt_surely(&right->arm, p.left[0], p.left[1]) < 0))
+    // A side of the box may bound lines that go back along it: one end does not tell.
+    if ((left->from != SLRT_NONE && slrt_surely(&left->arm, p.right[0], p.right[1]) > 0 &&
+         slrt_surely(&left->arm, p.left[0], p.left[1]) > 0) ||
+        (right->from != SLRT_NONE && slrt_surely(&right->arm, p.left[0], p.left[1]) < 0 &&
+         slrt_surely(&right->arm, p.right[0], p.right[1]) < 0))
         return false;
     for (k = 0; k < 2; k++) {
         const bool up = p.left[k] < p.right[k];
@@ -5017,7 +5020,8 @@ static bool slrt_is_one_line(const slrt_beam *beam) {
     const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
                                       left->arm.to_y);
     return right->from != SLRT_NONE && left->from != SLRT_NONE &&
-           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to);
+           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
+           slrt_same_way(&right->arm, &left->arm);
 }
 
 static int slrt_turn_of(const slrt_arm *line, const double point[2]) {
