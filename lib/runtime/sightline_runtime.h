@@ -504,6 +504,39 @@ SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes
                                                    double y0, double x1, double y1,
                                                    const unsigned char *shut, uint32_t except);
 
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
@@ -3229,6 +3262,16 @@ static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, doubl
 /// Where the line from the eye to a point leads.
 typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
 
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -3254,16 +3297,15 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     for (; steps; steps--) {
         bool touches;
         const uint32_t out = slrt_way_out(s, way, cell, &touches);
-        const unsigned char *portal = s->rt->directed + (size_t)out * SLRT_DIRECTED_BYTES;
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
         place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_line(portal + 24, portal + 8, way->to_x, way->to_y);
+                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
         if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_u32(portal + 4);
+        cell = slrt_cell_across(s->rt, out);
     }
     return SLRT_TOUCHES;
 }
@@ -3304,14 +3346,13 @@ static bool slrt_overlap(double a, double b, double c, double d) {
 
 /// Whether the way from the eye to a point meets a directed portal, ends included.
 static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
     const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const int right = slrt_side(way, &p), left = slrt_side(way, &q);
     if (right * left > 0) return false;
     if (!right && !left)
         return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
                slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
 }
 
 /// Of so many cells, a list is faster than marks, which have to be cleared first.
@@ -3349,7 +3390,7 @@ static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
         for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            const uint32_t to = slrt_cell_across(s->rt, i);
             if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
                 slrt_is_listed(s, to) || slrt_is_blocked(s, i))
                 continue;
@@ -3394,7 +3435,7 @@ static void slrt_see_row(slrt_search *s) {
 /// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
 /// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const uint32_t to = slrt_cell_across(s->rt, directed);
     slrt_sector sector;
     if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];
@@ -3791,7 +3832,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
             if (piece.directed == SLRT_NONE)
                 return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
-            next = slrt_u32(s->rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
@@ -4513,6 +4554,208 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
     }
     slrt_close(&p, !pieces && !p.gap);
     return p.broken || p.count < 3 || p.written < 3 ? 0 : p.written;
+}
+
+// --- Discs that move: how far, and along what
+
+// A disc of radius r moves as its middle does, if walls and all else that stops it have grown by r.
+// The distance to a segment changes along a straight way as a convex function does. So Newton's
+// steps from the start come to the first place where the distance is r, and never behind it:
+//
+//      .--___                 The disc then slides: what is left of the way, without its part
+//     | o ---> ''--.          toward the nearest place of the segment. It ends in a corner, where
+//      '--....--____|_        it would go back into what it has slid along.
+//      =================
+//
+// All that is within reach of the way is in the cells that open portals within reach lead to: the
+// nearest of it has no other before it.
+//
+// Distances are rounded. So four limits lie apart by more than rounding can do (`slack`): r itself;
+// r + 2, from where a way counts as free; r + 3, where a disc comes to rest. No rest is therefore
+// nearer than r, and none is stuck to what it rests at. Whether a way crosses something is exact.
+
+/// A disc on a straight way.
+typedef struct slrt_disc {
+    slrt_polygon p; ///< its search is from where the disc is
+    double radius, slack, from[2], to[2];
+    double along[2], length; ///< the way's direction and length
+    bool is_near;            ///< something is nearer to the way than it may
+    double stop;             ///< how far along the way the disc comes
+    double normal[2];        ///< if that is not all of it: away from what stops it
+    double push;             ///< how far the disc is nearer to that than at rest
+} slrt_disc;
+
+/// The square of the distance from a point to the segment from a to b. `away` leads to the point
+/// from the nearest place.
+static double slrt_away_from(const double *point, const double *a, const double *b, double *away) {
+    const double side[2] = {b[0] - a[0], b[1] - a[1]};
+    const double to[2] = {point[0] - a[0], point[1] - a[1]};
+    const double square = slrt_dot(side, side), part = slrt_dot(to, side);
+    double at = part > 0 ? part / square : 0;
+    if (!(at < 1)) at = 1;
+    if (!(square > 0)) at = 0;
+    away[0] = to[0] - at * side[0];
+    away[1] = to[1] - at * side[1];
+    return slrt_dot(away, away);
+}
+
+/// Whether a segment is nearer to the way than a limit, or crosses it.
+static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
+    const double square = limit * limit;
+    double away[2];
+    return !(slrt_away_from(d->from, a, b, away) >= square &&
+             slrt_away_from(d->to, a, b, away) >= square &&
+             slrt_away_from(a, d->from, d->to, away) >= square &&
+             slrt_away_from(b, d->from, d->to, away) >= square) ||
+           slrt_meets(d->from, d->to, a, b);
+}
+
+/// Has a segment stop the disc. One that the disc is nearer to than it may, but moves away from,
+/// does not.
+static void slrt_stop_at(slrt_disc *d, const double *a, const double *b) {
+    const double rest = d->radius + 3 * d->slack;
+    double at = 0, gap = 0, rate = 0, distance = 0;
+    double place[2], away[2] = {0, 0};
+    int i;
+    if (!slrt_is_near(d, a, b, d->radius + 2 * d->slack)) return;
+    d->is_near = true;
+    for (i = 0; i < 16; i++) {
+        place[0] = d->from[0] + at * d->along[0];
+        place[1] = d->from[1] + at * d->along[1];
+        distance = slrt_root(slrt_away_from(place, a, b, away));
+        gap = distance - rest;
+        rate = -slrt_dot(away, d->along) / distance;
+        if (!(gap > 0 && rate > 0)) break;
+        at += gap / rate;
+    }
+    if (!(at < d->stop) ||
+        (!(rate > 0) && (at > 0 || slrt_away_from(d->to, a, b, place) >= distance * distance)))
+        return;
+    d->stop = at;
+    d->normal[0] = away[0] / distance;
+    d->normal[1] = away[1] / distance;
+    d->push = gap < 0 ? -gap : 0;
+}
+
+/// Has the sides of the boxes in a cell stop the disc.
+static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
+    const sl_runtime_boxes *boxes = d->p.s.boxes;
+    uint32_t at = boxes ? *slrt_first_entry(boxes, cell) : SLRT_NO_ENTRY;
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &boxes->boxes[number];
+        const double corners[5][2] = {{box->min_x, box->min_y},
+                                      {box->max_x, box->min_y},
+                                      {box->max_x, box->max_y},
+                                      {box->min_x, box->max_y},
+                                      {box->min_x, box->min_y}};
+        int k;
+        for (k = 0; k < 4 && box->blocks && number != d->p.s.except; k++)
+            slrt_stop_at(d, corners[k], corners[k + 1]);
+    }
+}
+
+/// Goes through the cells within reach of the disc's way, and has what is there stop it.
+static void slrt_stop_within(slrt_disc *d) {
+    slrt_search *s = &d->p.s;
+    uint32_t at;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        slrt_walk w;
+        slrt_piece piece;
+        slrt_stop_at_boxes(d, s->path[at]);
+        slrt_walk_around(&d->p, &w, s->path[at], 1);
+        while (slrt_walk_next(&d->p, &w, &piece)) {
+            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+                slrt_stop_at(d, piece.a, piece.b);
+            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
+                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
+                if (!slrt_is_listed(s, to)) slrt_list(s, to);
+            }
+        }
+    }
+}
+
+/// Puts a disc at the start of a way, and finds how far it comes. False for nowhere.
+static bool slrt_move_disc(slrt_disc *d, const sl_runtime *rt, const sl_runtime_walker *walker,
+                           const double *from, const double *to, uint32_t *scratch) {
+    slrt_search *s = &d->p.s;
+    memset(d, 0, sizeof *d);
+    if (rt->loose || !slrt_place_eye(s, rt, from[0], from[1], walker->shut) ||
+        !slrt_is_coordinate(to[0]) || !slrt_is_coordinate(to[1]))
+        return false;
+    if (walker->boxes) slrt_heed_boxes(s, walker->boxes, walker->own_box);
+    s->on_foot = true;
+    s->path = scratch;
+    s->marks = (unsigned char *)(scratch + 6 * (size_t)rt->cell_count);
+    s->patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
+    d->radius = walker->radius > 0 ? walker->radius : 0;
+    d->slack =
+        1e-14 * (slrt_larger(rt->min_x, rt->max_x) + slrt_larger(rt->min_y, rt->max_y) + d->radius);
+    d->from[0] = s->x, d->from[1] = s->y;
+    d->to[0] = slrt_no_dust(to[0]), d->to[1] = slrt_no_dust(to[1]);
+    d->along[0] = d->to[0] - d->from[0];
+    d->along[1] = d->to[1] - d->from[1];
+    d->length = d->stop = slrt_root(slrt_dot(d->along, d->along));
+    if (d->length > 0) d->along[0] /= d->length, d->along[1] /= d->length;
+    slrt_stop_within(d);
+    return !d->p.broken;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch) {
+    const double from[2] = {x0, y0}, to[2] = {x1, y1};
+    slrt_disc d;
+    return slrt_move_disc(&d, runtime, walker, from, to, scratch) &&
+           (!d.is_near || !(walker->radius > 0)) && slrt_can_step(&d.p.s, x1, y1);
+}
+
+/// A disc's way as it turns.
+typedef struct slrt_slide {
+    double at[2], goal[2];
+    double first[2], before[2]; ///< the first direction, and away from what it slides along
+} slrt_slide;
+
+/// Turns a disc's way along what stops it. False if nothing is left of the way, or if it would go
+/// back, or into what the disc slid along.
+static bool slrt_turn_along(const slrt_disc *d, slrt_slide *way) {
+    const double into = slrt_dot(d->along, d->normal), left = d->length - d->stop;
+    const double most = 4 * d->slack, push = d->push < most ? d->push : most;
+    double rest[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        rest[i] = left * (d->along[i] - into * d->normal[i]);
+        way->goal[i] = way->at[i] + rest[i] + push * d->normal[i];
+    }
+    if (!(slrt_dot(rest, rest) > most * most) || !(slrt_dot(rest, way->first) > 0) ||
+        slrt_dot(rest, way->before) < 0)
+        return false;
+    memcpy(way->before, d->normal, sizeof way->before);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y) {
+    enum { TURNS = 4 };
+    slrt_slide way = {{x0, y0}, {x1, y1}, {0, 0}, {0, 0}};
+    int turn;
+    for (turn = 0; turn < TURNS; turn++) {
+        slrt_disc d;
+        double next[2];
+        bool all;
+        if (!slrt_move_disc(&d, runtime, walker, way.at, way.goal, scratch)) break;
+        if (!turn) memcpy(way.first, d.along, sizeof way.first);
+        all = !(d.stop < d.length) || (!turn && !(d.radius > 0) && slrt_can_step(&d.p.s, x1, y1));
+        next[0] = all ? way.goal[0] : way.at[0] + d.stop * d.along[0];
+        next[1] = all ? way.goal[1] : way.at[1] + d.stop * d.along[1];
+        if (!slrt_can_step(&d.p.s, next[0], next[1])) break;
+        memcpy(way.at, next, sizeof next);
+        if (all || !slrt_turn_along(&d, &way)) break;
+    }
+    *x = way.at[0], *y = way.at[1];
+    return *x == x1 && *y == y1;
 }
 
 #ifdef __cplusplus
