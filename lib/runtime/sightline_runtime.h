@@ -4564,15 +4564,16 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
 //
 //      .--___                 The disc then slides: what is left of the way, without its part
 //     | o ---> ''--.          toward the nearest place of the segment. It ends in a corner, where
-//      '--....--____|_        it would go back into what it has slid along.
+//      '--....--____|_        it would go back.
 //      =================
 //
 // All that is within reach of the way is in the cells that open portals within reach lead to: the
 // nearest of it has no other before it.
 //
-// Distances are rounded. So four limits lie apart by more than rounding can do (`slack`): r itself;
-// r + 2, from where a way counts as free; r + 3, where a disc comes to rest. No rest is therefore
-// nearer than r, and none is stuck to what it rests at. Whether a way crosses something is exact.
+// Distances are rounded. So three limits lie apart by more than rounding can do (`slack`): r itself;
+// r + 2 slack, from where a way is free; r + 3 slack, where a disc comes to rest. No rest is
+// therefore nearer than r, and none is stuck to what it rests at. Whether a way crosses something is
+// exact.
 
 /// A disc on a straight way.
 typedef struct slrt_disc {
@@ -4711,50 +4712,41 @@ SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
            (!d.is_near || !(walker->radius > 0)) && slrt_can_step(&d.p.s, x1, y1);
 }
 
-/// A disc's way as it turns.
-typedef struct slrt_slide {
-    double at[2], goal[2];
-    double first[2], before[2]; ///< the first direction, and away from what it slides along
-} slrt_slide;
-
-/// Turns a disc's way along what stops it. False if nothing is left of the way, or if it would go
-/// back, or into what the disc slid along.
-static bool slrt_turn_along(const slrt_disc *d, slrt_slide *way) {
+/// Turns a way along what stops a disc, which is `at` that. False if nothing is left of the way, or
+/// if it would go back.
+static bool slrt_turn_along(const slrt_disc *d, const double *at, const double *first,
+                            double *goal) {
     const double into = slrt_dot(d->along, d->normal), left = d->length - d->stop;
     const double most = 4 * d->slack, push = d->push < most ? d->push : most;
     double rest[2];
     int i;
     for (i = 0; i < 2; i++) {
         rest[i] = left * (d->along[i] - into * d->normal[i]);
-        way->goal[i] = way->at[i] + rest[i] + push * d->normal[i];
+        goal[i] = at[i] + rest[i] + push * d->normal[i];
     }
-    if (!(slrt_dot(rest, rest) > most * most) || !(slrt_dot(rest, way->first) > 0) ||
-        slrt_dot(rest, way->before) < 0)
-        return false;
-    memcpy(way->before, d->normal, sizeof way->before);
-    return true;
+    return slrt_dot(rest, rest) > most * most && slrt_dot(rest, first) > 0;
 }
 
 SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
                                     double x0, double y0, double x1, double y1, uint32_t *scratch,
                                     double *x, double *y) {
     enum { TURNS = 4 };
-    slrt_slide way = {{x0, y0}, {x1, y1}, {0, 0}, {0, 0}};
+    double at[2] = {x0, y0}, goal[2] = {x1, y1}, first[2];
     int turn;
     for (turn = 0; turn < TURNS; turn++) {
         slrt_disc d;
         double next[2];
         bool all;
-        if (!slrt_move_disc(&d, runtime, walker, way.at, way.goal, scratch)) break;
-        if (!turn) memcpy(way.first, d.along, sizeof way.first);
+        if (!slrt_move_disc(&d, runtime, walker, at, goal, scratch)) break;
+        if (!turn) memcpy(first, d.along, sizeof first);
         all = !(d.stop < d.length) || (!turn && !(d.radius > 0) && slrt_can_step(&d.p.s, x1, y1));
-        next[0] = all ? way.goal[0] : way.at[0] + d.stop * d.along[0];
-        next[1] = all ? way.goal[1] : way.at[1] + d.stop * d.along[1];
+        next[0] = all ? goal[0] : at[0] + d.stop * d.along[0];
+        next[1] = all ? goal[1] : at[1] + d.stop * d.along[1];
         if (!slrt_can_step(&d.p.s, next[0], next[1])) break;
-        memcpy(way.at, next, sizeof next);
-        if (all || !slrt_turn_along(&d, &way)) break;
+        memcpy(at, next, sizeof at);
+        if (all || !slrt_turn_along(&d, at, first, goal)) break;
     }
-    *x = way.at[0], *y = way.at[1];
+    *x = at[0], *y = at[1];
     return *x == x1 && *y == y1;
 }
 

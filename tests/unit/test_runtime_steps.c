@@ -501,6 +501,9 @@ static void discs_slide(void **state) {
     comes_to(&f, 0.5, (sl_point){2, 2}, (sl_point){NAN, 2}, 2, 2);
     comes_to(&f, NAN, (sl_point){2, 2}, (sl_point){3, 2}, 3, 2);
     comes_to(&f, INFINITY, (sl_point){2, 2}, (sl_point){3, 2}, 2, 2);
+    // A point comes to where it sees to, however near a wall that is.
+    const sl_point beside = {7, 1e-16}, to = walked(&f, 0, (sl_point){2, 2}, beside);
+    assert_true(testing_same_point(to, beside));
     const sl_point far = walked(&f, 0.5, (sl_point){2, 8}, (sl_point){1e140, 8});
     assert_true(fabs(far.x - 9.5) < 1e-11 && fabs(far.y - 8) < 1e-11);
     baked_file_destroy(context, &f);
