@@ -44,7 +44,8 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
+    SL_RUNTIME_TEXT,       ///< a door, a start or another thing of the map is damaged
+    SL_RUNTIME_OLD         ///< of a version before 2.0, with SL_RUNTIME_WITHOUT_OLD_FILES
 } sl_runtime_status;
 
 /// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
@@ -54,6 +55,15 @@ typedef enum sl_runtime_mirrors {
     SL_RUNTIME_MIRRORS_BAKED,    ///< rows of the cells that are seen by mirror
     SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
 } sl_runtime_mirrors;
+
+/// How the places of a map stand in other coordinates: a file's, or a screen's. The point (x, y) of
+/// the map is scale * (x - origin_x), scale * (y - origin_y) there, or scale * (origin_y - y) if y
+/// points down there.
+typedef struct sl_runtime_transform {
+    double origin_x, origin_y; ///< the place in the map that is 0, 0 there
+    double scale;              ///< units there in a unit of the map; more than 0
+    bool y_down;
+} sl_runtime_transform;
 
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
@@ -92,8 +102,11 @@ typedef struct sl_runtime {
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
-    const unsigned char *text; ///< what the map holds beside walls, as map text
+    uint32_t start_count, object_count, path_count, mirror_count;
+    const unsigned char *names, *doors, *starts, *objects, *paths, *path_points, *mirror_lines;
+    const unsigned char *text; ///< of a file before 2.0: doors and starts as text; else NULL
     size_t text_bytes;
+    sl_runtime_transform transform; ///< as sl_runtime_map_transform; scale 0: the file has none
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -139,8 +152,11 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
-// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
-// starts read the map text in the file: call them once after opening.
+// Doors are numbered from 0 to door_count - 1, in the order of the map; so are starts, objects,
+// paths and mirrors. In a file before 2.0, doors and starts are read from its map text: each call
+// takes the time of that text, and there are no objects, paths and segments of mirrors. A program
+// that needs no such files defines SL_RUNTIME_WITHOUT_OLD_FILES where it implements this header.
+// It is smaller, and such files do not open (SL_RUNTIME_OLD).
 
 /// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
 typedef struct sl_runtime_name {
@@ -180,6 +196,47 @@ SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 /// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out);
+
+/// Reads an object, one of `object_count`: its name and its box, from the minimum x0, y0 to the
+/// maximum x1, y1. False if it does not exist; the results are then unchanged, here and below.
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box);
+
+/// Reads a path, one of `path_count`: its name and the number of its points.
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count);
+
+/// Reads the points of a path into `points`, which has room for 2 * point_count numbers.
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points);
+
+/// Reads a mirror, one of `mirror_count`. It reflects on both sides, or on its left only, going
+/// from its first end to its second. Mirrors are walls too.
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided);
+
+/// How the map's places stand in the file that was baked: pixels of a Tiled map with y down, say.
+/// False if the baked file does not have it, as those before 2.0; `out` is then that of the map's
+/// own places. A game may make any other: origin_x, origin_y is the place in the map that is 0, 0
+/// on its screen.
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out);
+
+/// Turns `count` points x, y, x, y ... of other coordinates into places of the map, to ask with.
+/// Exact if the numbers are: for whole numbers, with a scale that is a power of 2. Other numbers
+/// are rounded: what is asked is then asked of the rounded place.
+///
+/// With y down, the picture is the same and only the names of places change. So what is left of an
+/// eye stays left, a polygon still goes counter-clockwise as it is seen (its area by the formula
+/// for y up is then negative), the minimum of y becomes the maximum, the y of a direction changes
+/// its sign, and so does a heading: it goes clockwise. Lengths, as a range, are divided by the
+/// scale.
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count);
+
+/// The other way round: places of the map, such as a visible polygon, for drawing. As exact as
+/// sl_runtime_to_map.
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count);
 
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
@@ -537,6 +594,43 @@ SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_
                                     double x0, double y0, double x1, double y1, uint32_t *scratch,
                                     double *x, double *y);
 
+// Servers: what each player may see before it hears of the next tick.
+
+/// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count);
+
+/// Box to box, for many: finds which things each player may see. Player p may see thing t if
+/// bits[p * ((thing_count + 7) / 8) + t / 8] >> t % 8 & 1. Returns the number of such pairs. `bits`
+/// has a row for each player. `shut` and `range` are as for sl_runtime_look_past, but the distance
+/// between two places counts. Boxes do not hide each other.
+///
+/// `margin` is how far a player may come before the next answer. Its box grows by that to each
+/// side, through walls too: all of it looks but what is in solid ground or outside the map.
+///
+/// Conservative: no pair is missed of which one point of the grown box sees one point of the thing
+/// by sl_runtime_sees, with closed sight. It needs no rows, so it is that in any file but a loose
+/// one. Few pairs are added: on the maps of the tests at most 10 % more than the exact answer from
+/// box to box. More are added near the end of the range. A player's box takes everything if its
+/// lines of sight come to 16 times as many portals as the map has, which real maps do not cause.
+///
+/// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
+/// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
+/// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
+/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits);
+
+/// The same for two squares: whether some place within `radius0` of (x0, y0) along each axis may
+/// see some place within `radius1` of (x1, y1). `scratch` is as for sl_runtime_look. Time: the
+/// portals between them, and to clear a bit for each cell.
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch);
+
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
@@ -636,7 +730,12 @@ enum {
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
     SLRT_PORTAL_BYTES = 40,
-    SLRT_DIRECTED_BYTES = 40
+    SLRT_DIRECTED_BYTES = 40,
+    SLRT_DOOR_BYTES = 12,
+    SLRT_START_BYTES = 24,
+    SLRT_OBJECT_BYTES = 40,
+    SLRT_PATH_BYTES = 16,
+    SLRT_MIRROR_BYTES = 40
 };
 
 enum slrt_tag {
@@ -665,6 +764,14 @@ enum slrt_tag {
     SLRT_MDOO,
     SLRT_MDOB,
     SLRT_WALL,
+    SLRT_MAPI, ///< of files since 2.0, as those up to MIRR: what the map holds, in items
+    SLRT_MAPN,
+    SLRT_DOOR,
+    SLRT_STRT,
+    SLRT_OBJE,
+    SLRT_PATH,
+    SLRT_PAPO,
+    SLRT_MIRR,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -742,6 +849,14 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"MDOO", 8},
                           {"MDOB", 1},
                           {"WALL", 32},
+                          {"MAPI", 40},
+                          {"MAPN", 1},
+                          {"DOOR", SLRT_DOOR_BYTES},
+                          {"STRT", SLRT_START_BYTES},
+                          {"OBJE", SLRT_OBJECT_BYTES},
+                          {"PATH", SLRT_PATH_BYTES},
+                          {"PAPO", SLRT_VERTEX_BYTES},
+                          {"MIRR", SLRT_MIRROR_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -1073,7 +1188,8 @@ static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
     return true;
 }
 
-/// The portals on seams, by portal, so that they can be searched.
+/// The portals on seams, by portal, so that they can be searched. There are as many doors as seams
+/// name, or more.
 static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     const uint64_t count = found[SLRT_SEPO].items ? found[SLRT_SEPO].count : 0;
     uint64_t i;
@@ -1085,8 +1201,15 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    for (i = 0; i < rt->seam_count; i++)
-        if (!slrt_usable(rt->seams + i * 40, 4)) return false;
+    rt->door_count = 0;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + i * 40;
+        const uint32_t number = slrt_u32(seam + 36);
+        if (!slrt_usable(seam, 4)) return false;
+        if (slrt_u32(seam + 32) != 1) continue;
+        if (number >= INT32_MAX) return false;
+        if (number >= rt->door_count) rt->door_count = number + 1;
+    }
     rt->seam_portal_count = (uint32_t)count;
     for (i = 0; i < count; i++) {
         const unsigned char *on = rt->seam_portals + i * 12;
@@ -1127,18 +1250,10 @@ static bool slrt_door_rows_are_sound(const sl_runtime *rt, const slrt_section *o
     return true;
 }
 
+/// The doors are known.
 static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
-    uint64_t i;
-    rt->door_count = 0;
     rt->door_offsets = found[SLRT_DORO].items;
     rt->door_bytes = found[SLRT_DORB].items;
-    for (i = 0; found[SLRT_SEAM].items && i < found[SLRT_SEAM].count; i++) {
-        const unsigned char *seam = found[SLRT_SEAM].items + i * 40;
-        const uint32_t number = slrt_u32(seam + 36);
-        if (slrt_u32(seam + 32) != 1) continue;
-        if (number >= INT32_MAX) return false;
-        if (number >= rt->door_count) rt->door_count = number + 1;
-    }
     return slrt_door_rows_are_sound(rt, &found[SLRT_DORO], &found[SLRT_DORB]);
 }
 
@@ -1155,7 +1270,6 @@ static sl_runtime slrt_mirrored(const sl_runtime *rt) {
 /// Rows of what is seen by mirror, if the file has any.
 static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
     sl_runtime rows;
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
     rt->mirror_offsets = found[SLRT_MIRO].items;
     rt->mirror_bytes = found[SLRT_MIRB].items;
     rt->mirror_door_offsets = found[SLRT_MDOO].items;
@@ -1169,7 +1283,10 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
 }
 
-// --- The map text: statements in lines, words between blanks, comments after '#'
+/// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
+/// words between blanks, comments after '#'. SL_RUNTIME_WITHOUT_OLD_FILES leaves this part out.
+
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
 
 /// A place in the map text: the rest of a line, or of the text.
 typedef struct slrt_text {
@@ -1203,18 +1320,16 @@ static bool slrt_word_is(const slrt_text *word, const char *text) {
     return at == word->end && !*text;
 }
 
-/// The `number`-th statement with this first word; what follows the word is put into `line`. Counts
-/// down `number`, so UINT32_MAX counts the statements.
-static bool slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t *number,
-                                slrt_text *line) {
-    slrt_text text;
-    text.at = rt->text;
+/// What follows the first word of the `number`-th statement with this word, which exists.
+static slrt_text slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t number) {
+    slrt_text text, line;
+    text.at = line.at = line.end = rt->text;
     text.end = rt->text + rt->text_bytes;
-    while (slrt_take_line(&text, line)) {
-        const slrt_text word = slrt_take_word(line);
-        if (slrt_word_is(&word, first) && !(*number)--) return true;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text word = slrt_take_word(&line);
+        if (slrt_word_is(&word, first) && !number--) break;
     }
-    return false;
+    return line;
 }
 
 /// A decimal: digits, of which the last `fraction` are behind the point, and a power of ten.
@@ -1364,34 +1479,144 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
            slrt_take_number(&line, false, &out->heading);
 }
 
-// --- Opening a file
-
 /// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
-static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
+static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
+    const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    uint32_t doors = 0;
     rt->range = 0;
-    rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
-    rt->text_bytes = (size_t)found[SLRT_MAPT].count;
+    rt->door_count = 0;
+    rt->text = section->items ? section->items : (const unsigned char *)"";
+    rt->text_bytes = (size_t)section->count;
     text.at = rt->text;
     text.end = rt->text + rt->text_bytes;
     while (slrt_take_line(&text, &line)) {
         const slrt_text first = slrt_take_word(&line);
         sl_runtime_viewpoint start;
-        if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
         if (slrt_word_is(&first, "range") &&
             (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
             return false;
+        if (slrt_word_is(&first, "start")) {
+            if (!slrt_read_start(line, &start)) return false;
+            rt->start_count++;
+        }
         if (slrt_word_is(&first, "door")) {
             const slrt_text name = slrt_take_word(&line);
             if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
-            doors++;
+            if (rt->door_count++ == INT32_MAX) return false;
         }
-        if (slrt_word_is(&first, "mirror") && !rt->mirrors)
-            rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+        if (slrt_word_is(&first, "mirror")) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
     }
-    return doors >= rt->door_count;
+    return rt->door_count >= seam_doors;
 }
+
+/// A door of the text: its name, and whether it is open.
+static sl_runtime_name slrt_text_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    sl_runtime_name name;
+    slrt_text line = slrt_find_statement(rt, "door", door), word = slrt_take_word(&line);
+    int i;
+    name.text = (const char *)word.at;
+    name.length = (uint32_t)(word.end - word.at);
+    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // four coordinates, and the state
+    *open = !slrt_word_is(&word, "shut");
+    return name;
+}
+
+static bool slrt_text_start(const sl_runtime *rt, uint32_t start, sl_runtime_viewpoint *out) {
+    return slrt_read_start(slrt_find_statement(rt, "start", start), out);
+}
+
+#endif
+
+/// What is checked of the map's things when a file is opened: doors, starts, objects, paths,
+/// mirrors.
+
+static bool slrt_is_finite(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits >> 52 & 0x7ff) != 0x7ff;
+}
+
+/// The items of a section: at most INT32_MAX, each of them, if it is `named`, begins with a name
+/// that is not empty, in the section of names; then come `numbers` coordinates.
+static bool slrt_items_are_sound(const slrt_section *found, int tag, uint32_t item_bytes,
+                                 bool named, int numbers) {
+    const unsigned char *item = found[tag].items;
+    const uint64_t count = found[tag].count, names = found[SLRT_MAPN].count;
+    uint64_t i;
+    for (i = 0; i < count; i++, item += item_bytes) {
+        if (named && (!slrt_u32(item + 4) || slrt_u32(item) > names ||
+                      slrt_u32(item + 4) > names - slrt_u32(item)))
+            return false;
+        if (!slrt_usable(item + (named ? 8 : 0), numbers)) return false;
+    }
+    return count <= INT32_MAX;
+}
+
+static bool slrt_take_map_info(sl_runtime *rt, const slrt_section *section) {
+    const unsigned char *info = section->items;
+    double scale;
+    if (section->count != 1 || !slrt_usable(info + 8, 3) || slrt_u64(info + 32) > 1) return false;
+    rt->range = slrt_f64(info);
+    rt->transform.origin_x = slrt_f64(info + 8);
+    rt->transform.origin_y = slrt_f64(info + 16);
+    rt->transform.scale = scale = slrt_f64(info + 24);
+    rt->transform.y_down = slrt_u64(info + 32) != 0;
+    return slrt_is_finite(rt->range) && rt->range >= 0 && (scale == 0 || scale >= 1e-150);
+}
+
+/// The map's things in a file that has them in sections.
+static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    if (!slrt_take_map_info(rt, &found[SLRT_MAPI]) || found[SLRT_DOOR].count < rt->door_count ||
+        !slrt_items_are_sound(found, SLRT_DOOR, SLRT_DOOR_BYTES, true, 0) ||
+        !slrt_items_are_sound(found, SLRT_STRT, SLRT_START_BYTES, false, 2) ||
+        !slrt_items_are_sound(found, SLRT_OBJE, SLRT_OBJECT_BYTES, true, 4) ||
+        !slrt_items_are_sound(found, SLRT_PATH, SLRT_PATH_BYTES, true, 0) ||
+        !slrt_items_are_sound(found, SLRT_PAPO, SLRT_VERTEX_BYTES, false, 2) ||
+        !slrt_items_are_sound(found, SLRT_MIRR, SLRT_MIRROR_BYTES, false, 4))
+        return false;
+    rt->names = found[SLRT_MAPN].items;
+    rt->doors = found[SLRT_DOOR].items;
+    rt->door_count = (uint32_t)found[SLRT_DOOR].count;
+    rt->starts = found[SLRT_STRT].items;
+    rt->start_count = (uint32_t)found[SLRT_STRT].count;
+    rt->objects = found[SLRT_OBJE].items;
+    rt->object_count = (uint32_t)found[SLRT_OBJE].count;
+    rt->paths = found[SLRT_PATH].items;
+    rt->path_count = (uint32_t)found[SLRT_PATH].count;
+    rt->path_points = found[SLRT_PAPO].items;
+    rt->mirror_lines = found[SLRT_MIRR].items;
+    rt->mirror_count = (uint32_t)found[SLRT_MIRR].count;
+    if (rt->mirror_count) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+    for (i = 0; i < rt->start_count; i++)
+        if (!slrt_is_finite(slrt_f64(rt->starts + (size_t)i * SLRT_START_BYTES + 16))) return false;
+    for (i = 0; i < rt->path_count; i++) {
+        const unsigned char *path = rt->paths + (size_t)i * SLRT_PATH_BYTES;
+        if ((uint64_t)slrt_u32(path + 8) + slrt_u32(path + 12) > found[SLRT_PAPO].count)
+            return false;
+    }
+    return true;
+}
+
+/// What the map holds beside walls. Files before 2.0 have it as text alone.
+static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
+    const bool old = !found[SLRT_MAPI].items;
+    memset(&rt->transform, 0, sizeof rt->transform);
+    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
+    rt->text = NULL;
+    rt->text_bytes = 0;
+#ifdef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (old) return SL_RUNTIME_OLD;
+#else
+    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
+    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
+    rt->mirror_lines = NULL;
+    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+#endif
+    return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+}
+
+// --- Opening a file
 
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
@@ -1406,8 +1631,9 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    status = slrt_take_map(&rt, found);
+    if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
-    if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -1438,7 +1664,9 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
     case SL_RUNTIME_TEXT:
-        return "damaged: a door, a start or the range of the map text";
+        return "damaged: a door, a start or another thing of the map";
+    case SL_RUNTIME_OLD:
+        return "of a version before 2.0, which this program leaves out: bake the map again";
     }
     return "unknown status";
 }
@@ -1487,44 +1715,58 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
     *y = slrt_f64(at + 8);
 }
 
-// --- Doors and starts
+// --- The map's things: doors, starts, objects, paths and mirrors
 
-SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+/// The name that a door, an object or a path begins with.
+static sl_runtime_name slrt_name(const sl_runtime *rt, const unsigned char *item) {
     sl_runtime_name name;
-    slrt_text line;
-    name.text = "";
-    name.length = 0;
-    if (door < runtime->door_count && slrt_find_statement(runtime, "door", &door, &line)) {
-        const slrt_text word = slrt_take_word(&line);
-        name.text = (const char *)word.at;
-        name.length = (uint32_t)(word.end - word.at);
-    }
+    name.text = (const char *)rt->names + slrt_u32(item);
+    name.length = slrt_u32(item + 4);
     return name;
 }
 
+static sl_runtime_segment slrt_segment(const unsigned char *at) {
+    sl_runtime_segment segment;
+    segment.x0 = slrt_f64(at);
+    segment.y0 = slrt_f64(at + 8);
+    segment.x1 = slrt_f64(at + 16);
+    segment.y1 = slrt_f64(at + 24);
+    return segment;
+}
+
+static sl_runtime_name slrt_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    const unsigned char *item;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (rt->text) return slrt_text_door(rt, door, open);
+#endif
+    item = rt->doors + (size_t)door * SLRT_DOOR_BYTES;
+    *open = slrt_u32(item + 8) != 0;
+    return slrt_name(rt, item);
+}
+
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+    sl_runtime_name none;
+    bool open;
+    none.text = "";
+    none.length = 0;
+    return door < runtime->door_count ? slrt_door(runtime, door, &open) : none;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
-    slrt_text text, line;
-    uint32_t door = 0;
-    text.at = runtime->text;
-    text.end = runtime->text + runtime->text_bytes;
-    while (door < runtime->door_count && slrt_take_line(&text, &line)) {
-        slrt_text word = slrt_take_word(&line);
-        if (!slrt_word_is(&word, "door")) continue;
-        word = slrt_take_word(&line);
-        if (slrt_word_is(&word, name)) return door;
-        door++;
+    size_t length = 0;
+    uint32_t door;
+    while (name[length]) length++;
+    for (door = 0; door < runtime->door_count; door++) {
+        const sl_runtime_name own = sl_runtime_door_name(runtime, door);
+        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
     }
     return SL_RUNTIME_NO_DOOR;
 }
 
 SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door) {
-    slrt_text line, word;
-    int i;
-    if (door >= runtime->door_count || !slrt_find_statement(runtime, "door", &door, &line))
-        return false;
-    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // its name and four coordinates
-    word = slrt_take_word(&line);
-    return !slrt_word_is(&word, "shut");
+    bool open = false;
+    if (door < runtime->door_count) slrt_door(runtime, door, &open);
+    return open;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
@@ -1533,32 +1775,94 @@ SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint
     for (i = 0; i < runtime->seam_count; i++) {
         const unsigned char *seam = runtime->seams + (size_t)i * 40;
         if (slrt_u32(seam + 32) != 1 || slrt_u32(seam + 36) != door) continue;
-        if (count < room) {
-            segments[count].x0 = slrt_f64(seam);
-            segments[count].y0 = slrt_f64(seam + 8);
-            segments[count].x1 = slrt_f64(seam + 16);
-            segments[count].y1 = slrt_f64(seam + 24);
-        }
+        if (count < room) segments[count] = slrt_segment(seam);
         count++;
     }
     return count;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
-    uint32_t left = UINT32_MAX;
-    slrt_text line;
-    slrt_find_statement(runtime, "start", &left, &line);
-    return UINT32_MAX - left;
+    return runtime->start_count;
 }
 
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out) {
-    sl_runtime_viewpoint found;
-    slrt_text line;
-    if (!slrt_find_statement(runtime, "start", &start, &line) || !slrt_read_start(line, &found))
-        return false;
-    *out = found;
+    const unsigned char *item;
+    if (start >= runtime->start_count) return false;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (runtime->text) return slrt_text_start(runtime, start, out);
+#endif
+    item = runtime->starts + (size_t)start * SLRT_START_BYTES;
+    out->x = slrt_f64(item);
+    out->y = slrt_f64(item + 8);
+    out->heading = slrt_f64(item + 16);
     return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box) {
+    const unsigned char *item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
+    if (object >= runtime->object_count) return false;
+    *name = slrt_name(runtime, item);
+    *box = slrt_segment(item + 8);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    if (path >= runtime->path_count) return false;
+    *name = slrt_name(runtime, item);
+    *point_count = slrt_u32(item + 12);
+    return true;
+}
+
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    const unsigned char *at = runtime->path_points;
+    uint32_t i;
+    if (path >= runtime->path_count) return;
+    at += (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
+    for (i = 0; i < 2 * slrt_u32(item + 12); i++) points[i] = slrt_f64(at + (size_t)i * 8);
+}
+
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided) {
+    const unsigned char *item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
+    if (mirror >= runtime->mirror_count) return false;
+    *segment = slrt_segment(item);
+    *one_sided = slrt_u64(item + 32) != 0;
+    return true;
+}
+
+// --- Points of a map in other coordinates, such as those of a screen with y down
+
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out) {
+    *out = runtime->transform;
+    if (out->scale > 0) return true;
+    out->scale = 1;
+    return false;
+}
+
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count) {
+    uint32_t i;
+    for (i = 0; i < count; i++, points += 2) {
+        const double y = points[1] / transform->scale;
+        points[0] = transform->origin_x + points[0] / transform->scale;
+        points[1] = transform->y_down ? transform->origin_y - y : transform->origin_y + y;
+    }
+}
+
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count) {
+    uint32_t i;
+    for (i = 0; i < count; i++, points += 2) {
+        points[0] = transform->scale * (points[0] - transform->origin_x);
+        points[1] = transform->scale * (transform->y_down ? transform->origin_y - points[1]
+                                                          : points[1] - transform->origin_y);
+    }
 }
 
 // --- Rows: which cells see which, with doors as they stand, by mirror, and from view cells
@@ -3572,7 +3876,7 @@ static void slrt_run_search(slrt_search *s) {
     while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
     slrt_follow(s, NULL);
     if (s->has_row && s->rt->has_glass) slrt_allow_rows_in_line(s);
-    memmove(slrt_own_cells(s), s->path, s->own_count * sizeof *s->path);
+    for (i = s->own_count; i-- > 0;) slrt_own_cells(s)[i] = s->path[i]; // upwards: from the last on
     slrt_search_cone(s, s->eye_cell);
     for (i = 1; i < s->own_count; i++) slrt_search_cone(s, slrt_own_cells(s)[i]);
 }
@@ -4748,6 +5052,644 @@ SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_
     }
     *x = at[0], *y = at[1];
     return *x == x1 && *y == y1;
+}
+
+/// Box to box: what is seen from anywhere in a box, by a search through portals.
+///
+/// A beam is all lines of sight that start in a part of the box and pass some portals in turn. On
+/// each side a bound holds it: behind the portals, no line of the beam is to the left of the left
+/// bound.
+///
+///            l2 |                The left bound leads from a right end to a later left end, as
+///        l1 |   |                r1 to l2, or from a corner of the box to a left end. A portal
+///     box   |   r2               turns it if its left end lies to the right of it. It stays where
+///           r1                   it was if no such line is a bound for sure.
+///
+/// What is left out is so for sure: a sign that rounding may change counts for sight. And any bound
+/// through these points leaves out no line of sight, so which of them is the best may be rounded.
+
+/// A bound. Its points are `from` and `to`: ends of portals, numbered as borders of sectors, or
+/// corners of boxes. `from` is SLRT_NONE for no bound, as of two points in one place.
+typedef struct slrt_bound {
+    uint32_t from, to;
+    slrt_arm arm; ///< from one to the other
+} slrt_bound;
+
+/// Corners of the box's part that the beams start in, then those of the box: 1 right, 2 top.
+#define SLRT_PART_CORNER (UINT32_MAX - 8)
+#define SLRT_BOX_CORNER  (UINT32_MAX - 4)
+
+enum { SLRT_RIGHT, SLRT_LEFT };
+
+typedef struct slrt_beam {
+    slrt_bound bounds[2];
+} slrt_beam;
+
+/// A cell on the path: its number, how many of the ways out are done, the points of the bounds.
+enum { SLRT_BEAM_CELL, SLRT_BEAM_DONE, SLRT_BEAM_BOUNDS, SLRT_BEAM_STEP = SLRT_BEAM_BOUNDS + 4 };
+
+/// A beam that came into a cell.
+typedef struct slrt_past_beam {
+    uint32_t cell, entry; ///< the directed portal that it came through
+    uint32_t source;      ///< the cell that it started in
+    uint32_t line;        ///< 1 if it is all in one line
+    uint32_t bounds[4];
+} slrt_past_beam;
+
+enum { SLRT_PAST_BEAMS = 256, SLRT_WAYS = 5 };
+
+/// The limit of portals that the beams of a box come to, for each directed portal of the map.
+#ifndef SLRT_BEAM_PATIENCE
+#define SLRT_BEAM_PATIENCE 16
+#endif
+
+typedef struct slrt_beams {
+    const sl_runtime *rt;
+    const unsigned char *shut; ///< NULL for none
+    double range;              ///< 0 for no limit
+    double box[4];             ///< within the bounds of the map
+    uint32_t source;           ///< the cell that the beams start in
+    double part[4];            ///< the part of the box within the bounds of that cell
+    const double *target;      ///< beams beside this box are left out; NULL for none
+    /// For each cell that a beam comes to, and the first. True ends the search.
+    bool (*meet)(struct slrt_beams *b, uint32_t cell, const slrt_beam *beam);
+    void *context;
+    uint64_t patience;
+    uint32_t *path, depth, *on_path; ///< on_path: a bit for each cell
+    slrt_beam beam;                  ///< in the cell on top of the path
+    sl_runtime_cell cell;            ///< that cell
+    uint32_t entry;                  ///< the directed portal to it, or SLRT_NONE
+    slrt_past_beam past[SLRT_PAST_BEAMS];
+} slrt_beams;
+
+// --- boxes and lines
+
+/// The part of a box within the bounds of a cell that it meets.
+static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box[4],
+                         double part[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    double low[2], high[2], at[2];
+    uint32_t i;
+    int k;
+    sl_runtime_get_vertex(rt, cell.first_vertex, &low[0], &low[1]);
+    memcpy(high, low, sizeof high);
+    for (i = 1; i < cell.vertex_count; i++) {
+        sl_runtime_get_vertex(rt, cell.first_vertex + i, &at[0], &at[1]);
+        for (k = 0; k < 2; k++) {
+            if (at[k] < low[k]) low[k] = at[k];
+            if (at[k] > high[k]) high[k] = at[k];
+        }
+    }
+    for (k = 0; k < 2; k++) {
+        part[k] = box[k] > low[k] ? box[k] : low[k];
+        part[2 + k] = box[2 + k] < high[k] ? box[2 + k] : high[k];
+    }
+}
+
+/// The side of a line that a point is on, without the exact sign: 1 left, -1 right, 0 if rounding
+/// may decide.
+static int slrt_surely(const slrt_arm *line, double x, double y) {
+    const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
+    const double product = left - right;
+    const double bound = 4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    return (product > bound) - (-product > bound);
+}
+
+/// Whether all of a box is to the left (1) or right (-1) of a line for sure.
+static bool slrt_is_box_beside(const slrt_arm *line, const double box[4], int side) {
+    const bool up = side * line->y > 0, right = side * line->x > 0;
+    return slrt_surely(line, box[up ? 2 : 0], box[right ? 1 : 3]) * side > 0;
+}
+
+static bool slrt_is_beam_beside(const slrt_beam *beam, const double box[4]) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    return (right->from != SLRT_NONE && slrt_is_box_beside(&right->arm, box, -1)) ||
+           (left->from != SLRT_NONE && slrt_is_box_beside(&left->arm, box, 1));
+}
+
+/// Whether a box is out of range of all of the box that looks, for sure.
+static bool slrt_is_out_of_range(const slrt_beams *b, const double box[4]) {
+    double square = 0;
+    int k;
+    if (!(b->range > 0)) return false;
+    for (k = 0; k < 2; k++) {
+        const double over = box[k] - b->box[2 + k], under = b->box[k] - box[2 + k];
+        const double gap = (over > under ? over : under) / b->range;
+        if (gap > 0) square += gap * gap;
+    }
+    return square > 1 + 1e-12;
+}
+
+// --- bounds
+
+static void slrt_point_of(const slrt_beams *b, uint32_t number, double *x, double *y) {
+    if (number >= SLRT_PART_CORNER) {
+        const double *box = number < SLRT_BOX_CORNER ? b->part : b->box;
+        const uint32_t corner = (number - SLRT_PART_CORNER) % 4;
+        *x = box[corner & 1 ? 2 : 0];
+        *y = box[corner & 2 ? 3 : 1];
+    } else {
+        double end[2];
+        slrt_read_end(b->rt, number / 2, (int)(number % 2), end);
+        *x = end[0];
+        *y = end[1];
+    }
+}
+
+static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t to) {
+    slrt_bound bound;
+    double x, y, to_x, to_y;
+    memset(&bound, 0, sizeof bound);
+    bound.from = from;
+    bound.to = to;
+    if (from == SLRT_NONE) return bound;
+    slrt_point_of(b, from, &x, &y);
+    slrt_point_of(b, to, &to_x, &to_y);
+    bound.arm = slrt_make_arm(x, y, to_x, to_y);
+    if (slrt_is_zero(&bound.arm)) bound.from = SLRT_NONE;
+    return bound;
+}
+
+/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
+/// a point in the box.
+static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
+    // By column and row of the point about the box.
+    static const unsigned char corners[3][3][2] = {
+        {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
+    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
+    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    if (column == 1 && row == 1) return SLRT_NONE;
+    return SLRT_PART_CORNER + corners[column][row][side];
+}
+
+/// Turns a bound of a beam to the end of a directed portal on its side, if that leaves more out.
+/// `across` leads from the portal's right end to its left.
+static void slrt_turn_bound(const slrt_beams *b, const slrt_beam *before, uint32_t directed,
+                            const slrt_arm *across, int side, slrt_bound *bound) {
+    const int sign = side == SLRT_LEFT ? 1 : -1;
+    const uint32_t end = 2 * directed + (side == SLRT_RIGHT);
+    const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
+    const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
+    const slrt_bound *own = &before->bounds[side], *other = &before->bounds[!side];
+    // Points that each line of the beam has on its other side, or behind it.
+    uint32_t pivots[4];
+    int i;
+    if (own->from != SLRT_NONE &&
+        sign * (own->arm.x * (y - own->arm.from_y) - own->arm.y * (x - own->arm.from_x)) >= 0)
+        return;
+    pivots[0] = slrt_tangent(b->part, x, y, side);
+    pivots[1] = own->from >= SLRT_PART_CORNER && own->from < SLRT_BOX_CORNER ? SLRT_NONE : own->from;
+    pivots[2] = other->from == SLRT_NONE ? SLRT_NONE : other->to;
+    pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
+    for (i = 0; i < 4; i++) {
+        double from_x, from_y;
+        if (pivots[i] == SLRT_NONE) continue;
+        slrt_point_of(b, pivots[i], &from_x, &from_y);
+        if (bound->to == end && sign * (bound->arm.x * (from_y - bound->arm.from_y) -
+                                        bound->arm.y * (from_x - bound->arm.from_x)) <= 0)
+            continue;
+        // Only from before the portal does a line to its end bound what is behind it.
+        if (slrt_surely(across, from_x, from_y) <= 0) continue;
+        bound->from = pivots[i];
+        bound->to = end;
+        bound->arm = slrt_make_arm(from_x, from_y, x, y);
+    }
+}
+
+// --- portals
+
+/// Whether a directed portal is on a shut door, or on glass that is dark from all of the box.
+static bool slrt_is_closed(const slrt_beams *b, uint32_t portal) {
+    const sl_runtime *rt = b->rt;
+    uint32_t i;
+    if (!rt->seam_portal_count) return false;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
+        slrt_arm line;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 1 && b->shut && b->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) != 2) continue;
+        line = slrt_make_arm(slrt_f64(seam), slrt_f64(seam + 8), slrt_f64(seam + 16),
+                             slrt_f64(seam + 24));
+        if (slrt_is_box_beside(&line, b->box, 1)) return true;
+    }
+    return false;
+}
+
+/// Whether a point is beyond a side of the box: left, right, bottom, top.
+static bool slrt_is_beyond(const double box[4], const double point[2], int side) {
+    return side & 1 ? point[side / 2] > box[2 + side / 2] : point[side / 2] < box[side / 2];
+}
+
+/// Whether no corner of the part is before a portal: `across` leads from its right end to its left.
+static bool slrt_is_part_on(const slrt_beams *b, const slrt_arm *across) {
+    const slrt_arm to =
+        slrt_make_arm(across->from_x, across->from_y, b->part[across->y > 0 ? 0 : 2],
+                      b->part[across->x > 0 ? 3 : 1]);
+    return slrt_side(across, &to) <= 0;
+}
+
+/// Whether the part is nearer to a portal's right end than to its left.
+static bool slrt_is_part_right(const slrt_beams *b, const slrt_arm *across) {
+    return slrt_size(b->part[0] - across->from_x, b->part[1] - across->from_y) <
+           slrt_size(b->part[0] - across->to_x, b->part[1] - across->to_y);
+}
+
+/// The ways out of the first cell through a directed portal. Lines that cross it within the box are
+/// those of the part in the next cell, which has its own beams. All others leave the box before,
+/// across one of its sides, and stay beyond it. Way 0 is the whole portal, if it is beyond a side
+/// or leads to solid ground; else ways 1 to 4 are what is beyond a side. That side is a bound. From
+/// a part that is on the portal's line, only that line crosses it.
+static bool slrt_leave_box(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                           uint32_t directed, const slrt_arm *across, uint32_t way,
+                           slrt_beam *beam) {
+    // The ends of the sides, clockwise about the box.
+    static const unsigned char from[4] = {0, 3, 1, 2}, to[4] = {2, 1, 0, 3};
+    const bool solid = sl_runtime_is_solid(b->rt, p->cell);
+    bool left = false, right = false, beyond = false;
+    uint32_t side, first, last;
+    for (side = 0; side < 4; side++) {
+        const bool left_is = slrt_is_beyond(b->box, p->left, side);
+        const bool right_is = slrt_is_beyond(b->box, p->right, side);
+        beyond = beyond || (left_is && right_is);
+        if (side + 1 == way) left = left_is, right = right_is;
+    }
+    if (way ? beyond || solid || left == right : !beyond && !solid) return false;
+    if (!solid && slrt_is_part_on(b, across)) {
+        if (!way) left = slrt_is_part_right(b, across);
+        beam->bounds[0] = slrt_make_bound(b, 2 * directed + left, 2 * directed + !left);
+        beam->bounds[1] = beam->bounds[0];
+    } else if (way) {
+        first = SLRT_BOX_CORNER + (left ? from : to)[way - 1];
+        last = SLRT_BOX_CORNER + (left ? to : from)[way - 1];
+        beam->bounds[left ? SLRT_RIGHT : SLRT_LEFT] = slrt_make_bound(b, first, last);
+    }
+    return true;
+}
+
+/// The part of the beam on top of the path that leaves through a directed portal; false for none.
+static bool slrt_pass_portal(const slrt_beams *b, uint32_t directed, uint32_t way, slrt_beam *out) {
+    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
+    const slrt_bound *right = &b->beam.bounds[SLRT_RIGHT], *left = &b->beam.bounds[SLRT_LEFT];
+    const slrt_arm across = slrt_make_arm(p.right[0], p.right[1], p.left[0], p.left[1]);
+    slrt_beam before;
+    double span[4];
+    int k;
+    if ((left->from != SLRT_NONE && slrt_surely(&left->arm, p.right[0], p.right[1]) > 0) ||
+        (right->from != SLRT_NONE && slrt_surely(&right->arm, p.left[0], p.left[1]) < 0))
+        return false;
+    for (k = 0; k < 2; k++) {
+        const bool up = p.left[k] < p.right[k];
+        span[k] = up ? p.left[k] : p.right[k];
+        span[2 + k] = up ? p.right[k] : p.left[k];
+    }
+    before = b->beam;
+    if (slrt_is_out_of_range(b, span) || slrt_is_closed(b, p.portal) ||
+        (b->depth == 1 && !slrt_leave_box(b, &p, directed, &across, way, &before)))
+        return false;
+    *out = before;
+    slrt_turn_bound(b, &before, directed, &across, SLRT_RIGHT, &out->bounds[SLRT_RIGHT]);
+    slrt_turn_bound(b, &before, directed, &across, SLRT_LEFT, &out->bounds[SLRT_LEFT]);
+    return !b->target || !slrt_is_beam_beside(out, b->target);
+}
+
+// --- the search
+
+/// Whether a beam is all in one line.
+static bool slrt_is_one_line(const slrt_beam *beam) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
+                                      left->arm.to_y);
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to);
+}
+
+static int slrt_turn_of(const slrt_arm *line, const double point[2]) {
+    const slrt_arm to = slrt_make_arm(line->from_x, line->from_y, point[0], point[1]);
+    return slrt_side(line, &to);
+}
+
+/// Whether a line is that of a past beam, and touches the portal through which that came.
+static bool slrt_is_past_line(const slrt_beams *b, const slrt_past_beam *past,
+                              const slrt_arm *line) {
+    const slrt_bound was = slrt_make_bound(b, past->bounds[0], past->bounds[1]);
+    const double from[2] = {line->from_x, line->from_y};
+    double right[2], left[2];
+    slrt_read_end(b->rt, past->entry, 1, right);
+    slrt_read_end(b->rt, past->entry, 0, left);
+    return !slrt_side(&was.arm, line) && !slrt_turn_of(&was.arm, from) &&
+           slrt_same_way(&was.arm, line) && slrt_turn_of(line, right) <= 0 &&
+           slrt_turn_of(line, left) >= 0;
+}
+
+/// Whether a beam that came to a cell before had all lines of this one, and bounds that hold for
+/// them. If not, this one takes its place. (It is not enough that the other one has shown all that
+/// this one does of the cell: behind the next portal it may show less.)
+static bool slrt_is_past(slrt_beams *b, uint32_t cell, uint32_t entry, const slrt_beam *beam) {
+    const bool line = slrt_is_one_line(beam);
+    slrt_past_beam now, *past = &b->past[(line ? cell : entry) % SLRT_PAST_BEAMS];
+    int side;
+    now.cell = cell;
+    now.entry = entry;
+    now.source = b->source;
+    now.line = line;
+    for (side = 0; side < 2; side++) {
+        now.bounds[2 * side] = beam->bounds[side].from;
+        now.bounds[2 * side + 1] = beam->bounds[side].to;
+    }
+    if (line && past->line && past->cell == cell && past->source == b->source &&
+        slrt_is_past_line(b, past, &beam->bounds[SLRT_RIGHT].arm))
+        return true;
+    if (!memcmp(past, &now, sizeof now)) return true;
+    *past = now;
+    return false;
+}
+
+/// Puts a cell on top of the path.
+static void slrt_come_to(slrt_beams *b, uint32_t cell, uint32_t entry, const slrt_beam *beam) {
+    uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)b->depth++;
+    int side;
+    top[SLRT_BEAM_CELL] = cell;
+    top[SLRT_BEAM_DONE] = 0;
+    for (side = 0; side < 2; side++) {
+        top[SLRT_BEAM_BOUNDS + 2 * side] = beam->bounds[side].from;
+        top[SLRT_BEAM_BOUNDS + 2 * side + 1] = beam->bounds[side].to;
+    }
+    b->on_path[cell / 32] |= UINT32_C(1) << cell % 32;
+    b->cell = sl_runtime_get_cell(b->rt, cell);
+    b->entry = entry;
+    b->beam = *beam;
+}
+
+static void slrt_leave_top(slrt_beams *b) {
+    const uint32_t cell = b->path[SLRT_BEAM_STEP * (size_t)--b->depth];
+    b->on_path[cell / 32] &= ~(UINT32_C(1) << cell % 32);
+}
+
+/// How many ways there are out of the cell on top.
+static uint32_t slrt_ways(const slrt_beams *b) {
+    return b->cell.directed_count * (b->depth == 1 ? SLRT_WAYS : 1);
+}
+
+/// Goes back to a cell with ways that are not done.
+static void slrt_go_back(slrt_beams *b) {
+    const uint32_t *top;
+    do {
+        slrt_leave_top(b);
+        if (!b->depth) return;
+        top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
+        b->cell = sl_runtime_get_cell(b->rt, top[SLRT_BEAM_CELL]);
+    } while (top[SLRT_BEAM_DONE] == slrt_ways(b));
+    b->beam.bounds[0] = slrt_make_bound(b, top[SLRT_BEAM_BOUNDS], top[SLRT_BEAM_BOUNDS + 1]);
+    b->beam.bounds[1] = slrt_make_bound(b, top[SLRT_BEAM_BOUNDS + 2], top[SLRT_BEAM_BOUNDS + 3]);
+    b->entry = SLRT_NONE;
+    if (b->depth == 1) return;
+    top -= SLRT_BEAM_STEP;
+    b->entry = sl_runtime_get_cell(b->rt, top[SLRT_BEAM_CELL]).first_directed +
+               (top[SLRT_BEAM_DONE] - 1) / (b->depth == 2 ? SLRT_WAYS : 1);
+}
+
+/// Follows the next way out of the cell on top. True if `meet` ends the search.
+static bool slrt_go_on(slrt_beams *b) {
+    uint32_t *done = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1) + SLRT_BEAM_DONE;
+    const uint32_t ways = b->depth == 1 ? SLRT_WAYS : 1, way = *done % ways;
+    const uint32_t directed = b->cell.first_directed + (*done)++ / ways;
+    const uint32_t to = slrt_u32(b->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    slrt_beam beam;
+    // A line passes a convex cell once.
+    if (b->on_path[to / 32] >> to % 32 & 1 || !slrt_pass_portal(b, directed, way, &beam) ||
+        slrt_is_past(b, to, directed, &beam))
+        return false;
+    slrt_come_to(b, to, directed, &beam);
+    return b->meet(b, to, &beam);
+}
+
+/// Sends beams from the part of the box that is in a cell. Returns true if `meet` ended the search,
+/// or it took too long.
+static bool slrt_send_beams(slrt_beams *b, uint32_t source) {
+    slrt_beam beam;
+    bool ended;
+    memset(&beam, 0, sizeof beam);
+    beam.bounds[0].from = beam.bounds[1].from = SLRT_NONE;
+    b->source = source;
+    b->depth = 0;
+    slrt_part_of(b->rt, source, b->box, b->part);
+    slrt_come_to(b, source, SLRT_NONE, &beam);
+    ended = b->meet(b, source, &beam);
+    while (b->depth && !ended) {
+        const uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
+        if (top[SLRT_BEAM_DONE] == slrt_ways(b))
+            slrt_go_back(b);
+        else if (b->patience--)
+            ended = slrt_go_on(b);
+        else
+            ended = true;
+    }
+    while (b->depth) slrt_leave_top(b);
+    return ended;
+}
+
+// --- Whole servers: which players may see which things
+
+/// The part of a box, with a margin around it, within the bounds of the map. False for none.
+static bool slrt_box_in_map(const sl_runtime *rt, const sl_runtime_box *of, double margin,
+                            double box[4]) {
+    const double low_x = of->min_x - margin, low_y = of->min_y - margin;
+    const double high_x = of->max_x + margin, high_y = of->max_y + margin;
+    box[0] = low_x > rt->min_x ? low_x : rt->min_x;
+    box[1] = low_y > rt->min_y ? low_y : rt->min_y;
+    box[2] = high_x < rt->max_x ? high_x : rt->max_x;
+    box[3] = high_y < rt->max_y ? high_y : rt->max_y;
+    return low_x <= high_x && low_y <= high_y && box[0] <= box[2] && box[1] <= box[3];
+}
+
+// --- from all of a box
+
+/// A search from the cells of a box.
+typedef struct slrt_origin {
+    slrt_beams beams;
+    uint32_t sources[32], count; ///< the last cells that it came from: a cell may be visited again
+} slrt_origin;
+
+static bool slrt_look_from_cell(void *context, uint32_t cell) {
+    slrt_origin *o = (slrt_origin *)context;
+    enum { MOST = sizeof o->sources / sizeof *o->sources };
+    uint32_t i;
+    for (i = 0; i < MOST && i < o->count; i++)
+        if (o->sources[i] == cell) return true;
+    if (sl_runtime_is_solid(o->beams.rt, cell) ||
+        !slrt_meets_box(o->beams.rt, cell, o->beams.box))
+        return true;
+    o->sources[o->count++ % MOST] = cell;
+    return !slrt_send_beams(&o->beams, cell);
+}
+
+/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
+                              double range, uint32_t *scratch) {
+    memset(&o->beams, 0, sizeof o->beams);
+    o->beams.rt = rt;
+    o->beams.shut = shut;
+    o->beams.range = slrt_range(rt, range);
+    o->beams.path = scratch;
+    o->beams.on_path = scratch + SLRT_BEAM_STEP * (size_t)rt->cell_count;
+    memset(o->beams.on_path, 0, ((size_t)rt->cell_count + 31) / 32 * sizeof *scratch);
+}
+
+/// Looks from all of a box. True if `meet` ended the search, or it took too long.
+static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double margin) {
+    if (!slrt_box_in_map(o->beams.rt, box, margin, o->beams.box)) return false;
+    memset(o->beams.past, 0xff, sizeof o->beams.past);
+    o->beams.patience = SLRT_BEAM_PATIENCE * ((uint64_t)o->beams.rt->directed_count + 1024);
+    o->count = 0;
+    return !slrt_visit_near(o->beams.rt, o->beams.box, slrt_look_from_cell, o);
+}
+
+// --- one box
+
+static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
+    double part[4];
+    if (!slrt_meets_box(b->rt, cell, b->target)) return false;
+    slrt_part_of(b->rt, cell, b->target, part);
+    return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
+}
+
+static sl_runtime_box slrt_square(double x, double y, double radius) {
+    sl_runtime_box box;
+    box.min_x = x - radius;
+    box.min_y = y - radius;
+    box.max_x = x + radius;
+    box.max_y = y + radius;
+    box.blocks = false;
+    return box;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch) {
+    const sl_runtime_box from = slrt_square(x0, y0, radius0), to = slrt_square(x1, y1, radius1);
+    slrt_origin o;
+    double target[4];
+    if (!slrt_box_in_map(runtime, &to, 0, target)) return false;
+    slrt_start_origin(&o, runtime, shut, range, scratch);
+    o.beams.target = target;
+    o.beams.meet = slrt_meet_target;
+    return slrt_look_from_box(&o, &from, 0);
+}
+
+// --- many things
+
+// Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
+// a thing that touches the cell, and the cell's next entry.
+
+enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+
+typedef struct slrt_relevant {
+    slrt_origin origin;
+    const sl_runtime_box *things;
+    uint32_t *first, *entries, count;
+    size_t room;
+    uint32_t thing;        ///< is being placed,
+    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
+    double box[4];  ///< within the bounds of the map
+    unsigned char *bits;
+    size_t pairs;
+} slrt_relevant;
+
+static bool slrt_place_thing(void *context, uint32_t cell) {
+    slrt_relevant *t = (slrt_relevant *)context;
+    uint32_t *first = t->first + cell;
+    if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
+        !slrt_meets_box(t->origin.beams.rt, cell, t->box))
+        return true;
+    if (t->skip) {
+        t->skip--;
+        return true;
+    }
+    if (t->count == t->room) return false;
+    t->entries[2 * (size_t)t->count] = t->thing;
+    t->entries[2 * (size_t)t->count + 1] = *first;
+    *first = t->count++;
+    return true;
+}
+
+static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
+    slrt_relevant *t = (slrt_relevant *)b->context;
+    uint32_t at = t->first[cell];
+    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+        const uint32_t thing = t->entries[2 * (size_t)at];
+        double box[4], part[4];
+        if (t->bits[thing / 8] >> thing % 8 & 1) continue;
+        slrt_box_in_map(b->rt, &t->things[thing], 0, box);
+        slrt_part_of(b->rt, cell, box, part);
+        if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
+        t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
+        t->pairs++;
+    }
+    return false;
+}
+
+/// Places things until there is no room. Those that are left have their turn after these.
+static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
+    const sl_runtime *rt = t->origin.beams.rt;
+    memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
+    t->count = 0;
+    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
+        const uint32_t before = t->count;
+        t->skip = t->placed;
+        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
+            slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            continue;
+        t->placed += t->count - before;
+        return;
+    }
+}
+
+/// Takes each thing in the map for relevant.
+static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
+    double box[4];
+    uint32_t i;
+    for (i = 0; i < thing_count; i++) {
+        if (t->bits[i / 8] >> i % 8 & 1 ||
+            !slrt_box_in_map(t->origin.beams.rt, &t->things[i], 0, box))
+            continue;
+        t->bits[i / 8] |= (unsigned char)(1 << i % 8);
+        t->pairs++;
+    }
+}
+
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
+    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
+           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+}
+
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits) {
+    const size_t stride = ((size_t)thing_count + 7) / 8;
+    slrt_relevant t;
+    uint32_t i;
+    memset(bits, 0, stride * player_count);
+    memset(&t, 0, sizeof t);
+    slrt_start_origin(&t.origin, runtime, shut, range, relevant_scratch);
+    t.origin.beams.meet = slrt_meet_things;
+    t.origin.beams.context = &t;
+    t.things = things;
+    t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
+    t.entries = t.first + runtime->cell_count;
+    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    while (t.thing < thing_count) {
+        slrt_place_things(&t, thing_count);
+        for (i = 0; i < player_count; i++) {
+            t.bits = bits + stride * i;
+            if (slrt_look_from_box(&t.origin, &players[i], margin)) slrt_meet_all(&t, thing_count);
+        }
+    }
+    return t.pairs;
 }
 
 #ifdef __cplusplus

@@ -44,7 +44,8 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
+    SL_RUNTIME_TEXT,       ///< a door, a start or another thing of the map is damaged
+    SL_RUNTIME_OLD         ///< of a version before 2.0, with SL_RUNTIME_WITHOUT_OLD_FILES
 } sl_runtime_status;
 
 /// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
@@ -54,6 +55,15 @@ typedef enum sl_runtime_mirrors {
     SL_RUNTIME_MIRRORS_BAKED,    ///< rows of the cells that are seen by mirror
     SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
 } sl_runtime_mirrors;
+
+/// How the places of a map stand in other coordinates: a file's, or a screen's. The point (x, y) of
+/// the map is scale * (x - origin_x), scale * (y - origin_y) there, or scale * (origin_y - y) if y
+/// points down there.
+typedef struct sl_runtime_transform {
+    double origin_x, origin_y; ///< the place in the map that is 0, 0 there
+    double scale;              ///< units there in a unit of the map; more than 0
+    bool y_down;
+} sl_runtime_transform;
 
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
@@ -92,8 +102,11 @@ typedef struct sl_runtime {
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
-    const unsigned char *text; ///< what the map holds beside walls, as map text
+    uint32_t start_count, object_count, path_count, mirror_count;
+    const unsigned char *names, *doors, *starts, *objects, *paths, *path_points, *mirror_lines;
+    const unsigned char *text; ///< of a file before 2.0: doors and starts as text; else NULL
     size_t text_bytes;
+    sl_runtime_transform transform; ///< as sl_runtime_map_transform; scale 0: the file has none
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -139,8 +152,11 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
-// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
-// starts read the map text in the file: call them once after opening.
+// Doors are numbered from 0 to door_count - 1, in the order of the map; so are starts, objects,
+// paths and mirrors. In a file before 2.0, doors and starts are read from its map text: each call
+// takes the time of that text, and there are no objects, paths and segments of mirrors. A program
+// that needs no such files defines SL_RUNTIME_WITHOUT_OLD_FILES where it implements this header.
+// It is smaller, and such files do not open (SL_RUNTIME_OLD).
 
 /// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
 typedef struct sl_runtime_name {
@@ -180,6 +196,47 @@ SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 /// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out);
+
+/// Reads an object, one of `object_count`: its name and its box, from the minimum x0, y0 to the
+/// maximum x1, y1. False if it does not exist; the results are then unchanged, here and below.
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box);
+
+/// Reads a path, one of `path_count`: its name and the number of its points.
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count);
+
+/// Reads the points of a path into `points`, which has room for 2 * point_count numbers.
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points);
+
+/// Reads a mirror, one of `mirror_count`. It reflects on both sides, or on its left only, going
+/// from its first end to its second. Mirrors are walls too.
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided);
+
+/// How the map's places stand in the file that was baked: pixels of a Tiled map with y down, say.
+/// False if the baked file does not have it, as those before 2.0; `out` is then that of the map's
+/// own places. A game may make any other: origin_x, origin_y is the place in the map that is 0, 0
+/// on its screen.
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out);
+
+/// Turns `count` points x, y, x, y ... of other coordinates into places of the map, to ask with.
+/// Exact if the numbers are: for whole numbers, with a scale that is a power of 2. Other numbers
+/// are rounded: what is asked is then asked of the rounded place.
+///
+/// With y down, the picture is the same and only the names of places change. So what is left of an
+/// eye stays left, a polygon still goes counter-clockwise as it is seen (its area by the formula
+/// for y up is then negative), the minimum of y becomes the maximum, the y of a direction changes
+/// its sign, and so does a heading: it goes clockwise. Lengths, as a range, are divided by the
+/// scale.
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count);
+
+/// The other way round: places of the map, such as a visible polygon, for drawing. As exact as
+/// sl_runtime_to_map.
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count);
 
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
@@ -536,6 +593,43 @@ SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
 SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
                                     double x0, double y0, double x1, double y1, uint32_t *scratch,
                                     double *x, double *y);
+
+// Servers: what each player may see before it hears of the next tick.
+
+/// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count);
+
+/// Box to box, for many: finds which things each player may see. Player p may see thing t if
+/// bits[p * ((thing_count + 7) / 8) + t / 8] >> t % 8 & 1. Returns the number of such pairs. `bits`
+/// has a row for each player. `shut` and `range` are as for sl_runtime_look_past, but the distance
+/// between two places counts. Boxes do not hide each other.
+///
+/// `margin` is how far a player may come before the next answer. Its box grows by that to each
+/// side, through walls too: all of it looks but what is in solid ground or outside the map.
+///
+/// Conservative: no pair is missed of which one point of the grown box sees one point of the thing
+/// by sl_runtime_sees, with closed sight. It needs no rows, so it is that in any file but a loose
+/// one. Few pairs are added: on the maps of the tests at most 10 % more than the exact answer from
+/// box to box. More are added near the end of the range. A player's box takes everything if its
+/// lines of sight come to 16 times as many portals as the map has, which real maps do not cause.
+///
+/// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
+/// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
+/// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
+/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits);
+
+/// The same for two squares: whether some place within `radius0` of (x0, y0) along each axis may
+/// see some place within `radius1` of (x1, y1). `scratch` is as for sl_runtime_look. Time: the
+/// portals between them, and to clear a bit for each cell.
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
