@@ -12,10 +12,10 @@
 // All that is within reach of the way is in the cells that open portals within reach lead to: the
 // nearest of it has no other before it.
 //
-// Distances are rounded. So three limits lie apart by more than rounding can do (`slack`): r itself;
-// r + 2 slack, from where a way is free; r + 3 slack, where a disc comes to rest. No rest is
-// therefore nearer than r, and none is stuck to what it rests at. Whether a way crosses something is
-// exact.
+// Distances are rounded. So three limits lie apart by more than rounding can do (`slack`): r
+// itself; r + 2 slack, from where a way is free; r + 3 slack, where a disc comes to rest. No rest
+// is therefore nearer than r, and none is stuck to what it rests at. Whether a way crosses
+// something is exact.
 
 /// A disc on a straight way.
 typedef struct slrt_disc {
