@@ -91,6 +91,80 @@ typedef struct sli_slv_views {
     uint32_t view_cell_count, node_count;
 } sli_slv_views;
 
+/// Section MAPI, one item. Files that have it hold what their map has in items too, so that games
+/// read no text: MAPN the bytes of all names, one after another, DOOR, STRT, OBJE, PATH and PAPO
+/// (the points of the paths), and MIRR, in the order of the map text. Each is there only if it has
+/// items. The map text remains: what reads it does not need them. They are made from the map, and a
+/// reader of the library refuses a file in which they are not those of its text. Older files have
+/// none of these.
+typedef struct sli_slv_map_info {
+    double range;                     ///< 0 for none
+    double origin_x, origin_y, scale; ///< as sl_transform
+    uint64_t y_down;                  ///< 0 or 1
+} sli_slv_map_info;
+
+/// A name: bytes of MAPN.
+typedef struct sli_slv_name {
+    uint32_t first, bytes;
+} sli_slv_name;
+
+typedef struct sli_slv_door {
+    sli_slv_name name;
+    uint32_t open; ///< 0 or 1
+} sli_slv_door;
+
+typedef struct sli_slv_start {
+    double x, y, heading;
+} sli_slv_start;
+
+typedef struct sli_slv_object {
+    sli_slv_name name;
+    sl_box box;
+} sli_slv_object;
+
+typedef struct sli_slv_path {
+    sli_slv_name name;
+    uint32_t first, count; ///< of its points
+} sli_slv_path;
+
+typedef struct sli_slv_mirror {
+    sl_segment segment;
+    uint64_t one_sided; ///< 0 or 1
+} sli_slv_mirror;
+
+_Static_assert(sizeof(sli_slv_map_info) == 40 && sizeof(sli_slv_door) == 12 &&
+                   sizeof(sli_slv_start) == 24 && sizeof(sli_slv_object) == 40 &&
+                   sizeof(sli_slv_path) == 16 && sizeof(sli_slv_mirror) == 40,
+               "no padding in the file");
+
+/// A section of the map's things.
+typedef struct sli_slv_part_of_map {
+    const char *tag;
+    uint32_t item_bytes;
+    uint64_t count;
+    void *items;
+} sli_slv_part_of_map;
+
+enum { SLI_SLV_MAP_PARTS = 7 };
+
+/// What a map holds in items. `parts` are all of them but `info`.
+typedef struct sli_slv_things {
+    sli_slv_map_info info;
+    sli_slv_part_of_map parts[SLI_SLV_MAP_PARTS];
+} sli_slv_things;
+
+/// Makes the items of a map. SL_UNSUPPORTED if there are more than 32 bits can number. To be
+/// destroyed, on failure as well.
+sl_status sli_slv_things_make(sl_context *context, const sl_map *map, sli_slv_things *out);
+void sli_slv_things_destroy(sl_context *context, sli_slv_things *things); ///< and zeroes it
+
+/// SL_BAD_INPUT if a map that was read back has other items than the one that was written.
+sl_status sli_slv_things_check_again(sl_context *context, const char *name, const sl_map *written,
+                                     const sl_map *again);
+
+/// The transform that a file has; false if it makes no sense.
+bool sli_slv_transform(const sli_slv_map_info *info, sl_transform *out);
+
 _Static_assert(sizeof(sli_slv_header) == 32 && sizeof(sli_slv_section) == 24 &&
                    sizeof(sli_slv_info) == 128 && sizeof(sli_slv_part) == 16 &&
                    sizeof(sli_slv_part_effects) == 16,

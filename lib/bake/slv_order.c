@@ -25,6 +25,9 @@ static const struct {
     {"VCIN", "44"},
     {"PART", "4444"},
     {"PAEF", "4444"},
+    {"DOOR", "444"},
+    {"OBJE", "448888"},
+    {"PATH", "4444"},
 };
 
 bool sli_slv_is_native(void) {

@@ -450,6 +450,42 @@ static sl_status load_views(const reader *r) {
     return in_file(r, sli_view_rows_check(r->context, views));
 }
 
+/// A section of the map's things holds what the map text does.
+static sl_status check_part(const reader *r, const sli_slv_part_of_map *part) {
+    sli_slv_section s;
+    bool found;
+    SL_TRY(find_section(r, part->tag, part->item_bytes, &s, &found));
+    sli_slv_order(part->tag, part->item_bytes, part->items, part->count);
+    if (!found && !part->count) return SL_OK;
+    if (found && s.count == part->count &&
+        memcmp(part->items, r->bytes + s.offset, sli_size(s.count * s.item_bytes)) == 0)
+        return SL_OK;
+    return sl_fail_at(r->context, r->name, 0, "damaged: section %s is not that of the map text",
+                      part->tag);
+}
+
+/// The transform of the map, which the text does not hold, and a check of its things. An old file
+/// has none of this, and its transform is not known.
+static sl_status load_things(const reader *r) {
+    sl_map *map = &r->out->map;
+    sli_slv_section s;
+    sli_slv_map_info info;
+    bool found;
+    SL_TRY(find_section(r, "MAPI", sizeof info, &s, &found));
+    if (!found) return SL_OK;
+    if (s.count != 1) return fail_file(r, "damaged: section MAPI makes no sense");
+    memcpy(&info, r->bytes + s.offset, sizeof info);
+    sli_slv_order("MAPI", sizeof info, &info, 1);
+    if (!sli_slv_transform(&info, &map->source.transform) || info.range != map->range)
+        return fail_file(r, "damaged: section MAPI makes no sense");
+    sli_slv_things things;
+    sl_status status = sli_slv_things_make(r->context, map, &things);
+    for (size_t i = 0; i < SLI_SLV_MAP_PARTS && status == SL_OK; i++)
+        status = check_part(r, &things.parts[i]);
+    sli_slv_things_destroy(r->context, &things);
+    return status;
+}
+
 static sl_status load_map(const reader *r) {
     sli_slv_section s;
     bool found;
@@ -459,7 +495,7 @@ static sl_status load_map(const reader *r) {
                              &r->out->map));
     if (r->out->map.wall_count || r->out->map.cell_count)
         return fail_file(r, "damaged: section MAPT holds walls or cells");
-    return SL_OK;
+    return load_things(r);
 }
 
 // --- what is not finished
@@ -683,14 +719,15 @@ static sl_status check_kept(const reader *r, const kept_section *info, const kep
     sli_slv_order("INFO", sizeof read, &read, 1);
     if (!makes_sense(&read)) return fail_file(r, "damaged: section INFO makes no sense");
     SL_TRY(sli_map_read_text(r->context, r->name, text->bytes, text->size, &again));
-    const sl_status status = sli_map_check_again(r->context, r->name, map, &again);
+    sl_status status = sli_map_check_again(r->context, r->name, map, &again);
+    if (status == SL_OK) status = sli_slv_things_check_again(r->context, r->name, map, &again);
     sl_map_destroy(r->context, &again);
     return status;
 }
 
 sl_status sli_slv_read_back(sl_context *context, const char *name, const sl_map *map,
                             sli_again *again) {
-    enum { MOST_SECTIONS = 48 }; // as the writer's
+    enum { MOST_SECTIONS = 64 }; // as the writer's
     char start[sizeof(sli_slv_header) + MOST_SECTIONS * sizeof(sli_slv_section)];
     reader r = {.context = context, .name = name, .bytes = start, .size = sli_size(again->left)};
     kept_section kept[] = {{.tag = "INFO"}, {.tag = "MAPT"}};

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SECTIONS = 48 };
+enum { MOST_SECTIONS = 64 };
 
 /// A file made ready: what goes into each section, still where it lies.
 typedef struct plan {
@@ -23,6 +23,7 @@ typedef struct plan {
     sli_slv_passage *passages;
     sl_map map; ///< of which the text is; its seams are the plan's
     char *map_text;
+    sli_slv_things things;
     sli_slv_views views;
     sli_slv_part part;
     sli_slv_part_effects part_effects;
@@ -173,6 +174,16 @@ static void add_views(plan *p, const sl_view_rows *views) {
     add_pvs(p, "VCRO", "VCRB", &views->rows);
 }
 
+/// The map as text, and what it holds in items.
+static void add_map(plan *p, size_t map_bytes) {
+    add_section(p, "MAPT", p->map_text, 1, map_bytes);
+    add_section(p, "MAPI", &p->things.info, sizeof p->things.info, 1);
+    for (size_t i = 0; i < SLI_SLV_MAP_PARTS; i++) {
+        const sli_slv_part_of_map *part = &p->things.parts[i];
+        if (part->count) add_section(p, part->tag, part->items, part->item_bytes, part->count);
+    }
+}
+
 static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *info,
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
@@ -214,7 +225,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
     }
     if (sl_partial_begun(&baked->partial)) add_partial(p, &baked->partial);
     if (baked->views.view_cell_count) add_views(p, &baked->views);
-    add_section(p, "MAPT", p->map_text, 1, map_bytes);
+    add_map(p, map_bytes);
 }
 
 /// Where the machine's order of bytes is not the file's, what is written is a copy.
@@ -326,6 +337,7 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     SL_TRY(list_stops(context, baked, p));
     SL_TRY(sli_slv_list_passages(context, &baked->space, &p->passages));
     SL_TRY(print_map(context, &baked->map, p, &map_bytes));
+    SL_TRY(sli_slv_things_make(context, &baked->map, &p->things));
     add_sections(p, baked, info, map_bytes);
     SL_TRY(order_contents(context, p));
     lay_out(p);
@@ -348,6 +360,7 @@ static void destroy_plan(sl_context *context, plan *p) {
     sl_free(context, p->stops);
     sl_free(context, p->passages);
     sl_free(context, p->map.seams);
+    sli_slv_things_destroy(context, &p->things);
     free(p->map_text);
 }
 

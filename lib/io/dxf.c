@@ -99,6 +99,7 @@ static sl_status take_unit(sli_dxf *dxf) {
     dxf->pen.map->source.drawing_unit = (int)to;
     const double scale = sli_units[from].metres / sli_units[to].metres;
     dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
+    dxf->pen.map->source.transform = (sl_transform){.scale = 1 / scale};
     return SL_OK;
 }
 

@@ -8,6 +8,7 @@
 #include "io/shapes.h"
 #include "map/grid.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -205,6 +206,7 @@ sl_status sli_map_read_image(sl_context *context, const char *name, const char *
         sl_note(context, "%s: %zu of %zu x %zu pixels are solid (darkness from %g); %zu walls",
                 name, solid, image.width, image.height, plan.threshold, read.wall_count);
         strcpy(read.unit, "px");
+        read.source.transform = sli_y_down((double)image.height, 1);
         *map = read;
     } else {
         sl_map_destroy(context, &read);

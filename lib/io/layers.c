@@ -514,7 +514,8 @@ sl_box sli_page_of(const sl_map *map) {
 }
 
 double sli_choose_top(const sl_map *map) {
-    if (has_page(map) && keeps_all(map, map->source.top)) return map->source.top;
+    const double top = map->source.transform.origin.y;
+    if (has_page(map) && keeps_all(map, top)) return top;
     const double edge = ceil(sl_map_bounds(map).max.y);
     return keeps_all(map, edge) ? edge + 0.0 : 0;
 }

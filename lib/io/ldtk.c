@@ -5,6 +5,7 @@
 #include "io/names.h"
 #include "io/shapes.h"
 #include "io/things.h"
+#include "map/source.h"
 #include "sightline/io.h"
 
 #include <math.h>
@@ -446,6 +447,7 @@ static sl_status read_file(ldtk *reader, sl_map *map) {
                                        .things = &reader->things};
     SL_TRY(sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map));
     strcpy(map->unit, "px");
+    map->source.transform = sli_y_down(reader->bottom, 1);
     give_account(reader, map);
     return sli_things_finish(&reader->things, map);
 }

@@ -818,7 +818,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     if (box[2] > 0)
         s->pen.map->source.page =
             (sl_box){{box[0], height - (box[1] + box[3])}, {box[0] + box[2], height - box[1]}};
-    s->pen.map->source.top = height;
+    s->pen.map->source.transform = sli_y_down(height, 1);
     s->pen.map->source.pixels = 1;
     SL_TRY(name_walls(s, root));
     SL_TRY(sli_svg_style_read(s->context, root, &s->style));

@@ -200,7 +200,7 @@ static sl_status read_size(uvtt *reader, const sli_json *root) {
     reader->top = first + rows;
     const sli_json own = sli_json_member(root, "sightline");
     SL_TRY(read_own(&own, &reader->top, &reader->mark, reader->map));
-    reader->map->source.top = reader->top;
+    reader->map->source.transform = sli_y_down(reader->top, 1);
     reader->map->source.page =
         (sl_box){{x, reader->top - (first + rows)}, {x + columns, reader->top - first}};
     return SL_OK;
@@ -506,7 +506,7 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     if (!reader->top_told) SL_TRY(find_top(reader, walls, count));
     reader->sum = 0;
     reader->names.checks = has_marks(walls, true);
-    reader->map->source.top = reader->top;
+    reader->map->source.transform = sli_y_down(reader->top, reader->pixels);
     reader->map->source.lines_are_items = true;
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(reader->context));

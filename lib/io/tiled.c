@@ -425,13 +425,13 @@ static sl_status read_head(sli_tiled_reader *reader) {
         SL_TRY(read_marks(reader));
         reader->pen.map->source.page =
             (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
-        reader->pen.map->source.top = lattice->height;
         reader->pen.map->source.pixels = 1;
     }
     const bool plan = sli_tiled_has_plan(lattice);
     reader->to_plan = sli_tiled_to_plan(lattice);
     reader->top = plan ? 0 : lattice->height;
     reader->pen.affine = (sli_affine){.xx = 1, .yy = -1, .y0 = reader->top};
+    reader->pen.map->source.transform = sli_y_down(lattice->height, 1);
     if (plan) {
         const sli_affine to_screen = sli_tiled_to_screen(lattice);
         reader->things.shown = to_screen;

@@ -183,6 +183,8 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
     }
     if (status == SL_OK) status = format->read(context, path, text, size, &options, map);
     sl_map_list_destroy(context, &list);
+    sl_transform *transform = &map->source.transform;
+    if (status == SL_OK && transform->scale == 0) transform->scale = 1; // the file's y is up
     return status;
 }
 

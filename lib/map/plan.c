@@ -236,6 +236,7 @@ sl_status sli_map_read_plan(sl_context *context, const char *name, const char *t
     }
     reader.plan = plan_of(rows.items, rows.count);
     if (status == SL_OK) status = read_rows(&reader);
+    read.source.transform = sli_y_down((double)rows.count, 1); // columns and rows
     sl_free(context, rows.items);
     if (status == SL_OK)
         *map = read;

@@ -184,7 +184,7 @@ static sl_status copy_labels(sl_context *context, const sl_map_source *from, sl_
 
 sl_status sli_source_copy(sl_context *context, const sl_map_source *from, sl_map_source *to) {
     *to = (sl_map_source){.lines_are_items = from->lines_are_items,
-                          .top = from->top,
+                          .transform = from->transform,
                           .page = from->page,
                           .pixels = from->pixels,
                           .drawing_unit = from->drawing_unit};

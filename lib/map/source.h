@@ -21,6 +21,11 @@ sl_status sli_map_fail(sl_context *context, const sl_map *map, sl_status status,
 sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
                               uint32_t line, bool behind);
 
+/// The transform of a file with y down, whose y `top` is 0 in the map.
+static inline sl_transform sli_y_down(double top, double scale) {
+    return (sl_transform){.origin = {0, top}, .scale = scale, .y_down = true};
+}
+
 /// What messages call the map.
 static inline const char *sli_map_name(const sl_map *map) {
     return map->source.name ? map->source.name : "the map";

@@ -44,7 +44,8 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
+    SL_RUNTIME_TEXT,       ///< a door, a start or another thing of the map is damaged
+    SL_RUNTIME_OLD         ///< of a version before 2.0, with SL_RUNTIME_WITHOUT_OLD_FILES
 } sl_runtime_status;
 
 /// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
@@ -55,10 +56,21 @@ typedef enum sl_runtime_mirrors {
     SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
 } sl_runtime_mirrors;
 
+/// How the places of a map stand in other coordinates: a file's, or a screen's. The point (x, y) of
+/// the map is scale * (x - origin_x), scale * (y - origin_y) there, or scale * (origin_y - y) if y
+/// points down there.
+typedef struct sl_runtime_transform {
+    double origin_x, origin_y; ///< the place in the map that is 0, 0 there
+    double scale;              ///< units there in a unit of the map; more than 0
+    bool y_down;
+} sl_runtime_transform;
+
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
 #define SL_RUNTIME_NO_DOOR UINT32_MAX
+/// The number of a box that does not exist.
+#define SL_RUNTIME_NO_BOX UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -86,10 +98,15 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    bool has_glass; ///< one-way glass, somewhere
+    const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
-    const unsigned char *text; ///< what the map holds beside walls, as map text
+    uint32_t start_count, object_count, path_count, mirror_count;
+    const unsigned char *names, *doors, *starts, *objects, *paths, *path_points, *mirror_lines;
+    const unsigned char *text; ///< of a file before 2.0: doors and starts as text; else NULL
     size_t text_bytes;
+    sl_runtime_transform transform; ///< as sl_runtime_map_transform; scale 0: the file has none
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -116,8 +133,9 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
 /// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
-/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
-/// cells; call it again when the box has moved.
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: the cells
+/// near the box, once for each 8,192 cells that they have numbers among; all cells in a loose file
+/// of version 1. Call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
@@ -134,8 +152,11 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
-// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
-// starts read the map text in the file: call them once after opening.
+// Doors are numbered from 0 to door_count - 1, in the order of the map; so are starts, objects,
+// paths and mirrors. In a file before 2.0, doors and starts are read from its map text: each call
+// takes the time of that text, and there are no objects, paths and segments of mirrors. A program
+// that needs no such files defines SL_RUNTIME_WITHOUT_OLD_FILES where it implements this header.
+// It is smaller, and such files do not open (SL_RUNTIME_OLD).
 
 /// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
 typedef struct sl_runtime_name {
@@ -175,6 +196,47 @@ SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 /// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out);
+
+/// Reads an object, one of `object_count`: its name and its box, from the minimum x0, y0 to the
+/// maximum x1, y1. False if it does not exist; the results are then unchanged, here and below.
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box);
+
+/// Reads a path, one of `path_count`: its name and the number of its points.
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count);
+
+/// Reads the points of a path into `points`, which has room for 2 * point_count numbers.
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points);
+
+/// Reads a mirror, one of `mirror_count`. It reflects on both sides, or on its left only, going
+/// from its first end to its second. Mirrors are walls too.
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided);
+
+/// How the map's places stand in the file that was baked: pixels of a Tiled map with y down, say.
+/// False if the baked file does not have it, as those before 2.0; `out` is then that of the map's
+/// own places. A game may make any other: origin_x, origin_y is the place in the map that is 0, 0
+/// on its screen.
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out);
+
+/// Turns `count` points x, y, x, y ... of other coordinates into places of the map, to ask with.
+/// Exact if the numbers are: for whole numbers, with a scale that is a power of 2. Other numbers
+/// are rounded: what is asked is then asked of the rounded place.
+///
+/// With y down, the picture is the same and only the names of places change. So what is left of an
+/// eye stays left, a polygon still goes counter-clockwise as it is seen (its area by the formula
+/// for y up is then negative), the minimum of y becomes the maximum, the y of a direction changes
+/// its sign, and so does a heading: it goes clockwise. Lengths, as a range, are divided by the
+/// scale.
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count);
+
+/// The other way round: places of the map, such as a visible polygon, for drawing. As exact as
+/// sl_runtime_to_map.
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count);
 
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
@@ -319,8 +381,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// one.)
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
-/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
-/// cells along the line, and of clearing a byte for each cell.
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
+/// the cells along the line. A line that touches ends of portals in more than 32 cells also clears
+/// a byte for each cell.
 SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
@@ -330,8 +393,8 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
 /// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
 /// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
 /// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the cells that the step touches, and all doors; all walls if these are more than 32 cells,
-/// or the step touches the map's border.
+/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
+/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -477,6 +540,27 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
 
+/// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
+/// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
+/// It passes a flat box where it crosses that between its ends, and never one that is a point. An
+/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
+/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+///
+/// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
+/// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
+/// whether the eye is inside. Time: as sl_runtime_sees, and the boxes in the cells along the line.
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch);
+
+/// As sl_runtime_can_walk, past boxes that block: no point of the way, ends included, is in such a
+/// box or on its side. Box `except` does not count: that of who walks, or SL_RUNTIME_NO_BOX. Exact,
+/// and the same both ways. Boxes that had no room, or only touch the map's bounds, stop nothing.
+/// Time: as sl_runtime_can_walk, and the boxes in the cells along the step.
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except);
+
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
@@ -575,7 +659,13 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
-    SLRT_DIRECTED_BYTES = 40
+    SLRT_PORTAL_BYTES = 40,
+    SLRT_DIRECTED_BYTES = 40,
+    SLRT_DOOR_BYTES = 12,
+    SLRT_START_BYTES = 24,
+    SLRT_OBJECT_BYTES = 40,
+    SLRT_PATH_BYTES = 16,
+    SLRT_MIRROR_BYTES = 40
 };
 
 enum slrt_tag {
@@ -604,6 +694,14 @@ enum slrt_tag {
     SLRT_MDOO,
     SLRT_MDOB,
     SLRT_WALL,
+    SLRT_MAPI, ///< of files since 2.0, as those up to MIRR: what the map holds, in items
+    SLRT_MAPN,
+    SLRT_DOOR,
+    SLRT_STRT,
+    SLRT_OBJE,
+    SLRT_PATH,
+    SLRT_PAPO,
+    SLRT_MIRR,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -660,7 +758,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
-                          {"PORT", 40},
+                          {"PORT", SLRT_PORTAL_BYTES},
                           {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
@@ -681,6 +779,14 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"MDOO", 8},
                           {"MDOB", 1},
                           {"WALL", 32},
+                          {"MAPI", 40},
+                          {"MAPN", 1},
+                          {"DOOR", SLRT_DOOR_BYTES},
+                          {"STRT", SLRT_START_BYTES},
+                          {"OBJE", SLRT_OBJECT_BYTES},
+                          {"PATH", SLRT_PATH_BYTES},
+                          {"PAPO", SLRT_VERTEX_BYTES},
+                          {"MIRR", SLRT_MIRROR_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -745,6 +851,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
     rt->directed = found[SLRT_PORTAL].items;
+    rt->portals = found[SLRT_PORT].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
     rt->unfinished = found[SLRT_PART].items != NULL;
@@ -1011,7 +1118,8 @@ static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
     return true;
 }
 
-/// The portals on seams, by portal, so that they can be searched.
+/// The portals on seams, by portal, so that they can be searched. There are as many doors as seams
+/// name, or more.
 static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     const uint64_t count = found[SLRT_SEPO].items ? found[SLRT_SEPO].count : 0;
     uint64_t i;
@@ -1019,11 +1127,19 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
     rt->seam_count = 0;
+    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    for (i = 0; i < rt->seam_count; i++)
-        if (!slrt_usable(rt->seams + i * 40, 4)) return false;
+    rt->door_count = 0;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + i * 40;
+        const uint32_t number = slrt_u32(seam + 36);
+        if (!slrt_usable(seam, 4)) return false;
+        if (slrt_u32(seam + 32) != 1) continue;
+        if (number >= INT32_MAX) return false;
+        if (number >= rt->door_count) rt->door_count = number + 1;
+    }
     rt->seam_portal_count = (uint32_t)count;
     for (i = 0; i < count; i++) {
         const unsigned char *on = rt->seam_portals + i * 12;
@@ -1031,6 +1147,8 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
         if (portal < before || portal >= rt->portal_count) return false;
         if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
         before = portal;
+        rt->has_glass =
+            rt->has_glass || slrt_u32(rt->seams + slrt_u32(on + 4) * (size_t)40 + 32) == 2;
     }
     return true;
 }
@@ -1062,18 +1180,10 @@ static bool slrt_door_rows_are_sound(const sl_runtime *rt, const slrt_section *o
     return true;
 }
 
+/// The doors are known.
 static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
-    uint64_t i;
-    rt->door_count = 0;
     rt->door_offsets = found[SLRT_DORO].items;
     rt->door_bytes = found[SLRT_DORB].items;
-    for (i = 0; found[SLRT_SEAM].items && i < found[SLRT_SEAM].count; i++) {
-        const unsigned char *seam = found[SLRT_SEAM].items + i * 40;
-        const uint32_t number = slrt_u32(seam + 36);
-        if (slrt_u32(seam + 32) != 1) continue;
-        if (number >= INT32_MAX) return false;
-        if (number >= rt->door_count) rt->door_count = number + 1;
-    }
     return slrt_door_rows_are_sound(rt, &found[SLRT_DORO], &found[SLRT_DORB]);
 }
 
@@ -1090,7 +1200,6 @@ static sl_runtime slrt_mirrored(const sl_runtime *rt) {
 /// Rows of what is seen by mirror, if the file has any.
 static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
     sl_runtime rows;
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
     rt->mirror_offsets = found[SLRT_MIRO].items;
     rt->mirror_bytes = found[SLRT_MIRB].items;
     rt->mirror_door_offsets = found[SLRT_MDOO].items;
@@ -1104,7 +1213,10 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
 }
 
-// --- The map text: statements in lines, words between blanks, comments after '#'
+/// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
+/// words between blanks, comments after '#'. SL_RUNTIME_WITHOUT_OLD_FILES leaves this part out.
+
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
 
 /// A place in the map text: the rest of a line, or of the text.
 typedef struct slrt_text {
@@ -1138,18 +1250,16 @@ static bool slrt_word_is(const slrt_text *word, const char *text) {
     return at == word->end && !*text;
 }
 
-/// The `number`-th statement with this first word; what follows the word is put into `line`. Counts
-/// down `number`, so UINT32_MAX counts the statements.
-static bool slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t *number,
-                                slrt_text *line) {
-    slrt_text text;
-    text.at = rt->text;
+/// What follows the first word of the `number`-th statement with this word, which exists.
+static slrt_text slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t number) {
+    slrt_text text, line;
+    text.at = line.at = line.end = rt->text;
     text.end = rt->text + rt->text_bytes;
-    while (slrt_take_line(&text, line)) {
-        const slrt_text word = slrt_take_word(line);
-        if (slrt_word_is(&word, first) && !(*number)--) return true;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text word = slrt_take_word(&line);
+        if (slrt_word_is(&word, first) && !number--) break;
     }
-    return false;
+    return line;
 }
 
 /// A decimal: digits, of which the last `fraction` are behind the point, and a power of ten.
@@ -1299,34 +1409,144 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
            slrt_take_number(&line, false, &out->heading);
 }
 
-// --- Opening a file
-
 /// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
-static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
+static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
+    const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    uint32_t doors = 0;
     rt->range = 0;
-    rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
-    rt->text_bytes = (size_t)found[SLRT_MAPT].count;
+    rt->door_count = 0;
+    rt->text = section->items ? section->items : (const unsigned char *)"";
+    rt->text_bytes = (size_t)section->count;
     text.at = rt->text;
     text.end = rt->text + rt->text_bytes;
     while (slrt_take_line(&text, &line)) {
         const slrt_text first = slrt_take_word(&line);
         sl_runtime_viewpoint start;
-        if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
         if (slrt_word_is(&first, "range") &&
             (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
             return false;
+        if (slrt_word_is(&first, "start")) {
+            if (!slrt_read_start(line, &start)) return false;
+            rt->start_count++;
+        }
         if (slrt_word_is(&first, "door")) {
             const slrt_text name = slrt_take_word(&line);
             if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
-            doors++;
+            if (rt->door_count++ == INT32_MAX) return false;
         }
-        if (slrt_word_is(&first, "mirror") && !rt->mirrors)
-            rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+        if (slrt_word_is(&first, "mirror")) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
     }
-    return doors >= rt->door_count;
+    return rt->door_count >= seam_doors;
 }
+
+/// A door of the text: its name, and whether it is open.
+static sl_runtime_name slrt_text_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    sl_runtime_name name;
+    slrt_text line = slrt_find_statement(rt, "door", door), word = slrt_take_word(&line);
+    int i;
+    name.text = (const char *)word.at;
+    name.length = (uint32_t)(word.end - word.at);
+    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // four coordinates, and the state
+    *open = !slrt_word_is(&word, "shut");
+    return name;
+}
+
+static bool slrt_text_start(const sl_runtime *rt, uint32_t start, sl_runtime_viewpoint *out) {
+    return slrt_read_start(slrt_find_statement(rt, "start", start), out);
+}
+
+#endif
+
+/// What is checked of the map's things when a file is opened: doors, starts, objects, paths,
+/// mirrors.
+
+static bool slrt_is_finite(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits >> 52 & 0x7ff) != 0x7ff;
+}
+
+/// The items of a section: at most INT32_MAX, each of them, if it is `named`, begins with a name
+/// that is not empty, in the section of names; then come `numbers` coordinates.
+static bool slrt_items_are_sound(const slrt_section *found, int tag, uint32_t item_bytes,
+                                 bool named, int numbers) {
+    const unsigned char *item = found[tag].items;
+    const uint64_t count = found[tag].count, names = found[SLRT_MAPN].count;
+    uint64_t i;
+    for (i = 0; i < count; i++, item += item_bytes) {
+        if (named && (!slrt_u32(item + 4) || slrt_u32(item) > names ||
+                      slrt_u32(item + 4) > names - slrt_u32(item)))
+            return false;
+        if (!slrt_usable(item + (named ? 8 : 0), numbers)) return false;
+    }
+    return count <= INT32_MAX;
+}
+
+static bool slrt_take_map_info(sl_runtime *rt, const slrt_section *section) {
+    const unsigned char *info = section->items;
+    double scale;
+    if (section->count != 1 || !slrt_usable(info + 8, 3) || slrt_u64(info + 32) > 1) return false;
+    rt->range = slrt_f64(info);
+    rt->transform.origin_x = slrt_f64(info + 8);
+    rt->transform.origin_y = slrt_f64(info + 16);
+    rt->transform.scale = scale = slrt_f64(info + 24);
+    rt->transform.y_down = slrt_u64(info + 32) != 0;
+    return slrt_is_finite(rt->range) && rt->range >= 0 && (scale == 0 || scale >= 1e-150);
+}
+
+/// The map's things in a file that has them in sections.
+static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    if (!slrt_take_map_info(rt, &found[SLRT_MAPI]) || found[SLRT_DOOR].count < rt->door_count ||
+        !slrt_items_are_sound(found, SLRT_DOOR, SLRT_DOOR_BYTES, true, 0) ||
+        !slrt_items_are_sound(found, SLRT_STRT, SLRT_START_BYTES, false, 2) ||
+        !slrt_items_are_sound(found, SLRT_OBJE, SLRT_OBJECT_BYTES, true, 4) ||
+        !slrt_items_are_sound(found, SLRT_PATH, SLRT_PATH_BYTES, true, 0) ||
+        !slrt_items_are_sound(found, SLRT_PAPO, SLRT_VERTEX_BYTES, false, 2) ||
+        !slrt_items_are_sound(found, SLRT_MIRR, SLRT_MIRROR_BYTES, false, 4))
+        return false;
+    rt->names = found[SLRT_MAPN].items;
+    rt->doors = found[SLRT_DOOR].items;
+    rt->door_count = (uint32_t)found[SLRT_DOOR].count;
+    rt->starts = found[SLRT_STRT].items;
+    rt->start_count = (uint32_t)found[SLRT_STRT].count;
+    rt->objects = found[SLRT_OBJE].items;
+    rt->object_count = (uint32_t)found[SLRT_OBJE].count;
+    rt->paths = found[SLRT_PATH].items;
+    rt->path_count = (uint32_t)found[SLRT_PATH].count;
+    rt->path_points = found[SLRT_PAPO].items;
+    rt->mirror_lines = found[SLRT_MIRR].items;
+    rt->mirror_count = (uint32_t)found[SLRT_MIRR].count;
+    if (rt->mirror_count) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+    for (i = 0; i < rt->start_count; i++)
+        if (!slrt_is_finite(slrt_f64(rt->starts + (size_t)i * SLRT_START_BYTES + 16))) return false;
+    for (i = 0; i < rt->path_count; i++) {
+        const unsigned char *path = rt->paths + (size_t)i * SLRT_PATH_BYTES;
+        if ((uint64_t)slrt_u32(path + 8) + slrt_u32(path + 12) > found[SLRT_PAPO].count)
+            return false;
+    }
+    return true;
+}
+
+/// What the map holds beside walls. Files before 2.0 have it as text alone.
+static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
+    const bool old = !found[SLRT_MAPI].items;
+    memset(&rt->transform, 0, sizeof rt->transform);
+    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
+    rt->text = NULL;
+    rt->text_bytes = 0;
+#ifdef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (old) return SL_RUNTIME_OLD;
+#else
+    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
+    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
+    rt->mirror_lines = NULL;
+    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+#endif
+    return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+}
+
+// --- Opening a file
 
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
@@ -1341,8 +1561,9 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    status = slrt_take_map(&rt, found);
+    if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
-    if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -1373,7 +1594,9 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
     case SL_RUNTIME_TEXT:
-        return "damaged: a door, a start or the range of the map text";
+        return "damaged: a door, a start or another thing of the map";
+    case SL_RUNTIME_OLD:
+        return "of a version before 2.0, which this program leaves out: bake the map again";
     }
     return "unknown status";
 }
@@ -1422,44 +1645,58 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
     *y = slrt_f64(at + 8);
 }
 
-// --- Doors and starts
+// --- The map's things: doors, starts, objects, paths and mirrors
 
-SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+/// The name that a door, an object or a path begins with.
+static sl_runtime_name slrt_name(const sl_runtime *rt, const unsigned char *item) {
     sl_runtime_name name;
-    slrt_text line;
-    name.text = "";
-    name.length = 0;
-    if (door < runtime->door_count && slrt_find_statement(runtime, "door", &door, &line)) {
-        const slrt_text word = slrt_take_word(&line);
-        name.text = (const char *)word.at;
-        name.length = (uint32_t)(word.end - word.at);
-    }
+    name.text = (const char *)rt->names + slrt_u32(item);
+    name.length = slrt_u32(item + 4);
     return name;
 }
 
+static sl_runtime_segment slrt_segment(const unsigned char *at) {
+    sl_runtime_segment segment;
+    segment.x0 = slrt_f64(at);
+    segment.y0 = slrt_f64(at + 8);
+    segment.x1 = slrt_f64(at + 16);
+    segment.y1 = slrt_f64(at + 24);
+    return segment;
+}
+
+static sl_runtime_name slrt_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    const unsigned char *item;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (rt->text) return slrt_text_door(rt, door, open);
+#endif
+    item = rt->doors + (size_t)door * SLRT_DOOR_BYTES;
+    *open = slrt_u32(item + 8) != 0;
+    return slrt_name(rt, item);
+}
+
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+    sl_runtime_name none;
+    bool open;
+    none.text = "";
+    none.length = 0;
+    return door < runtime->door_count ? slrt_door(runtime, door, &open) : none;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
-    slrt_text text, line;
-    uint32_t door = 0;
-    text.at = runtime->text;
-    text.end = runtime->text + runtime->text_bytes;
-    while (door < runtime->door_count && slrt_take_line(&text, &line)) {
-        slrt_text word = slrt_take_word(&line);
-        if (!slrt_word_is(&word, "door")) continue;
-        word = slrt_take_word(&line);
-        if (slrt_word_is(&word, name)) return door;
-        door++;
+    size_t length = 0;
+    uint32_t door;
+    while (name[length]) length++;
+    for (door = 0; door < runtime->door_count; door++) {
+        const sl_runtime_name own = sl_runtime_door_name(runtime, door);
+        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
     }
     return SL_RUNTIME_NO_DOOR;
 }
 
 SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door) {
-    slrt_text line, word;
-    int i;
-    if (door >= runtime->door_count || !slrt_find_statement(runtime, "door", &door, &line))
-        return false;
-    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // its name and four coordinates
-    word = slrt_take_word(&line);
-    return !slrt_word_is(&word, "shut");
+    bool open = false;
+    if (door < runtime->door_count) slrt_door(runtime, door, &open);
+    return open;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
@@ -1468,32 +1705,94 @@ SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint
     for (i = 0; i < runtime->seam_count; i++) {
         const unsigned char *seam = runtime->seams + (size_t)i * 40;
         if (slrt_u32(seam + 32) != 1 || slrt_u32(seam + 36) != door) continue;
-        if (count < room) {
-            segments[count].x0 = slrt_f64(seam);
-            segments[count].y0 = slrt_f64(seam + 8);
-            segments[count].x1 = slrt_f64(seam + 16);
-            segments[count].y1 = slrt_f64(seam + 24);
-        }
+        if (count < room) segments[count] = slrt_segment(seam);
         count++;
     }
     return count;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
-    uint32_t left = UINT32_MAX;
-    slrt_text line;
-    slrt_find_statement(runtime, "start", &left, &line);
-    return UINT32_MAX - left;
+    return runtime->start_count;
 }
 
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out) {
-    sl_runtime_viewpoint found;
-    slrt_text line;
-    if (!slrt_find_statement(runtime, "start", &start, &line) || !slrt_read_start(line, &found))
-        return false;
-    *out = found;
+    const unsigned char *item;
+    if (start >= runtime->start_count) return false;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (runtime->text) return slrt_text_start(runtime, start, out);
+#endif
+    item = runtime->starts + (size_t)start * SLRT_START_BYTES;
+    out->x = slrt_f64(item);
+    out->y = slrt_f64(item + 8);
+    out->heading = slrt_f64(item + 16);
     return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box) {
+    const unsigned char *item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
+    if (object >= runtime->object_count) return false;
+    *name = slrt_name(runtime, item);
+    *box = slrt_segment(item + 8);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    if (path >= runtime->path_count) return false;
+    *name = slrt_name(runtime, item);
+    *point_count = slrt_u32(item + 12);
+    return true;
+}
+
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    const unsigned char *at = runtime->path_points;
+    uint32_t i;
+    if (path >= runtime->path_count) return;
+    at += (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
+    for (i = 0; i < 2 * slrt_u32(item + 12); i++) points[i] = slrt_f64(at + (size_t)i * 8);
+}
+
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided) {
+    const unsigned char *item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
+    if (mirror >= runtime->mirror_count) return false;
+    *segment = slrt_segment(item);
+    *one_sided = slrt_u64(item + 32) != 0;
+    return true;
+}
+
+// --- Points of a map in other coordinates, such as those of a screen with y down
+
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out) {
+    *out = runtime->transform;
+    if (out->scale > 0) return true;
+    out->scale = 1;
+    return false;
+}
+
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count) {
+    uint32_t i;
+    for (i = 0; i < count; i++, points += 2) {
+        const double y = points[1] / transform->scale;
+        points[0] = transform->origin_x + points[0] / transform->scale;
+        points[1] = transform->y_down ? transform->origin_y - y : transform->origin_y + y;
+    }
+}
+
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count) {
+    uint32_t i;
+    for (i = 0; i < count; i++, points += 2) {
+        points[0] = transform->scale * (points[0] - transform->origin_x);
+        points[1] = transform->scale * (transform->y_down ? transform->origin_y - points[1]
+                                                          : points[1] - transform->origin_y);
+    }
 }
 
 // --- Rows: which cells see which, with doors as they stand, by mirror, and from view cells
@@ -1858,15 +2157,22 @@ static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, dou
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is in a cell or on its border.
-static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+/// Where a point is: 1 in a cell, 0 on its border, -1 outside.
+static int slrt_place_in(const sl_runtime *rt, uint32_t number, double x, double y) {
     const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
     const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
     const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
-    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES)
-        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
-    return true;
+    int place = 1;
+    for (; corner < stop && place >= 0; before = corner, corner += SLRT_VERTEX_BYTES) {
+        const int side = slrt_side_of_line(before, corner, x, y);
+        if (side < place) place = side;
+    }
+    return place;
+}
+
+static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+    return slrt_place_in(rt, number, x, y) >= 0;
 }
 
 /// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
@@ -1920,11 +2226,14 @@ static double slrt_before(double number) {
     return number;
 }
 
+static bool slrt_in_bounds(const sl_runtime *rt, double x, double y) {
+    return x >= rt->min_x && x <= rt->max_x && y >= rt->min_y && y <= rt->max_y;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
     uint32_t first = SL_RUNTIME_NO_CELL;
     int side;
-    if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
-        return SL_RUNTIME_NO_CELL;
+    if (!slrt_in_bounds(runtime, x, y)) return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
         const uint32_t cell =
@@ -1970,17 +2279,109 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     return true;
 }
 
+/// What is done with a cell near a box; false to stop.
+typedef bool slrt_visit(void *context, uint32_t cell);
+
+static bool slrt_visit_all(const sl_runtime *rt, slrt_visit *visit, void *context) {
+    uint32_t i;
+    for (i = 0; i < rt->cell_count; i++)
+        if (!visit(context, i)) return false;
+    return true;
+}
+
+/// The cells of all buckets that a box meets; a cell may come more than once.
+static bool slrt_visit_by_grid(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
+    const double low_x = box[0] > rt->min_x ? box[0] : rt->min_x;
+    const double low_y = box[1] > rt->min_y ? box[1] : rt->min_y;
+    const double high_x = box[2] < rt->max_x ? box[2] : rt->max_x;
+    const double high_y = box[3] < rt->max_y ? box[3] : rt->max_y;
+    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
+    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
+    uint32_t y, x, i;
+    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
+        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
+            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
+            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
+                if (!visit(context, slrt_u32(rt->grid_cells + (size_t)i * 4))) return false;
+        }
+    return true;
+}
+
+static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    enum { MOST = 128 };
+    int32_t stack[MOST];
+    uint32_t count = 1;
+    stack[0] = rt->root;
+    while (count && count < MOST - 1) {
+        const int32_t child = stack[--count];
+        const unsigned char *node;
+        int axis;
+        if (child < 0) {
+            if (!visit(context, (uint32_t)~child)) return false;
+            continue;
+        }
+        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
+        axis = slrt_i32(node + 8) ? 1 : 0;
+        if (box[axis] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
+        if (box[2 + axis] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
+    }
+    return !count || slrt_visit_all(rt, visit, context); // the tree is too deep
+}
+
+/// Visits all cells that a box touches, and some that are near: by the grid or the tree, or all if
+/// there is neither. False if a visit stopped it.
+static bool slrt_visit_near(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                            void *context) {
+    if (box[2] < rt->min_x || box[3] < rt->min_y || box[0] > rt->max_x || box[1] > rt->max_y)
+        return true;
+    if (rt->grid_cells) return slrt_visit_by_grid(rt, box, visit, context);
+    if (rt->nodes) return slrt_visit_by_tree(rt, box, visit, context);
+    return slrt_visit_all(rt, visit, context);
+}
+
+/// So many cells are noted at a time: a number that 32 divides.
+#ifndef SLRT_WINDOW
+#define SLRT_WINDOW 8192
+#endif
+
+/// Cells by number, from `first` on, as bits.
+typedef struct slrt_window {
+    uint32_t first, next; ///< next: the first one behind the bits
+    uint32_t bits[SLRT_WINDOW / 32];
+} slrt_window;
+
+static bool slrt_note(void *context, uint32_t cell) {
+    slrt_window *w = (slrt_window *)context;
+    const uint32_t at = cell - w->first;
+    if (cell < w->first) return true;
+    if (at < SLRT_WINDOW)
+        w->bits[at / 32] |= UINT32_C(1) << at % 32;
+    else if (cell < w->next)
+        w->next = cell;
+    return true;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room) {
     double box[4];
-    uint32_t cell, count = 0;
+    uint32_t i, bits, cell, count = 0;
+    slrt_window w;
     if (!(min_x <= max_x && min_y <= max_y)) return 0;
     box[0] = min_x, box[1] = min_y, box[2] = max_x, box[3] = max_y;
-    for (cell = 0; cell < runtime->cell_count; cell++) {
-        if (!slrt_meets_box(runtime, cell, box)) continue;
-        if (count < room) cells[count] = cell;
-        count++;
+    for (w.first = 0; w.first != SL_RUNTIME_NO_CELL; w.first = w.next) {
+        w.next = SL_RUNTIME_NO_CELL;
+        memset(w.bits, 0, sizeof w.bits);
+        slrt_visit_near(runtime, box, slrt_note, &w);
+        for (i = 0; i < SLRT_WINDOW / 32; i++)
+            for (bits = w.bits[i], cell = w.first + 32 * i; bits; bits >>= 1, cell++) {
+                if (!(bits & 1) || !slrt_meets_box(runtime, cell, box)) continue;
+                if (count < room) cells[count] = cell;
+                count++;
+            }
     }
     return count;
 }
@@ -2096,86 +2497,48 @@ static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const doubl
     return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
 }
 
+/// A box that is put into its cells.
+typedef struct slrt_placing {
+    sl_runtime_boxes *boxes;
+    uint32_t box;
+    double at[4];
+} slrt_placing;
+
 /// Puts a box into a cell, if it reaches into it. False if there is no room.
-static bool slrt_put_in_cell(sl_runtime_boxes *boxes, uint32_t box, const double at[4],
-                             uint32_t cell) {
-    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, box);
+static bool slrt_put_in_cell(void *context, uint32_t cell) {
+    const slrt_placing *placing = (const slrt_placing *)context;
+    sl_runtime_boxes *boxes = placing->boxes;
+    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, placing->box);
     const uint32_t free = boxes->memory[0];
     uint32_t *entry;
     // The last box that came to a cell is the first in its list: a second bucket has the cell too.
-    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == box) return true;
-    if (!slrt_reaches_into(boxes->runtime, cell, at)) return true;
+    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == placing->box)
+        return true;
+    if (!slrt_reaches_into(boxes->runtime, cell, placing->at)) return true;
     if (free == SLRT_NO_ENTRY) return false;
     entry = slrt_entry(boxes, free);
     boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
     entry[SLRT_ENTRY_CELL] = cell;
-    entry[SLRT_ENTRY_BOX] = box;
+    entry[SLRT_ENTRY_BOX] = placing->box;
     entry[SLRT_ENTRY_IN_CELL] = *first;
     entry[SLRT_ENTRY_OF_BOX] = *own;
     *first = *own = free;
     return true;
 }
 
-/// Puts a box into the cells of all buckets that it meets.
-static bool slrt_put_by_grid(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    const sl_runtime *rt = boxes->runtime;
-    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
-    const double low_x = at[0] > rt->min_x ? at[0] : rt->min_x;
-    const double low_y = at[1] > rt->min_y ? at[1] : rt->min_y;
-    const double high_x = at[2] < rt->max_x ? at[2] : rt->max_x;
-    const double high_y = at[3] < rt->max_y ? at[3] : rt->max_y;
-    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
-    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
-    uint32_t y, x, i;
-    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
-        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
-            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
-            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
-                if (!slrt_put_in_cell(boxes, box, at, slrt_u32(rt->grid_cells + (size_t)i * 4)))
-                    return false;
-        }
-    return true;
-}
-
-/// Puts a box into the cells that the tree has there, or that there are without a tree.
-static bool slrt_put_by_tree(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    enum { MOST = 128 };
-    const sl_runtime *rt = boxes->runtime;
-    int32_t stack[MOST];
-    uint32_t count = 0, i;
-    if (rt->nodes) stack[count++] = rt->root;
-    while (count && count < MOST - 1) {
-        const int32_t child = stack[--count];
-        const unsigned char *node;
-        if (child < 0) {
-            if (!slrt_put_in_cell(boxes, box, at, (uint32_t)~child)) return false;
-            continue;
-        }
-        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
-        i = slrt_i32(node + 8) ? 1 : 0;
-        if (at[i] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
-        if (at[2 + i] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
-    }
-    if (rt->nodes && !count) return true;
-    for (i = 0; i < rt->cell_count; i++) // no tree, or one that is too deep
-        if (!slrt_put_in_cell(boxes, box, at, i)) return false;
-    return true;
-}
-
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
-    const sl_runtime *rt = boxes->runtime;
-    double at[4];
-    bool usable = true;
+    slrt_placing placing;
+    bool usable = to->min_x <= to->max_x && to->min_y <= to->max_y;
     int i;
-    at[0] = to->min_x, at[1] = to->min_y, at[2] = to->max_x, at[3] = to->max_y;
-    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(at[i]);
+    placing.boxes = boxes;
+    placing.box = box;
+    placing.at[0] = to->min_x, placing.at[1] = to->min_y;
+    placing.at[2] = to->max_x, placing.at[3] = to->max_y;
+    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(placing.at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!(usable && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x || at[3] < rt->min_y ||
-        at[0] > rt->max_x || at[1] > rt->max_y)
-        return true;
-    if (rt->grid_cells ? slrt_put_by_grid(boxes, box, at) : slrt_put_by_tree(boxes, box, at))
+    if (!usable || slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
         return true;
     slrt_take_out(boxes, box);
     *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
@@ -2247,19 +2610,23 @@ typedef struct slrt_search {
     double range;              ///< 0 for no limit
     double x, y;               ///< the eye
     uint32_t eye_cell;         ///< that sl_runtime_locate gives
-    uint32_t own_count;        ///< of SLRT_OWN
+    uint32_t own_count;        ///< of the cells listed: the eye's, or those on a way
+    bool has_marks;            ///< the marks of these say so
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
+    bool on_foot; ///< glass is a wall from both sides
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
     /// boxes is built without what is only for them.
     void (*meet_boxes)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
+    bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
+    uint32_t except;                   ///< a box that stops nothing
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
     uint32_t *blockers, blocker_count; ///< those that hide something
     uint32_t *chosen;                  ///< room for as many as there are boxes
@@ -2397,7 +2764,7 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
-        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(s, seam)) return true;
+        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
     }
     return false;
 }
@@ -2884,432 +3251,6 @@ static void slrt_meet_boxes(slrt_search *s, uint32_t cell, const slrt_sector *se
     }
 }
 
-// --- Eye-to-cell: the search through portals
-
-/// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
-/// path was seen through a wider sector, and a cell that was entered with a wider one needs no
-/// second visit.
-static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
-    uint32_t *top = s->path + 4 * (size_t)s->depth;
-    unsigned char *marks = s->marks + cell;
-    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
-    if (*marks & SLRT_ON_PATH) return;
-    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
-    slrt_see(s, cell);
-    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
-    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
-                             sector->along);
-    s->sectors[2 * (size_t)cell] = sector->right;
-    s->sectors[2 * (size_t)cell + 1] = sector->left;
-    top[0] = cell;
-    top[1] = 0;
-    top[2] = sector->right;
-    top[3] = sector->left;
-    s->depth++;
-}
-
-static void slrt_see_row(slrt_search *s) {
-    uint32_t i;
-    s->gave_up = true;
-    for (i = 0; i < s->rt->cell_count; i++)
-        if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
-}
-
-/// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
-/// start of a search: none leads there.
-static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
-    slrt_sector sector;
-    if (s->marks[to] & SLRT_OWN) return;
-    sector.right = top[2];
-    sector.left = top[3];
-    sector.along = s->marks[top[0]] & SLRT_ALONG;
-    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
-    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
-    if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
-    slrt_enter(s, to, &sector);
-}
-
-/// Whether a sector leads into a cell of the eye's: some of its directions enter the cell, or run
-/// along its border. Either the first direction of the sector does, or the sector has the first one
-/// of the cell, which is along a side at the eye.
-static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
-    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
-    const unsigned char *a = s->rt->vertices + (size_t)c.first_vertex * SLRT_VERTEX_BYTES;
-    const unsigned char *b = a + (size_t)(c.vertex_count - 1) * SLRT_VERTEX_BYTES;
-    slrt_arm u, v, p, side;
-    bool enters = true;
-    uint32_t i;
-    if (sector->right == SLRT_ALL_ROUND) return true;
-    u = slrt_border(s, sector->right);
-    v = slrt_border(s, sector->left);
-    for (i = 0; i < c.vertex_count; i++, b = a, a += SLRT_VERTEX_BYTES) {
-        if (slrt_side_of_line(b, a, s->x, s->y)) continue;
-        p = slrt_make_arm(s->x, s->y, slrt_f64(a), slrt_f64(a + 8));
-        if (slrt_within(&p, &u, &v, slrt_side(&u, &p), slrt_side(&p, &v))) return true;
-        side = slrt_make_arm(slrt_f64(b), slrt_f64(b + 8), slrt_f64(a), slrt_f64(a + 8));
-        if (slrt_side(&side, &u) < 0) enters = false;
-    }
-    return enters;
-}
-
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
-    while (s->depth) {
-        uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
-        if (top[1] == c.directed_count) {
-            s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
-            s->depth--;
-        } else if (!s->patience) {
-            slrt_see_row(s);
-            s->depth = 0;
-        } else {
-            s->patience--;
-            slrt_search_on(s, top, c.first_directed + top[1]++);
-        }
-    }
-}
-
-static bool slrt_is_direction(const double *d) {
-    const double larger = slrt_larger(d[0], d[1]);
-    return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
-}
-
-/// Replaces a number that is too small for a map by 0, as its products would underflow.
-static double slrt_no_dust(double number) {
-    return number > -1e-200 && number < 1e-200 ? 0 : number;
-}
-
-static slrt_arm slrt_direction(double x, double y) {
-    return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
-}
-
-SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
-    return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
-}
-
-/// Whether the eye is on a directed portal, ends included.
-static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
-}
-
-/// Adds the row of a cell to the cells that the search may enter.
-static void slrt_allow_row(slrt_search *s, uint32_t cell) {
-    sl_runtime_run run = sl_runtime_row(s->rt, cell);
-    uint32_t i;
-    while (sl_runtime_next(&run))
-        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
-}
-
-/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
-static bool slrt_overlap(double a, double b, double c, double d) {
-    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
-}
-
-/// Whether the way from the eye to a point meets a directed portal, ends included.
-static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
-    if (right * left > 0) return false;
-    if (!right && !left)
-        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
-               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
-}
-
-/// Lists and marks the eye's cell and those that it leads to through all open portals that a way
-/// meets, until a cell touches the end of the way: then true. NULL for the way that is the eye
-/// alone: the cells are the eye's, and their rows count. Until the search starts, the path is the
-/// list.
-static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
-    uint32_t at, i;
-    s->path[0] = s->eye_cell;
-    s->own_count = 1;
-    s->marks[s->eye_cell] |= SLRT_OWN;
-    for (at = 0; at < s->own_count; at++) {
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
-        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
-        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
-            if (s->marks[to] & SLRT_OWN ||
-                !(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
-                slrt_is_blocked(s, i))
-                continue;
-            s->marks[to] |= SLRT_OWN;
-            s->path[s->own_count++] = to;
-            if (s->has_row) slrt_allow_row(s, to);
-        }
-    }
-    return false;
-}
-
-/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
-/// through a directed portal is one sector. All round from within a cell, each directed portal is
-/// such a piece.
-static void slrt_search_cone(slrt_search *s, uint32_t cell) {
-    const double *right = s->view->right, *left = s->view->left;
-    uint32_t i, pieces = 3, last = 3;
-    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (s->own_count == 1) {
-            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-            return;
-        }
-        s->cone[0] = slrt_direction(1, 0);
-        s->cone[1] = slrt_direction(-1, 1);
-        s->cone[2] = slrt_direction(-1, -1);
-        last = 0;
-    } else {
-        s->cone[0] = slrt_direction(right[0], right[1]);
-        s->cone[1] = slrt_direction(-right[1], right[0]);
-        s->cone[2] = slrt_direction(-right[0], -right[1]);
-        s->cone[3] = slrt_direction(left[0], left[1]);
-        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
-            pieces = 1;
-    }
-    for (i = 0; i < pieces; i++)
-        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
-}
-
-/// The smaller one of a caller's range and the map's own; 0 for no limit.
-static double slrt_range(const sl_runtime *rt, double range) {
-    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
-                                        uint32_t *scratch, uint32_t *cells, uint32_t room) {
-    return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
-}
-
-/// Prepares a search. False if the eye sees nothing.
-static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
-                              const unsigned char *shut, double range, uint32_t *scratch) {
-    const size_t count = rt->cell_count;
-    memset(s, 0, sizeof *s);
-    s->rt = rt;
-    s->view = view;
-    s->shut = shut;
-    s->range = slrt_range(rt, range);
-    s->x = slrt_no_dust(view->x);
-    s->y = slrt_no_dust(view->y);
-    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
-    s->path = scratch;
-    s->sectors = scratch + 4 * count;
-    s->marks = (unsigned char *)(scratch + 6 * count);
-    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
-}
-
-static void slrt_run_search(slrt_search *s) {
-    sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
-    uint32_t i;
-    s->count = 0;
-    s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
-    memset(s->marks, 0, s->rt->cell_count);
-    s->has_row = run.next != run.stop;
-    while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
-    slrt_follow(s, NULL);
-    slrt_search_cone(s, s->eye_cell);
-    for (i = 0; i < s->rt->cell_count && s->own_count > 1; i++)
-        if (s->marks[i] & SLRT_OWN && i != s->eye_cell) slrt_search_cone(s, i);
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
-                                             const unsigned char *shut, double range,
-                                             uint32_t *scratch, uint32_t *cells, uint32_t room) {
-    slrt_search s;
-    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
-    s.cells = cells;
-    s.room = room;
-    slrt_run_search(&s);
-    return s.count;
-}
-
-/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
-/// that no product overflows, and the range is more than any distance where it is left out.
-static bool slrt_is_within(const slrt_search *s, double x, double y) {
-    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
-    const double scale = slrt_scale_of(largest), range = scale * s->range;
-    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
-    double parts[14];
-    int count = 0, i;
-    if (!(s->range > 0) || range > 8) return true;
-    for (i = 0; i < 2; i++) {
-        count = slrt_add_product(parts, count, to[i], to[i]);
-        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
-        count = slrt_add_product(parts, count, from[i], from[i]);
-    }
-    count = slrt_add_product(parts, count, -range, range);
-    return !count || parts[count - 1] <= 0;
-}
-
-SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
-                                    double y1, const unsigned char *shut, double range,
-                                    uint32_t *scratch) {
-    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
-    const double x = slrt_no_dust(x1), y = slrt_no_dust(y1);
-    slrt_search s;
-    slrt_arm way;
-    if (!slrt_start_search(&s, runtime, &view, shut, range, scratch) ||
-        sl_runtime_locate(runtime, x, y) == SL_RUNTIME_NO_CELL || !slrt_is_within(&s, x, y))
-        return false;
-    way = slrt_make_arm(s.x, s.y, x, y);
-    memset(s.marks, 0, runtime->cell_count);
-    return slrt_follow(&s, &way);
-}
-
-/// Adds to a search that has run what is seen by mirror from somewhere in a cell.
-static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint32_t cell) {
-    sl_runtime_run run = sl_runtime_row(rows, cell);
-    slrt_door_pairs pairs = slrt_door_pairs_of(rows, cell);
-    uint32_t i;
-    while (sl_runtime_next(&run))
-        for (i = run.first; i < run.end; i++)
-            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
-}
-
-/// Adds to a search that has run what the eye may see by mirror.
-static void slrt_see_mirrored(slrt_search *s) {
-    const sl_runtime rows = slrt_mirrored(s->rt);
-    const bool known = s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row;
-    uint32_t i;
-    if (known) slrt_see_mirrored_from(s, &rows, s->eye_cell);
-    for (i = 0; i < s->rt->cell_count && !(known && s->own_count == 1); i++) {
-        if (known && s->marks[i] & SLRT_OWN) slrt_see_mirrored_from(s, &rows, i);
-        if (!known && !sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
-    }
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
-                                                 const sl_runtime_view *view,
-                                                 const unsigned char *shut, double range,
-                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
-                                                 uint32_t *direct) {
-    slrt_search s;
-    *direct = 0;
-    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
-    s.cells = cells;
-    s.room = room;
-    slrt_run_search(&s);
-    *direct = s.count;
-    if (runtime->mirrors) slrt_see_mirrored(&s);
-    return s.count;
-}
-
-// --- Boxes: what is asked
-
-SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
-    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
-}
-
-/// Twice the distance from the eye to a box's middle, squared.
-static double slrt_away(const slrt_search *s, uint32_t box) {
-    const sl_runtime_box *at = &s->boxes->boxes[box];
-    const double x = at->min_x + at->max_x - 2 * s->x, y = at->min_y + at->max_y - 2 * s->y;
-    return x * x + y * y;
-}
-
-/// Sorts boxes, the nearest first (Shell 1959).
-static void slrt_sort_by_distance(const slrt_search *s, uint32_t *boxes, uint32_t count) {
-    uint32_t gap, i, k;
-    for (gap = count / 2; gap; gap = gap == 2 ? 1 : (uint32_t)(gap / 2.2))
-        for (i = gap; i < count; i++) {
-            const uint32_t box = boxes[i];
-            const double away = slrt_away(s, box);
-            for (k = i; k >= gap && slrt_away(s, boxes[k - gap]) > away; k -= gap)
-                boxes[k] = boxes[k - gap];
-            boxes[k] = box;
-        }
-}
-
-/// Whether boxes hide all of another one: the first `front` blockers, or all of them.
-static bool slrt_is_hidden_by(slrt_search *s, uint32_t box, uint32_t front) {
-    const uint32_t all = s->blocker_count;
-    bool hidden;
-    if (s->box_marks[box] != SLRT_BOX_PAST_WALLS) return false;
-    s->blocker_count = front;
-    hidden = slrt_is_hidden_box(s, box);
-    s->blocker_count = all;
-    return hidden || slrt_is_hidden_box(s, box);
-}
-
-/// Marks the boxes that others hide wholly, walls aside. Few boxes near the eye hide most of a
-/// crowd. So boxes are asked the nearest first, against those that are not hidden themselves, and
-/// only then against all. Blockers that are not hidden gather at the front of the list, and are
-/// what is left: what hides a box wholly also hides what is behind that box.
-static void slrt_hide_boxes(slrt_search *s) {
-    uint32_t i, front = 0;
-    slrt_sort_by_distance(s, s->blockers, s->blocker_count);
-    for (i = 0; i < s->blocker_count; i++) {
-        const uint32_t box = s->blockers[i];
-        if (slrt_is_hidden_by(s, box, front)) {
-            s->box_marks[box] = SLRT_BOX_HIDDEN;
-        } else {
-            s->blockers[i] = s->blockers[front];
-            s->blockers[front++] = box;
-        }
-    }
-    for (i = 0; i < s->boxes->count; i++)
-        if (!s->boxes->boxes[i].blocks && slrt_is_hidden_by(s, i, front))
-            s->box_marks[i] = SLRT_BOX_HIDDEN;
-    s->blocker_count = front;
-}
-
-/// The first search finds the boxes that are seen past walls. If some of them block, a second one
-/// asks which of these are seen past the others, and leaves out cells that are hidden.
-static void slrt_look_at_boxes(slrt_search *s) {
-    const sl_runtime_boxes *boxes = s->boxes;
-    uint32_t i;
-    for (i = 0; i < boxes->count; i++)
-        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
-    slrt_run_search(s);
-    for (i = 0; i < boxes->count && !s->gave_up; i++)
-        if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
-    if (!s->blocker_count) return;
-    s->is_hidden = slrt_is_hidden_portal;
-    slrt_hide_boxes(s);
-    slrt_run_search(s);
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
-                                                   const sl_runtime_view *view,
-                                                   const unsigned char *shut, double range,
-                                                   uint32_t *boxes_scratch, unsigned char *seen,
-                                                   uint32_t *cells, uint32_t room) {
-    slrt_search s;
-    uint32_t i;
-    unsigned char wanted;
-    if (boxes->count) memset(seen, 0, boxes->count);
-    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
-    s.cells = cells;
-    s.room = room;
-    s.meet_boxes = slrt_meet_boxes;
-    s.boxes = boxes;
-    s.box_marks = seen;
-    s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);
-    s.chosen = s.blockers + boxes->count;
-    slrt_look_at_boxes(&s);
-    wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
-    for (i = 0; i < boxes->count; i++)
-        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
-    return s.count;
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
-                                              const sl_runtime_view *view,
-                                              const unsigned char *shut, double range,
-                                              uint32_t *boxes_scratch, unsigned char *seen) {
-    uint32_t i, count = 0;
-    sl_runtime_look_past_boxes(boxes, view, shut, range, boxes_scratch, seen, NULL, 0);
-    for (i = 0; i < boxes->count; i++) count += seen[i];
-    return count;
-}
-
 // --- The boundary of a cell, piece by piece
 
 /// No directed portal: a wall, or the border of the map. Also: no border, but a piece's own end.
@@ -3523,6 +3464,543 @@ static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     return true;
 }
 
+// --- A line from cell to cell
+
+// Nearly always the line from an eye to a point leaves each cell within one portal, until it comes
+// to the cell of the point, or to a wall:
+//
+//     +--------+---------+     The portal by which the line leaves a cell, and then on which side
+//     | eye *--|----* .. |     of that portal the point is: before it, the line arrives; behind
+//     +--------+---------+     it, the line goes on.
+//
+// Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
+// several cells. Then all cells are followed that it comes to by portals that it meets.
+
+/// Replaces a number that is too small for a map by 0, as its products would underflow.
+static double slrt_no_dust(double number) {
+    return number > -1e-200 && number < 1e-200 ? 0 : number;
+}
+
+/// Puts an eye, or who walks, at a place. False outside and in solid ground.
+static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, double y,
+                           const unsigned char *shut) {
+    memset(s, 0, sizeof *s);
+    s->rt = rt;
+    s->shut = shut;
+    s->x = slrt_no_dust(x);
+    s->y = slrt_no_dust(y);
+    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
+    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
+}
+
+/// Where the line from the eye to a point leads.
+typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
+
+/// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
+/// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
+static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             bool *touches) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    uint32_t i;
+    *touches = false;
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
+        const int right = slrt_side(way, &p), left = right > 0 ? -1 : slrt_side(way, &q);
+        if (left < 0) continue;
+        if (left && right) return i;
+        *touches = true;
+    }
+    return SLRT_NONE;
+}
+
+/// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
+/// to, or a box, stops it.
+static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
+    uint32_t cell = s->eye_cell, steps = s->rt->loose ? 0 : s->rt->cell_count;
+    if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
+    for (; steps; steps--) {
+        bool touches;
+        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        const unsigned char *portal = s->rt->directed + (size_t)out * SLRT_DIRECTED_BYTES;
+        int place;
+        if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
+        if (touches) return SLRT_TOUCHES;
+        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                                 : slrt_side_of_line(portal + 24, portal + 8, way->to_x, way->to_y);
+        if (place > 0) return SLRT_ARRIVES;
+        if (!place) return SLRT_TOUCHES;
+        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
+        cell = slrt_u32(portal + 4);
+    }
+    return SLRT_TOUCHES;
+}
+
+/// Whether the eye is on a directed portal, ends included.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
+}
+
+/// Adds the row of a cell to the cells that the search may enter.
+static void slrt_allow_row(slrt_search *s, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(s->rt, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
+}
+
+/// Allows the rows of the cells at glass that the eye is in line with. A line along it may cross it
+/// as rows do not know it; after the last such portal, they know all of it.
+static void slrt_allow_rows_in_line(slrt_search *s) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i;
+    for (i = 0; i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12;
+        const unsigned char *seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        const unsigned char *portal = rt->portals + (size_t)slrt_u32(on) * SLRT_PORTAL_BYTES;
+        if (slrt_u32(seam + 32) != 2 || slrt_side_of_line(seam, seam + 16, s->x, s->y)) continue;
+        slrt_allow_row(s, slrt_u32(portal)); // empty for what is no cell
+        slrt_allow_row(s, slrt_u32(portal + 4));
+    }
+}
+
+/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
+static bool slrt_overlap(double a, double b, double c, double d) {
+    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
+}
+
+/// Whether the way from the eye to a point meets a directed portal, ends included.
+static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
+    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
+    if (right * left > 0) return false;
+    if (!right && !left)
+        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
+               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
+    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+}
+
+/// Of so many cells, a list is faster than marks, which have to be cleared first.
+enum { SLRT_FEW_CELLS = 32 };
+
+static bool slrt_is_listed(const slrt_search *s, uint32_t cell) {
+    uint32_t i;
+    if (s->has_marks) return (s->marks[cell] & SLRT_OWN) != 0;
+    for (i = 0; i < s->own_count && s->path[i] != cell; i++) {
+    }
+    return i < s->own_count;
+}
+
+/// Until the search starts, the path is the list.
+static void slrt_list(slrt_search *s, uint32_t cell) {
+    uint32_t i = s->own_count;
+    s->path[s->own_count++] = cell;
+    if (!s->has_marks && s->own_count < SLRT_FEW_CELLS) return;
+    if (!s->has_marks) {
+        memset(s->marks, 0, s->rt->cell_count);
+        s->has_marks = true;
+        i = 0;
+    }
+    for (; i < s->own_count; i++) s->marks[s->path[i]] |= SLRT_OWN;
+}
+
+/// Lists the eye's cell and those that it leads to through all open portals that a way meets, until
+/// a cell touches the end of the way: then true. NULL for the way that is the eye alone: the cells
+/// are the eye's, and their rows count.
+static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, i;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
+        if (s->stops && s->stops(s, way, s->path[at])) return false;
+        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
+                slrt_is_listed(s, to) || slrt_is_blocked(s, i))
+                continue;
+            slrt_list(s, to);
+            if (s->has_row) slrt_allow_row(s, to);
+        }
+    }
+    return false;
+}
+
+// --- Eye-to-cell: the search through portals
+
+/// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
+/// path was seen through a wider sector, and a cell that was entered with a wider one needs no
+/// second visit.
+static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    uint32_t *top = s->path + 4 * (size_t)s->depth;
+    unsigned char *marks = s->marks + cell;
+    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
+    if (*marks & SLRT_ON_PATH) return;
+    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
+    slrt_see(s, cell);
+    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
+    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
+                             sector->along);
+    s->sectors[2 * (size_t)cell] = sector->right;
+    s->sectors[2 * (size_t)cell + 1] = sector->left;
+    top[0] = cell;
+    top[1] = 0;
+    top[2] = sector->right;
+    top[3] = sector->left;
+    s->depth++;
+}
+
+static void slrt_see_row(slrt_search *s) {
+    uint32_t i;
+    s->gave_up = true;
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
+}
+
+/// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
+/// start of a search: none leads there.
+static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
+    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    slrt_sector sector;
+    if (s->marks[to] & SLRT_OWN) return;
+    sector.right = top[2];
+    sector.left = top[3];
+    sector.along = s->marks[top[0]] & SLRT_ALONG;
+    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
+    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
+    if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
+    slrt_enter(s, to, &sector);
+}
+
+/// Whether a sector leads into a cell of the eye's: some of its directions enter the cell, or run
+/// along its border. Either the first direction of the sector does, or the sector has the first one
+/// of the cell, which is along a side at the eye.
+static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    const unsigned char *a = s->rt->vertices + (size_t)c.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *b = a + (size_t)(c.vertex_count - 1) * SLRT_VERTEX_BYTES;
+    slrt_arm u, v, p, side;
+    bool enters = true;
+    uint32_t i;
+    if (sector->right == SLRT_ALL_ROUND) return true;
+    u = slrt_border(s, sector->right);
+    v = slrt_border(s, sector->left);
+    for (i = 0; i < c.vertex_count; i++, b = a, a += SLRT_VERTEX_BYTES) {
+        if (slrt_side_of_line(b, a, s->x, s->y)) continue;
+        p = slrt_make_arm(s->x, s->y, slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_within(&p, &u, &v, slrt_side(&u, &p), slrt_side(&p, &v))) return true;
+        side = slrt_make_arm(slrt_f64(b), slrt_f64(b + 8), slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_side(&side, &u) < 0) enters = false;
+    }
+    return enters;
+}
+
+static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    slrt_sector sector;
+    sector.right = right;
+    sector.left = left;
+    sector.along = 0;
+    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
+    while (s->depth) {
+        uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
+        if (top[1] == c.directed_count) {
+            s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
+            s->depth--;
+        } else if (!s->patience) {
+            slrt_see_row(s);
+            s->depth = 0;
+        } else {
+            s->patience--;
+            slrt_search_on(s, top, c.first_directed + top[1]++);
+        }
+    }
+}
+
+static bool slrt_is_direction(const double *d) {
+    const double larger = slrt_larger(d[0], d[1]);
+    return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
+}
+
+static slrt_arm slrt_direction(double x, double y) {
+    return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
+}
+
+SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
+    return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
+}
+
+/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
+/// through a directed portal is one sector. All round from within a cell, each directed portal is
+/// such a piece.
+static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+    const double *right = s->view->right, *left = s->view->left;
+    uint32_t i, pieces = 3, last = 3;
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
+        if (s->own_count == 1) {
+            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+            return;
+        }
+        s->cone[0] = slrt_direction(1, 0);
+        s->cone[1] = slrt_direction(-1, 1);
+        s->cone[2] = slrt_direction(-1, -1);
+        last = 0;
+    } else {
+        s->cone[0] = slrt_direction(right[0], right[1]);
+        s->cone[1] = slrt_direction(-right[1], right[0]);
+        s->cone[2] = slrt_direction(-right[0], -right[1]);
+        s->cone[3] = slrt_direction(left[0], left[1]);
+        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
+            pieces = 1;
+    }
+    for (i = 0; i < pieces; i++)
+        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+}
+
+/// The smaller one of a caller's range and the map's own; 0 for no limit.
+static double slrt_range(const sl_runtime *rt, double range) {
+    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
+                                        uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
+}
+
+/// Prepares a search. False if the eye sees nothing.
+static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
+                              const unsigned char *shut, double range, uint32_t *scratch) {
+    const size_t count = rt->cell_count;
+    const bool sees = slrt_place_eye(s, rt, view->x, view->y, shut);
+    s->view = view;
+    s->range = slrt_range(rt, range);
+    s->path = scratch;
+    s->sectors = scratch + 4 * count;
+    s->marks = (unsigned char *)(scratch + 6 * count);
+    return sees;
+}
+
+/// The cells that the eye stands in, once they are found. If there are more than one, none of these
+/// is entered from another cell. So the path has room for them behind it.
+static uint32_t *slrt_own_cells(const slrt_search *s) {
+    return s->path + 4 * (size_t)s->rt->cell_count - s->own_count;
+}
+
+static void slrt_run_search(slrt_search *s) {
+    sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
+    uint32_t i;
+    s->count = s->own_count = 0;
+    s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
+    memset(s->marks, 0, s->rt->cell_count);
+    s->has_marks = true;
+    s->has_row = run.next != run.stop;
+    while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
+    slrt_follow(s, NULL);
+    if (s->has_row && s->rt->has_glass) slrt_allow_rows_in_line(s);
+    for (i = s->own_count; i-- > 0;) slrt_own_cells(s)[i] = s->path[i]; // upwards: from the last on
+    slrt_search_cone(s, s->eye_cell);
+    for (i = 1; i < s->own_count; i++) slrt_search_cone(s, slrt_own_cells(s)[i]);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
+                                             const unsigned char *shut, double range,
+                                             uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    slrt_search s;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    return s.count;
+}
+
+/// Adds to a search that has run what is seen by mirror from somewhere in a cell.
+static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(rows, cell);
+    slrt_door_pairs pairs = slrt_door_pairs_of(rows, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++)
+            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
+}
+
+/// Adds to a search that has run what the eye may see by mirror.
+static void slrt_see_mirrored(slrt_search *s) {
+    const sl_runtime rows = slrt_mirrored(s->rt);
+    uint32_t i;
+    if (s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row) {
+        slrt_see_mirrored_from(s, &rows, s->eye_cell);
+        for (i = 1; i < s->own_count; i++) slrt_see_mirrored_from(s, &rows, slrt_own_cells(s)[i]);
+        return;
+    }
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
+                                                 const sl_runtime_view *view,
+                                                 const unsigned char *shut, double range,
+                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
+                                                 uint32_t *direct) {
+    slrt_search s;
+    *direct = 0;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    *direct = s.count;
+    if (runtime->mirrors) slrt_see_mirrored(&s);
+    return s.count;
+}
+
+// --- Boxes: what is asked
+
+SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
+    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
+}
+
+/// Twice the distance from the eye to a box's middle, squared.
+static double slrt_away(const slrt_search *s, uint32_t box) {
+    const sl_runtime_box *at = &s->boxes->boxes[box];
+    const double x = at->min_x + at->max_x - 2 * s->x, y = at->min_y + at->max_y - 2 * s->y;
+    return x * x + y * y;
+}
+
+/// Sorts boxes, the nearest first (Shell 1959).
+static void slrt_sort_by_distance(const slrt_search *s, uint32_t *boxes, uint32_t count) {
+    uint32_t gap, i, k;
+    for (gap = count / 2; gap; gap = gap == 2 ? 1 : (uint32_t)(gap / 2.2))
+        for (i = gap; i < count; i++) {
+            const uint32_t box = boxes[i];
+            const double away = slrt_away(s, box);
+            for (k = i; k >= gap && slrt_away(s, boxes[k - gap]) > away; k -= gap)
+                boxes[k] = boxes[k - gap];
+            boxes[k] = box;
+        }
+}
+
+/// Whether boxes hide all of another one: the first `front` blockers, or all of them.
+static bool slrt_is_hidden_by(slrt_search *s, uint32_t box, uint32_t front) {
+    const uint32_t all = s->blocker_count;
+    bool hidden;
+    if (s->box_marks[box] != SLRT_BOX_PAST_WALLS) return false;
+    s->blocker_count = front;
+    hidden = slrt_is_hidden_box(s, box);
+    s->blocker_count = all;
+    return hidden || slrt_is_hidden_box(s, box);
+}
+
+/// Marks the boxes that others hide wholly, walls aside. Few boxes near the eye hide most of a
+/// crowd. So boxes are asked the nearest first, against those that are not hidden themselves, and
+/// only then against all. Blockers that are not hidden gather at the front of the list, and are
+/// what is left: what hides a box wholly also hides what is behind that box.
+static void slrt_hide_boxes(slrt_search *s) {
+    uint32_t i, front = 0;
+    slrt_sort_by_distance(s, s->blockers, s->blocker_count);
+    for (i = 0; i < s->blocker_count; i++) {
+        const uint32_t box = s->blockers[i];
+        if (slrt_is_hidden_by(s, box, front)) {
+            s->box_marks[box] = SLRT_BOX_HIDDEN;
+        } else {
+            s->blockers[i] = s->blockers[front];
+            s->blockers[front++] = box;
+        }
+    }
+    for (i = 0; i < s->boxes->count; i++)
+        if (!s->boxes->boxes[i].blocks && slrt_is_hidden_by(s, i, front))
+            s->box_marks[i] = SLRT_BOX_HIDDEN;
+    s->blocker_count = front;
+}
+
+/// The first search finds the boxes that are seen past walls. If some of them block, a second one
+/// asks which of these are seen past the others, and leaves out cells that are hidden.
+static void slrt_look_at_boxes(slrt_search *s) {
+    const sl_runtime_boxes *boxes = s->boxes;
+    uint32_t i;
+    for (i = 0; i < boxes->count; i++)
+        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
+    slrt_run_search(s);
+    for (i = 0; i < boxes->count && !s->gave_up; i++)
+        if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
+    if (!s->blocker_count) return;
+    s->is_hidden = slrt_is_hidden_portal;
+    slrt_hide_boxes(s);
+    slrt_run_search(s);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *boxes_scratch, unsigned char *seen,
+                                                   uint32_t *cells, uint32_t room) {
+    slrt_search s;
+    uint32_t i;
+    unsigned char wanted;
+    if (boxes->count) memset(seen, 0, boxes->count);
+    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    s.meet_boxes = slrt_meet_boxes;
+    s.boxes = boxes;
+    s.box_marks = seen;
+    s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);
+    s.chosen = s.blockers + boxes->count;
+    slrt_look_at_boxes(&s);
+    wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
+    for (i = 0; i < boxes->count; i++)
+        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
+    return s.count;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
+                                              const sl_runtime_view *view,
+                                              const unsigned char *shut, double range,
+                                              uint32_t *boxes_scratch, unsigned char *seen) {
+    uint32_t i, count = 0;
+    sl_runtime_look_past_boxes(boxes, view, shut, range, boxes_scratch, seen, NULL, 0);
+    for (i = 0; i < boxes->count; i++) count += seen[i];
+    return count;
+}
+
+// --- Point to point
+
+/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
+/// that no product overflows, and the range is more than any distance where it is left out.
+static bool slrt_is_within(const slrt_search *s, double x, double y) {
+    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
+    const double scale = slrt_scale_of(largest), range = scale * s->range;
+    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
+    double parts[14];
+    int count = 0, i;
+    if (range > 8) return true;
+    for (i = 0; i < 2; i++) {
+        count = slrt_add_product(parts, count, to[i], to[i]);
+        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
+        count = slrt_add_product(parts, count, from[i], from[i]);
+    }
+    count = slrt_add_product(parts, count, -range, range);
+    return !count || parts[count - 1] <= 0;
+}
+
+/// Whether a search's eye sees a point.
+static bool slrt_sees_point(slrt_search *s, double point_x, double point_y) {
+    const double x = slrt_no_dust(point_x), y = slrt_no_dust(point_y);
+    const slrt_arm way = slrt_make_arm(s->x, s->y, x, y);
+    slrt_finding found;
+    if (!slrt_in_bounds(s->rt, x, y) || (s->range > 0 && !slrt_is_within(s, x, y))) return false;
+    found = slrt_follow_within(s, &way);
+    return found == SLRT_TOUCHES ? slrt_follow(s, &way) : found == SLRT_ARRIVES;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
+                                    double y1, const unsigned char *shut, double range,
+                                    uint32_t *scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    slrt_search s;
+    return slrt_start_search(&s, runtime, &view, shut, range, scratch) &&
+           slrt_sees_point(&s, x1, y1);
+}
+
 // --- Whether a step passes no wall and no shut door
 
 /// Whether the segments from a to b and from c to d have a point in common.
@@ -3553,71 +4031,156 @@ static bool slrt_is_on_border(const sl_runtime *rt, const slrt_piece *piece) {
            (a[1] == b[1] && (a[1] == rt->min_y || a[1] == rt->max_y));
 }
 
-/// So many cells of a step are gone through.
+/// So many cells of a step that touches something are gone through.
 enum { SLRT_STEP_CELLS = 32 };
 
-typedef enum slrt_way { SLRT_WAY_CLEAR, SLRT_WAY_STOPPED, SLRT_WAY_UNKNOWN } slrt_way;
-
-/// Whether a step touches a wall. All cells that it touches are found through portals that it
-/// touches, up to its first wall: the cells about a point are joined by portals that end there, but
-/// for walls that do. Unknown on the map's border, which may be wall in part, and for many cells.
-static slrt_way slrt_way_of(const sl_runtime *rt, const double *from, const double *to,
-                            uint32_t start) {
+/// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
+/// are found through portals that it touches, up to its first wall: the cells about a point are
+/// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
+/// on the map's border, which may be wall in part, and for many cells.
+static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
+                                       const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
     slrt_polygon p;
-    if (rt->loose) return SLRT_WAY_UNKNOWN;
+    if (s->rt->loose) return SLRT_TOUCHES;
     memset(&p, 0, sizeof p);
-    p.s.rt = rt;
-    p.s.patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
-    cells[0] = start;
+    p.s = *s;
+    p.s.patience = (uint64_t)16 * ((uint64_t)s->rt->directed_count + s->rt->vertex_count + 16);
+    cells[0] = s->eye_cell;
     for (i = 0; i < count; i++) {
         slrt_walk w;
         slrt_piece piece;
+        if (s->stops && s->stops(s, way, cells[i])) return SLRT_STOPS;
         slrt_walk_around(&p, &w, cells[i], 1);
         while (slrt_walk_next(&p, &w, &piece)) {
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(rt, &piece) ? SLRT_WAY_UNKNOWN : SLRT_WAY_STOPPED;
-            next = slrt_u32(rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+            if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
+            next = slrt_u32(s->rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
-            if (count == SLRT_STEP_CELLS) return SLRT_WAY_UNKNOWN;
+            if (count == SLRT_STEP_CELLS) return SLRT_TOUCHES;
             cells[count++] = next;
         }
     }
-    return p.broken ? SLRT_WAY_UNKNOWN : SLRT_WAY_CLEAR;
+    return p.broken ? SLRT_TOUCHES : SLRT_ARRIVES;
 }
 
-static bool slrt_touches_wall(const sl_runtime *rt, const double *from, const double *to,
-                              uint32_t start) {
-    const slrt_way way = slrt_way_of(rt, from, to, start);
+/// Whether a step touches no wall, shut door, glass or box of all there are.
+static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const double *from,
+                               const double *to) {
+    const sl_runtime *rt = s->rt;
     uint32_t i;
-    if (way != SLRT_WAY_UNKNOWN) return way == SLRT_WAY_STOPPED;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return true;
-    return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + (size_t)i * 40;
+        const uint32_t kind = slrt_u32(seam + 32);
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+            slrt_touches(from, to, seam))
+            return false;
+    }
+    for (i = 0; s->stops && i < rt->cell_count; i++)
+        if (s->stops(s, way, i)) return false;
+    return true;
+}
+
+/// Whether who stands at a search's eye can step to a point.
+static bool slrt_can_step(slrt_search *s, double x, double y) {
+    const double from[2] = {s->x, s->y}, to[2] = {slrt_no_dust(x), slrt_no_dust(y)};
+    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
+    slrt_finding found;
+    if (!s->rt->walls || !slrt_in_bounds(s->rt, to[0], to[1])) return false;
+    s->on_foot = true;
+    found = slrt_follow_within(s, &way);
+    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(s, &way, from, to);
+    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
+    return sl_runtime_locate(s->rt, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
+           slrt_step_by_walls(s, &way, from, to);
 }
 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut) {
-    const double from[2] = {slrt_no_dust(x0), slrt_no_dust(y0)};
-    const double to[2] = {slrt_no_dust(x1), slrt_no_dust(y1)};
-    const uint32_t start = sl_runtime_locate(runtime, from[0], from[1]);
-    const uint32_t end = sl_runtime_locate(runtime, to[0], to[1]);
-    uint32_t i;
-    if (!runtime->walls || start == SL_RUNTIME_NO_CELL || end == SL_RUNTIME_NO_CELL ||
-        sl_runtime_is_solid(runtime, start) || slrt_touches_wall(runtime, from, to, start))
+    slrt_search s;
+    return slrt_place_eye(&s, runtime, x0, y0, shut) && slrt_can_step(&s, x1, y1);
+}
+
+// --- Boxes that block: points and steps past them
+
+// A line meets a box in a cell that both have points in, so only the lists of the cells along the
+// line are asked.
+
+static bool slrt_is_in_box(const sl_runtime_box *box, double x, double y) {
+    return box->min_x < x && x < box->max_x && box->min_y < y && y < box->max_y;
+}
+
+/// Whether ranges of numbers have none in common, `touch`: or just an end.
+static bool slrt_is_apart(double a, double b, double low, double high, bool touch) {
+    const double least = a < b ? a : b, most = a < b ? b : a;
+    return touch ? most < low || least > high : most <= low || least >= high;
+}
+
+/// Whether a line passes the inside of a box; `touch`: or touches it. The inside of a flat box is
+/// what lies between its ends. A line and a box are convex: if they are apart, a side of the box or
+/// the line itself separates them.
+static bool slrt_passes_box(const slrt_arm *way, const sl_runtime_box *box, bool touch) {
+    bool left = false, right = false;
+    int k;
+    if (slrt_is_apart(way->from_x, way->to_x, box->min_x, box->max_x, touch) ||
+        slrt_is_apart(way->from_y, way->to_y, box->min_y, box->max_y, touch))
         return false;
-    for (i = 0; i < runtime->seam_count; i++) {
-        const unsigned char *seam = runtime->seams + (size_t)i * 40;
-        const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && shut && shut[slrt_u32(seam + 36)])) &&
-            slrt_touches(from, to, seam))
-            return false;
+    for (k = 0; k < 4; k++) {
+        const slrt_arm corner =
+            slrt_make_arm(way->from_x, way->from_y, k & 1 ? box->max_x : box->min_x,
+                          k & 2 ? box->max_y : box->min_y);
+        const int side = slrt_side(way, &corner);
+        left = left || side > 0 || (touch && !side);
+        right = right || side < 0 || (touch && !side);
     }
-    return true;
+    return left && right;
+}
+
+/// Whether a box in a cell stops a line of sight, or a step.
+static bool slrt_is_stopped(const slrt_search *s, const slrt_arm *way, uint32_t cell) {
+    uint32_t at = *slrt_first_entry(s->boxes, cell);
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(s->boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(s->boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &s->boxes->boxes[number];
+        if (!box->blocks || number == s->except || !slrt_passes_box(way, box, s->on_foot)) continue;
+        if (s->on_foot ||
+            !((slrt_is_in_box(box, s->x, s->y) && slrt_box_holds(box, way->to_x, way->to_y)) ||
+              (slrt_is_in_box(box, way->to_x, way->to_y) && slrt_box_holds(box, s->x, s->y))))
+            return true;
+    }
+    return false;
+}
+
+static void slrt_heed_boxes(slrt_search *s, const sl_runtime_boxes *boxes, uint32_t except) {
+    s->boxes = boxes;
+    s->except = except;
+    s->stops = slrt_is_stopped;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    slrt_search s;
+    if (!slrt_start_search(&s, boxes->runtime, &view, shut, range, boxes_scratch)) return false;
+    slrt_heed_boxes(&s, boxes, SL_RUNTIME_NO_BOX);
+    return slrt_sees_point(&s, x1, y1);
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except) {
+    slrt_search s;
+    if (!slrt_place_eye(&s, boxes->runtime, x0, y0, shut)) return false;
+    slrt_heed_boxes(&s, boxes, except);
+    return slrt_can_step(&s, x1, y1);
 }
 
 // --- The visible polygon

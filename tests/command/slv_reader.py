@@ -92,6 +92,12 @@ class Slv:
         offset, count = self.place(tag, 1)
         return self.data[offset:offset + count]
 
+    def name_of(self, item):
+        """The name of a door, an object or a path."""
+        first, names = item["name"], self.bytes_of("MAPN")
+        require(first + item["name_bytes"] <= len(names), "a name")
+        return names[first:first + item["name_bytes"]].decode("utf-8")
+
     def spans(self, offsets_tag, item_count):
         """(start, end) of each cell."""
         offset, count = self.place(offsets_tag, 8)

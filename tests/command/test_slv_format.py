@@ -36,6 +36,7 @@ class SlvFormat(sandbox.ProgramTest):
         self.check_directed(slv)
         self.check_places(slv, polygons, vertices)
         self.check_export(name, slv, polygons, rows)
+        self.check_things(slv)
         return slv
 
     def check_export(self, name, slv, polygons, rows):
@@ -49,6 +50,27 @@ class SlvFormat(sandbox.ProgramTest):
         self.assertEqual([[list(p) for p in polygon] for polygon in polygons],
                          [cell["polygon"] for cell in export["cells"]])
         self.assertEqual(rows, export["pvs"])
+
+    def check_things(self, slv):
+        """The sections of the map hold what the map text does."""
+        said = {word: [line.split("#")[0].split()[1:] for line in slv.map_text.splitlines()
+                       if line.startswith(word + " ")]
+                for word in ("door", "start", "object", "path", "mirror", "range")}
+        info, = slv.items("MAPI")
+        self.assertEqual(info["range"], float(said["range"][0][0]) if said["range"] else 0)
+        numbers = lambda words: [float(word) for word in words]
+        self.assertEqual([[slv.name_of(d), "open" if d["open"] else "shut"] for d in slv.items("DOOR")],
+                         [[d[0], d[5]] for d in said["door"]])
+        self.assertEqual([[*s.values()] for s in slv.items("STRT")],
+                         [numbers(s) for s in said["start"]])
+        self.assertEqual([[slv.name_of(o), *[*o.values()][2:]] for o in slv.items("OBJE")],
+                         [[o[0], *numbers(o[1:])] for o in said["object"]])
+        points = [[*p.values()] for p in slv.items("PAPO")]
+        self.assertEqual([[slv.name_of(p), *sum(points[p["first"]:p["first"] + p["count"]], [])]
+                          for p in slv.items("PATH")],
+                         [[p[0], *numbers(p[1:])] for p in said["path"]])
+        self.assertEqual([[*m.values()] for m in slv.items("MIRR")],
+                         [numbers(m[:4]) + [int("one" in m)] for m in said["mirror"]])
 
     def check_directed(self, slv):
         """Each portal has two directed portals, of which one is turned round."""
@@ -146,6 +168,18 @@ class SlvFormat(sandbox.ProgramTest):
             done += units
             self.assertTrue(any(slv.rows("FNDO", "FNDB")))
         self.assertEqual(done, part["unit_count"])
+
+    def test_transform(self):
+        """A place of the file is one of the map's own file again: the walls of a picture's plan."""
+        self.printed("bake", ROOT / "maps/keep.tmx", "-o", "keep.slv", "-q")
+        info, = self.check("keep.slv").items("MAPI")
+        self.assertEqual([info[key] for key in ("origin_x", "scale", "y_down")], [0, 1, 1])
+        self.box.path("plan.txt").write_text("####\n#@.#\n#..#\n#..#\n####\n", encoding="utf-8")
+        self.printed("bake", "plan.txt", "-o", "plan.slv", "-q")
+        slv = self.check("plan.slv")
+        (info,), (start,) = slv.items("MAPI"), slv.items("STRT")
+        self.assertEqual((info["scale"] * (start["x"] - info["origin_x"]),
+                          info["scale"] * (info["origin_y"] - start["y"])), (1.5, 1.5))
 
     def test_old_files(self):
         """The tree is passed over in version 1 with BEYO: with oblique walls."""

@@ -16,6 +16,8 @@ static void check_same(const uint8_t *bytes, size_t size, sl_runtime_status stat
     if (sl_baked_parse(context, "input", bytes, size, &baked) == SL_OK) {
         const sl_space *s = &baked.space;
         FUZZ_CHECK(status == SL_RUNTIME_OK && r->cell_count == s->cell_count);
+        FUZZ_CHECK(r->door_count == baked.map.door_count && r->range == baked.map.range);
+        FUZZ_CHECK(r->start_count == baked.map.start_count);
         for (uint32_t from = 0; from < s->cell_count; from++)
             for (uint32_t to = 0; to < s->cell_count; to++)
                 FUZZ_CHECK(sl_runtime_can_see(r, from, to) ==

@@ -184,15 +184,44 @@ static void check_places(const sl_runtime *r, int rounds, sl_random *random, con
     if (only == 3) check_place(r, odd_real(random), odd_real(random), random, b);
 }
 
-/// Doors and starts of the map text, whose bytes are in the block.
-static void check_text(const sl_runtime *r) {
+/// The bytes of a name are in the block.
+static void check_name(sl_runtime_name name) {
+    FUZZ_CHECK(name.length > 0);
+    volatile char last = name.text[name.length - 1];
+    (void)last;
+}
+
+/// Objects, paths and mirrors.
+static void check_other_things(const sl_runtime *r) {
+    sl_runtime_name name;
+    sl_runtime_segment at;
+    bool one_sided;
+    uint32_t count;
+    for (uint32_t i = 0; i < r->object_count && i < 64; i++) {
+        FUZZ_CHECK(sl_runtime_object(r, i, &name, &at) && isfinite(at.x0) && isfinite(at.y1));
+        check_name(name);
+    }
+    for (uint32_t i = 0; i < r->path_count && i < 64; i++) {
+        FUZZ_CHECK(sl_runtime_path(r, i, &name, &count));
+        check_name(name);
+        double *points = room(2 * (size_t)count * sizeof *points);
+        sl_runtime_path_points(r, i, points);
+        for (size_t k = 0; k < 2 * (size_t)count; k++) FUZZ_CHECK(isfinite(points[k]));
+        free(points);
+    }
+    for (uint32_t i = 0; i < r->mirror_count && i < 64; i++)
+        FUZZ_CHECK(sl_runtime_mirror(r, i, &at, &one_sided) && isfinite(at.x0) && isfinite(at.y1));
+}
+
+/// Doors and starts.
+static void check_things(const sl_runtime *r) {
     const uint32_t doors = r->door_count < 64 ? r->door_count : 64;
     const uint32_t starts = sl_runtime_start_count(r);
     for (uint32_t i = 0; i < doors; i++) {
         const sl_runtime_name name = sl_runtime_door_name(r, i);
         char copy[256];
         sl_runtime_segment at[2];
-        FUZZ_CHECK(name.length > 0);
+        check_name(name);
         sl_runtime_door_open(r, i);
         sl_runtime_door_segments(r, i, at, 2);
         if (name.length >= sizeof copy || memchr(name.text, 0, name.length)) continue;
@@ -204,6 +233,7 @@ static void check_text(const sl_runtime *r) {
         sl_runtime_viewpoint start;
         FUZZ_CHECK(sl_runtime_start(r, i, &start) && isfinite(start.heading));
     }
+    check_other_things(r);
 }
 
 /// What a view cell sees, and what cells see past doors.
@@ -255,6 +285,9 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
                                                           b->cells, r->cell_count);
         FUZZ_CHECK(cells <= r->cell_count);
         for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
+        const double x1 = i ? odd_real(random) : x + range / 8, y1 = y - range / 8;
+        sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
+        sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
     }
     free(scratch);
     free(seen);
@@ -294,7 +327,7 @@ static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     }
     FUZZ_CHECK(!sl_runtime_can_see(r, r->cell_count, 0) &&
                !sl_runtime_can_see(r, 0, r->cell_count));
-    check_text(r);
+    check_things(r);
     check_places(r, rounds, random, &b);
     unsigned char *shut = NULL;
     if (r->door_count && r->door_count <= 64) shut = room(r->door_count);

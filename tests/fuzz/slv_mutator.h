@@ -30,7 +30,7 @@ static bool is_baked(const uint8_t *data, size_t size) {
 
 // --- a file and its parts
 
-enum { MOST_PARTS = 24, MOST_BYTES = 1 << 14 };
+enum { MOST_PARTS = 48, MOST_BYTES = 1 << 14 };
 
 typedef struct part {
     char tag[4];

@@ -45,6 +45,7 @@ def check_compile(root, scratch):
     nm = shutil.which("nm")
     for language, standard, program in compilers():
         for text, what in ((IMPLEMENTATION, "implementation"),
+                           ("#define SL_RUNTIME_WITHOUT_OLD_FILES\n" + IMPLEMENTATION, "without old files"),
                            ('#include "sightline_runtime.h"\nint nothing;\n', "declarations")):
             unit, made = scratch / f"unit.{language}", scratch / "unit.o"
             unit.write_text(text)

@@ -72,7 +72,7 @@ static void the_other_byte_order_is_named(void **state) {
 
 static void every_status_has_words(void **state) {
     (void)state;
-    for (int i = SL_RUNTIME_OK; i <= SL_RUNTIME_TEXT + 1; i++)
+    for (int i = SL_RUNTIME_OK; i <= SL_RUNTIME_OLD + 1; i++)
         for (int j = SL_RUNTIME_OK; j < i; j++)
             assert_string_not_equal(sl_runtime_status_text((sl_runtime_status)i),
                                     sl_runtime_status_text((sl_runtime_status)j));
@@ -168,6 +168,46 @@ static void a_lie_about_the_grid_is_refused(void **state) {
     check_lies(oblique, lies, sizeof lies / sizeof *lies);
 }
 
+static void a_lie_about_the_things_is_refused(void **state) {
+    (void)state;
+    const double nan = slv_f64(NAN), far = slv_f64(2.1e150), infinite = slv_f64(INFINITY);
+    const double minus = slv_f64(-1), small = slv_f64(1e-151), whole = slv_f64(2);
+    const uint32_t one = slv_u32(1), most = UINT32_MAX, eleven = slv_u32(11), five = slv_u32(5);
+    const lie lies[] = {
+        {"MAPI", 0, 8, &nan, SL_RUNTIME_TEXT},      {"MAPI", 0, 8, &minus, SL_RUNTIME_TEXT},
+        {"MAPI", 0, 8, &infinite, SL_RUNTIME_TEXT}, {"MAPI", 0, 8, &far, SL_RUNTIME_OK},
+        {"MAPI", 8, 8, &nan, SL_RUNTIME_TEXT},      {"MAPI", 16, 8, &far, SL_RUNTIME_TEXT},
+        {"MAPI", 24, 8, &minus, SL_RUNTIME_TEXT},   {"MAPI", 24, 8, &small, SL_RUNTIME_TEXT},
+        {"MAPI", 24, 8, &whole, SL_RUNTIME_OK},     {"MAPI", 24, 8, &infinite, SL_RUNTIME_TEXT},
+        {"MAPI", 32, 1, "\1", SL_RUNTIME_OK},       {"MAPI", 32, 1, "\2", SL_RUNTIME_TEXT},
+        {"MAPI", 36, 1, "\1", SL_RUNTIME_TEXT},     {"DOOR", 0, 4, &eleven, SL_RUNTIME_TEXT},
+        {"DOOR", 0, 4, &one, SL_RUNTIME_OK},        {"DOOR", 4, 4, &most, SL_RUNTIME_TEXT},
+        {"DOOR", 4, 1, "\0", SL_RUNTIME_TEXT},      {"STRT", 0, 8, &far, SL_RUNTIME_TEXT},
+        {"STRT", 8, 8, &nan, SL_RUNTIME_TEXT},      {"STRT", 16, 8, &infinite, SL_RUNTIME_TEXT},
+        {"STRT", 16, 8, &far, SL_RUNTIME_OK},       {"OBJE", 0, 4, &most, SL_RUNTIME_TEXT},
+        {"OBJE", 4, 4, &eleven, SL_RUNTIME_TEXT},   {"OBJE", 8, 8, &nan, SL_RUNTIME_TEXT},
+        {"OBJE", 32, 8, &far, SL_RUNTIME_TEXT},     {"PATH", 4, 4, &five, SL_RUNTIME_TEXT},
+        {"PATH", 8, 4, &one, SL_RUNTIME_TEXT},      {"PATH", 8, 4, &most, SL_RUNTIME_TEXT},
+        {"PATH", 12, 4, &five, SL_RUNTIME_TEXT},    {"PATH", 12, 4, &one, SL_RUNTIME_OK},
+        {"PAPO", 24, 8, &nan, SL_RUNTIME_TEXT},     {"MIRR", 24, 8, &nan, SL_RUNTIME_TEXT},
+    };
+    check_lies("walls 0 0 9 0 9 9 0 9 0 0\ndoor wide 4 0 4 9\nrange 5\nstart 1 1 0\n"
+               "object box 1 1 2 2\npath way 1 1 2 2\nmirror 6 2 6 5\n",
+               lies, sizeof lies / sizeof *lies);
+}
+
+/// A seam names a door that the section of doors has not.
+static void a_door_too_few_is_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "walls 0 0 9 0 9 9 0 9 0 0\ndoor wide 4 0 4 9\n");
+    memcpy(slv_entry(f.bytes, "DOOR"), "????", 4);
+    slv_seal(f.bytes, f.size);
+    assert_int_equal(open_bytes(f.bytes, f.size), SL_RUNTIME_TEXT);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 /// Cells in a bucket ascend.
 static void a_bucket_without_order_is_refused(void **state) {
     (void)state;
@@ -238,8 +278,11 @@ static void a_table_that_lies_is_refused(void **state) {
     static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT",
                                        "PORT", "EXIT", "PVSO", "PVSB"};
     static const char *const grid[] = {"BEYO", "GRIO", "GRIC"};
+    static const char *const things[] = {"STRT", "OBJE", "MIRR"};
     check_table(rooms, tags, 8, SL_RUNTIME_SECTION);
     check_table(oblique, grid, 3, SL_RUNTIME_SPACE);
+    check_table("walls 0 0 9 0 9 9 0 9 0 0\nstart 1 1 0\nobject box 1 1 2 2\nmirror 6 2 6 5\n",
+                things, 3, SL_RUNTIME_OK);
 }
 
 /// A file of a tree is no file of a mesh, and the other way round it is a loose one.
@@ -434,6 +477,8 @@ int main(void) {
         cmocka_unit_test(every_status_has_words),
         cmocka_unit_test(a_lie_under_a_seal_is_refused),
         cmocka_unit_test(a_lie_about_the_grid_is_refused),
+        cmocka_unit_test(a_lie_about_the_things_is_refused),
+        cmocka_unit_test(a_door_too_few_is_refused),
         cmocka_unit_test(a_bucket_without_order_is_refused),
         cmocka_unit_test(a_table_that_lies_is_refused),
         cmocka_unit_test(the_version_says_what_locates_points),

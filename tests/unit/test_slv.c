@@ -88,12 +88,55 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"SEAM", offsetof(sl_seam, at), sizeof far, &far, "seam 0 leaves the bounds"},
         {"SEPO", offsetof(sl_seam_portal, portal), sizeof most, &most, "portals on seams are"},
         {"MAPT", 12, 12, "wall 0 0 1 1", "section MAPT holds walls"},
+        {"STRT", 0, 8, &far, "section STRT is not that of the map text"},
+        {"STRT", 16, 8, &nan, "section STRT is not that of the map text"},
+        {"MAPI", offsetof(sli_slv_map_info, range), 8, &far, "MAPI makes no sense"},
+        {"MAPI", offsetof(sli_slv_map_info, origin_x), 8, &nan, "MAPI makes no sense"},
+        {"MAPI", offsetof(sli_slv_map_info, origin_y), 8, &far, "MAPI makes no sense"},
+        {"MAPI", offsetof(sli_slv_map_info, scale), 8, &far, "MAPI makes no sense"},
+        {"MAPI", offsetof(sli_slv_map_info, y_down), 1, "\2", "MAPI makes no sense"},
     };
     sl_context *context = testing_context(NULL);
     sl_baked baked;
     bake(context, rooms, &baked);
     check_lies(context, &baked, lies, sizeof lies / sizeof *lies);
     sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+/// Sections say what the map text says, no more and no less.
+static void things_that_are_not_those_of_the_text_are_refused(void **state) {
+    (void)state;
+    static const char *const tags[] = {"MAPN", "DOOR", "STRT", "OBJE", "PATH", "PAPO", "MIRR"};
+    const double more[8] = {0};
+    sl_context *context = testing_context(NULL);
+    sl_baked baked, bare, back = {0};
+    bake(context,
+         "walls 0 0 9 0 9 9 0 9 0 0\ndoor d 4 0 4 9\nstart 1 1 0\nobject o 1 1 2 2\npath p 1 1\n"
+         "mirror 6 2 6 5\n",
+         &baked);
+    bake(context, "walls 0 0 9 0 9 9 0 9 0 0\nstart 1 1 0\n", &bare);
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
+        const file f = print(context, &baked);
+        const sli_slv_section s = slv_section(slv_entry(f.bytes, tags[i]));
+        slv_items(f.bytes, tags[i])[0] ^= 1;
+        for (int missing = 0; missing < 2; missing++) {
+            if (missing) memcpy(slv_entry(f.bytes, tags[i]), "????", 4);
+            slv_seal(f.bytes, f.size);
+            assert_int_equal(sl_baked_parse(context, "f", f.bytes, f.size, &back), SL_BAD_INPUT);
+            assert_non_null(strstr(sl_context_message(context), tags[i]));
+        }
+        free(f.bytes);
+        if (strcmp(tags[i], "STRT") == 0) continue;
+        file plain = print(context, &bare);
+        char *with = slv_with(plain.bytes, &plain.size, tags[i], more, s.item_bytes, 1);
+        assert_int_equal(sl_baked_parse(context, "f", with, plain.size, &back), SL_BAD_INPUT);
+        assert_non_null(strstr(sl_context_message(context), tags[i]));
+        free(with);
+        free(plain.bytes);
+    }
+    sl_baked_destroy(context, &baked);
+    sl_baked_destroy(context, &bare);
     sl_context_destroy(context);
 }
 
@@ -315,6 +358,7 @@ static void a_lie_about_what_is_done_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lie_under_a_seal_is_refused),
+        cmocka_unit_test(things_that_are_not_those_of_the_text_are_refused),
         cmocka_unit_test(a_lie_about_the_grid_is_refused),
         cmocka_unit_test(a_mesh_without_its_sections_is_refused),
         cmocka_unit_test(memory_and_file_hold_the_same_bytes),

@@ -68,3 +68,13 @@ export function viewOf({ heading, range, fov = heading === undefined ? 360 : 90 
   numberOf('heading', heading ?? 0)
   return { heading: heading ?? 0, fov, range: given(range, (value) => numberOf('range', value, 0)) }
 }
+
+/** A transform; `ofFile` is origin, scale (0: not known) and y down of the file. */
+export function transformOf(wanted, [left, top, unit, down]) {
+  if (wanted === 'file' && !unit) throw new SightlineError('transform: the file does not say it: bake the map again')
+  const told = wanted === 'file' ? { origin: [left, top], scale: unit, yDown: !!down } : wanted
+  const { origin = [0, 0], scale = 1, yDown = false } = optionsOf(told, 'origin', 'scale', 'yDown')
+  const [x, y] = pointOf('origin', origin)
+  need(numberOf('scale', scale) > 0, 'scale', 'a number above 0', scale)
+  return Object.freeze({ origin: Object.freeze({ x, y }), scale, yDown: flagOf('yDown', yDown) })
+}

@@ -1,4 +1,7 @@
-/** A baked level (.slv) in a game. Angles are in degrees, counter-clockwise from +x; y grows upwards. */
+/**
+ * A baked level (.slv) in a game. Angles are in degrees, counter-clockwise from +x, and y grows upwards,
+ * unless a transform turns y down: then they are clockwise.
+ */
 
 /** What the package throws. */
 export class SightlineError extends Error {
@@ -46,8 +49,28 @@ export interface DirectedPortal {
   right: [number, number]
 }
 
+/**
+ * How the places of a map stand in your coordinates. The place (x, y) of the map is
+ * scale * (x - origin.x), scale * (y - origin.y) there, or scale * (origin.y - y) with `yDown`.
+ */
+export interface Transform {
+  readonly origin: Readonly<Point>
+  readonly scale: number
+  readonly yDown: boolean
+}
+
+export interface OpenOptions {
+  /**
+   * The coordinates of all places, boxes, lengths and headings that the level takes and gives. By default
+   * those of the map. 'file': those of the file that was baked, such as pixels of Tiled with y down; it
+   * throws if the baked file does not say them, as those before 2.0. By default `origin` is 0, 0, `scale` 1
+   * and `yDown` false. Exact for whole numbers if the scale is a power of 2; else places are rounded.
+   */
+  transform?: 'file' | { origin?: Place; scale?: number; yDown?: boolean }
+}
+
 export interface Cell {
-  /** x, y, x, y ... counter-clockwise. */
+  /** x, y, x, y ... counter-clockwise as it is seen, also with y down. */
   corners: Float64Array
   portals: DirectedPortal[]
   inside: boolean
@@ -77,7 +100,8 @@ export interface Mirrors {
 export class Level {
   private constructor()
   /** Opens a baked file, which is checked wholly. */
-  static open(bytes: ArrayBuffer | ArrayBufferView): Promise<Level>
+  static open(bytes: ArrayBuffer | ArrayBufferView, options?: OpenOptions): Promise<Level>
+  readonly transform: Transform
   readonly bounds: Bounds
   /** The view range of the map; 0 for no limit. */
   readonly range: number
@@ -93,6 +117,7 @@ export class Level {
   readonly starts: readonly Start[]
   /** As they stand. */
   readonly doors: readonly Door[]
+  /** Opens or shuts all doors of a name. Both arguments are needed. */
   setDoor(name: string, open: boolean): void
   /** The cell that holds a point; -1 outside the bounds, which other calls do not take for a cell. */
   locate(x: number, y: number): number
@@ -118,7 +143,7 @@ export class Level {
   look(x: number, y: number, view?: View & Mirrors): Uint32Array
   look(eye: Eye & { mirrors: true }): Uint32Array & { direct: number }
   look(eye: Eye & Mirrors): Uint32Array
-  /** x, y, x, y ... counter-clockwise about the eye. It ends at mirrors. */
+  /** x, y, x, y ... counter-clockwise about the eye as it is seen, also with y down. It ends at mirrors. */
   visiblePolygon(x: number, y: number, view?: View): Float64Array
   visiblePolygon(eye: Eye): Float64Array
   /** The cells seen from anywhere in a cell. */

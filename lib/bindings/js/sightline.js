@@ -3,14 +3,16 @@
  *
  * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
  * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
+ * sightline.d.ts has the types.
  */
-import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, viewOf } from './arguments.js'
+import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, transformOf, viewOf } from './arguments.js'
 import { SightlineError, bytesOf, compile, direction, textAt } from './host.js'
 
 export { SightlineError }
 
 const PAGE = 65536
 const MIRRORS = ['none', 'baked', 'not baked']
+const OLD = 11 // the status of a file before 2.0, as of sightline_runtime.h
 
 /** An eye's x, y and view. One object may hold all; there `dx` and `dy` may stand for the heading. */
 function eyeOf(x, y, options, ...known) {
@@ -37,22 +39,32 @@ export class Level {
   #room = 0
   #doors = []
   #cells
+  #range = 0
 
   /**
-   * Opens a baked file, which is checked wholly.
-   *
-   * @param {ArrayBuffer | Uint8Array} bytes
-   * @returns {Promise<Level>}
+   * Opens a baked file, which is checked wholly. Places and headings, given and taken, are in the
+   * coordinates of `transform`.
    */
-  static async open(bytes) {
+  static async open(bytes, options) {
     const file = bytesOf(bytes)
+    const { transform } = optionsOf(options, 'transform')
     const module = await compile('level', new URL('./level.wasm', import.meta.url))
-    const { exports } = await WebAssembly.instantiate(module, {})
-    return new Level(exports, file)
+    const make = async (data) => new Level((await WebAssembly.instantiate(module, {})).exports, data, transform)
+    try {
+      return await make(file)
+    } catch (error) {
+      if (error.status !== OLD) throw error
+    }
+    const scene = (await (await import('./bake.js')).load()).open(file)
+    try {
+      return await make(scene.slv())
+    } finally {
+      scene.close()
+    }
   }
 
   /** Use Level.open(). */
-  constructor(core, file) {
+  constructor(core, file, transform) {
     this.#core = core
     this.#memory = core.memory
     core._initialize()
@@ -68,11 +80,13 @@ export class Level {
     const status = core.open(data, file.length)
     if (status) {
       const message = textAt(this.#memory, core.status_text(status))
-      throw new SightlineError(message, { code: 'bad input' })
+      throw Object.assign(new SightlineError(message, { code: 'bad input' }), { status })
     }
     core.describe()
-    const [cells, , doors, starts, scratch, mirrors, unfinished] = this.#integers
-    const [minX, minY, maxX, maxY, range] = this.#numbers
+    const [cells, down, doors, starts, scratch, mirrors, unfinished] = this.#integers
+    const [, , , , range, ...ofFile] = this.#numbers
+    Object.defineProperty(this, 'transform', { value: transformOf(transform, [...ofFile, down]), enumerable: true })
+    const [minX, y0, maxX, y1] = this.#places(4), minY = Math.min(y0, y1), maxY = Math.max(y0, y1)
     this.#shut = place(doors)
     this.#scratch = place(4 * scratch)
     this.#list = place(4 * cells + cells)
@@ -80,9 +94,10 @@ export class Level {
     this.#grow(256)
     for (let i = 0; i < doors; i++) this.#doors.push(this.#readDoor(i))
     const known = {
-      bounds: Object.freeze({ minX, minY, maxX, maxY }), range, unfinished: !!unfinished, mirrors: MIRRORS[mirrors],
+      bounds: Object.freeze({ minX, minY, maxX, maxY }), range: range * this.transform.scale, unfinished: !!unfinished, mirrors: MIRRORS[mirrors],
       cellCount: cells, starts: Object.freeze(Array.from({ length: starts }, (_, i) => this.#readStart(i))),
     }
+    this.#range = range
     for (const name in known) Object.defineProperty(this, name, { value: known[name], enumerable: true })
   }
 
@@ -115,6 +130,32 @@ export class Level {
     return new Float64Array(this.#memory.buffer, this.#core.numbers_place(), 8)
   }
 
+  /** A place in the map. */
+  #toMap(x, y) {
+    const { origin, scale, yDown } = this.transform
+    return [origin.x + x / scale, origin.y + (yDown ? -y : y) / scale]
+  }
+
+  /** Places x, y, x, y ... of the map become those of the caller. */
+  #fromMap(places) {
+    const { origin, scale, yDown } = this.transform
+    for (let i = 0; i < places.length; i += 2) {
+      places[i] = scale * (places[i] - origin.x)
+      places[i + 1] = scale * (yDown ? origin.y - places[i + 1] : places[i + 1] - origin.y)
+    }
+    return places
+  }
+
+  /** The first of the numbers, as places. */
+  #places(count) {
+    return this.#fromMap(this.#numbers.slice(0, count))
+  }
+
+  /** A heading in the map, and back. */
+  #turned(heading) {
+    return this.transform.yDown ? 0 - heading : heading
+  }
+
   #readDoor(number) {
     const core = this.#core
     const count = core.door(number, this.#points, 0)
@@ -122,15 +163,15 @@ export class Level {
     core.door(number, this.#points, count)
     const [name, length, open] = this.#integers
     new Uint8Array(this.#memory.buffer)[this.#shut + number] = open ? 0 : 1
-    const ends = new Float64Array(this.#memory.buffer, this.#points, 4 * count)
+    const ends = this.#fromMap(new Float64Array(this.#memory.buffer, this.#points, 4 * count))
     const segments = Array.from({ length: count }, (_, i) => Object.freeze([...ends.subarray(4 * i, 4 * i + 4)]))
     return { name: textAt(this.#memory, name, length), segments: Object.freeze(segments) }
   }
 
   #readStart(number) {
     this.#core.start(number)
-    const [x, y, heading] = this.#numbers
-    return Object.freeze({ x, y, heading })
+    const [x, y] = this.#places(2)
+    return Object.freeze({ x, y, heading: this.#turned(this.#numbers[2]) })
   }
 
   /** The doors as they stand: name, open, and segments [x0, y0, x1, y1]. setDoor() changes them. */
@@ -140,12 +181,7 @@ export class Level {
     return Object.freeze(this.#doors.map((door, i) => Object.freeze({ ...door, open: !shut[i] })))
   }
 
-  /**
-   * Opens or shuts all doors of a name.
-   *
-   * @param {string} name
-   * @param {boolean} open
-   */
+  /** Opens or shuts all doors of a name. */
   setDoor(name, open) {
     this.#open
     textOf('name', name)
@@ -170,7 +206,7 @@ export class Level {
         corners.set(this.#numbers.subarray(0, 2), 2 * i)
       }
       return Object.freeze({
-        corners,
+        corners: this.#fromMap(corners),
         portals: Array.from({ length: portals }, (_, i) => this.#readPortal(firstPortal + i)),
         inside: !!inside,
         solid: !!solid,
@@ -182,23 +218,20 @@ export class Level {
 
   #readPortal(directed) {
     this.#core.directed_portal(directed)
-    const [portal, cell] = this.#integers, [leftX, leftY, rightX, rightY] = this.#numbers
+    const [portal, cell] = this.#integers
+    const [leftX, leftY, rightX, rightY] = this.#places(4)
     return { portal, cell, left: [leftX, leftY], right: [rightX, rightY] }
   }
 
   /** The cell that holds a point; -1 outside the bounds. */
   locate(x, y) {
-    return this.#open.locate(numberOf('x', x), numberOf('y', y))
+    return this.#open.locate(...this.#toMap(numberOf('x', x), numberOf('y', y)))
   }
 
   /**
    * Of two cells: whether something in b can be seen from somewhere in a. Of two points: whether an
    * eye at a sees b. With the doors as they stand. `mirrors`: or by mirror; of two points the answer
    * is then whether a may see b.
-   *
-   * @param {number | {x: number, y: number} | [number, number]} a
-   * @param {number | {x: number, y: number} | [number, number]} b
-   * @param {{mirrors?: boolean}} [options]
    */
   canSee(a, b, options) {
     const core = this.#open
@@ -207,8 +240,12 @@ export class Level {
       return !!core.can_see(this.#cellOf(a), this.#cellOf(b), this.#shut, +mirrors)
     if (typeof a !== 'object' || typeof b !== 'object')
       throw new SightlineError('canSee: two cells or two points are needed')
-    const from = pointOf('canSee', a), to = pointOf('canSee', b)
+    const from = this.#placeOf('canSee', a), to = this.#placeOf('canSee', b)
     return !!core.sees(...from, ...to, this.#shut, this.#scratch) || (mirrors && this.#mayMirror(from, to))
+  }
+
+  #placeOf(call, point) {
+    return this.#toMap(...pointOf(call, point))
   }
 
   #cellOf(cell) {
@@ -223,7 +260,7 @@ export class Level {
   /** A cell that the eye sees directly in part can have the point where only a mirror shows it. */
   #mayMirror([x, y], [toX, toY]) {
     const core = this.#open
-    if (this.range > 0 && Math.hypot(toX - x, toY - y) > this.range) return false
+    if (this.#range > 0 && Math.hypot(toX - x, toY - y) > this.#range) return false
     const cells = [...this.#cellsOfBox(toX, toY, toX, toY)]
     return cells.some((cell) => !!core.may_mirror(x, y, cell, this.#shut, this.#scratch))
   }
@@ -232,13 +269,10 @@ export class Level {
    * Whether one may walk straight from one point to another: no point of the way, ends included, is
    * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. Who is put
    * exactly on a wall cannot leave it.
-   *
-   * @param {{x: number, y: number} | [number, number]} from
-   * @param {{x: number, y: number} | [number, number]} to
    */
   canWalk(from, to) {
     this.#open
-    return !!this.#core.can_walk(...pointOf('canWalk', from), ...pointOf('canWalk', to), this.#shut)
+    return !!this.#core.can_walk(...this.#placeOf('canWalk', from), ...this.#placeOf('canWalk', to), this.#shut)
   }
 
   /** The cells that a box lies in or touches. */
@@ -247,7 +281,8 @@ export class Level {
     for (const [name, value] of Object.entries({ minX, minY, maxX, maxY })) numberOf(name, value)
     if (!(minX <= maxX && minY <= maxY))
       throw new SightlineError('a box is needed: minX and minY no more than maxX and maxY')
-    return this.#cellsOfBox(minX, minY, maxX, maxY)
+    const [x0, y0, x1, y1] = [...this.#toMap(minX, minY), ...this.#toMap(maxX, maxY)]
+    return this.#cellsOfBox(x0, Math.min(y0, y1), x1, Math.max(y0, y1))
   }
 
   #cellsOfBox(minX, minY, maxX, maxY) {
@@ -258,36 +293,33 @@ export class Level {
     return new Uint32Array(this.#memory.buffer, this.#list, count).slice()
   }
 
-  /** Puts the view into memory, as an sl_runtime_view. */
-  #setView(x, y, { heading, fov }) {
-    const { buffer } = this.#memory
+  /** Puts the view into memory, as an sl_runtime_view. Gives its range in the map; 0 for the map's own. */
+  #setView(x, y, given) {
+    const { heading: turn, fov, range } = viewOf(given)
+    const { buffer } = this.#memory, heading = this.#turned(turn)
     if (this.#view.buffer !== buffer) {
       this.#view = new Float64Array(buffer, this.#core.view_place(), 7)
       this.#allRound = new Uint8Array(buffer, this.#view.byteOffset + 16, 1)
     }
     const view = this.#view
-    view[0] = x
-    view[1] = y
+    view.set(this.#toMap(x, y))
     this.#allRound[0] = fov >= 360 ? 1 : 0
-    if (fov >= 360) return
-    view.set(direction(heading - fov / 2), 3)
-    view.set(direction(heading + fov / 2), 5)
+    if (fov < 360) {
+      view.set(direction(heading - fov / 2), 3)
+      view.set(direction(heading + fov / 2), 5)
+    }
+    return Math.max(range / this.transform.scale, 0)
   }
 
   /**
    * The cells that an eye sees; its own first, if it looks into it. `heading` and `fov` are in degrees.
    * `mirrors`: after the `direct` cells that it sees directly, those that are seen by mirror alone.
    * No cell is missed there, but some may be added.
-   *
-   * @param {number | object} x or one object with all: { x, y, dx, dy, fov, range, mirrors }
-   * @param {number} [y]
-   * @param {{heading?: number, fov?: number, range?: number, mirrors?: boolean}} [options]
    */
   look(x, y, options) {
     const core = this.#open
     const [left, up, { mirrors = false, ...given }] = eyeOf(x, y, options, 'heading', 'fov', 'range', 'mirrors')
-    const view = viewOf(given), range = Math.max(view.range, 0)
-    this.#setView(left, up, view)
+    const range = this.#setView(left, up, given)
     if (flagOf('mirrors', mirrors)) {
       const count = core.look_mirrored(this.#shut, range, this.#scratch, this.#list) >>> 0
       const [direct] = this.#integers
@@ -296,24 +328,15 @@ export class Level {
     return this.#listed(core.look(this.#shut, range, this.#scratch, this.#list) >>> 0)
   }
 
-  /**
-   * The polygon that an eye sees: x, y, x, y ... counter-clockwise.
-   *
-   * @param {number | object} x as for look()
-   * @param {number} [y]
-   * @param {{heading?: number, fov?: number, range?: number}} [options]
-   */
+  /** The polygon that an eye sees: x, y, x, y ... counter-clockwise as it is seen, also with y down. */
   visiblePolygon(x, y, options) {
     const core = this.#open
     const [left, up, given] = eyeOf(x, y, options, 'heading', 'fov', 'range')
-    const view = viewOf(given)
-    this.#setView(left, up, view)
+    const range = this.#setView(left, up, given)
     for (;;) {
-      const count =
-        core.polygon(this.#shut, Math.max(view.range, 0), this.#scratch, this.#points, this.#room) >>> 0
-      if (count <= this.#room) {
-        return new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice()
-      }
+      const count = core.polygon(this.#shut, range, this.#scratch, this.#points, this.#room) >>> 0
+      if (count <= this.#room)
+        return this.#fromMap(new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice())
       this.#grow(2 * count)
     }
   }
@@ -326,9 +349,6 @@ export class Level {
   /**
    * The cells seen from anywhere in some cells, with the doors as they stand: what to wake up.
    * `mirrors`: or by mirror.
-   *
-   * @param {ArrayLike<number>} cells
-   * @param {{mirrors?: boolean}} [options]
    */
   seenFrom(cells, options) {
     const core = this.#open

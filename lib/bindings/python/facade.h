@@ -121,6 +121,8 @@ SLP_API int slp_door_open(const void *handle, int is_level, size_t number);
 SLP_API double slp_range(const void *handle, int is_level);
 SLP_API const char *slp_unit(const void *handle, int is_level);
 SLP_API void slp_bounds(const void *handle, int is_level, double box[4]);
+/// As sl_map_source.transform: origin, scale, 1 for y down.
+SLP_API void slp_transform(const void *handle, int is_level, double values[4]);
 
 // --- levels
 

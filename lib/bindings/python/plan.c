@@ -254,3 +254,8 @@ void slp_bounds(const void *handle, int is_level, double box[4]) {
                               : sl_map_bounds(map_of(handle, is_level));
     box[0] = b.min.x, box[1] = b.min.y, box[2] = b.max.x, box[3] = b.max.y;
 }
+
+void slp_transform(const void *handle, int is_level, double values[4]) {
+    const sl_transform t = map_of(handle, is_level)->source.transform;
+    values[0] = t.origin.x, values[1] = t.origin.y, values[2] = t.scale, values[3] = t.y_down;
+}

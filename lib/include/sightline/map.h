@@ -136,18 +136,28 @@ typedef struct sl_interior {
                            ///< ground
 } sl_interior;
 
+/// How the places of a map stand in other coordinates: a file's, or a screen's. The point (x, y) of
+/// the map is scale * (x - origin.x), scale * (y - origin.y) there, or scale * (origin.y - y) if y
+/// points down there. A scale of 0: it is not known.
+typedef struct sl_transform {
+    sl_point origin; ///< the place in the map that is 0, 0 there
+    double scale;    ///< units there in a unit of the map
+    bool y_down;
+} sl_transform;
+
 /// What the file of a map says beside the map. Walls, cells and sight do not depend on it.
 typedef struct sl_map_source {
     char *name;           ///< of the file, for messages; NULL for none
     bool lines_are_items; ///< `line` counts the items of a file without lines (JSON, WAD), from 1
     char *notes;          ///< notices that stay with the map, in lines; NULL for none
-    /// How a file with y down lays the map out: its y that is 0 in the map, and its page in the
-    /// map's places. Readers of such files set both, so that a writer can put all back in its
-    /// place. An empty box stands for none. Map text and .slv files do not keep them.
-    double top;
+    /// How the map's places stand in the file. All readers set it; .slv files keep it, map text
+    /// does not.
+    sl_transform transform;
+    /// The page of a file with y down, in the map's places, so that a writer can put all back in
+    /// its place. An empty box stands for none. Map text and .slv files do not keep it.
     sl_box page;
     double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
-    int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as top and page are
+    int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as the page is
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
     /// files do not keep them. Equal texts that follow each other stand in label_text once.
     sl_label *labels;

@@ -44,7 +44,8 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
     SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD,      ///< one shard of a bake, which has no rows yet
-    SL_RUNTIME_TEXT        ///< a door, a start or the range of the map text is damaged
+    SL_RUNTIME_TEXT,       ///< a door, a start or another thing of the map is damaged
+    SL_RUNTIME_OLD         ///< of a version before 2.0, with SL_RUNTIME_WITHOUT_OLD_FILES
 } sl_runtime_status;
 
 /// What a file holds of what is seen by mirror. Only the calls with `mirrored` in their names look
@@ -55,10 +56,21 @@ typedef enum sl_runtime_mirrors {
     SL_RUNTIME_MIRRORS_NOT_BAKED ///< the map has mirrors, and the bake did not look into them
 } sl_runtime_mirrors;
 
+/// How the places of a map stand in other coordinates: a file's, or a screen's. The point (x, y) of
+/// the map is scale * (x - origin_x), scale * (y - origin_y) there, or scale * (origin_y - y) if y
+/// points down there.
+typedef struct sl_runtime_transform {
+    double origin_x, origin_y; ///< the place in the map that is 0, 0 there
+    double scale;              ///< units there in a unit of the map; more than 0
+    bool y_down;
+} sl_runtime_transform;
+
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
 #define SL_RUNTIME_NO_DOOR UINT32_MAX
+/// The number of a box that does not exist.
+#define SL_RUNTIME_NO_BOX UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -86,10 +98,15 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    bool has_glass; ///< one-way glass, somewhere
+    const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
-    const unsigned char *text; ///< what the map holds beside walls, as map text
+    uint32_t start_count, object_count, path_count, mirror_count;
+    const unsigned char *names, *doors, *starts, *objects, *paths, *path_points, *mirror_lines;
+    const unsigned char *text; ///< of a file before 2.0: doors and starts as text; else NULL
     size_t text_bytes;
+    sl_runtime_transform transform; ///< as sl_runtime_map_transform; scale 0: the file has none
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -116,8 +133,9 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
 /// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
-/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
-/// cells; call it again when the box has moved.
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: the cells
+/// near the box, once for each 8,192 cells that they have numbers among; all cells in a loose file
+/// of version 1. Call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
@@ -134,8 +152,11 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
-// Doors are numbered from 0 to door_count - 1, in the order of the map. The calls about doors and
-// starts read the map text in the file: call them once after opening.
+// Doors are numbered from 0 to door_count - 1, in the order of the map; so are starts, objects,
+// paths and mirrors. In a file before 2.0, doors and starts are read from its map text: each call
+// takes the time of that text, and there are no objects, paths and segments of mirrors. A program
+// that needs no such files defines SL_RUNTIME_WITHOUT_OLD_FILES where it implements this header.
+// It is smaller, and such files do not open (SL_RUNTIME_OLD).
 
 /// A name of `length` bytes of UTF-8. It lies in the file, and no 0 ends it.
 typedef struct sl_runtime_name {
@@ -175,6 +196,47 @@ SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 /// Reads a start, numbered from 0. False if it does not exist; `out` is then unchanged.
 SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
                                      sl_runtime_viewpoint *out);
+
+/// Reads an object, one of `object_count`: its name and its box, from the minimum x0, y0 to the
+/// maximum x1, y1. False if it does not exist; the results are then unchanged, here and below.
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box);
+
+/// Reads a path, one of `path_count`: its name and the number of its points.
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count);
+
+/// Reads the points of a path into `points`, which has room for 2 * point_count numbers.
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points);
+
+/// Reads a mirror, one of `mirror_count`. It reflects on both sides, or on its left only, going
+/// from its first end to its second. Mirrors are walls too.
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided);
+
+/// How the map's places stand in the file that was baked: pixels of a Tiled map with y down, say.
+/// False if the baked file does not have it, as those before 2.0; `out` is then that of the map's
+/// own places. A game may make any other: origin_x, origin_y is the place in the map that is 0, 0
+/// on its screen.
+SL_RUNTIME_API bool sl_runtime_map_transform(const sl_runtime *runtime, sl_runtime_transform *out);
+
+/// Turns `count` points x, y, x, y ... of other coordinates into places of the map, to ask with.
+/// Exact if the numbers are: for whole numbers, with a scale that is a power of 2. Other numbers
+/// are rounded: what is asked is then asked of the rounded place.
+///
+/// With y down, the picture is the same and only the names of places change. So what is left of an
+/// eye stays left, a polygon still goes counter-clockwise as it is seen (its area by the formula
+/// for y up is then negative), the minimum of y becomes the maximum, the y of a direction changes
+/// its sign, and so does a heading: it goes clockwise. Lengths, as a range, are divided by the
+/// scale.
+SL_RUNTIME_API void sl_runtime_to_map(const sl_runtime_transform *transform, double *points,
+                                      uint32_t count);
+
+/// The other way round: places of the map, such as a visible polygon, for drawing. As exact as
+/// sl_runtime_to_map.
+SL_RUNTIME_API void sl_runtime_from_map(const sl_runtime_transform *transform, double *points,
+                                        uint32_t count);
 
 /// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
@@ -319,8 +381,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// one.)
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
-/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
-/// cells along the line, and of clearing a byte for each cell.
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
+/// the cells along the line. A line that touches ends of portals in more than 32 cells also clears
+/// a byte for each cell.
 SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
@@ -330,8 +393,8 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
 /// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
 /// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
 /// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the cells that the step touches, and all doors; all walls if these are more than 32 cells,
-/// or the step touches the map's border.
+/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
+/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -476,6 +539,27 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    const unsigned char *shut, double range,
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
+
+/// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
+/// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
+/// It passes a flat box where it crosses that between its ends, and never one that is a point. An
+/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
+/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+///
+/// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
+/// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
+/// whether the eye is inside. Time: as sl_runtime_sees, and the boxes in the cells along the line.
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch);
+
+/// As sl_runtime_can_walk, past boxes that block: no point of the way, ends included, is in such a
+/// box or on its side. Box `except` does not count: that of who walks, or SL_RUNTIME_NO_BOX. Exact,
+/// and the same both ways. Boxes that had no room, or only touch the map's bounds, stop nothing.
+/// Time: as sl_runtime_can_walk, and the boxes in the cells along the step.
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.

@@ -1,4 +1,7 @@
-/// The map text: statements in lines, words between blanks, comments after '#'.
+/// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
+/// words between blanks, comments after '#'. SL_RUNTIME_WITHOUT_OLD_FILES leaves this part out.
+
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
 
 /// A place in the map text: the rest of a line, or of the text.
 typedef struct slrt_text {
@@ -32,18 +35,16 @@ static bool slrt_word_is(const slrt_text *word, const char *text) {
     return at == word->end && !*text;
 }
 
-/// The `number`-th statement with this first word; what follows the word is put into `line`. Counts
-/// down `number`, so UINT32_MAX counts the statements.
-static bool slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t *number,
-                                slrt_text *line) {
-    slrt_text text;
-    text.at = rt->text;
+/// What follows the first word of the `number`-th statement with this word, which exists.
+static slrt_text slrt_find_statement(const sl_runtime *rt, const char *first, uint32_t number) {
+    slrt_text text, line;
+    text.at = line.at = line.end = rt->text;
     text.end = rt->text + rt->text_bytes;
-    while (slrt_take_line(&text, line)) {
-        const slrt_text word = slrt_take_word(line);
-        if (slrt_word_is(&word, first) && !(*number)--) return true;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text word = slrt_take_word(&line);
+        if (slrt_word_is(&word, first) && !number--) break;
     }
-    return false;
+    return line;
 }
 
 /// A decimal: digits, of which the last `fraction` are behind the point, and a power of ten.
@@ -192,3 +193,51 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
     return slrt_take_number(&line, true, &out->x) && slrt_take_number(&line, true, &out->y) &&
            slrt_take_number(&line, false, &out->heading);
 }
+
+/// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
+static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
+    const uint32_t seam_doors = rt->door_count;
+    slrt_text text, line;
+    rt->range = 0;
+    rt->door_count = 0;
+    rt->text = section->items ? section->items : (const unsigned char *)"";
+    rt->text_bytes = (size_t)section->count;
+    text.at = rt->text;
+    text.end = rt->text + rt->text_bytes;
+    while (slrt_take_line(&text, &line)) {
+        const slrt_text first = slrt_take_word(&line);
+        sl_runtime_viewpoint start;
+        if (slrt_word_is(&first, "range") &&
+            (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
+            return false;
+        if (slrt_word_is(&first, "start")) {
+            if (!slrt_read_start(line, &start)) return false;
+            rt->start_count++;
+        }
+        if (slrt_word_is(&first, "door")) {
+            const slrt_text name = slrt_take_word(&line);
+            if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
+            if (rt->door_count++ == INT32_MAX) return false;
+        }
+        if (slrt_word_is(&first, "mirror")) rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
+    }
+    return rt->door_count >= seam_doors;
+}
+
+/// A door of the text: its name, and whether it is open.
+static sl_runtime_name slrt_text_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    sl_runtime_name name;
+    slrt_text line = slrt_find_statement(rt, "door", door), word = slrt_take_word(&line);
+    int i;
+    name.text = (const char *)word.at;
+    name.length = (uint32_t)(word.end - word.at);
+    for (i = 0; i < 5; i++) word = slrt_take_word(&line); // four coordinates, and the state
+    *open = !slrt_word_is(&word, "shut");
+    return name;
+}
+
+static bool slrt_text_start(const sl_runtime *rt, uint32_t start, sl_runtime_viewpoint *out) {
+    return slrt_read_start(slrt_find_statement(rt, "start", start), out);
+}
+
+#endif

@@ -1,32 +1,5 @@
 /// Opening a file.
 
-/// Each door that a seam is of has a name, each start three numbers, and a range one above 0.
-static bool slrt_take_text(sl_runtime *rt, const slrt_section *found) {
-    slrt_text text, line;
-    uint32_t doors = 0;
-    rt->range = 0;
-    rt->text = found[SLRT_MAPT].items ? found[SLRT_MAPT].items : (const unsigned char *)"";
-    rt->text_bytes = (size_t)found[SLRT_MAPT].count;
-    text.at = rt->text;
-    text.end = rt->text + rt->text_bytes;
-    while (slrt_take_line(&text, &line)) {
-        const slrt_text first = slrt_take_word(&line);
-        sl_runtime_viewpoint start;
-        if (slrt_word_is(&first, "start") && !slrt_read_start(line, &start)) return false;
-        if (slrt_word_is(&first, "range") &&
-            (!slrt_take_number(&line, false, &rt->range) || !(rt->range > 0)))
-            return false;
-        if (slrt_word_is(&first, "door")) {
-            const slrt_text name = slrt_take_word(&line);
-            if (name.at == name.end || name.end - name.at > INT32_MAX) return false;
-            doors++;
-        }
-        if (slrt_word_is(&first, "mirror") && !rt->mirrors)
-            rt->mirrors = SL_RUNTIME_MIRRORS_NOT_BAKED;
-    }
-    return doors >= rt->door_count;
-}
-
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
     slrt_section found[SLRT_TAGS];
@@ -40,8 +13,9 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    status = slrt_take_map(&rt, found);
+    if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
-    if (!slrt_take_text(&rt, found)) return SL_RUNTIME_TEXT;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -72,7 +46,9 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SHARD:
         return "one shard of a bake, not all of it: sightline merge puts shards together";
     case SL_RUNTIME_TEXT:
-        return "damaged: a door, a start or the range of the map text";
+        return "damaged: a door, a start or another thing of the map";
+    case SL_RUNTIME_OLD:
+        return "of a version before 2.0, which this program leaves out: bake the map again";
     }
     return "unknown status";
 }

@@ -161,7 +161,8 @@ static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
     return true;
 }
 
-/// The portals on seams, by portal, so that they can be searched.
+/// The portals on seams, by portal, so that they can be searched. There are as many doors as seams
+/// name, or more.
 static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     const uint64_t count = found[SLRT_SEPO].items ? found[SLRT_SEPO].count : 0;
     uint64_t i;
@@ -169,11 +170,19 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
     rt->seam_count = 0;
+    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    for (i = 0; i < rt->seam_count; i++)
-        if (!slrt_usable(rt->seams + i * 40, 4)) return false;
+    rt->door_count = 0;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + i * 40;
+        const uint32_t number = slrt_u32(seam + 36);
+        if (!slrt_usable(seam, 4)) return false;
+        if (slrt_u32(seam + 32) != 1) continue;
+        if (number >= INT32_MAX) return false;
+        if (number >= rt->door_count) rt->door_count = number + 1;
+    }
     rt->seam_portal_count = (uint32_t)count;
     for (i = 0; i < count; i++) {
         const unsigned char *on = rt->seam_portals + i * 12;
@@ -181,6 +190,8 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
         if (portal < before || portal >= rt->portal_count) return false;
         if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
         before = portal;
+        rt->has_glass =
+            rt->has_glass || slrt_u32(rt->seams + slrt_u32(on + 4) * (size_t)40 + 32) == 2;
     }
     return true;
 }
@@ -212,18 +223,10 @@ static bool slrt_door_rows_are_sound(const sl_runtime *rt, const slrt_section *o
     return true;
 }
 
+/// The doors are known.
 static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
-    uint64_t i;
-    rt->door_count = 0;
     rt->door_offsets = found[SLRT_DORO].items;
     rt->door_bytes = found[SLRT_DORB].items;
-    for (i = 0; found[SLRT_SEAM].items && i < found[SLRT_SEAM].count; i++) {
-        const unsigned char *seam = found[SLRT_SEAM].items + i * 40;
-        const uint32_t number = slrt_u32(seam + 36);
-        if (slrt_u32(seam + 32) != 1) continue;
-        if (number >= INT32_MAX) return false;
-        if (number >= rt->door_count) rt->door_count = number + 1;
-    }
     return slrt_door_rows_are_sound(rt, &found[SLRT_DORO], &found[SLRT_DORB]);
 }
 
@@ -240,7 +243,6 @@ static sl_runtime slrt_mirrored(const sl_runtime *rt) {
 /// Rows of what is seen by mirror, if the file has any.
 static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
     sl_runtime rows;
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
     rt->mirror_offsets = found[SLRT_MIRO].items;
     rt->mirror_bytes = found[SLRT_MIRB].items;
     rt->mirror_door_offsets = found[SLRT_MDOO].items;

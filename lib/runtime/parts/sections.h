@@ -6,7 +6,13 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
-    SLRT_DIRECTED_BYTES = 40
+    SLRT_PORTAL_BYTES = 40,
+    SLRT_DIRECTED_BYTES = 40,
+    SLRT_DOOR_BYTES = 12,
+    SLRT_START_BYTES = 24,
+    SLRT_OBJECT_BYTES = 40,
+    SLRT_PATH_BYTES = 16,
+    SLRT_MIRROR_BYTES = 40
 };
 
 enum slrt_tag {
@@ -35,6 +41,14 @@ enum slrt_tag {
     SLRT_MDOO,
     SLRT_MDOB,
     SLRT_WALL,
+    SLRT_MAPI, ///< of files since 2.0, as those up to MIRR: what the map holds, in items
+    SLRT_MAPN,
+    SLRT_DOOR,
+    SLRT_STRT,
+    SLRT_OBJE,
+    SLRT_PATH,
+    SLRT_PAPO,
+    SLRT_MIRR,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -91,7 +105,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
-                          {"PORT", 40},
+                          {"PORT", SLRT_PORTAL_BYTES},
                           {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
@@ -112,6 +126,14 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"MDOO", 8},
                           {"MDOB", 1},
                           {"WALL", 32},
+                          {"MAPI", 40},
+                          {"MAPN", 1},
+                          {"DOOR", SLRT_DOOR_BYTES},
+                          {"STRT", SLRT_START_BYTES},
+                          {"OBJE", SLRT_OBJECT_BYTES},
+                          {"PATH", SLRT_PATH_BYTES},
+                          {"PAPO", SLRT_VERTEX_BYTES},
+                          {"MIRR", SLRT_MIRROR_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);

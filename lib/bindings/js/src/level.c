@@ -7,6 +7,7 @@
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #define SL_RUNTIME_SMALL_OPEN
+#define SL_RUNTIME_WITHOUT_OLD_FILES // sightline/bake writes these anew
 #include "runtime/sightline_runtime.h"
 
 #define EXPORT(type, name, ...)                                                                    \
@@ -39,21 +40,24 @@ EXPORT(const char *, status_text, int status) {
     return sl_runtime_status_text((sl_runtime_status)status);
 }
 
-/// numbers: bounds and range; integers: counts and flags, and what is known of mirrors.
+/// numbers: bounds, range, the transform of the file; integers: counts and flags, and what is known
+/// of mirrors.
 EXPORT(void, describe, void) {
     numbers[0] = level.min_x;
     numbers[1] = level.min_y;
     numbers[2] = level.max_x;
     numbers[3] = level.max_y;
     numbers[4] = level.range;
+    numbers[5] = level.transform.origin_x;
+    numbers[6] = level.transform.origin_y;
+    numbers[7] = level.transform.scale;
     integers[0] = level.cell_count;
-    integers[1] = level.portal_count;
+    integers[1] = level.transform.y_down;
     integers[2] = level.door_count;
     integers[3] = sl_runtime_start_count(&level);
     integers[4] = (uint32_t)sl_runtime_scratch_count(&level);
     integers[5] = (uint32_t)level.mirrors;
     integers[6] = level.unfinished;
-    integers[7] = level.loose;
 }
 
 EXPORT(uint32_t, locate, double x, double y) {

@@ -22,12 +22,13 @@ from .errors import (BadArgument, BadInput, Cancelled, Closed, FileError, OutOfM
                      SightlineError, SightlineWarning, Unsupported)
 from .level import Explanation, Level, Measure, PortalSequence, measures_of as _measures_of
 from .plan import Plan
+from .transform import Transform
 
 __version__: str = _said(_call.version())
 
 __all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Doors", "Explanation", "FileError",
            "Level", "Measure", "OutOfMemory", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
-           "Unsupported", "eye_methods", "exports", "formats", "heat_map", "measures", "methods"]
+           "Transform", "Unsupported", "eye_methods", "exports", "formats", "heat_map", "measures", "methods"]
 
 
 def _names(what: str) -> list[str]:

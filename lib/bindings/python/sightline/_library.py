@@ -86,6 +86,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "range": (_double, [_handle, _int]),
     "unit": (_text, [_handle, _int]),
     "bounds": (None, [_handle, _int, _doubles]),
+    "transform": (None, [_handle, _int, _doubles]),
     "level_new": (_handle, []),
     "level_free": (None, [_handle]),
     "level_bake": (_int, [_handle, _handle, ctypes.POINTER(Bake)]),
@@ -473,6 +474,19 @@ class Handle:
             call.bounds(self._open_pointer(), self._is_level, box)
         x0, y0, x1, y1 = box.tolist()
         return x0, y0, x1, y1
+
+    @property
+    def transform(self) -> Any:
+        """The `Transform` to the coordinates of the map's own file, such as pixels with y down.
+
+        None where nobody knows it: plans made of arrays, and baked files before 2.0.
+        """
+        from .transform import Transform
+        values = np.empty(4)
+        with self._lock:
+            call.transform(self._open_pointer(), self._is_level, values)
+        x, y, scale, y_down = values.tolist()
+        return Transform((x, y), scale, bool(y_down)) if scale else None
 
     @property
     def unit(self) -> str:

@@ -1,0 +1,120 @@
+/// The map's things: doors, starts, objects, paths and mirrors.
+
+/// The name that a door, an object or a path begins with.
+static sl_runtime_name slrt_name(const sl_runtime *rt, const unsigned char *item) {
+    sl_runtime_name name;
+    name.text = (const char *)rt->names + slrt_u32(item);
+    name.length = slrt_u32(item + 4);
+    return name;
+}
+
+static sl_runtime_segment slrt_segment(const unsigned char *at) {
+    sl_runtime_segment segment;
+    segment.x0 = slrt_f64(at);
+    segment.y0 = slrt_f64(at + 8);
+    segment.x1 = slrt_f64(at + 16);
+    segment.y1 = slrt_f64(at + 24);
+    return segment;
+}
+
+static sl_runtime_name slrt_door(const sl_runtime *rt, uint32_t door, bool *open) {
+    const unsigned char *item;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (rt->text) return slrt_text_door(rt, door, open);
+#endif
+    item = rt->doors + (size_t)door * SLRT_DOOR_BYTES;
+    *open = slrt_u32(item + 8) != 0;
+    return slrt_name(rt, item);
+}
+
+SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, uint32_t door) {
+    sl_runtime_name none;
+    bool open;
+    none.text = "";
+    none.length = 0;
+    return door < runtime->door_count ? slrt_door(runtime, door, &open) : none;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
+    size_t length = 0;
+    uint32_t door;
+    while (name[length]) length++;
+    for (door = 0; door < runtime->door_count; door++) {
+        const sl_runtime_name own = sl_runtime_door_name(runtime, door);
+        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
+    }
+    return SL_RUNTIME_NO_DOOR;
+}
+
+SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t door) {
+    bool open = false;
+    if (door < runtime->door_count) slrt_door(runtime, door, &open);
+    return open;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
+                                                 sl_runtime_segment *segments, uint32_t room) {
+    uint32_t i, count = 0;
+    for (i = 0; i < runtime->seam_count; i++) {
+        const unsigned char *seam = runtime->seams + (size_t)i * 40;
+        if (slrt_u32(seam + 32) != 1 || slrt_u32(seam + 36) != door) continue;
+        if (count < room) segments[count] = slrt_segment(seam);
+        count++;
+    }
+    return count;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
+    return runtime->start_count;
+}
+
+SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
+                                     sl_runtime_viewpoint *out) {
+    const unsigned char *item;
+    if (start >= runtime->start_count) return false;
+#ifndef SL_RUNTIME_WITHOUT_OLD_FILES
+    if (runtime->text) return slrt_text_start(runtime, start, out);
+#endif
+    item = runtime->starts + (size_t)start * SLRT_START_BYTES;
+    out->x = slrt_f64(item);
+    out->y = slrt_f64(item + 8);
+    out->heading = slrt_f64(item + 16);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
+                                      sl_runtime_name *name, sl_runtime_segment *box) {
+    const unsigned char *item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
+    if (object >= runtime->object_count) return false;
+    *name = slrt_name(runtime, item);
+    *box = slrt_segment(item + 8);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
+                                    uint32_t *point_count) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    if (path >= runtime->path_count) return false;
+    *name = slrt_name(runtime, item);
+    *point_count = slrt_u32(item + 12);
+    return true;
+}
+
+SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
+                                           double *points) {
+    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    const unsigned char *at = runtime->path_points;
+    uint32_t i;
+    if (path >= runtime->path_count) return;
+    at += (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
+    for (i = 0; i < 2 * slrt_u32(item + 12); i++) points[i] = slrt_f64(at + (size_t)i * 8);
+}
+
+SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
+                                      sl_runtime_segment *segment, bool *one_sided) {
+    const unsigned char *item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
+    if (mirror >= runtime->mirror_count) return false;
+    *segment = slrt_segment(item);
+    *one_sided = slrt_u64(item + 32) != 0;
+    return true;
+}
