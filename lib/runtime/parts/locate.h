@@ -192,8 +192,12 @@ static bool slrt_visit_near(const sl_runtime *rt, const double box[4], slrt_visi
     return slrt_visit_all(rt, visit, context);
 }
 
+/// So many cells are noted at a time: a number that 32 divides.
+#ifndef SLRT_WINDOW
+#define SLRT_WINDOW 8192
+#endif
+
 /// Cells by number, from `first` on, as bits.
-enum { SLRT_WINDOW = 8192 };
 typedef struct slrt_window {
     uint32_t first, next; ///< next: the first one behind the bits
     uint32_t bits[SLRT_WINDOW / 32];

@@ -32,7 +32,7 @@ static void slrt_see_row(slrt_search *s) {
 /// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
 /// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const uint32_t to = slrt_cell_across(s->rt, directed);
     slrt_sector sector;
     if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];
@@ -169,7 +169,7 @@ static void slrt_run_search(slrt_search *s) {
     while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
     slrt_follow(s, NULL);
     if (s->has_row && s->rt->has_glass) slrt_allow_rows_in_line(s);
-    memmove(slrt_own_cells(s), s->path, s->own_count * sizeof *s->path);
+    for (i = s->own_count; i-- > 0;) slrt_own_cells(s)[i] = s->path[i]; // upwards: from the last on
     slrt_search_cone(s, s->eye_cell);
     for (i = 1; i < s->own_count; i++) slrt_search_cone(s, slrt_own_cells(s)[i]);
 }

@@ -79,6 +79,7 @@ typedef struct slrt_search {
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
     bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
+    uint32_t except;                   ///< a box that stops nothing
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
     uint32_t *blockers, blocker_count; ///< those that hide something
     uint32_t *chosen;                  ///< room for as many as there are boxes

@@ -35,7 +35,8 @@ enum { SLRT_STEP_CELLS = 32 };
 /// are found through portals that it touches, up to its first wall: the cells about a point are
 /// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
 /// on the map's border, which may be wall in part, and for many cells.
-static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from, const double *to) {
+static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
+                                       const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
     slrt_polygon p;
     if (s->rt->loose) return SLRT_TOUCHES;
@@ -46,6 +47,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from,
     for (i = 0; i < count; i++) {
         slrt_walk w;
         slrt_piece piece;
+        if (s->stops && s->stops(s, way, cells[i])) return SLRT_STOPS;
         slrt_walk_around(&p, &w, cells[i], 1);
         while (slrt_walk_next(&p, &w, &piece)) {
             uint32_t next;
@@ -53,7 +55,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from,
             if (piece.directed == SLRT_NONE)
                 return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
-            next = slrt_u32(s->rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
@@ -64,8 +66,9 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const double *from,
     return p.broken ? SLRT_TOUCHES : SLRT_ARRIVES;
 }
 
-/// Whether a step touches no wall, shut door or glass of all there are.
-static bool slrt_step_by_walls(const slrt_search *s, const double *from, const double *to) {
+/// Whether a step touches no wall, shut door, glass or box of all there are.
+static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const double *from,
+                               const double *to) {
     const sl_runtime *rt = s->rt;
     uint32_t i;
     for (i = 0; i < rt->wall_count; i++)
@@ -77,23 +80,27 @@ static bool slrt_step_by_walls(const slrt_search *s, const double *from, const d
             slrt_touches(from, to, seam))
             return false;
     }
+    for (i = 0; s->stops && i < rt->cell_count; i++)
+        if (s->stops(s, way, i)) return false;
     return true;
+}
+
+/// Whether who stands at a search's eye can step to a point.
+static bool slrt_can_step(slrt_search *s, double x, double y) {
+    const double from[2] = {s->x, s->y}, to[2] = {slrt_no_dust(x), slrt_no_dust(y)};
+    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
+    slrt_finding found;
+    if (!s->rt->walls || !slrt_in_bounds(s->rt, to[0], to[1])) return false;
+    s->on_foot = true;
+    found = slrt_follow_within(s, &way);
+    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(s, &way, from, to);
+    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
+    return sl_runtime_locate(s->rt, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
+           slrt_step_by_walls(s, &way, from, to);
 }
 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut) {
-    const double from[2] = {slrt_no_dust(x0), slrt_no_dust(y0)};
-    const double to[2] = {slrt_no_dust(x1), slrt_no_dust(y1)};
-    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
     slrt_search s;
-    slrt_finding found;
-    if (!runtime->walls || !slrt_place_eye(&s, runtime, x0, y0, shut) ||
-        !slrt_in_bounds(runtime, to[0], to[1]))
-        return false;
-    s.on_foot = true;
-    found = slrt_follow_within(&s, &way);
-    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(&s, from, to);
-    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
-    return sl_runtime_locate(runtime, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
-           slrt_step_by_walls(&s, from, to);
+    return slrt_place_eye(&s, runtime, x0, y0, shut) && slrt_can_step(&s, x1, y1);
 }
