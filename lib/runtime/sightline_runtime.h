@@ -621,6 +621,39 @@ SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes
                                                    double y0, double x1, double y1,
                                                    const unsigned char *shut, uint32_t except);
 
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
 // Servers: what each player may see before it hears of the next tick.
 
 /// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
@@ -1780,12 +1813,11 @@ SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, u
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
-    size_t length = 0;
-    uint32_t door;
-    while (name[length]) length++;
+    uint32_t door, i;
     for (door = 0; door < runtime->door_count; door++) {
         const sl_runtime_name own = sl_runtime_door_name(runtime, door);
-        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
+        for (i = 0; i < own.length && name[i] && name[i] == own.text[i];) i++;
+        if (i == own.length && !name[i]) return door;
     }
     return SL_RUNTIME_NO_DOOR;
 }
@@ -2367,11 +2399,10 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
     if (slrt_is_beside_box(rt, &cell, box)) return false;
     for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
-        bool outside = true;
-        int k;
-        for (k = 0; k < 4 && outside; k++)
-            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
-        if (outside) return false;
+        // The corner of the box that is farthest to the left of the side.
+        const double x = box[slrt_f64(corner + 8) > slrt_f64(before + 8) ? 0 : 2];
+        const double y = box[slrt_f64(corner) > slrt_f64(before) ? 3 : 1];
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
     }
     return true;
 }
@@ -3603,6 +3634,16 @@ static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, doubl
 /// Where the line from the eye to a point leads.
 typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
 
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -3628,16 +3669,15 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     for (; steps; steps--) {
         bool touches;
         const uint32_t out = slrt_way_out(s, way, cell, &touches);
-        const unsigned char *portal = s->rt->directed + (size_t)out * SLRT_DIRECTED_BYTES;
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
         place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_line(portal + 24, portal + 8, way->to_x, way->to_y);
+                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
         if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_u32(portal + 4);
+        cell = slrt_cell_across(s->rt, out);
     }
     return SLRT_TOUCHES;
 }
@@ -3678,14 +3718,13 @@ static bool slrt_overlap(double a, double b, double c, double d) {
 
 /// Whether the way from the eye to a point meets a directed portal, ends included.
 static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
     const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const int right = slrt_side(way, &p), left = slrt_side(way, &q);
     if (right * left > 0) return false;
     if (!right && !left)
         return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
                slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
 }
 
 /// Of so many cells, a list is faster than marks, which have to be cleared first.
@@ -3723,7 +3762,7 @@ static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
         for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            const uint32_t to = slrt_cell_across(s->rt, i);
             if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
                 slrt_is_listed(s, to) || slrt_is_blocked(s, i))
                 continue;
@@ -3768,7 +3807,7 @@ static void slrt_see_row(slrt_search *s) {
 /// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
 /// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const uint32_t to = slrt_cell_across(s->rt, directed);
     slrt_sector sector;
     if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];
@@ -4161,7 +4200,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
             if (piece.directed == SLRT_NONE)
                 return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
-            next = slrt_u32(s->rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
@@ -4929,6 +4968,200 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
     if (!slrt_start_polygon(&p, runtime, view, shut, range, scratch, points, room)) return 0;
     slrt_find_fan(&p);
     return slrt_see_polygon(&p);
+}
+
+// --- Discs that move: how far, and along what
+
+// A disc of radius r moves as its middle does, if walls and all else that stops it have grown by r.
+// The distance to a segment changes along a straight way as a convex function does. So Newton's
+// steps from the start come to the first place where the distance is r, and never behind it:
+//
+//      .--___                 The disc then slides: what is left of the way, without its part
+//     | o ---> ''--.          toward the nearest place of the segment. It ends in a corner, where
+//      '--....--____|_        it would go back.
+//      =================
+//
+// All that is within reach of the way is in the cells that open portals within reach lead to: the
+// nearest of it has no other before it.
+//
+// Distances are rounded. So three limits lie apart by more than rounding can do (`slack`): r
+// itself; r + 2 slack, from where a way is free; r + 3 slack, where a disc comes to rest. No rest
+// is therefore nearer than r, and none is stuck to what it rests at. Whether a way crosses
+// something is exact.
+
+/// A disc on a straight way.
+typedef struct slrt_disc {
+    slrt_polygon p; ///< its search is from where the disc is
+    double radius, slack, from[2], to[2];
+    double along[2], length; ///< the way's direction and length
+    bool is_near;            ///< something is nearer to the way than it may
+    double stop;             ///< how far along the way the disc comes
+    double normal[2];        ///< if that is not all of it: away from what stops it
+    double push;             ///< how far the disc is nearer to that than at rest
+} slrt_disc;
+
+/// The square of the distance from a point to the segment from a to b. `away` leads to the point
+/// from the nearest place.
+static double slrt_away_from(const double *point, const double *a, const double *b, double *away) {
+    const double side[2] = {b[0] - a[0], b[1] - a[1]};
+    const double to[2] = {point[0] - a[0], point[1] - a[1]};
+    const double square = slrt_dot(side, side), part = slrt_dot(to, side);
+    double at = part > 0 ? part / square : 0;
+    if (!(at < 1)) at = 1;
+    if (!(square > 0)) at = 0;
+    away[0] = to[0] - at * side[0];
+    away[1] = to[1] - at * side[1];
+    return slrt_dot(away, away);
+}
+
+/// Whether a segment is nearer to the way than a limit, or crosses it.
+static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
+    const double square = limit * limit;
+    double away[2];
+    return !(slrt_away_from(d->from, a, b, away) >= square &&
+             slrt_away_from(d->to, a, b, away) >= square &&
+             slrt_away_from(a, d->from, d->to, away) >= square &&
+             slrt_away_from(b, d->from, d->to, away) >= square) ||
+           slrt_meets(d->from, d->to, a, b);
+}
+
+/// Has a segment stop the disc. One that the disc is nearer to than it may, but moves away from,
+/// does not.
+static void slrt_stop_at(slrt_disc *d, const double *a, const double *b) {
+    const double rest = d->radius + 3 * d->slack;
+    double at = 0, gap = 0, rate = 0, distance = 0;
+    double place[2], away[2] = {0, 0};
+    int i;
+    if (!slrt_is_near(d, a, b, d->radius + 2 * d->slack)) return;
+    d->is_near = true;
+    for (i = 0; i < 16; i++) {
+        place[0] = d->from[0] + at * d->along[0];
+        place[1] = d->from[1] + at * d->along[1];
+        distance = slrt_root(slrt_away_from(place, a, b, away));
+        gap = distance - rest;
+        rate = -slrt_dot(away, d->along) / distance;
+        if (!(gap > 0 && rate > 0)) break;
+        at += gap / rate;
+    }
+    if (!(at < d->stop) ||
+        (!(rate > 0) && (at > 0 || slrt_away_from(d->to, a, b, place) >= distance * distance)))
+        return;
+    d->stop = at;
+    d->normal[0] = away[0] / distance;
+    d->normal[1] = away[1] / distance;
+    d->push = gap < 0 ? -gap : 0;
+}
+
+/// Has the sides of the boxes in a cell stop the disc.
+static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
+    const sl_runtime_boxes *boxes = d->p.s.boxes;
+    uint32_t at = boxes ? *slrt_first_entry(boxes, cell) : SLRT_NO_ENTRY;
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &boxes->boxes[number];
+        const double corners[5][2] = {{box->min_x, box->min_y},
+                                      {box->max_x, box->min_y},
+                                      {box->max_x, box->max_y},
+                                      {box->min_x, box->max_y},
+                                      {box->min_x, box->min_y}};
+        int k;
+        for (k = 0; k < 4 && box->blocks && number != d->p.s.except; k++)
+            slrt_stop_at(d, corners[k], corners[k + 1]);
+    }
+}
+
+/// Goes through the cells within reach of the disc's way, and has what is there stop it.
+static void slrt_stop_within(slrt_disc *d) {
+    slrt_search *s = &d->p.s;
+    uint32_t at;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        slrt_walk w;
+        slrt_piece piece;
+        slrt_stop_at_boxes(d, s->path[at]);
+        slrt_walk_around(&d->p, &w, s->path[at], 1);
+        while (slrt_walk_next(&d->p, &w, &piece)) {
+            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+                slrt_stop_at(d, piece.a, piece.b);
+            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
+                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
+                if (!slrt_is_listed(s, to)) slrt_list(s, to);
+            }
+        }
+    }
+}
+
+/// Puts a disc at the start of a way, and finds how far it comes. False for nowhere.
+static bool slrt_move_disc(slrt_disc *d, const sl_runtime *rt, const sl_runtime_walker *walker,
+                           const double *from, const double *to, uint32_t *scratch) {
+    slrt_search *s = &d->p.s;
+    memset(d, 0, sizeof *d);
+    if (rt->loose || !slrt_place_eye(s, rt, from[0], from[1], walker->shut) ||
+        !slrt_is_coordinate(to[0]) || !slrt_is_coordinate(to[1]))
+        return false;
+    if (walker->boxes) slrt_heed_boxes(s, walker->boxes, walker->own_box);
+    s->on_foot = true;
+    s->path = scratch;
+    s->marks = (unsigned char *)(scratch + 6 * (size_t)rt->cell_count);
+    s->patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
+    d->radius = walker->radius > 0 ? walker->radius : 0;
+    d->slack =
+        1e-14 * (slrt_larger(rt->min_x, rt->max_x) + slrt_larger(rt->min_y, rt->max_y) + d->radius);
+    d->from[0] = s->x, d->from[1] = s->y;
+    d->to[0] = slrt_no_dust(to[0]), d->to[1] = slrt_no_dust(to[1]);
+    d->along[0] = d->to[0] - d->from[0];
+    d->along[1] = d->to[1] - d->from[1];
+    d->length = d->stop = slrt_root(slrt_dot(d->along, d->along));
+    if (d->length > 0) d->along[0] /= d->length, d->along[1] /= d->length;
+    slrt_stop_within(d);
+    return !d->p.broken;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch) {
+    const double from[2] = {x0, y0}, to[2] = {x1, y1};
+    slrt_disc d;
+    return slrt_move_disc(&d, runtime, walker, from, to, scratch) &&
+           (!d.is_near || !(walker->radius > 0)) && slrt_can_step(&d.p.s, x1, y1);
+}
+
+/// Turns a way along what stops a disc, which is `at` that. False if nothing is left of the way, or
+/// if it would go back.
+static bool slrt_turn_along(const slrt_disc *d, const double *at, const double *first,
+                            double *goal) {
+    const double into = slrt_dot(d->along, d->normal), left = d->length - d->stop;
+    const double most = 4 * d->slack, push = d->push < most ? d->push : most;
+    double rest[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        rest[i] = left * (d->along[i] - into * d->normal[i]);
+        goal[i] = at[i] + rest[i] + push * d->normal[i];
+    }
+    return slrt_dot(rest, rest) > most * most && slrt_dot(rest, first) > 0;
+}
+
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y) {
+    enum { TURNS = 4 };
+    double at[2] = {x0, y0}, goal[2] = {x1, y1}, first[2];
+    int turn;
+    for (turn = 0; turn < TURNS; turn++) {
+        slrt_disc d;
+        double next[2];
+        bool all;
+        if (!slrt_move_disc(&d, runtime, walker, at, goal, scratch)) break;
+        if (!turn) memcpy(first, d.along, sizeof first);
+        all = !(d.stop < d.length) || (!turn && !(d.radius > 0) && slrt_can_step(&d.p.s, x1, y1));
+        next[0] = all ? goal[0] : at[0] + d.stop * d.along[0];
+        next[1] = all ? goal[1] : at[1] + d.stop * d.along[1];
+        if (!slrt_can_step(&d.p.s, next[0], next[1])) break;
+        memcpy(at, next, sizeof at);
+        if (all || !slrt_turn_along(&d, at, first, goal)) break;
+    }
+    *x = at[0], *y = at[1];
+    return *x == x1 && *y == y1;
 }
 
 // --- What the parts need that the library has in common with this header: box_envelope.h says what
@@ -6138,7 +6371,8 @@ static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box
 static int slrt_surely(const slrt_arm *line, double x, double y) {
     const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
     const double product = left - right;
-    const double bound = 4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    const double bound =
+        4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
     return (product > bound) - (-product > bound);
 }
 
@@ -6210,30 +6444,31 @@ static uint32_t slrt_tangent(const double box[4], double x, double y, int side) 
 }
 
 /// Turns a bound of a beam to the end of a directed portal on its side, if that leaves more out.
-/// `across` leads from the portal's right end to its left.
-static void slrt_turn_bound(const slrt_beams *b, const slrt_beam *before, uint32_t directed,
-                            const slrt_arm *across, int side, slrt_bound *bound) {
+/// `across` leads from the portal's right end to its left; `last` is the last point of the other
+/// bound, or SLRT_NONE.
+static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t last,
+                            uint32_t directed, const slrt_arm *across, int side) {
     const int sign = side == SLRT_LEFT ? 1 : -1;
-    const uint32_t end = 2 * directed + (side == SLRT_RIGHT);
+    const uint32_t end = 2 * directed + (side == SLRT_RIGHT), from = bound->from;
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
-    const slrt_bound *own = &before->bounds[side], *other = &before->bounds[!side];
-    // Points that each line of the beam has on its other side, or behind it.
+    const slrt_arm *arm = &bound->arm;
+    // Points that no line of the beam passes on the bound's side. Those that start in the part do
+    // so by definition, seen from the end.
     uint32_t pivots[4];
     int i;
-    if (own->from != SLRT_NONE &&
-        sign * (own->arm.x * (y - own->arm.from_y) - own->arm.y * (x - own->arm.from_x)) >= 0)
+    if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
         return;
     pivots[0] = slrt_tangent(b->part, x, y, side);
-    pivots[1] = own->from >= SLRT_PART_CORNER && own->from < SLRT_BOX_CORNER ? SLRT_NONE : own->from;
-    pivots[2] = other->from == SLRT_NONE ? SLRT_NONE : other->to;
+    pivots[1] = from >= SLRT_PART_CORNER && from < SLRT_BOX_CORNER ? SLRT_NONE : from;
+    pivots[2] = last;
     pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
     for (i = 0; i < 4; i++) {
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end && sign * (bound->arm.x * (from_y - bound->arm.from_y) -
-                                        bound->arm.y * (from_x - bound->arm.from_x)) <= 0)
+        if (bound->to == end &&
+            sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.
         if (slrt_surely(across, from_x, from_y) <= 0) continue;
@@ -6286,58 +6521,83 @@ static bool slrt_is_part_right(const slrt_beams *b, const slrt_arm *across) {
 /// The ways out of the first cell through a directed portal. Lines that cross it within the box are
 /// those of the part in the next cell, which has its own beams. All others leave the box before,
 /// across one of its sides, and stay beyond it. Way 0 is the whole portal, if it is beyond a side
-/// or leads to solid ground; else ways 1 to 4 are what is beyond a side. That side is a bound. From
-/// a part that is on the portal's line, only that line crosses it.
+/// or leads to solid ground; else ways 1 to 4 are what is beyond a side.
+static bool slrt_is_whole(const slrt_beams *b, const sl_runtime_directed_portal *p) {
+    int side;
+    for (side = 0; side < 4; side++)
+        if (slrt_is_beyond(b->box, p->left, side) && slrt_is_beyond(b->box, p->right, side))
+            return true;
+    return sl_runtime_is_solid(b->rt, p->cell);
+}
+
+/// Bounds a beam by the side of the box that it leaves across; false for no such beam. From a part
+/// that is on the portal's line, only that line crosses it.
 static bool slrt_leave_box(const slrt_beams *b, const sl_runtime_directed_portal *p,
                            uint32_t directed, const slrt_arm *across, uint32_t way,
                            slrt_beam *beam) {
     // The ends of the sides, clockwise about the box.
     static const unsigned char from[4] = {0, 3, 1, 2}, to[4] = {2, 1, 0, 3};
-    const bool solid = sl_runtime_is_solid(b->rt, p->cell);
-    bool left = false, right = false, beyond = false;
-    uint32_t side, first, last;
-    for (side = 0; side < 4; side++) {
-        const bool left_is = slrt_is_beyond(b->box, p->left, side);
-        const bool right_is = slrt_is_beyond(b->box, p->right, side);
-        beyond = beyond || (left_is && right_is);
-        if (side + 1 == way) left = left_is, right = right_is;
-    }
-    if (way ? beyond || solid || left == right : !beyond && !solid) return false;
-    if (!solid && slrt_is_part_on(b, across)) {
+    const int side = (int)way - 1;
+    bool left = way && slrt_is_beyond(b->box, p->left, side);
+    if (way && left == slrt_is_beyond(b->box, p->right, side)) return false;
+    if (slrt_is_part_on(b, across) && !sl_runtime_is_solid(b->rt, p->cell)) {
         if (!way) left = slrt_is_part_right(b, across);
         beam->bounds[0] = slrt_make_bound(b, 2 * directed + left, 2 * directed + !left);
         beam->bounds[1] = beam->bounds[0];
     } else if (way) {
-        first = SLRT_BOX_CORNER + (left ? from : to)[way - 1];
-        last = SLRT_BOX_CORNER + (left ? to : from)[way - 1];
+        const uint32_t first = SLRT_BOX_CORNER + (left ? from : to)[side];
+        const uint32_t last = SLRT_BOX_CORNER + (left ? to : from)[side];
         beam->bounds[left ? SLRT_RIGHT : SLRT_LEFT] = slrt_make_bound(b, first, last);
     }
     return true;
 }
 
+static uint32_t slrt_last_point(const slrt_bound *bound) {
+    return bound->from == SLRT_NONE ? SLRT_NONE : bound->to;
+}
+
+/// Whether no line of a beam crosses a portal, for sure: it lies to one side of a bound, or all
+/// lines would cross it the other way. That one end is beside a bound does not tell: lines may come
+/// to the other end from behind.
+static bool slrt_is_portal_beside(const slrt_beam *beam, const slrt_arm *across) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const bool beside_left =
+        left->from != SLRT_NONE && slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
+    const bool beside_right =
+        right->from != SLRT_NONE && slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
+    if (!beside_left && !beside_right) return false;
+    if ((beside_left && slrt_surely(&left->arm, across->to_x, across->to_y) > 0) ||
+        (beside_right && slrt_surely(&right->arm, across->from_x, across->from_y) < 0))
+        return true;
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           slrt_side(&right->arm, &left->arm) > 0 && slrt_side(&right->arm, across) < 0 &&
+           slrt_side(&left->arm, across) < 0;
+}
+
+static bool slrt_is_portal_far(const slrt_beams *b, const slrt_arm *across) {
+    double box[4];
+    box[0] = across->x < 0 ? across->to_x : across->from_x;
+    box[1] = across->y < 0 ? across->to_y : across->from_y;
+    box[2] = across->x < 0 ? across->from_x : across->to_x;
+    box[3] = across->y < 0 ? across->from_y : across->to_y;
+    return slrt_is_out_of_range(b, box);
+}
+
 /// The part of the beam on top of the path that leaves through a directed portal; false for none.
-static bool slrt_pass_portal(const slrt_beams *b, uint32_t directed, uint32_t way, slrt_beam *out) {
-    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
-    const slrt_bound *right = &b->beam.bounds[SLRT_RIGHT], *left = &b->beam.bounds[SLRT_LEFT];
-    const slrt_arm across = slrt_make_arm(p.right[0], p.right[1], p.left[0], p.left[1]);
-    slrt_beam before;
-    double span[4];
-    int k;
-    if ((left->from != SLRT_NONE && slrt_surely(&left->arm, p.right[0], p.right[1]) > 0) ||
-        (right->from != SLRT_NONE && slrt_surely(&right->arm, p.left[0], p.left[1]) < 0))
+static bool slrt_pass_portal(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                             uint32_t directed, uint32_t way, slrt_beam *out) {
+    const slrt_arm across = slrt_make_arm(p->right[0], p->right[1], p->left[0], p->left[1]);
+    slrt_bound *right = &out->bounds[SLRT_RIGHT], *left = &out->bounds[SLRT_LEFT];
+    uint32_t right_last, left_last;
+    if (slrt_is_portal_beside(&b->beam, &across)) return false;
+    *out = b->beam;
+    if ((b->range > 0 && slrt_is_portal_far(b, &across)) || slrt_is_closed(b, p->portal) ||
+        (b->depth == 1 && !slrt_leave_box(b, p, directed, &across, way, out)))
         return false;
-    for (k = 0; k < 2; k++) {
-        const bool up = p.left[k] < p.right[k];
-        span[k] = up ? p.left[k] : p.right[k];
-        span[2 + k] = up ? p.right[k] : p.left[k];
-    }
-    before = b->beam;
-    if (slrt_is_out_of_range(b, span) || slrt_is_closed(b, p.portal) ||
-        (b->depth == 1 && !slrt_leave_box(b, &p, directed, &across, way, &before)))
-        return false;
-    *out = before;
-    slrt_turn_bound(b, &before, directed, &across, SLRT_RIGHT, &out->bounds[SLRT_RIGHT]);
-    slrt_turn_bound(b, &before, directed, &across, SLRT_LEFT, &out->bounds[SLRT_LEFT]);
+    right_last = slrt_last_point(right);
+    left_last = slrt_last_point(left);
+    slrt_turn_bound(b, right, left_last, directed, &across, SLRT_RIGHT);
+    slrt_turn_bound(b, left, right_last, directed, &across, SLRT_LEFT);
     return !b->target || !slrt_is_beam_beside(out, b->target);
 }
 
@@ -6346,10 +6606,11 @@ static bool slrt_pass_portal(const slrt_beams *b, uint32_t directed, uint32_t wa
 /// Whether a beam is all in one line.
 static bool slrt_is_one_line(const slrt_beam *beam) {
     const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
-    const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
-                                      left->arm.to_y);
+    const slrt_arm to =
+        slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x, left->arm.to_y);
     return right->from != SLRT_NONE && left->from != SLRT_NONE &&
-           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to);
+           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
+           slrt_same_way(&right->arm, &left->arm);
 }
 
 static int slrt_turn_of(const slrt_arm *line, const double point[2]) {
@@ -6442,14 +6703,18 @@ static bool slrt_go_on(slrt_beams *b) {
     uint32_t *done = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1) + SLRT_BEAM_DONE;
     const uint32_t ways = b->depth == 1 ? SLRT_WAYS : 1, way = *done % ways;
     const uint32_t directed = b->cell.first_directed + (*done)++ / ways;
-    const uint32_t to = slrt_u32(b->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
     slrt_beam beam;
+    if (b->depth == 1 && !way) {
+        if (!slrt_is_whole(b, &p)) return false;
+        *done += SLRT_WAYS - 1;
+    }
     // A line passes a convex cell once.
-    if (b->on_path[to / 32] >> to % 32 & 1 || !slrt_pass_portal(b, directed, way, &beam) ||
-        slrt_is_past(b, to, directed, &beam))
+    if (b->on_path[p.cell / 32] >> p.cell % 32 & 1 ||
+        !slrt_pass_portal(b, &p, directed, way, &beam) || slrt_is_past(b, p.cell, directed, &beam))
         return false;
-    slrt_come_to(b, to, directed, &beam);
-    return b->meet(b, to, &beam);
+    slrt_come_to(b, p.cell, directed, &beam);
+    return b->meet(b, p.cell, &beam);
 }
 
 /// Sends beams from the part of the box that is in a cell. Returns true if `meet` ended the search,
@@ -6505,8 +6770,7 @@ static bool slrt_look_from_cell(void *context, uint32_t cell) {
     uint32_t i;
     for (i = 0; i < MOST && i < o->count; i++)
         if (o->sources[i] == cell) return true;
-    if (sl_runtime_is_solid(o->beams.rt, cell) ||
-        !slrt_meets_box(o->beams.rt, cell, o->beams.box))
+    if (sl_runtime_is_solid(o->beams.rt, cell) || !slrt_meets_box(o->beams.rt, cell, o->beams.box))
         return true;
     o->sources[o->count++ % MOST] = cell;
     return !slrt_send_beams(&o->beams, cell);
@@ -6580,7 +6844,7 @@ typedef struct slrt_relevant {
     size_t room;
     uint32_t thing;        ///< is being placed,
     uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
-    double box[4];  ///< within the bounds of the map
+    double box[4];         ///< within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;

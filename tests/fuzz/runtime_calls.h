@@ -310,6 +310,10 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
         for (uint32_t k = 0; k < 2 * count && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
         sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
         sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
+        const sl_runtime_walker walker = {i ? odd_real(random) : range / 16, shut, boxes, 0};
+        double to_x, to_y;
+        const bool can = sl_runtime_can_walk_wide(r, &walker, x, y, x1, y1, scratch);
+        FUZZ_CHECK(sl_runtime_walk(r, &walker, x, y, x1, y1, scratch, &to_x, &to_y) || !can);
     }
     free(scratch);
     free(seen);
@@ -335,6 +339,30 @@ static void check_boxes(const sl_runtime *r, const unsigned char *shut, sl_rando
     free(memory);
 }
 
+/// Who may see whom: as many pairs as there are bits.
+static void check_relevant(const sl_runtime *r, const unsigned char *shut, sl_random *random,
+                           const buffers *b) {
+    enum { PLAYERS = 3, THINGS = 9 };
+    sl_runtime_box players[PLAYERS], things[THINGS];
+    const uint32_t count = (uint32_t)sl_random_below(random, THINGS + 1);
+    const double margin = sl_random_below(random, 4) ? 0 : odd_real(random);
+    const double range = sl_random_below(random, 2) ? 0 : odd_real(random);
+    for (int i = 0; i < PLAYERS; i++) players[i] = some_box(r, random);
+    for (int i = 0; i < THINGS; i++) things[i] = some_box(r, random);
+    uint32_t *scratch = room(sl_runtime_relevant_count(r, count) * sizeof *scratch);
+    unsigned char *bits = room(PLAYERS * (((size_t)count + 7) / 8));
+    size_t pairs = sl_runtime_relevant(r, players, PLAYERS, margin, things, count, shut, range,
+                                       scratch, bits);
+    for (uint32_t i = 0; i < PLAYERS; i++)
+        for (uint32_t k = 0; k < count; k++)
+            pairs -= bits[i * ((count + 7) / 8) + k / 8] >> k % 8 & 1;
+    FUZZ_CHECK(pairs == 0);
+    free(scratch);
+    free(bits);
+    sl_runtime_sees_within(r, players[0].min_x, players[0].min_y, margin, things[0].min_x,
+                           things[0].min_y, 1, shut, range, b->scratch);
+}
+
 /// Calls them all. `rounds`: how thoroughly eyes are placed.
 static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     const buffers b = {.bits = room((r->cell_count + 7) / 8),
@@ -356,6 +384,7 @@ static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     for (uint32_t i = 0; shut && i < r->door_count; i++) shut[i] = i % 3 != 0;
     check_views(r, shut, &b);
     if (rounds || !sl_random_below(random, 4)) check_boxes(r, shut, random, &b);
+    if (rounds || !sl_random_below(random, 4)) check_relevant(r, shut, random, &b);
     free(shut);
     free(b.bits);
     free(b.seen);

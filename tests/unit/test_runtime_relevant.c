@@ -16,7 +16,7 @@ typedef struct trial {
     baked_file file;
     sl_segment walls[MOST]; ///< with shut doors
     size_t wall_count;
-    unsigned char shut[DOORS];
+    unsigned char *shut;
     sl_runtime_box players[PLAYERS], things[THINGS];
     double margin, range;
     unsigned char bits[PLAYERS * ((THINGS + 7) / 8)];
@@ -82,9 +82,9 @@ static bool within(trial *t, const sl_runtime_box *from, const sl_runtime_box *t
     const double a = (from->max_x - from->min_x) / 2, b = (to->max_x - to->min_x) / 2;
     uint32_t *scratch = malloc(sl_runtime_scratch_count(r) * sizeof *scratch);
     assert_non_null(scratch);
-    const bool sees = sl_runtime_sees_within(
-        r, from->min_x + a, from->min_y + a, a + t->margin, to->min_x + b, to->min_y + b, b,
-        t->shut, t->range, scratch);
+    const bool sees =
+        sl_runtime_sees_within(r, from->min_x + a, from->min_y + a, a + t->margin, to->min_x + b,
+                               to->min_y + b, b, t->shut, t->range, scratch);
     free(scratch);
     return sees;
 }
@@ -141,7 +141,8 @@ static void turn(sl_map *map, double c, double s) {
 }
 
 static void check_random_maps(double c, double s) {
-    trial t = {.context = testing_context(NULL), .random = {5}};
+    unsigned char shut[DOORS];
+    trial t = {.context = testing_context(NULL), .random = {5}, .shut = shut};
     for (uint64_t i = 0; i < maps; i++) {
         t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
         grid_rooms(t.context, &t.random, SIZE, WALLS, DOORS, &t.file.baked.map);
@@ -172,11 +173,101 @@ static void test_turned_maps(void **state) {
     check_random_maps(1, 1);
 }
 
+// --- against points that see each other
+
+/// A place in a box: often on a side or a corner.
+static sl_point place_in(trial *t, const sl_runtime_box *box, double margin) {
+    const double low[2] = {box->min_x - margin, box->min_y - margin};
+    const double high[2] = {box->max_x + margin, box->max_y + margin};
+    double at[2];
+    for (int k = 0; k < 2; k++) {
+        const uint64_t where = sl_random_below(&t->random, 4);
+        at[k] = where == 0   ? low[k]
+                : where == 1 ? high[k]
+                             : low[k] + sl_random_unit(&t->random) * (high[k] - low[k]);
+        at[k] = fmin(at[k], high[k]);
+    }
+    return (sl_point){at[0], at[1]};
+}
+
+/// Somewhere, or with corners on corners and lines of the map.
+static sl_runtime_box box_near(trial *t) {
+    const sl_space *s = &t->file.baked.space;
+    const sl_runtime *r = &t->file.runtime;
+    const double size = (r->max_x - r->min_x) / 10 * sl_random_unit(&t->random);
+    const sl_point v = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+    const sl_point w = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+    const double x = r->min_x + sl_random_unit(&t->random) * (r->max_x - r->min_x);
+    const double y = r->min_y + sl_random_unit(&t->random) * (r->max_y - r->min_y);
+    switch (sl_random_below(&t->random, 5)) {
+    case 0:
+        return (sl_runtime_box){v.x, v.y, v.x, v.y, false};
+    case 1:
+        return (sl_runtime_box){v.x - size, w.y, v.x, w.y + size, false};
+    case 2:
+        return (sl_runtime_box){v.x, w.y - size / 2, v.x + size, w.y + size / 2, false};
+    default:
+        return (sl_runtime_box){x, y, x + size, y + size, false};
+    }
+}
+
+static void check_points(trial *t, uint32_t *scratch) {
+    const sl_runtime *r = &t->file.runtime;
+    for (size_t i = 0; i < PLAYERS; i++)
+        for (size_t k = 0; k < THINGS; k++)
+            for (int tries = 0; tries < 40 && !says(t, i, k); tries++) {
+                const sl_point p = place_in(t, &t->players[i], t->margin);
+                const sl_point q = place_in(t, &t->things[k], 0);
+                if (sl_runtime_sees(r, p.x, p.y, q.x, q.y, t->shut, t->range, scratch))
+                    fail_msg("%s: player %zu at %.17g,%.17g does not see thing %zu at %.17g,%.17g",
+                             t->file.name, i, p.x, p.y, k, q.x, q.y);
+            }
+}
+
+static void check_map(const baked_file *f) {
+    trial t = {.context = NULL, .random = {9}, .file = *f};
+    const sl_runtime *r = &f->runtime;
+    uint32_t *scratch = malloc(sl_runtime_scratch_count(r) * sizeof *scratch);
+    t.shut = calloc(r->door_count + 1, 1);
+    assert_true(scratch && t.shut);
+    for (int round = 0; round < 12; round++) {
+        for (uint32_t i = 0; i < r->door_count; i++)
+            t.shut[i] = (unsigned char)sl_random_below(&t.random, 2);
+        for (size_t i = 0; i < PLAYERS; i++) t.players[i] = box_near(&t);
+        for (size_t i = 0; i < THINGS; i++) t.things[i] = box_near(&t);
+        t.margin = round % 3 ? 0 : (r->max_x - r->min_x) / 40;
+        t.range = round % 4 ? 0 : (r->max_x - r->min_x) / 3;
+        ask(&t);
+        check_points(&t, scratch);
+    }
+    free(t.shut);
+    free(scratch);
+}
+
+static void test_points_of_all_maps(void **state) {
+    (void)state;
+    baked_file_each(check_map);
+}
+
+static void test_points_far_away(void **state) {
+    (void)state;
+    static const double offsets[] = {0, 1e9, 1e-6};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
+        baked_file f = baked_file_turned(context, "office", 17.3, offsets[i]);
+        check_map(&f);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) maps = strtoull(argv[1], NULL, 10);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_axial_maps),
         cmocka_unit_test(test_turned_maps),
+        cmocka_unit_test(test_points_of_all_maps),
+        cmocka_unit_test(test_points_far_away),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

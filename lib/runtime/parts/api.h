@@ -621,6 +621,39 @@ SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes
                                                    double y0, double x1, double y1,
                                                    const unsigned char *shut, uint32_t except);
 
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
 // Servers: what each player may see before it hears of the next tick.
 
 /// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.

@@ -95,7 +95,8 @@ static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box
 static int slrt_surely(const slrt_arm *line, double x, double y) {
     const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
     const double product = left - right;
-    const double bound = 4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    const double bound =
+        4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
     return (product > bound) - (-product > bound);
 }
 
@@ -167,30 +168,31 @@ static uint32_t slrt_tangent(const double box[4], double x, double y, int side) 
 }
 
 /// Turns a bound of a beam to the end of a directed portal on its side, if that leaves more out.
-/// `across` leads from the portal's right end to its left.
-static void slrt_turn_bound(const slrt_beams *b, const slrt_beam *before, uint32_t directed,
-                            const slrt_arm *across, int side, slrt_bound *bound) {
+/// `across` leads from the portal's right end to its left; `last` is the last point of the other
+/// bound, or SLRT_NONE.
+static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t last,
+                            uint32_t directed, const slrt_arm *across, int side) {
     const int sign = side == SLRT_LEFT ? 1 : -1;
-    const uint32_t end = 2 * directed + (side == SLRT_RIGHT);
+    const uint32_t end = 2 * directed + (side == SLRT_RIGHT), from = bound->from;
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
-    const slrt_bound *own = &before->bounds[side], *other = &before->bounds[!side];
-    // Points that each line of the beam has on its other side, or behind it.
+    const slrt_arm *arm = &bound->arm;
+    // Points that no line of the beam passes on the bound's side. Those that start in the part do
+    // so by definition, seen from the end.
     uint32_t pivots[4];
     int i;
-    if (own->from != SLRT_NONE &&
-        sign * (own->arm.x * (y - own->arm.from_y) - own->arm.y * (x - own->arm.from_x)) >= 0)
+    if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
         return;
     pivots[0] = slrt_tangent(b->part, x, y, side);
-    pivots[1] = own->from >= SLRT_PART_CORNER && own->from < SLRT_BOX_CORNER ? SLRT_NONE : own->from;
-    pivots[2] = other->from == SLRT_NONE ? SLRT_NONE : other->to;
+    pivots[1] = from >= SLRT_PART_CORNER && from < SLRT_BOX_CORNER ? SLRT_NONE : from;
+    pivots[2] = last;
     pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
     for (i = 0; i < 4; i++) {
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end && sign * (bound->arm.x * (from_y - bound->arm.from_y) -
-                                        bound->arm.y * (from_x - bound->arm.from_x)) <= 0)
+        if (bound->to == end &&
+            sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.
         if (slrt_surely(across, from_x, from_y) <= 0) continue;
@@ -243,58 +245,83 @@ static bool slrt_is_part_right(const slrt_beams *b, const slrt_arm *across) {
 /// The ways out of the first cell through a directed portal. Lines that cross it within the box are
 /// those of the part in the next cell, which has its own beams. All others leave the box before,
 /// across one of its sides, and stay beyond it. Way 0 is the whole portal, if it is beyond a side
-/// or leads to solid ground; else ways 1 to 4 are what is beyond a side. That side is a bound. From
-/// a part that is on the portal's line, only that line crosses it.
+/// or leads to solid ground; else ways 1 to 4 are what is beyond a side.
+static bool slrt_is_whole(const slrt_beams *b, const sl_runtime_directed_portal *p) {
+    int side;
+    for (side = 0; side < 4; side++)
+        if (slrt_is_beyond(b->box, p->left, side) && slrt_is_beyond(b->box, p->right, side))
+            return true;
+    return sl_runtime_is_solid(b->rt, p->cell);
+}
+
+/// Bounds a beam by the side of the box that it leaves across; false for no such beam. From a part
+/// that is on the portal's line, only that line crosses it.
 static bool slrt_leave_box(const slrt_beams *b, const sl_runtime_directed_portal *p,
                            uint32_t directed, const slrt_arm *across, uint32_t way,
                            slrt_beam *beam) {
     // The ends of the sides, clockwise about the box.
     static const unsigned char from[4] = {0, 3, 1, 2}, to[4] = {2, 1, 0, 3};
-    const bool solid = sl_runtime_is_solid(b->rt, p->cell);
-    bool left = false, right = false, beyond = false;
-    uint32_t side, first, last;
-    for (side = 0; side < 4; side++) {
-        const bool left_is = slrt_is_beyond(b->box, p->left, side);
-        const bool right_is = slrt_is_beyond(b->box, p->right, side);
-        beyond = beyond || (left_is && right_is);
-        if (side + 1 == way) left = left_is, right = right_is;
-    }
-    if (way ? beyond || solid || left == right : !beyond && !solid) return false;
-    if (!solid && slrt_is_part_on(b, across)) {
+    const int side = (int)way - 1;
+    bool left = way && slrt_is_beyond(b->box, p->left, side);
+    if (way && left == slrt_is_beyond(b->box, p->right, side)) return false;
+    if (slrt_is_part_on(b, across) && !sl_runtime_is_solid(b->rt, p->cell)) {
         if (!way) left = slrt_is_part_right(b, across);
         beam->bounds[0] = slrt_make_bound(b, 2 * directed + left, 2 * directed + !left);
         beam->bounds[1] = beam->bounds[0];
     } else if (way) {
-        first = SLRT_BOX_CORNER + (left ? from : to)[way - 1];
-        last = SLRT_BOX_CORNER + (left ? to : from)[way - 1];
+        const uint32_t first = SLRT_BOX_CORNER + (left ? from : to)[side];
+        const uint32_t last = SLRT_BOX_CORNER + (left ? to : from)[side];
         beam->bounds[left ? SLRT_RIGHT : SLRT_LEFT] = slrt_make_bound(b, first, last);
     }
     return true;
 }
 
+static uint32_t slrt_last_point(const slrt_bound *bound) {
+    return bound->from == SLRT_NONE ? SLRT_NONE : bound->to;
+}
+
+/// Whether no line of a beam crosses a portal, for sure: it lies to one side of a bound, or all
+/// lines would cross it the other way. That one end is beside a bound does not tell: lines may come
+/// to the other end from behind.
+static bool slrt_is_portal_beside(const slrt_beam *beam, const slrt_arm *across) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const bool beside_left =
+        left->from != SLRT_NONE && slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
+    const bool beside_right =
+        right->from != SLRT_NONE && slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
+    if (!beside_left && !beside_right) return false;
+    if ((beside_left && slrt_surely(&left->arm, across->to_x, across->to_y) > 0) ||
+        (beside_right && slrt_surely(&right->arm, across->from_x, across->from_y) < 0))
+        return true;
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           slrt_side(&right->arm, &left->arm) > 0 && slrt_side(&right->arm, across) < 0 &&
+           slrt_side(&left->arm, across) < 0;
+}
+
+static bool slrt_is_portal_far(const slrt_beams *b, const slrt_arm *across) {
+    double box[4];
+    box[0] = across->x < 0 ? across->to_x : across->from_x;
+    box[1] = across->y < 0 ? across->to_y : across->from_y;
+    box[2] = across->x < 0 ? across->from_x : across->to_x;
+    box[3] = across->y < 0 ? across->from_y : across->to_y;
+    return slrt_is_out_of_range(b, box);
+}
+
 /// The part of the beam on top of the path that leaves through a directed portal; false for none.
-static bool slrt_pass_portal(const slrt_beams *b, uint32_t directed, uint32_t way, slrt_beam *out) {
-    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
-    const slrt_bound *right = &b->beam.bounds[SLRT_RIGHT], *left = &b->beam.bounds[SLRT_LEFT];
-    const slrt_arm across = slrt_make_arm(p.right[0], p.right[1], p.left[0], p.left[1]);
-    slrt_beam before;
-    double span[4];
-    int k;
-    if ((left->from != SLRT_NONE && slrt_surely(&left->arm, p.right[0], p.right[1]) > 0) ||
-        (right->from != SLRT_NONE && slrt_surely(&right->arm, p.left[0], p.left[1]) < 0))
+static bool slrt_pass_portal(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                             uint32_t directed, uint32_t way, slrt_beam *out) {
+    const slrt_arm across = slrt_make_arm(p->right[0], p->right[1], p->left[0], p->left[1]);
+    slrt_bound *right = &out->bounds[SLRT_RIGHT], *left = &out->bounds[SLRT_LEFT];
+    uint32_t right_last, left_last;
+    if (slrt_is_portal_beside(&b->beam, &across)) return false;
+    *out = b->beam;
+    if ((b->range > 0 && slrt_is_portal_far(b, &across)) || slrt_is_closed(b, p->portal) ||
+        (b->depth == 1 && !slrt_leave_box(b, p, directed, &across, way, out)))
         return false;
-    for (k = 0; k < 2; k++) {
-        const bool up = p.left[k] < p.right[k];
-        span[k] = up ? p.left[k] : p.right[k];
-        span[2 + k] = up ? p.right[k] : p.left[k];
-    }
-    before = b->beam;
-    if (slrt_is_out_of_range(b, span) || slrt_is_closed(b, p.portal) ||
-        (b->depth == 1 && !slrt_leave_box(b, &p, directed, &across, way, &before)))
-        return false;
-    *out = before;
-    slrt_turn_bound(b, &before, directed, &across, SLRT_RIGHT, &out->bounds[SLRT_RIGHT]);
-    slrt_turn_bound(b, &before, directed, &across, SLRT_LEFT, &out->bounds[SLRT_LEFT]);
+    right_last = slrt_last_point(right);
+    left_last = slrt_last_point(left);
+    slrt_turn_bound(b, right, left_last, directed, &across, SLRT_RIGHT);
+    slrt_turn_bound(b, left, right_last, directed, &across, SLRT_LEFT);
     return !b->target || !slrt_is_beam_beside(out, b->target);
 }
 
@@ -303,10 +330,11 @@ static bool slrt_pass_portal(const slrt_beams *b, uint32_t directed, uint32_t wa
 /// Whether a beam is all in one line.
 static bool slrt_is_one_line(const slrt_beam *beam) {
     const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
-    const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
-                                      left->arm.to_y);
+    const slrt_arm to =
+        slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x, left->arm.to_y);
     return right->from != SLRT_NONE && left->from != SLRT_NONE &&
-           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to);
+           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
+           slrt_same_way(&right->arm, &left->arm);
 }
 
 static int slrt_turn_of(const slrt_arm *line, const double point[2]) {
@@ -399,14 +427,18 @@ static bool slrt_go_on(slrt_beams *b) {
     uint32_t *done = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1) + SLRT_BEAM_DONE;
     const uint32_t ways = b->depth == 1 ? SLRT_WAYS : 1, way = *done % ways;
     const uint32_t directed = b->cell.first_directed + (*done)++ / ways;
-    const uint32_t to = slrt_u32(b->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
     slrt_beam beam;
+    if (b->depth == 1 && !way) {
+        if (!slrt_is_whole(b, &p)) return false;
+        *done += SLRT_WAYS - 1;
+    }
     // A line passes a convex cell once.
-    if (b->on_path[to / 32] >> to % 32 & 1 || !slrt_pass_portal(b, directed, way, &beam) ||
-        slrt_is_past(b, to, directed, &beam))
+    if (b->on_path[p.cell / 32] >> p.cell % 32 & 1 ||
+        !slrt_pass_portal(b, &p, directed, way, &beam) || slrt_is_past(b, p.cell, directed, &beam))
         return false;
-    slrt_come_to(b, to, directed, &beam);
-    return b->meet(b, to, &beam);
+    slrt_come_to(b, p.cell, directed, &beam);
+    return b->meet(b, p.cell, &beam);
 }
 
 /// Sends beams from the part of the box that is in a cell. Returns true if `meet` ended the search,

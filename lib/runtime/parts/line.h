@@ -30,6 +30,16 @@ static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, doubl
 /// Where the line from the eye to a point leads.
 typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
 
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -55,16 +65,15 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     for (; steps; steps--) {
         bool touches;
         const uint32_t out = slrt_way_out(s, way, cell, &touches);
-        const unsigned char *portal = s->rt->directed + (size_t)out * SLRT_DIRECTED_BYTES;
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
         place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_line(portal + 24, portal + 8, way->to_x, way->to_y);
+                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
         if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_u32(portal + 4);
+        cell = slrt_cell_across(s->rt, out);
     }
     return SLRT_TOUCHES;
 }
@@ -105,14 +114,13 @@ static bool slrt_overlap(double a, double b, double c, double d) {
 
 /// Whether the way from the eye to a point meets a directed portal, ends included.
 static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
     const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const int right = slrt_side(way, &p), left = slrt_side(way, &q);
     if (right * left > 0) return false;
     if (!right && !left)
         return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
                slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
 }
 
 /// Of so many cells, a list is faster than marks, which have to be cleared first.
@@ -150,7 +158,7 @@ static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
         for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            const uint32_t to = slrt_cell_across(s->rt, i);
             if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
                 slrt_is_listed(s, to) || slrt_is_blocked(s, i))
                 continue;
