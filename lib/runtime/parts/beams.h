@@ -95,7 +95,8 @@ static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box
 static int slrt_surely(const slrt_arm *line, double x, double y) {
     const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
     const double product = left - right;
-    const double bound = 4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    const double bound =
+        4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
     return (product > bound) - (-product > bound);
 }
 
@@ -154,14 +155,14 @@ static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t t
     return bound;
 }
 
-/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
-/// a point in the box.
-static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
-    // By column and row of the point about the box.
+/// The corner of the part from which a line to a point has all of the part on its left or right.
+/// SLRT_NONE for a point in the part.
+static uint32_t slrt_tangent(const double part[4], double x, double y, int side) {
+    // By column and row of the point about the part.
     static const unsigned char corners[3][3][2] = {
         {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
-    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
-    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    const int column = x < part[0] ? 0 : x > part[2] ? 2 : 1;
+    const int row = y < part[1] ? 0 : y > part[3] ? 2 : 1;
     if (column == 1 && row == 1) return SLRT_NONE;
     return SLRT_PART_CORNER + corners[column][row][side];
 }
@@ -176,12 +177,10 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
     const slrt_arm *arm = &bound->arm;
-    // Points that no line of the beam passes on the bound's side. Those that start in the part do
-    // so by definition, seen from the end.
+    // All lines of the beam have these points on the other side, or start where the first one says.
     uint32_t pivots[4];
     int i;
-    if (from != SLRT_NONE &&
-        sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
+    if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
         return;
     pivots[0] = slrt_tangent(b->part, x, y, side);
     pivots[1] = from >= SLRT_PART_CORNER && from < SLRT_BOX_CORNER ? SLRT_NONE : from;
@@ -285,10 +284,10 @@ static uint32_t slrt_last_point(const slrt_bound *bound) {
 /// to the other end from behind.
 static bool slrt_is_portal_beside(const slrt_beam *beam, const slrt_arm *across) {
     const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
-    const bool beside_left = left->from != SLRT_NONE &&
-                             slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
-    const bool beside_right = right->from != SLRT_NONE &&
-                              slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
+    const bool beside_left =
+        left->from != SLRT_NONE && slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
+    const bool beside_right =
+        right->from != SLRT_NONE && slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
     if (!beside_left && !beside_right) return false;
     if ((beside_left && slrt_surely(&left->arm, across->to_x, across->to_y) > 0) ||
         (beside_right && slrt_surely(&right->arm, across->from_x, across->from_y) < 0))
@@ -330,8 +329,8 @@ static bool slrt_pass_portal(const slrt_beams *b, const sl_runtime_directed_port
 /// Whether a beam is all in one line.
 static bool slrt_is_one_line(const slrt_beam *beam) {
     const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
-    const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
-                                      left->arm.to_y);
+    const slrt_arm to =
+        slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x, left->arm.to_y);
     return right->from != SLRT_NONE && left->from != SLRT_NONE &&
            !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
            slrt_same_way(&right->arm, &left->arm);
