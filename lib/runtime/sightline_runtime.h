@@ -676,7 +676,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint3
 /// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
 /// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
 /// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
-/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+/// bytes for each cell. Large things, in far more than eight cells each, take more than one round.
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
                                           uint32_t player_count, double margin,
                                           const sl_runtime_box *things, uint32_t thing_count,
@@ -6431,14 +6431,14 @@ static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t t
     return bound;
 }
 
-/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
-/// a point in the box.
-static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
-    // By column and row of the point about the box.
+/// The corner of the part from which a line to a point has all of the part on its left or right.
+/// SLRT_NONE for a point in the part.
+static uint32_t slrt_tangent(const double part[4], double x, double y, int side) {
+    // By column and row of the point about the part.
     static const unsigned char corners[3][3][2] = {
         {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
-    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
-    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    const int column = x < part[0] ? 0 : x > part[2] ? 2 : 1;
+    const int row = y < part[1] ? 0 : y > part[3] ? 2 : 1;
     if (column == 1 && row == 1) return SLRT_NONE;
     return SLRT_PART_CORNER + corners[column][row][side];
 }
@@ -6453,8 +6453,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
     const slrt_arm *arm = &bound->arm;
-    // Points that no line of the beam passes on the bound's side. Those that start in the part do
-    // so by definition, seen from the end.
+    // All lines of the beam have these points on the other side, or start where the first one says.
     uint32_t pivots[4];
     int i;
     if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
@@ -6776,7 +6775,7 @@ static bool slrt_look_from_cell(void *context, uint32_t cell) {
     return !slrt_send_beams(&o->beams, cell);
 }
 
-/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+/// Prepares searches. `scratch` has six numbers and a bit for each cell.
 static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
                               double range, uint32_t *scratch) {
     memset(&o->beams, 0, sizeof o->beams);
@@ -6833,18 +6832,16 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry.
-
-enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
+// each cell, and eight entries for each thing.
 
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
     uint32_t *first, *entries, count;
     size_t room;
-    uint32_t thing;        ///< is being placed,
-    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
-    double box[4];         ///< within the bounds of the map
+    uint32_t thing; ///< is being placed
+    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
@@ -6855,10 +6852,6 @@ static bool slrt_place_thing(void *context, uint32_t cell) {
     if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
         !slrt_meets_box(t->origin.beams.rt, cell, t->box))
         return true;
-    if (t->skip) {
-        t->skip--;
-        return true;
-    }
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
     t->entries[2 * (size_t)t->count + 1] = *first;
@@ -6882,20 +6875,16 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
     return false;
 }
 
-/// Places things until there is no room. Those that are left have their turn after these.
+/// Places things until there is no room. The last one and those that are left have their turn after
+/// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
-        const uint32_t before = t->count;
-        t->skip = t->placed;
-        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
-            slrt_visit_near(rt, t->box, slrt_place_thing, t))
-            continue;
-        t->placed += t->count - before;
-        return;
-    }
+    for (; t->thing < thing_count; t->thing++)
+        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
+            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            return;
 }
 
 /// Takes each thing in the map for relevant.
@@ -6912,8 +6901,8 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
-    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
-           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+    return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
+           16 * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -6932,7 +6921,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    t.room = runtime->cell_count + 8 * (size_t)thing_count;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {
