@@ -20,6 +20,7 @@ typedef struct check_plan {
 
 static void destroy(sl_context *context, checked *c) {
     sl_map_destroy(context, &c->map);
+    sl_map_destroy(context, &c->counted);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
     sl_strays_destroy(context, &c->strays);
@@ -31,6 +32,7 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
     options.gap = gap;
     options.clean = &plan->pipeline.input.clean;
     c->gap = gap > 0 ? gap : sl_usual_gap(&c->map);
+    sl_map_destroy(context, &c->counted);
     sl_baked_destroy(context, &c->baked);
     sl_faults_destroy(context, &c->faults);
     sl_strays_destroy(context, &c->strays);
@@ -42,7 +44,11 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
     if (c->mended && way && way->takes_cells) pipeline.bake.subdivision = NULL;
     SL_TRY(pipeline_subdivide(context, &pipeline, &c->baked.map, &c->baked.space));
     SL_TRY(sl_doubt_inside(context, &c->baked.map, &c->baked.space, &c->inside));
-    return sl_find_faults(context, &c->map, &c->baked.space, &options, &c->faults);
+    if (!sl_map_partial_walls(&c->map))
+        return sl_find_faults(context, &c->map, &c->baked.space, &options, &c->faults);
+    SL_TRY(sl_map_copy(context, &c->map, &c->counted));
+    SL_TRY(sl_map_settle_stops(context, &c->counted, NULL));
+    return sl_find_faults(context, &c->counted, &c->baked.space, &options, &c->faults);
 }
 
 /// Mends a copy of the map as read, and looks at what is left.
@@ -245,7 +251,9 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
         .operands = {"MAP"},
         .what = "Lists what may be wrong with a map: leaks (openings through which a start leads "
                 "out of the map), gaps between walls, overlaps, crossings, thin cells, rooms that "
-                "no start reaches, and strays (what lies far away from the rest). Each fault has "
+                "no start reaches, and strays (what lies far away from the rest). Walls count that "
+                "stop "
+                "steps (--stops). Each fault has "
                 "its place and the names of its walls in "
                 "the file: line, layer, handle, id. The last line is the next command to run.\n"
                 "\n"
@@ -262,6 +270,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     };
     checked c = {0}, after = {0};
     bool helped;
+    plan.pipeline.channel = SL_STOPS_STEPS; // a window keeps a room closed, a curtain does not
     const char *input;
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;

@@ -134,13 +134,42 @@ static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
         {"open_doors", open},
         {"mirrors", map->mirror_count},
         {"oneways", map->oneway_count},
-        {"seams", map->seam_count},
+        {"seams", map->seam_count - sl_map_partial_walls(map)},
         {"starts", map->start_count},
         {"paths", map->path_count},
         {"objects", map->object_count},
         {"notices", count_lines(map->source.notes)},
     };
     memcpy(counts, all, sizeof all);
+}
+
+/// How many walls stop `stops` and nothing else, if that is not all.
+static size_t count_stops(const sl_map *map, uint32_t stops) {
+    size_t count = 0;
+    for (size_t i = 0; i < map->seam_count; i++) count += map->seams[i].stops == stops;
+    return count;
+}
+
+/// Walls that do not stop all: "stops     sight,sound: 3 walls".
+static void print_stops(const sl_map *map) {
+    char what[SL_STOPS_TEXT];
+    for (uint32_t stops = 1; stops < SL_STOPS_ALL; stops++) {
+        const size_t count = count_stops(map, stops);
+        sl_stops_write(stops, what);
+        if (count) printf("  stops     %s: %zu wall%s\n", what, count, count == 1 ? "" : "s");
+    }
+}
+
+/// "stops": {"sight,sound": 3}
+static void add_stops_json(json_fields *fields, const sl_map *map) {
+    char what[SL_STOPS_TEXT];
+    if (!sl_map_partial_walls(map)) return;
+    json_open(fields, "stops");
+    for (uint32_t stops = 1; stops < SL_STOPS_ALL; stops++) {
+        sl_stops_write(stops, what);
+        if (count_stops(map, stops)) json_add_count(fields, what, count_stops(map, stops));
+    }
+    json_close(fields);
 }
 
 /// The layers that hold something, and how many do not.
@@ -184,6 +213,7 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     if (*map->unit) json_add_text(&fields, "unit", map->unit);
     json_add_count(&fields, "walls", cleaning->before);
     json_add_count(&fields, "oblique_walls", oblique);
+    add_stops_json(&fields, map);
     for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
     if (add_doors_json(context, &fields, map) != SL_OK) {
         json_drop(&fields);
@@ -235,6 +265,7 @@ static sl_status print_map(sl_context *context, const info_request *request, con
         printf("%zu of them oblique\n", oblique);
     else
         puts("all axial");
+    print_stops(map);
     for (int i = 0; i < MAP_COUNTS; i++)
         if (counts[i].count) printf("  %-9s %zu\n", counts[i].key, counts[i].count);
     SL_TRY(print_doors(context, map));
@@ -361,6 +392,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
                                   const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
+    char channel[SL_STOPS_TEXT];
     json_fields fields = json_begin();
     json_add_text(&fields, "file", request->path);
     json_add_text(&fields, "kind", "baked");
@@ -369,6 +401,10 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     json_add_text(&fields, "method", baked->method);
     json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
     json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    sl_stops_write(sl_map_channel(&baked->map), channel);
+    if (sl_map_channel(&baked->map) != SL_STOPS_SIGHT)
+        json_add_text(&fields, "walls_stop", channel);
+    add_stops_json(&fields, &baked->map);
     json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
     json_add_count(&fields, "inside_cells", baked->space.inside_count);
     ground_add_json(&fields, &baked->space);
@@ -403,6 +439,11 @@ static sl_status print_baked(sl_context *context, const info_request *request,
     char partial[SL_PARTIAL_TEXT];
     sl_baked_say_partial(baked, partial);
     if (partial[0]) printf("  %s\n", partial);
+    char channel[SL_STOPS_TEXT];
+    sl_stops_write(sl_map_channel(&baked->map), channel);
+    if (sl_map_channel(&baked->map) != SL_STOPS_SIGHT)
+        printf("  walls     those that stop %s\n", channel);
+    print_stops(&baked->map);
     printf("  inside    %" PRIu32 " of %" PRIu32 " cells", space->inside_count, space->cell_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');

@@ -28,6 +28,11 @@ static void print_ends(const sl_map *map, sl_segment at) {
     print_point(" to ", at.b, digits);
 }
 
+/// The map that the walls of faults are of.
+static const sl_map *map_of_walls(const checked *found) {
+    return sl_map_partial_walls(&found->map) ? &found->counted : &found->map;
+}
+
 /// "lines 3 and 7", or "line 12 (layer WALLS) and line 30 (layer WALLS)", where walls have lines.
 static void print_lines(const sl_map *map, const sl_fault *fault) {
     uint32_t lines[2] = {0, 0};
@@ -57,7 +62,7 @@ static void print_leak(const checked *found, const sl_fault *fault) {
     const sl_point *way = found->faults.points + fault->first_point;
     print_width(fault->size);
     print_ends(&found->map, fault->at);
-    print_lines(&found->map, fault);
+    print_lines(map_of_walls(found), fault);
     print_point("; the way to it begins at ", way[0], sl_map_digits(&found->map));
     // A wider one is no matter of snapping.
     if (fault->stays && fault->size <= found->gap) printf("; needs a decision");
@@ -72,17 +77,17 @@ static void print_fault(const checked *found, const sl_fault *fault) {
     case SL_FAULT_GAP:
         print_width(fault->size);
         print_ends(&found->map, fault->at);
-        print_lines(&found->map, fault);
+        print_lines(map_of_walls(found), fault);
         if (fault->stays) printf("; needs a decision");
         break;
     case SL_FAULT_OVERLAP:
         printf("    %.6g long, ", fault->size);
         print_ends(&found->map, fault->at);
-        print_lines(&found->map, fault);
+        print_lines(map_of_walls(found), fault);
         break;
     case SL_FAULT_CROSSING:
         print_point("    at ", fault->at.a, sl_map_digits(&found->map));
-        print_lines(&found->map, fault);
+        print_lines(map_of_walls(found), fault);
         break;
     case SL_FAULT_THIN:
         printf("    cell %u, %.6g wide", (unsigned)fault->cell, fault->size);
@@ -489,7 +494,7 @@ void faults_print(const faults_report *report) {
 // --- JSON
 
 static void add_fault(json_fields *fields, const checked *found, const sl_fault *fault) {
-    const sl_map *map = &found->map;
+    const sl_map *map = map_of_walls(found);
     json_open_item(fields);
     const sl_point at[2] = {fault->at.a, fault->at.b};
     json_add_text(fields, "kind", sl_fault_name(fault->kind));

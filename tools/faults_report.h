@@ -9,6 +9,7 @@
 /// A map with its space and its faults.
 typedef struct checked {
     sl_map map;     ///< as read: walls with their lines
+    sl_map counted; ///< with the walls that count, if some walls do not stop all; else empty
     sl_baked baked; ///< its space, and the rest of the map for the picture
     sl_faults faults;
     sl_strays strays;

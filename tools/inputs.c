@@ -163,18 +163,11 @@ sl_status input_parse_baked(sl_context *context, const char *path, const sl_byte
     return SL_OK;
 }
 
-/// The map that a baked file was made from: the rest of the map that it kept, and the walls of its
-/// space.
 static sl_status parse_map_of_baked(sl_context *context, const char *path, const sl_bytes *bytes,
                                     sl_map *map) {
     sl_baked baked = {0};
     SL_TRY(sl_baked_parse(context, path, bytes->data, bytes->size, &baked));
-    const sl_space *space = &baked.space;
-    const sl_status status = sl_map_add_walls(context, &baked.map, space->walls, space->wall_count);
-    if (status == SL_OK) {
-        *map = baked.map;
-        baked.map = (sl_map){0};
-    }
+    const sl_status status = sl_baked_copy_map(context, &baked, map);
     sl_baked_destroy(context, &baked);
     return status;
 }

@@ -76,6 +76,8 @@ const char *nearest_name(const name_table *table, const char *word) {
 
 // --- tables
 
+static const char *const stopped[] = {"sight", "steps", "sound"};
+
 static const char *const sights[] = {[SL_CLOSED] = "closed", [SL_OPEN] = "open"};
 
 name_table sight_table(void) {
@@ -122,4 +124,8 @@ name_table solver_table(void) {
     name_table table = {.kind = "solver", .at = solver_name};
     while (built_solver(table.count)) table.count++;
     return table;
+}
+
+name_table stops_table(void) {
+    return (name_table){"thing that walls stop", stopped, sizeof *stopped, 3, NULL};
 }

@@ -32,6 +32,8 @@ name_table measure_table(sl_analysis analysis);
 name_table method_table(void);
 name_table effect_table(void);
 name_table subdivision_table(void);
+/// Bit by bit as SL_STOPS_SIGHT ...
+name_table stops_table(void);
 /// Numbered as by built_solver().
 name_table solver_table(void);
 

@@ -73,11 +73,21 @@ option_table pipeline_option_table(map_pipeline *p) {
                                .point = &p->start,
                                .text = &p->start_text,
                                .topic = "reading a map"};
+    const option_spec stops = {"stops",
+                               0,
+                               "sight|steps|sound",
+                               "which walls count: those that stop WHAT (default: sight)",
+                               .choice = &p->stops,
+                               .names = stops_table(),
+                               .text = &p->stops_text,
+                               .topic = "reading a map",
+                               .rare = true};
     const option_table input = input_option_table(&p->input), without = pipeline_without_table(p),
                        cutting = cutting_option_table(p);
     option_table table = {0};
     option_table_add(&table, input.items, input.count);
     option_table_add(&table, &start, 1);
+    option_table_add(&table, &stops, 1);
     option_table_add(&table, without.items, without.count);
     option_table_add(&table, cutting.items, cutting.count);
     return table;
@@ -177,6 +187,7 @@ sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl
     if (pipeline->bake.subdivision && !pipeline->bake.subdivision->takes_cells)
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
+    map->channel = pipeline->stops_text ? UINT32_C(1) << pipeline->stops : pipeline->channel;
     sl_effects_leave_out(context, map, pipeline->without);
     return pipeline->settles_doors ? sl_effects_settle_doors(context, map) : SL_OK;
 }

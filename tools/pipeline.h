@@ -12,6 +12,9 @@ typedef struct map_pipeline {
     sl_bake_options bake;   ///< the method is the command's
     sl_point start;         ///< beside the map's own, where `start_text` is not NULL
     const char *start_text; ///< as it is given
+    size_t stops;           ///< which walls count, as stops_table()
+    const char *stops_text; ///< as it is given; NULL: those of `channel`
+    uint32_t channel;       ///< as sl_map.channel
     options_given given;    ///< all options of the command, for commands to run next
     unsigned without;       ///< effects to leave out: bits of sl_effects()
     bool settles_doors;     ///< the command takes doors as they stand (sl_effects_settle_doors)

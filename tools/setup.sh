@@ -3,7 +3,7 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, ccache, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node,
-# aspell, groff, abidw, the Python package jsonschema, what the tests of our own Python package use, and
+# aspell, groff, abidw, LuaJIT, Mono, the Python package jsonschema, what the tests of our own Python package use, and
 # Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
 # machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
 # binaryen and node.
@@ -105,7 +105,8 @@ is_there() {
     abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | node | npm) has "$1" ;;
+    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm) has "$1" ;;
+    mono) has mono && has mcs ;;
     chromium) has chromium || has chromium-browser ;;
     clang-sanitizers) clang_sanitizes ;;
     numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | wheel) python_has "$1" ;;
@@ -138,6 +139,7 @@ package() { # system thing
     apt:x11) echo libx11-dev ;;
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
+    apt:mono) echo mono-mcs mono-runtime ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
     apt:aarch64) echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user ;;
     apt:windows) echo gcc-mingw-w64-x86-64 wine wine64 ;;
@@ -238,7 +240,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono"
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 

@@ -58,10 +58,28 @@ bool sl_baked_same_space(const sl_space *a, const sl_space *b) {
            SAME_ITEMS(a, b, cells, cell_count) && SAME_ITEMS(a, b, vertices, vertex_count) &&
            SAME_ITEMS(a, b, portals, portal_count) && SAME_ITEMS(a, b, directed, directed_count) &&
            SAME_ITEMS(a, b, seams, seam_count) &&
-           SAME_ITEMS(a, b, seam_portals, seam_portal_count) && same_walls(a, b) &&
+           SAME_ITEMS(a, b, seam_portals, seam_portal_count) &&
+           SAME_ITEMS(a, b, passages, passage_count) && same_walls(a, b) &&
            !a->neighbour == !b->neighbour &&
            (!a->neighbour ||
             memcmp(a->neighbour, b->neighbour, a->vertex_count * sizeof *a->neighbour) == 0);
+}
+
+sl_status sl_baked_copy_map(sl_context *context, const sl_baked *baked, sl_map *out) {
+    const sl_space *space = &baked->space;
+    sl_map map = {0};
+    sl_status status = sl_map_copy(context, &baked->map, &map);
+    // Walls with a passage are among the map's seams, which know what they stop.
+    for (uint32_t i = 0, next = 0; i < space->wall_count && status == SL_OK; i++) {
+        const bool passed = next < space->passage_count && space->passages[next].wall == i;
+        next += passed;
+        if (!passed) status = sl_map_add_walls(context, &map, &space->walls[i], 1);
+    }
+    if (status == SL_OK)
+        *out = map;
+    else
+        sl_map_destroy(context, &map);
+    return status;
 }
 
 void sl_baked_destroy(sl_context *context, sl_baked *baked) {

@@ -8,6 +8,7 @@
 #include "sightline/json.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
+#include "space/walled.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -149,6 +150,60 @@ const char *sli_glass_name(sli_glass_way way) {
     return names[way];
 }
 
+static void put_stops(printer *out, uint32_t stops) {
+    sl_json_put_key(&out->json, "stops");
+    sl_json_put_list(&out->json);
+    for (uint32_t bit = 1; bit < SL_STOPS_ALL; bit *= 2) {
+        char name[SL_STOPS_TEXT];
+        sl_stops_write(stops & bit, name);
+        if (*name) sl_json_put_text(&out->json, name);
+    }
+    sl_json_put_end(&out->json, ']');
+}
+
+/// Walls that do not stop all.
+static void print_partial_walls(printer *out, const sl_map *map) {
+    if (!sl_map_partial_walls(map)) return;
+    begin_member(out, "partial_walls");
+    fputs("[", out->stream);
+    for (size_t i = 0, any = 0; i < map->seam_count; i++) {
+        const sl_glass *wall = &map->seams[i];
+        if (!wall->stops) continue;
+        fputs(any++ ? ",\n" : "\n", out->stream);
+        sl_json_put_object(&out->json);
+        sl_json_put_key(&out->json, "segment");
+        print_segment(out, wall->segment.a, wall->segment.b);
+        put_stops(out, wall->stops);
+        if (wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)) {
+            sl_json_put_key(&out->json, "solid");
+            sl_json_put_text(&out->json, wall->ground & SL_SOLID_LEFT ? "left" : "right");
+        }
+        sl_json_put_end(&out->json, '}');
+    }
+    fputs("]", out->stream);
+}
+
+/// The walls of the space that do not stop all, with the cells at their left and right.
+static void print_passages(printer *out, const sl_space *space) {
+    if (!space->passage_count) return;
+    begin_member(out, "passages");
+    fputs("[", out->stream);
+    for (uint32_t i = 0; begin_item(out, i, space->passage_count); i++) {
+        const sl_passage *p = &space->passages[i];
+        sl_json_put_object(&out->json);
+        sl_json_put_key(&out->json, "wall");
+        sl_json_put_integer(&out->json, p->wall);
+        sl_json_put_key(&out->json, "cells");
+        sl_json_put_list(&out->json);
+        sl_json_put_integer(&out->json, p->cell[0]);
+        sl_json_put_integer(&out->json, p->cell[1]);
+        sl_json_put_end(&out->json, ']');
+        put_stops(out, p->stops);
+        sl_json_put_end(&out->json, '}');
+    }
+    fputs("]", out->stream);
+}
+
 static void put_portal_effects(printer *out, const sl_baked *baked, uint32_t number) {
     const sl_door *door = sli_portal_door(baked, number);
     const char *oneway = sli_glass_name(sli_portal_glass(&baked->space, number));
@@ -156,6 +211,8 @@ static void put_portal_effects(printer *out, const sl_baked *baked, uint32_t num
     if (door) sl_json_put_text(&out->json, door->name);
     if (oneway) sl_json_put_key(&out->json, "oneway");
     if (oneway) sl_json_put_text(&out->json, oneway);
+    const uint32_t stops = sli_portal_stops(&baked->map, &baked->space, number);
+    if (stops) put_stops(out, stops);
 }
 
 static void print_portal(printer *out, const sl_baked *baked, uint32_t number, int version) {
@@ -314,12 +371,17 @@ static sl_status print_door_sets(printer *out, const char *key, const sl_door_se
     return SL_OK;
 }
 
+/// Walls that do not stop all have a member of their own.
 static void print_glass(printer *out, const char *key, const sl_glass *glass, size_t count) {
-    if (!count) return;
+    uint32_t left = 0;
+    for (size_t i = 0; i < count; i++) left += !glass[i].stops;
+    if (!left) return;
     begin_member(out, key);
     fputs("[", out->stream);
-    for (uint32_t i = 0; begin_item(out, i, (uint32_t)count); i++)
-        print_segment(out, glass[i].segment.a, glass[i].segment.b);
+    for (uint32_t i = 0, next = 0; begin_item(out, i, left); i++, next++) {
+        while (glass[next].stops) next++;
+        print_segment(out, glass[next].segment.a, glass[next].segment.b);
+    }
     fputs("]", out->stream);
 }
 
@@ -440,6 +502,8 @@ static sl_status print_rest(printer *out, const sl_baked *baked) {
     SL_TRY(print_door_sets(out, "mirrored_door_sets", &seen->mirrored_doors, map));
     print_glass(out, "oneways", map->oneways, map->oneway_count);
     print_glass(out, "seams", map->seams, map->seam_count);
+    print_partial_walls(out, map);
+    print_passages(out, &baked->space);
     print_starts(out, map);
     print_paths(out, map);
     print_objects(out, map);
@@ -455,6 +519,11 @@ static sl_status print_json(printer *out, const sl_baked *baked, int version) {
         print_text_member(out, "guarantee", sl_guarantee_name(seen->guarantee));
         if (baked->method[0]) print_text_member(out, "method", baked->method);
         if (baked->solver[0]) print_text_member(out, "solver", baked->solver);
+        if (sl_map_channel(&baked->map) != SL_STOPS_SIGHT) {
+            char channel[SL_STOPS_TEXT];
+            sl_stops_write(sl_map_channel(&baked->map), channel);
+            print_text_member(out, "walls_stop", channel);
+        }
         if (baked->space.loose) fputs(", \"loose\": true", out->stream);
     }
     if (sl_partial_begun(&baked->partial)) fputs(", \"finished\": false", out->stream);

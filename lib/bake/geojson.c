@@ -2,6 +2,7 @@
 #include "bake/export.h"
 #include "sightline/json.h"
 #include "sightline/support.h"
+#include "space/walled.h"
 
 // --- the export of a baked file
 
@@ -16,6 +17,13 @@ static void put_cell(sl_geojson_writer *out, const sl_baked *baked, uint32_t num
     sl_geojson_end_feature(out);
 }
 
+/// What a wall stops that does not stop all.
+static void put_stops(sl_geojson_writer *out, uint32_t stops) {
+    char text[SL_STOPS_TEXT];
+    sl_stops_write(stops, text);
+    if (stops) sl_geojson_add_text(out, "stops", text);
+}
+
 static void put_portal(sl_geojson_writer *out, const sl_baked *baked, uint32_t number) {
     const sl_portal *portal = &baked->space.portals[number];
     const sl_door *door = sli_portal_door(baked, number);
@@ -28,6 +36,7 @@ static void put_portal(sl_geojson_writer *out, const sl_baked *baked, uint32_t n
     sl_json_put_end(&out->json, ']');
     if (door) sl_geojson_add_text(out, "door", door->name);
     if (oneway) sl_geojson_add_text(out, "oneway", oneway);
+    put_stops(out, sli_portal_stops(&baked->map, &baked->space, number));
     sl_geojson_end_feature(out);
 }
 
@@ -68,8 +77,10 @@ static sl_status put_all(sl_context *context, const sl_baked *baked, FILE *strea
     for (uint32_t i = 0; i < space->portal_count && !ferror(stream); i++)
         put_portal(&out, baked, i);
     SL_TRY(sl_check_cancelled(context));
-    for (uint32_t i = 0; i < space->wall_count && !ferror(stream); i++) {
+    for (uint32_t i = 0, passage = 0; i < space->wall_count && !ferror(stream); i++) {
+        const bool passed = passage < space->passage_count && space->passages[passage].wall == i;
         sl_geojson_put_line(&out, "wall", space->walls[i].a, space->walls[i].b);
+        if (passed) put_stops(&out, space->passages[passage++].stops);
         sl_geojson_end_feature(&out);
     }
     put_doors(&out, baked);

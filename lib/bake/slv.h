@@ -18,7 +18,9 @@
 /// a grid is made for them.
 #define SLI_SLV_VERSION       2u
 #define SLI_SLV_VERSION_AXIAL 1u
-#define SLI_SLV_BYTE_ORDER    0x01020304u
+/// From this bit on, items of STOP have the ground of a wall.
+#define SLI_SLV_GROUND     8
+#define SLI_SLV_BYTE_ORDER 0x01020304u
 
 typedef struct sli_slv_header {
     char magic[8];
@@ -189,5 +191,18 @@ void sli_slv_order_entry(sli_slv_section *entry);  ///< likewise
 /// read them again would take as much memory once more.
 sl_status sli_slv_read_back(sl_context *context, const char *name, const sl_map *map,
                             sli_again *again);
+
+/// An item of PASS.
+typedef struct sli_slv_passage {
+    uint32_t cell;
+    uint32_t wall; ///< SL_NEIGHBOUR_RIGHT is or-ed to it if the cell is at its right
+    uint32_t other, stops;
+} sli_slv_passage;
+
+/// The items of a space, by cell and then wall: two for each passage. The caller frees them.
+sl_status sli_slv_list_passages(sl_context *context, const sl_space *space, sli_slv_passage **out);
+/// Gives a space the passages of items that were read. sl_space_check looks at the rest.
+sl_status sli_slv_take_passages(sl_context *context, const sli_slv_passage *items, uint64_t count,
+                                sl_space *space, bool *sound);
 
 #endif

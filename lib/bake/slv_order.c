@@ -20,6 +20,7 @@ static const struct {
     {"WALL", "8888"},
     {"SEAM", "888844"},
     {"SEPO", "444"},
+    {"PASS", "4444"},
     {"TREN", "444"},
     {"VCIN", "44"},
     {"PART", "4444"},

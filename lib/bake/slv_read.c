@@ -218,6 +218,55 @@ static sl_status check_seams(const reader *r) {
     return SL_OK;
 }
 
+/// What walls stop that do not stop all. The map that the seams are of is there already.
+static sl_status load_stops(const reader *r) {
+    sl_map *map = &r->out->map;
+    const sl_space *s = &r->out->space;
+    uint32_t *stops = NULL;
+    uint64_t count;
+    SL_TRY(load(r, "STOP", sizeof *stops, true, &stops, &count));
+    bool sound = !count || count == s->seam_count;
+    for (uint32_t i = 0; i < count && sound; i++) {
+        const bool plain = s->seams[i].kind == SL_SEAM_PLAIN;
+        const uint32_t what = stops[i] & SL_STOPS_ALL, ground = stops[i] >> SLI_SLV_GROUND;
+        sound = stops[i] == (what | ground << SLI_SLV_GROUND) && what < SL_STOPS_ALL &&
+                ground <= (SL_SOLID_LEFT | SL_SOLID_RIGHT) && (what || !ground) && (plain || !what);
+        if (!sound || !plain) continue;
+        map->seams[s->seams[i].number].stops = (uint8_t)what;
+        map->seams[s->seams[i].number].ground = (uint8_t)ground;
+    }
+    sl_free(r->context, stops);
+    return sound ? SL_OK : fail_file(r, "damaged: section STOP does not tell of each seam");
+}
+
+/// The walls that something passes. The check of the space looks at them.
+static sl_status load_passages(const reader *r) {
+    sli_slv_passage *items = NULL;
+    uint64_t count;
+    bool sound;
+    SL_TRY(load(r, "PASS", sizeof *items, true, &items, &count));
+    const sl_status status =
+        sli_slv_take_passages(r->context, items, count, &r->out->space, &sound);
+    sl_free(r->context, items);
+    SL_TRY(status);
+    return sound ? SL_OK : fail_file(r, "damaged: section PASS does not have each passage twice");
+}
+
+static sl_status load_channel(const reader *r) {
+    sli_slv_section s;
+    uint32_t *channel = NULL;
+    uint64_t count;
+    bool found;
+    SL_TRY(find_section(r, "CHAN", sizeof *channel, &s, &found));
+    if (!found) return SL_OK;
+    SL_TRY(load(r, "CHAN", sizeof *channel, false, &channel, &count));
+    const uint32_t told = count == 1 ? *channel : 0;
+    sl_free(r->context, channel);
+    if (!told || told > SL_STOPS_ALL) return fail_file(r, "damaged: section CHAN makes no sense");
+    r->out->map.channel = told;
+    return SL_OK;
+}
+
 static sl_status load_grid(const reader *r) {
     sl_cell_grid *g = &r->out->space.grid;
     uint64_t buckets, entries;
@@ -268,6 +317,7 @@ static sl_status load_space(const reader *r) {
     uint64_t sides;
     SL_TRY(load(r, "BEYO", sizeof *s->neighbour, true, &s->neighbour, &sides));
     SL_TRY(load_seams(r));
+    SL_TRY(load_passages(r));
     if (s->neighbour && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
     const bool is_mesh = r->header.version != SLI_SLV_VERSION_AXIAL;
@@ -566,7 +616,9 @@ static sl_status load_all(reader *r) {
     SL_TRY(in_file(r, sli_door_sets_check(r->context, &visibility->doors, doors)));
     SL_TRY(in_file(r, sli_door_sets_check(r->context, &visibility->mirrored_doors, doors)));
     SL_TRY(check_partial_effects(r));
-    return check_seams(r);
+    SL_TRY(check_seams(r));
+    SL_TRY(load_stops(r));
+    return load_channel(r);
 }
 
 static sl_status parse(sl_context *context, const char *name, const void *bytes, size_t size,

@@ -18,7 +18,10 @@ typedef struct plan {
     void *
         copies[MOST_SECTIONS]; ///< of the contents in the file's order of bytes, if that is another
     sl_segment *walls;
-    const sl_map *map; ///< of which the text is
+    uint32_t *stops; ///< by seam; NULL where each is passed by all
+    uint32_t channel;
+    sli_slv_passage *passages;
+    sl_map map; ///< of which the text is; its seams are the plan's
     char *map_text;
     sli_slv_things things;
     sli_slv_views views;
@@ -75,17 +78,46 @@ static sl_status copy_walls(sl_context *context, const sl_space *space, plan *p)
     return SL_OK;
 }
 
+static uint32_t stops_of(const sl_glass *seam) {
+    const uint32_t ground = seam->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT);
+    return seam->stops ? seam->stops | ground << SLI_SLV_GROUND : 0;
+}
+
+/// What each seam stops, if any stops something.
+static sl_status list_stops(sl_context *context, const sl_baked *baked, plan *p) {
+    const sl_space *space = &baked->space;
+    bool any = false;
+    p->channel = sl_map_channel(&baked->map);
+    p->stops = sl_alloc_array(context, space->seam_count, sizeof *p->stops);
+    if (!p->stops) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->seam_count; i++) {
+        const sl_seam *seam = &space->seams[i];
+        if (seam->kind == SL_SEAM_PLAIN) p->stops[i] = stops_of(&baked->map.seams[seam->number]);
+        any |= p->stops[i] != 0;
+    }
+    if (any) return SL_OK;
+    sl_free(context, p->stops);
+    p->stops = NULL;
+    return SL_OK;
+}
+
 /// The map's text without its walls and cells, which the space has.
 static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size_t *size) {
-    sl_map others = *map;
-    others.wall_count = others.cell_count = 0;
-    others.snap = 0;
-    others.source.comment_count = 0;
+    sl_map *others = &p->map;
+    *others = *map;
+    others->wall_count = others->cell_count = 0;
+    others->snap = 0;
+    others->source.comment_count = 0;
+    others->seams = sl_alloc_array(context, map->seam_count, sizeof *others->seams);
+    if (!others->seams) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->seam_count; i++) {
+        others->seams[i] = map->seams[i];
+        others->seams[i].stops = 0; // a section of its own says what they stop
+    }
     sli_memory_stream memory;
     if (!sli_memory_open(&memory)) return sl_fail_memory(context);
-    const sl_status status = sli_map_print_text(context, &others, memory.stream);
+    const sl_status status = sli_map_print_text(context, others, memory.stream);
     if (!sli_memory_close(&memory)) return sl_fail_memory(context);
-    p->map = map;
     p->map_text = memory.text;
     *size = memory.size;
     return status;
@@ -175,6 +207,11 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
     if (space->seam_portal_count)
         add_section(p, "SEPO", space->seam_portals, sizeof *space->seam_portals,
                     space->seam_portal_count);
+    if (p->stops) add_section(p, "STOP", p->stops, sizeof *p->stops, space->seam_count);
+    if (space->passage_count)
+        add_section(p, "PASS", p->passages, sizeof *p->passages,
+                    2 * (uint64_t)space->passage_count);
+    if (p->channel != SL_STOPS_SIGHT) add_section(p, "CHAN", &p->channel, sizeof p->channel, 1);
     if (!sl_baked_is_shard(baked) && !baked->by_views)
         add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
     if (baked->visibility.account.doubtful_pairs)
@@ -297,6 +334,8 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
             "the names of method and solver must be up to 15 letters, digits and dashes");
     size_t map_bytes = 0;
     SL_TRY(copy_walls(context, &baked->space, p));
+    SL_TRY(list_stops(context, baked, p));
+    SL_TRY(sli_slv_list_passages(context, &baked->space, &p->passages));
     SL_TRY(print_map(context, &baked->map, p, &map_bytes));
     SL_TRY(sli_slv_things_make(context, &baked->map, &p->things));
     add_sections(p, baked, info, map_bytes);
@@ -312,12 +351,15 @@ static sl_status write_plan(sl_context *context, const void *user, FILE *stream)
 static sl_status read_back(sl_context *context, const void *user, const char *name,
                            sli_again *again) {
     const plan *p = user;
-    return sli_slv_read_back(context, name, p->map, again);
+    return sli_slv_read_back(context, name, &p->map, again);
 }
 
 static void destroy_plan(sl_context *context, plan *p) {
     for (uint32_t i = 0; i < p->header.section_count; i++) sl_free(context, p->copies[i]);
     sl_free(context, p->walls);
+    sl_free(context, p->stops);
+    sl_free(context, p->passages);
+    sl_free(context, p->map.seams);
     sli_slv_things_destroy(context, &p->things);
     free(p->map_text);
 }

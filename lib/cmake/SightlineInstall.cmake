@@ -1,5 +1,5 @@
 # What `cmake --install` puts down: libraries, headers, the command, the CMake package `sightline`
-# (components analysis, io, study, glpk, draw and runtime) and pkg-config files. All of it can be
+# (components analysis, io, study, glpk, draw, runtime and level) and pkg-config files. All of it can be
 # moved as one.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sightline")
@@ -58,6 +58,11 @@ install_library(sightline_runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/lib/runtime/sightline_runtime.h"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 
+if(SIGHTLINE_LEVEL)
+  install_library(sightline_level)
+  install(FILES "${PROJECT_SOURCE_DIR}/lib/bindings/level/sightline_level.h"
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
 if(SIGHTLINE_GLPK)
   get_filename_component(dir "${GLPK_LIBRARY}" DIRECTORY)
   set(PC_GLPK_LIBS "-lglpk")

@@ -56,6 +56,7 @@ sightline_part(ANALYSIS "sightline_analysis: visibility graphs, axial lines, seg
 sightline_part(IO "sightline_io: maps and exports of other programs"
   LIBXML2=libxml-2.0 JANSSON=jansson PNG=libpng YAML=yaml-0.1 ZSTD=libzstd ZLIB)
 sightline_part(PYTHON "the Python package sightline" ANALYSIS IO)
+sightline_part(LEVEL "sightline_level: the runtime behind a handle, for other languages")
 sightline_part(STUDY "sightline_study: what exists to compare and to teach")
 sightline_part(GLPK "sightline_glpk: stabbing by GLPK, which is under the GPL" GLPK)
 sightline_part(DRAW "sightline_draw: pictures through cairo and Pango"

@@ -272,6 +272,20 @@ void sli_mark_door(cairo_t *cairo, const sl_palette *palette, const sli_pens *pe
     stroke(cairo, palette->page, 0.7 * pens->wall, CAIRO_LINE_CAP_BUTT);
 }
 
+void sli_mark_partial(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                      sl_point b, bool is_wall) {
+    const double dash = 3 * pens->wall;
+    cairo_move_to(cairo, a.x, a.y);
+    cairo_line_to(cairo, b.x, b.y);
+    if (!is_wall) cairo_set_dash(cairo, &dash, 1, 0);
+    stroke(cairo, palette->wall, (is_wall ? 1.3 : 0.8) * pens->wall, CAIRO_LINE_CAP_BUTT);
+    cairo_set_dash(cairo, NULL, 0, 0);
+    if (!is_wall) return;
+    cairo_move_to(cairo, a.x, a.y);
+    cairo_line_to(cairo, b.x, b.y);
+    stroke(cairo, palette->page, 0.5 * pens->wall, CAIRO_LINE_CAP_BUTT);
+}
+
 void sli_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
                      sl_point b) {
     cairo_move_to(cairo, a.x, a.y);

@@ -40,6 +40,9 @@ void sli_mark_door(cairo_t *cairo, const sl_palette *palette, const sli_pens *pe
                    sl_point b, bool open);
 void sli_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
                      sl_point b);
+/// A wall that does not stop all: hollow where the picture's space has it as a wall, else dashed.
+void sli_mark_partial(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                      sl_point b, bool is_wall);
 /// Its arrow points in the direction that one can look: from the right of `a` to `b` to the left.
 void sli_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
                      sl_point b);

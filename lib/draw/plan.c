@@ -438,8 +438,21 @@ static void draw_source_edge(const plan *p) {
     sli_pen_source_edge(p->cairo, p->palette, &p->pens);
 }
 
+/// Walls that the space does not have. A wall that stops all may lie on a part of one, and is drawn
+/// over it.
+static void draw_open_walls(const plan *p) {
+    sl_point a, b;
+    for (size_t i = 0; i < p->map->seam_count; i++) {
+        const sl_glass *wall = &p->map->seams[i];
+        if (!wall->stops || wall->stops & sl_map_channel(p->map)) continue;
+        if (sli_frame_segment(p->frame, wall->segment.a, wall->segment.b, &a, &b))
+            sli_mark_partial(p->cairo, p->palette, &p->pens, a, b, false);
+    }
+}
+
 static void draw_walls(const plan *p) {
     sl_point a, b;
+    draw_open_walls(p);
     for (uint32_t i = 0; i < p->space->wall_count; i++) {
         sl_path_segment(p->cairo, p->frame, p->space->walls[i].a, p->space->walls[i].b);
         if (i % PART != PART - 1) continue;
@@ -447,6 +460,11 @@ static void draw_walls(const plan *p) {
         if (is_stopped(p)) return;
     }
     sli_pen_wall(p->cairo, p->palette, &p->pens);
+    for (uint32_t i = 0; i < p->space->passage_count; i++) {
+        const sl_wall *wall = &p->space->walls[p->space->passages[i].wall];
+        if (sli_frame_segment(p->frame, wall->a, wall->b, &a, &b))
+            sli_mark_partial(p->cairo, p->palette, &p->pens, a, b, true);
+    }
     for (size_t i = 0; i < p->map->door_count; i++) {
         const sl_door *door = &p->map->doors[i];
         if (sli_frame_segment(p->frame, door->segment.a, door->segment.b, &a, &b))

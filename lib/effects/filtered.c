@@ -13,6 +13,7 @@
 
 #include "effects/effects.h"
 #include "geometry/orient.h"
+#include "space/walled.h"
 
 #include <string.h>
 
@@ -74,6 +75,7 @@ static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
     s->nodes = NULL, s->cells = NULL, s->vertices = NULL, s->portals = NULL, s->directed = NULL;
     s->walls = NULL, s->neighbour = NULL, s->seams = NULL, s->seam_portals = NULL;
     s->grid.first = s->grid.cells = NULL;
+    s->passages = NULL, s->passage_count = 0;
     COPY(nodes, node_count, 0);
     COPY(cells, cell_count, 0);
     COPY(vertices, vertex_count, 0);
@@ -86,81 +88,6 @@ static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
     COPY(seams, seam_count, 0);
     COPY(seam_portals, seam_portal_count, 0);
     return SL_OK;
-}
-
-/// Makes walls of the portals on doors that are shut.
-static void shut_portals(maker *m) {
-    sl_space *s = m->out;
-    s->portal_count = s->seam_portal_count = 0;
-    for (uint32_t i = 0; i < m->from->portal_count; i++) {
-        const sl_portal *portal = &m->from->portals[i];
-        if (m->portals[i] == UINT32_MAX)
-            s->walls[s->wall_count++] = (sl_wall){.a = portal->right, .b = portal->left};
-        else
-            s->portals[s->portal_count++] = *portal;
-    }
-    for (uint32_t i = 0; i < m->from->seam_portal_count; i++) {
-        sl_seam_portal on = m->from->seam_portals[i];
-        on.portal = m->portals[on.portal];
-        if (on.portal != UINT32_MAX) s->seam_portals[s->seam_portal_count++] = on;
-    }
-}
-
-/// Adds the walls on the dark sides of glass, after all others.
-static void add_dark_walls(maker *m) {
-    sl_space *s = m->out;
-    for (uint32_t i = 0; i < m->from->portal_count; i++) {
-        if (m->dark[i] == UINT32_MAX) continue;
-        const sl_directed_portal *directed = &m->from->directed[m->dark[i]];
-        s->walls[s->wall_count++] = (sl_wall){.a = directed->right, .b = directed->left};
-    }
-}
-
-/// The wall that a portal, or its dark side, has become; counted as shut_portals and
-/// add_dark_walls do.
-static void number_walls(const maker *m, uint32_t *walls) {
-    uint32_t next = m->from->wall_count;
-    for (uint32_t i = 0; i < m->from->portal_count; i++)
-        walls[i] = m->portals[i] == UINT32_MAX ? next++ : UINT32_MAX;
-    for (uint32_t i = 0; i < m->from->portal_count && m->dark_count; i++)
-        if (m->dark[i] != UINT32_MAX) walls[i] = next++;
-}
-
-/// Marks the sides of a mesh's cells that are walls now. The new walls run from the right
-/// end to the left one as crossed from cell[0], which is on their left.
-static void tell_sides(const maker *m, const uint32_t *walls) {
-    const sl_space *f = m->from;
-    for (uint32_t i = 0; i < f->cell_count; i++) {
-        const sl_cell *cell = &f->cells[i];
-        uint32_t directed = cell->first_directed;
-        for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            uint32_t *what = &m->out->neighbour[cell->first_vertex + k];
-            if (*what != SL_NEIGHBOUR_PORTAL) continue;
-            const uint32_t number = directed++, portal = f->directed[number].portal;
-            const bool shut = m->portals[portal] == UINT32_MAX;
-            if (shut)
-                *what = walls[portal] | (f->portals[portal].cell[0] == i ? 0 : SL_NEIGHBOUR_RIGHT);
-            else if (m->dark_count && m->dark[portal] == number)
-                *what = walls[portal];
-        }
-    }
-}
-
-static void drop_directed(maker *m) {
-    sl_space *s = m->out;
-    s->directed_count = 0;
-    for (uint32_t i = 0; i < s->cell_count; i++) {
-        const sl_cell *from = &m->from->cells[i];
-        s->cells[i].first_directed = s->directed_count;
-        for (uint32_t k = from->first_directed; k < from->first_directed + from->directed_count;
-             k++) {
-            if (m->barred[k]) continue;
-            sl_directed_portal directed = m->from->directed[k];
-            directed.portal = m->portals[directed.portal];
-            s->directed[s->directed_count++] = directed;
-        }
-        s->cells[i].directed_count = s->directed_count - s->cells[i].first_directed;
-    }
 }
 
 /// Finds the dark sides of glass. Glass that is dark from both sides is shut.
@@ -196,16 +123,11 @@ static sl_status make(sl_context *context, maker *m) {
                            (m->filtered->one_way && sli_portal_is_blocked(f, i, k));
         }
     SL_TRY(copy_space(context, m, (size_t)f->portal_count - kept + m->dark_count));
-    shut_portals(m);
-    if (m->dark_count) add_dark_walls(m);
-    drop_directed(m);
-    if (!f->neighbour) return SL_OK;
-    uint32_t *walls = sl_alloc_array(context, f->portal_count, sizeof *walls);
-    if (!walls) return SL_NO_MEMORY;
-    number_walls(m, walls);
-    tell_sides(m, walls);
-    sl_free(context, walls);
-    return SL_OK;
+    return sli_walled_make(context, &(sli_walled){.from = f,
+                                                  .out = m->out,
+                                                  .portals = m->portals,
+                                                  .barred = m->barred,
+                                                  .dark = m->dark_count ? m->dark : NULL});
 }
 
 sl_status sli_filtered_space_make(sl_context *context, const sl_space *space,

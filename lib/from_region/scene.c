@@ -22,7 +22,7 @@ sl_from_region_scene_options sl_from_region_scene_options_default(void) {
 // --- the map with the view cells' borders
 
 static sl_status add_grid(sl_context *context, sl_map *map, uint32_t grid) {
-    const sl_box b = sli_padded(sl_map_bounds(map)); // the space's
+    const sl_box b = sli_space_bounds(map); // the space's
     for (uint32_t i = 1; i < grid; i++) {
         const double x = sli_grid_line(&b, 0, i, grid), y = sli_grid_line(&b, 1, i, grid);
         SL_TRY(sli_map_add_border(context, map, (sl_segment){{x, b.min.y}, {x, b.max.y}}));

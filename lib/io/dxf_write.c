@@ -103,7 +103,15 @@ static void write_layer(const dxf_writer *writer, const named_layer *layer) {
     const sli_layer_item item = {.layer = layer->layer, .name = layer->name, .open = layer->open};
     fputs("0\nLAYER\n2\n", writer->stream);
     put_layer(writer, &item);
-    fprintf(writer->stream, "70\n0\n62\n%d\n6\nCONTINUOUS\n", colours[layer->layer]);
+    const int colour = colours[layer->layer] ? colours[layer->layer] : 9;
+    fprintf(writer->stream, "70\n0\n62\n%d\n6\nCONTINUOUS\n", colour);
+}
+
+/// Whether a layer of walls that do not stop all may hold something.
+static bool has_layer(const sl_map *map, sli_layer layer) {
+    for (size_t i = 0; i < map->seam_count; i++)
+        if (map->seams[i].stops && map->seams[i].stops == sli_layer_stops(layer)) return true;
+    return false;
 }
 
 /// All layers without names, whether something is on them or not; each of the others once.
@@ -119,6 +127,9 @@ static sl_status write_layers(sl_context *context, const dxf_writer *writer) {
         layers[count++] = (named_layer){SLI_LAYER_PATH, false, map->paths[i].name};
     for (size_t i = 0; i < map->object_count; i++)
         layers[count++] = (named_layer){SLI_LAYER_OBJECT, false, map->objects[i].name};
+    for (int i = SLI_LAYER_PARTIAL; i < SLI_LAYER_COUNT; i++)
+        if (has_layer(map, (sli_layer)i))
+            write_layer(writer, &(named_layer){.layer = (sli_layer)i});
     if (count) qsort(layers, count, sizeof *layers, compare_layers);
     for (int i = SLI_LAYER_WALL; i < SLI_LAYER_CELL; i++)
         if (i != SLI_LAYER_DOOR && i != SLI_LAYER_PATH && i != SLI_LAYER_OBJECT)

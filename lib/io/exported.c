@@ -150,6 +150,76 @@ static sl_status read_walls(export_reader *reader, const sli_json *root) {
     return read_solid_side(reader, &sides, "right", SL_SOLID_RIGHT);
 }
 
+// --- walls that do not stop all
+
+static sl_status read_stops(const sli_json *item, uint32_t *stops) {
+    const sli_json list = sli_json_member(item, "stops");
+    size_t count;
+    SL_TRY(sli_json_array(&list, &count));
+    *stops = 0;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json name = sli_json_item(&list, i);
+        const char *text;
+        uint32_t one;
+        SL_TRY(sli_json_text(&name, &text));
+        if (!sl_stops_read(text, strlen(text), &one) || one & *stops)
+            return sli_json_fail(&name, "expected sight, steps or sound, each once");
+        *stops |= one;
+    }
+    return *stops ? SL_OK : sli_json_fail(&list, "expected at least one of sight, steps, sound");
+}
+
+static sl_status read_partial_wall(export_reader *reader, const sli_json *wall) {
+    sl_map *map = reader->map;
+    const size_t first = map->wall_count;
+    sl_segment at;
+    uint32_t stops;
+    SL_TRY(sli_json_object(wall));
+    const sli_json segment = sli_json_member(wall, "segment");
+    SL_TRY(read_segment(&segment, &at));
+    SL_TRY(read_stops(wall, &stops));
+    SL_TRY(sl_map_add_wall(reader->context, map, at.a, at.b, reader->item));
+    const char *solid = sli_json_text_of(wall, "solid");
+    if (strcmp(solid, "left") == 0) map->walls[first].ground = SL_SOLID_LEFT;
+    if (strcmp(solid, "right") == 0) map->walls[first].ground = SL_SOLID_RIGHT;
+    return sl_map_walls_stop(reader->context, map, first, stops);
+}
+
+/// Walls with a passage are pieces of those in "partial_walls": they are dropped. Before other
+/// walls are added.
+static sl_status drop_passages(export_reader *reader, const sli_json *root) {
+    const sli_json list = sli_json_member(root, "passages");
+    sl_map *map = reader->map;
+    size_t count, kept = 0;
+    if (!list.value) return SL_OK;
+    SL_TRY(sli_json_array(&list, &count));
+    bool *dropped = sl_alloc_array(reader->context, map->wall_count, sizeof *dropped);
+    sl_status status = dropped ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const sli_json item = sli_json_item(&list, i), wall = sli_json_member(&item, "wall");
+        int64_t number = 0;
+        status = sli_json_object(&item);
+        if (status == SL_OK)
+            status = sli_json_whole(&wall, 0, (int64_t)map->wall_count - 1, &number);
+        if (status == SL_OK) dropped[number] = true;
+    }
+    for (size_t i = 0; i < map->wall_count && status == SL_OK; i++)
+        if (!dropped[i]) map->walls[kept++] = map->walls[i];
+    if (status == SL_OK) map->wall_count = kept;
+    sl_free(reader->context, dropped);
+    return status;
+}
+
+static sl_status read_channel(export_reader *reader, const sli_json *root) {
+    const sli_json channel = sli_json_member(root, "walls_stop");
+    const char *text;
+    if (!channel.value) return SL_OK;
+    SL_TRY(sli_json_text(&channel, &text));
+    return sl_stops_read(text, strlen(text), &reader->map->channel)
+               ? SL_OK
+               : sli_json_fail(&channel, "expected sight, steps or sound");
+}
+
 // --- effects
 
 static bool continues(const sl_segment *first, const sl_segment *next) {
@@ -299,7 +369,7 @@ static void note_taken(const export_reader *reader, const char *file, size_t wal
     } kinds[] = {{m->door_count, "door", "doors"},
                  {m->mirror_count, "mirror", "mirrors"},
                  {m->oneway_count, "one-way pane", "one-way panes"},
-                 {m->seam_count, "seam", "seams"},
+                 {m->seam_count - sl_map_partial_walls(m), "seam", "seams"},
                  {m->start_count, "start", "starts"},
                  {m->path_count, "path", "paths"},
                  {m->object_count, "object", "objects"}};
@@ -323,6 +393,9 @@ static sl_status read_all(export_reader *reader, const sli_json *root) {
     reader->map->source.lines_are_items = true;
     SL_TRY(read_walls(reader, root));
     walls = json_array_size(json_object_get(root->value, "walls"));
+    SL_TRY(drop_passages(reader, root));
+    SL_TRY(read_list(reader, root, "partial_walls", read_partial_wall));
+    SL_TRY(read_channel(reader, root));
     SL_TRY(read_list(reader, root, "doors", read_door));
     SL_TRY(read_list(reader, root, "mirrors", read_mirror));
     SL_TRY(read_one_sided(reader, root));

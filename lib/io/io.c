@@ -183,7 +183,7 @@ static const sl_map_format map_formats[] = {
      .knows = knows_foundry,
      .write = sli_map_print_foundry,
      .keeps = SL_KEEPS_DOORS | SL_KEEPS_STARTS | SL_KEEPS_RANGE | SL_KEEPS_MIRRORS |
-              SL_KEEPS_ONEWAYS | SL_KEEPS_SEAMS},
+              SL_KEEPS_ONEWAYS | SL_KEEPS_SEAMS | SL_KEEPS_STOPS},
     {.name = "wad",
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",

@@ -34,7 +34,30 @@ static const char *const names[SLI_LAYER_COUNT] = {
     [SLI_LAYER_PATH] = "sightline-path",
     [SLI_LAYER_OBJECT] = "sightline-object",
     [SLI_LAYER_CELL] = "sightline-cell",
+    [SLI_LAYER_WRONG] = "",
+    [SLI_LAYER_PARTIAL] = "sightline-wall-stops-sight",
+    "sightline-wall-stops-steps",
+    "sightline-wall-stops-sight-steps",
+    "sightline-wall-stops-sound",
+    "sightline-wall-stops-sight-sound",
+    "sightline-wall-stops-steps-sound",
+    [SLI_LAYER_PARTIAL_SOLID] = "sightline-solid-stops-sight",
+    "sightline-solid-stops-steps",
+    "sightline-solid-stops-sight-steps",
+    "sightline-solid-stops-sound",
+    "sightline-solid-stops-sight-sound",
+    "sightline-solid-stops-steps-sound",
 };
+
+/// Whether a layer's name says what walls stop.
+static bool says_stops(sli_word name) {
+    static const char *const begins[] = {"sightline-wall-stops", "sightline-solid-stops"};
+    for (int i = 0; i < 2; i++)
+        if (name.length >= strlen(begins[i]) &&
+            strncasecmp(name.at, begins[i], strlen(begins[i])) == 0)
+            return true;
+    return false;
+}
 
 const char *sli_layer_name(sli_layer layer) {
     return names[layer];
@@ -45,13 +68,14 @@ sli_layer sli_layer_of(sli_word name, sli_word *rest) {
     size_t longest = 0;
     for (int i = SLI_LAYER_NONE + 1; i < SLI_LAYER_COUNT; i++) {
         const size_t length = strlen(names[i]);
-        if (length <= longest || name.length < length ||
+        if (i == SLI_LAYER_WRONG || length <= longest || name.length < length ||
             strncasecmp(name.at, names[i], length) != 0)
             continue;
         if (name.length > length && (!rest || name.at[length] != '-')) continue;
         found = (sli_layer)i;
         longest = length;
     }
+    if (says_stops(name) && !sli_layer_stops(found)) return SLI_LAYER_WRONG;
     if (rest && found) {
         const size_t behind = longest + (name.length > longest);
         *rest = (sli_word){name.at + behind, name.length - behind};
@@ -144,11 +168,28 @@ static sl_status take_line(sl_context *context, sl_map *map, const sli_layer_ite
     }
 }
 
+/// Walls that do not stop all, or ground with such.
+static sl_status take_partial(sl_context *context, const char *file, sl_map *map,
+                              const sli_layer_item *item, const sl_map *drawn, uint32_t line) {
+    const size_t first = map->wall_count;
+    if (item->layer < SLI_LAYER_PARTIAL_SOLID)
+        SL_TRY(sl_map_add_walls(context, map, drawn->walls, drawn->wall_count));
+    else
+        SL_TRY(take_outline(context, file, map, item, drawn, line));
+    return sl_map_walls_stop(context, map, first, sli_layer_stops(item->layer));
+}
+
 sl_status sli_layer_take(sl_context *context, const char *file, sl_map *map,
                          const sli_layer_item *item, const sl_map *drawn, uint32_t line) {
     char made[MADE_NAME];
     const char *name;
+    if (sli_layer_stops(item->layer)) return take_partial(context, file, map, item, drawn, line);
     switch (item->layer) {
+    case SLI_LAYER_WRONG:
+        return sl_fail_at(context, file, line,
+                          "a layer whose walls stop something: expected a name such as %s, with "
+                          "sight, steps, sound or two of them in this order",
+                          names[SLI_LAYER_PARTIAL]);
     case SLI_LAYER_START:
         if (!item->count) return SL_OK;
         return sl_map_add_start(context, map, item->points[0], item->heading, line);
@@ -184,7 +225,8 @@ void sli_layers_note(sl_context *context, const char *file, const sl_map *map) {
         {map->door_count, "line of a door", "lines of doors"},
         {map->mirror_count, "mirror", "mirrors"},
         {map->oneway_count, "pane of one-way glass", "panes of one-way glass"},
-        {map->seam_count, "seam", "seams"},
+        {sl_map_partial_walls(map), "wall that does not stop all", "walls that do not stop all"},
+        {map->seam_count - sl_map_partial_walls(map), "seam", "seams"},
         {map->start_count, "start", "starts"},
         {map->path_count, "path", "paths"},
         {map->object_count, "object", "objects"},
@@ -208,6 +250,7 @@ typedef struct layer_writer {
     const sli_layer_sink *sink;
     sli_layer layer; ///< that is begun
     bool solid;      ///< which polygons of a trace are asked for
+    uint32_t stops;  ///< what the walls do that are being written; 0: all
     size_t count;
 } layer_writer;
 
@@ -300,8 +343,58 @@ static sl_status write_glass(layer_writer *writer) {
         SL_TRY(emit_line(writer, SLI_LAYER_ONEWAY, map->oneways[i].segment.a,
                          map->oneways[i].segment.b));
     for (size_t i = 0; i < map->seam_count; i++)
-        SL_TRY(emit_line(writer, SLI_LAYER_SEAM, map->seams[i].segment.a, map->seams[i].segment.b));
+        if (!map->seams[i].stops)
+            SL_TRY(emit_line(writer, SLI_LAYER_SEAM, map->seams[i].segment.a,
+                             map->seams[i].segment.b));
     return SL_OK;
+}
+
+/// Of the layers for what is being written that does not stop all.
+static sli_layer partial(const layer_writer *writer, sli_layer first) {
+    return (sli_layer)(first + writer->stops - 1);
+}
+
+static sl_status emit_partial(void *user, sl_point from, sl_point to, uint32_t line) {
+    layer_writer *writer = user;
+    (void)line;
+    return emit_line(writer, partial(writer, SLI_LAYER_PARTIAL), from, to);
+}
+
+/// Open ground within walls that do not stop all is written wall by wall.
+static sl_status emit_partial_solid(void *user, const sl_point *corners, size_t count, bool solid,
+                                    uint32_t line) {
+    layer_writer *writer = user;
+    for (size_t i = 0; i < count && !solid; i++)
+        SL_TRY(emit_partial(user, corners[i], corners[i + 1 < count ? i + 1 : 0], line));
+    if (!solid) return SL_OK;
+    return emit(writer, &(sli_layer_item){.layer = partial(writer, SLI_LAYER_PARTIAL_SOLID),
+                                          .points = corners,
+                                          .count = count,
+                                          .closed = true});
+}
+
+/// Walls that do not stop all: those without ground, then the outlines of ground.
+static sl_status write_partial(layer_writer *writer) {
+    const sl_map *map = writer->map;
+    sl_wall *walls = sl_alloc_array(writer->context, map->seam_count, sizeof *walls);
+    sl_status status = walls ? SL_OK : SL_NO_MEMORY;
+    for (writer->stops = 1; writer->stops < SL_STOPS_ALL && status == SL_OK; writer->stops++) {
+        size_t count = 0;
+        for (size_t i = 0; i < map->seam_count && status == SL_OK; i++) {
+            const sl_glass *wall = &map->seams[i];
+            const sl_segment at = wall->segment;
+            if (wall->stops != writer->stops) continue;
+            if (wall->ground)
+                walls[count++] = (sl_wall){at.a, at.b, wall->line, wall->ground};
+            else
+                status = emit_partial(writer, at.a, at.b, 0);
+        }
+        const sli_loop_user user = {
+            .user = writer, .polygon = emit_partial_solid, .wall = emit_partial};
+        if (status == SL_OK) status = sli_ground_trace(writer->context, walls, count, &user);
+    }
+    sl_free(writer->context, walls);
+    return status;
 }
 
 static bool has_length(const sl_point *points, size_t count) {
@@ -361,6 +454,7 @@ static sl_status write_cells(layer_writer *writer) {
 sl_status sli_layers_write(sl_context *context, const sl_map *map, const sli_layer_sink *sink) {
     layer_writer writer = {.context = context, .map = map, .sink = sink};
     SL_TRY(write_walls(&writer));
+    if (sl_map_partial_walls(map)) SL_TRY(write_partial(&writer));
     SL_TRY(write_glass(&writer));
     SL_TRY(write_others(&writer));
     SL_TRY(write_cells(&writer));

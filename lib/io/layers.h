@@ -22,8 +22,19 @@ typedef enum sli_layer {
     SLI_LAYER_PATH,
     SLI_LAYER_OBJECT, ///< closed outlines of boxes
     SLI_LAYER_CELL,   ///< closed outlines
-    SLI_LAYER_COUNT,
+    SLI_LAYER_WRONG,  ///< it says what walls stop, in words that nobody knows
+    /// Walls that do not stop all, and outlines of ground with such: the first of the layers, by
+    /// what they stop, from SL_STOPS_SIGHT on.
+    SLI_LAYER_PARTIAL,
+    SLI_LAYER_PARTIAL_SOLID = SLI_LAYER_PARTIAL + SL_STOPS_ALL - 1,
+    SLI_LAYER_COUNT = SLI_LAYER_PARTIAL_SOLID + SL_STOPS_ALL - 1,
 } sli_layer;
+
+/// What walls of such a layer stop; 0 for other layers.
+static inline uint32_t sli_layer_stops(sli_layer layer) {
+    if (layer < SLI_LAYER_PARTIAL) return 0;
+    return (uint32_t)(layer - SLI_LAYER_PARTIAL) % (SL_STOPS_ALL - 1) + 1;
+}
 
 /// "sightline-wall" and so on.
 const char *sli_layer_name(sli_layer layer);

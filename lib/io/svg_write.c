@@ -51,7 +51,7 @@ static void begin_layer(void *user, sli_layer layer) {
     const svg_writer *writer = user;
     const char *name = sli_layer_name(layer);
     fprintf(writer->stream, "<g id=\"%s\" inkscape:groupmode=\"layer\" inkscape:label=\"%s\" %s",
-            name, name, styles[layer]);
+            name, name, styles[layer] ? styles[layer] : "stroke=\"#606060\" fill=\"none\"");
     put_other(writer, "stroke-width", writer->thin);
     fputs(">\n", writer->stream);
 }

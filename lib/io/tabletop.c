@@ -300,11 +300,12 @@ sl_status sli_map_read_uvtt(sl_context *context, const char *name, const char *t
     return status;
 }
 
-// --- Foundry: a wall has its two ends "c", what it does to "sight", a side "dir" that it works on,
-// a
-// --- kind of "door" and the door's state "ds" (Foundry's API, WallData)
+// --- Foundry: a wall has its two ends "c", what it does to "sight", "move" and "sound", a side
+// "dir"
+// --- that it works on, a kind of "door" and the door's state "ds" (Foundry's API, WallData). It
+// --- stops steps by default, and sound. Light is sight, so "light" is not read
 
-/// What stops sight. Files older than version 9 say it in "sense" by 0, 1 and 2.
+/// What stops sight, and sound. Files older than version 9 say it in "sense" by 0, 1 and 2.
 enum { SIGHT_NONE = 0, SENSE_NORMAL = 1, SENSE_LIMITED = 2, SIGHT_LIMITED = 10, SIGHT_NORMAL = 20 };
 enum { SIGHT_MOST = 40 };
 enum { BOTH_SIDES, LEFT_ONLY, RIGHT_ONLY };
@@ -322,6 +323,7 @@ typedef struct foundry {
     double pixels; ///< in a unit of the map: 1, but in a file of our own
     bool top_told; ///< the file says its top
     size_t walls, oneways, open, shut, secret;
+    size_t partial;        ///< walls that do not stop all
     size_t mirrors, seams; ///< of a file of our own
     door_names names;
     size_t unseen, limited, near, points; ///< left out
@@ -330,8 +332,9 @@ typedef struct foundry {
 typedef struct record {
     sl_segment at;
     int64_t sight, side, door, state;
-    uint32_t item; ///< its number in the list, from 1
-    bool seam;     ///< of a file of our own
+    uint32_t stops; ///< as sl_glass.stops
+    uint32_t item;  ///< its number in the list, from 1
+    bool seam;      ///< of a file of our own
     bool mirror, one_sided;
 } record;
 
@@ -357,13 +360,32 @@ static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at
     return SL_OK;
 }
 
+/// A wall that stops sight or sound behind another one, or by distance, counts as open for it.
+static bool is_normal(int64_t sense) {
+    return sense == SIGHT_NORMAL || sense == SENSE_NORMAL;
+}
+
+static int64_t sense_of(const sli_json *wall, const char *key) {
+    const sli_json sense = sli_json_member(wall, key);
+    return json_is_integer(sense.value) ? json_integer_value(sense.value) : SIGHT_NORMAL;
+}
+
+static sl_status read_stops(const sli_json *wall, record *read) {
+    const sli_json sight = sli_json_member(wall, "sight"), sense = sli_json_member(wall, "sense");
+    const int64_t steps = sense_of(wall, "move"), heard = sense_of(wall, "sound");
+    SL_TRY(sli_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
+    read->stops = (is_normal(read->sight) ? SL_STOPS_SIGHT : 0u) |
+                  (steps != SIGHT_NONE ? SL_STOPS_STEPS : 0u) |
+                  (is_normal(heard) ? SL_STOPS_SOUND : 0u);
+    return SL_OK;
+}
+
 static sl_status read_record(foundry *reader, const sli_json *wall, record *read) {
     SL_TRY(sli_json_object(wall));
     SL_TRY(read_ends(reader, wall, &read->at));
-    const sli_json sight = sli_json_member(wall, "sight"), sense = sli_json_member(wall, "sense");
     const sli_json side = sli_json_member(wall, "dir"), door = sli_json_member(wall, "door");
     const sli_json state = sli_json_member(wall, "ds");
-    SL_TRY(sli_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
+    SL_TRY(read_stops(wall, read));
     SL_TRY(sli_json_whole_if(&side, 0, RIGHT_ONLY, &read->side));
     SL_TRY(sli_json_whole_if(&door, 0, DOOR_SECRET, &read->door));
     SL_TRY(sli_json_whole_if(&state, 0, DOOR_LOCKED, &read->state));
@@ -406,6 +428,15 @@ static sl_status add_glass(foundry *reader, const record *wall) {
     return SL_OK;
 }
 
+/// A wall that does not stop all, whatever its side. A door that is seen through is one while it is
+/// shut.
+static sl_status add_partial(foundry *reader, const record *wall) {
+    const size_t first = reader->map->wall_count;
+    reader->partial++;
+    SL_TRY(sl_map_add_wall(reader->context, reader->map, wall->at.a, wall->at.b, wall->item));
+    return sl_map_walls_stop(reader->context, reader->map, first, wall->stops);
+}
+
 static sl_status add_door(foundry *reader, const sli_json *walls, const sli_json *json,
                           const record *wall) {
     const bool open = wall->state == DOOR_OPEN;
@@ -439,17 +470,19 @@ static sl_status take(foundry *reader, const sli_json *walls, const sli_json *js
         left_out = &reader->points;
     else if (wall->seam)
         return add_glass(reader, wall);
-    else if (wall->sight == SIGHT_NONE)
-        left_out = &reader->unseen;
     else if (wall->sight == SIGHT_LIMITED || wall->sight == SENSE_LIMITED)
         left_out = &reader->limited;
-    else if (wall->sight != SIGHT_NORMAL && wall->sight != SENSE_NORMAL)
+    else if (wall->sight != SIGHT_NONE && !is_normal(wall->sight))
         left_out = &reader->near;
-    if (left_out) {
-        ++*left_out;
-        return SL_OK;
-    }
+    else if (!wall->stops)
+        left_out = &reader->unseen;
+    if (left_out) ++*left_out;
+    if (left_out == &reader->points || !wall->stops) return SL_OK;
     if (wall->mirror) return add_glass(reader, wall);
+    const bool whole = wall->stops & SL_STOPS_SIGHT && (wall->door != DOOR_NONE || wall->side);
+    if (wall->stops != SL_STOPS_ALL && !whole)
+        return wall->door != DOOR_NONE && wall->state == DOOR_OPEN ? SL_OK
+                                                                   : add_partial(reader, wall);
     return wall->door == DOOR_NONE ? add_wall(reader, wall) : add_door(reader, walls, json, wall);
 }
 
@@ -489,22 +522,24 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     sl_number_write(reader->pixels, pixels);
     if (reader->pixels != 1) snprintf(unit, sizeof unit, "%s pixels", pixels);
     const bool doors = reader->options->doors;
-    const sli_tally taken[] = {{reader->walls, "wall", "walls"},
-                               {reader->oneways, "of them one-way", "of them one-way"},
-                               {reader->shut, doors ? "shut door" : "shut door (a wall)",
-                                doors ? "shut doors" : "shut doors (walls)"},
-                               {reader->open, doors ? "open door" : "open door (a gap)",
-                                doors ? "open doors" : "open doors (gaps)"},
-                               {reader->secret, "of them secret", "of them secret"}};
+    const sli_tally taken[] = {
+        {reader->walls, "wall", "walls"},
+        {reader->partial, "wall that does not stop all", "walls that do not stop all"},
+        {reader->oneways, "of them one-way", "of them one-way"},
+        {reader->shut, doors ? "shut door" : "shut door (a wall)",
+         doors ? "shut doors" : "shut doors (walls)"},
+        {reader->open, doors ? "open door" : "open door (a gap)",
+         doors ? "open doors" : "open doors (gaps)"},
+        {reader->secret, "of them secret", "of them secret"}};
     const sli_tally left[] = {
-        {reader->unseen, "that does not stop sight", "that do not stop sight"},
-        {reader->limited, "that stops it behind another", "that stop it behind another"},
-        {reader->near, "that stops it by distance", "that stop it by distance"},
+        {reader->unseen, "that stops nothing", "that stop nothing"},
+        {reader->limited, "that stops sight behind another", "that stop sight behind another"},
+        {reader->near, "that stops sight by distance", "that stop sight by distance"},
         {reader->points, "of no length", "of no length"}};
     char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
     sl_note(reader->context, "%s: %s%s; unit: %s, y = %s - the file's y", walls->file->name,
-            sli_tally_write("", taken, 5, with), sli_tally_write("; left out: ", left, 4, without),
-            unit, top);
+            sli_tally_write("", taken, 6, with),
+            sli_tally_write("; left out or open: ", left, 4, without), unit, top);
     if (reader->mirrors || reader->seams)
         sl_note(reader->context, "%s: taken by their flags: %zu mirror%s, %zu seam%s",
                 walls->file->name, reader->mirrors, reader->mirrors == 1 ? "" : "s", reader->seams,

@@ -227,6 +227,7 @@ static double square_of(double pixels) {
 typedef struct foundry_wall {
     const sl_door *door;
     bool oneway, seam;
+    uint32_t stops; ///< of a wall that does not stop all; else 0
     const char *mirror;
 } foundry_wall;
 
@@ -251,7 +252,8 @@ static sl_status put_wall(tabletop_writer *writer, sl_point a, sl_point b, found
     const double y[2] = {sli_turned_y(writer->top, a.y), sli_turned_y(writer->top, b.y)};
     const double c[4] = {a.x * writer->pixels, y[0] * writer->pixels, b.x * writer->pixels,
                          y[1] * writer->pixels};
-    const int64_t stops = wall.seam ? SIGHT_NONE : SIGHT_NORMAL;
+    const uint32_t stops = wall.seam ? 0 : wall.stops ? wall.stops : SL_STOPS_ALL;
+    const int64_t sight = stops & SL_STOPS_SIGHT ? SIGHT_NORMAL : SIGHT_NONE;
     bool whole = true;
     begin(writer, NULL, '{');
     put_id(writer, "wall0", writer->written);
@@ -261,10 +263,10 @@ static sl_status put_wall(tabletop_writer *writer, sl_point a, sl_point b, found
         whole &= c[i] == rint(c[i]);
     }
     end(writer, ']');
-    put_whole(writer, "light", stops);
-    put_whole(writer, "move", stops);
-    put_whole(writer, "sight", stops);
-    put_whole(writer, "sound", stops);
+    put_whole(writer, "light", sight);
+    put_whole(writer, "move", stops & SL_STOPS_STEPS ? SIGHT_NORMAL : SIGHT_NONE);
+    put_whole(writer, "sight", sight);
+    put_whole(writer, "sound", stops & SL_STOPS_SOUND ? SIGHT_NORMAL : SIGHT_NONE);
     put_whole(writer, "dir", wall.oneway ? LEFT_ONLY : 0);
     put_whole(writer, "door", wall.door ? DOOR_PLAIN : 0);
     put_whole(writer, "ds", wall.door && wall.door->open);
@@ -289,8 +291,9 @@ static sl_status put_walls(tabletop_writer *writer) {
         SL_TRY(put_wall(writer, map->oneways[i].segment.a, map->oneways[i].segment.b,
                         (foundry_wall){.oneway = true}));
     for (size_t i = 0; i < map->seam_count; i++)
-        SL_TRY(put_wall(writer, map->seams[i].segment.a, map->seams[i].segment.b,
-                        (foundry_wall){.seam = true}));
+        SL_TRY(
+            put_wall(writer, map->seams[i].segment.a, map->seams[i].segment.b,
+                     (foundry_wall){.seam = !map->seams[i].stops, .stops = map->seams[i].stops}));
     end(writer, ']');
     return SL_OK;
 }

@@ -326,6 +326,21 @@ static sl_status read_marks(sli_tiled_reader *reader) {
     return SL_OK;
 }
 
+/// What walls of an object or a layer stop, by its property `stops`; else *stops stays.
+static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
+    sli_tiled_properties at = sli_tiled_properties_of(thing);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        const char *text;
+        if (!name || strcmp(name, "stops") != 0) continue;
+        SL_TRY(sli_json_text(&value, &text));
+        if (!sl_stops_read(text, strlen(text), stops))
+            return sli_json_fail(&value, "stops: expected sight, steps, sound or several joined by "
+                                         "commas");
+    }
+    return SL_OK;
+}
+
 /// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
 static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
                               const sli_tiled_place *at) {
@@ -336,6 +351,8 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
     const sli_affine outer = reader->pen.affine;
     const sli_affine move = affine_of_layer(reader, at);
+    uint32_t of_layer = 0;
+    SL_TRY(read_stops(layer, &of_layer));
     reader->solid_layers += at->word == SLI_TILED_SOLID;
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
@@ -347,8 +364,10 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
         SL_TRY(look_for_thing(reader, &object, at, &is_thing));
         if (is_thing || at->word == SLI_TILED_OPEN) continue;
         const sli_tiled_word word = word_of_object(reader, &object, &shape);
+        uint32_t stops = of_layer;
+        SL_TRY(read_stops(&object, &stops));
         const bool taken =
-            at->word == SLI_TILED_SOLID ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
+            at->word == SLI_TILED_SOLID || stops ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
         size_t *counted = !taken                          ? &reader->other_objects
                           : shape.kind == SLI_TILED_OTHER ? &reader->other_shapes
                                                           : &reader->objects;
@@ -360,7 +379,10 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
         if (!taken || shape.kind == SLI_TILED_OTHER) continue;
         SL_TRY(name_object(reader, layer, &object, &shape));
         reader->pen.affine = sli_affine_after(outer, move);
+        const size_t first = reader->pen.map->wall_count;
         status = sli_tiled_draw_shape(&reader->pen, &shape);
+        if (status == SL_OK && stops)
+            status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
         reader->pen.affine = outer;
     }
     return status;
@@ -546,7 +568,8 @@ static sl_status read_map(sli_tiled_reader *reader) {
         if (says_nothing(reader)) SL_TRY(guess(reader));
     }
     SL_TRY(sli_tiled_add_tile_walls(reader));
-    if (!reader->pen.map->wall_count) return fail_no_walls(reader);
+    const sl_map *map = reader->pen.map;
+    if (!map->wall_count && !sl_map_partial_walls(map)) return fail_no_walls(reader);
     check_guess(reader);
     strcpy(reader->pen.map->unit, "px");
     give_account(reader);

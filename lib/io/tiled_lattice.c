@@ -220,6 +220,10 @@ sl_status sli_tiled_project(const sli_json *json, const sli_tiled_lattice *latti
         sl_segment *at = &map->doors[i].segment;
         usable &= project_usable(lattice, &at->a) && project_usable(lattice, &at->b);
     }
+    for (size_t i = 0; i < map->seam_count; i++) {
+        sl_segment *at = &map->seams[i].segment;
+        usable &= project_usable(lattice, &at->a) && project_usable(lattice, &at->b);
+    }
     for (size_t i = 0; i < map->start_count; i++)
         usable &= project_usable(lattice, &map->starts[i].at);
     return usable ? SL_OK

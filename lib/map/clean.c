@@ -519,8 +519,11 @@ static bool leave_out(leaving *work, const char *what, const char *name, sl_segm
 
 static void leave_out_glass(leaving *work, const char *what, sl_glass *glass, size_t *count) {
     size_t kept = 0;
-    for (size_t i = 0; i < *count; i++)
+    for (size_t i = 0; i < *count; i++) {
+        // As with other walls, nothing is lost.
+        if (glass[i].stops && sli_same_point(glass[i].segment.a, glass[i].segment.b)) continue;
         if (!leave_out(work, what, NULL, glass[i].segment, glass[i].line)) glass[kept++] = glass[i];
+    }
     *count = kept;
 }
 

@@ -41,8 +41,8 @@ static const sl_map_format formats[] = {
      .what = "an ASCII plan",
      .read = read_plan,
      .write = sli_map_print_plan,
-     .keeps =
-         SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE},
+     .keeps = SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES & ~SL_KEEPS_UNIT &
+              ~SL_KEEPS_ENTRANCE & ~SL_KEEPS_STOPS},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -368,6 +368,8 @@ static size_t count_solid(const sl_map *map) {
     size_t count = 0;
     for (size_t i = 0; i < map->wall_count; i++)
         count += (map->walls[i].ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)) != 0;
+    for (size_t i = 0; i < map->seam_count; i++)
+        count += (map->seams[i].ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)) != 0;
     return count;
 }
 
@@ -383,7 +385,7 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
         {SL_KEEPS_MIRRORS, map->mirror_count, "mirror", "mirrors", "written as walls"},
         {SL_KEEPS_ONEWAYS, map->oneway_count, "pane of one-way glass", "panes of one-way glass",
          "left open"},
-        {SL_KEEPS_SEAMS, map->seam_count, "seam", "seams", "left out"},
+        {SL_KEEPS_SEAMS, map->seam_count - sl_map_partial_walls(map), "seam", "seams", "left out"},
         {SL_KEEPS_STARTS, map->start_count, "start", "starts", "left out"},
         {SL_KEEPS_PATHS, map->path_count, "path", "paths", "left out"},
         {SL_KEEPS_OBJECTS, map->object_count, "object", "objects", "left out"},
@@ -428,7 +430,8 @@ sl_status sli_map_check_again(sl_context *context, const char *name, const sl_ma
         {"doors", written->door_count, again->door_count},
         {"mirrors", written->mirror_count, again->mirror_count},
         {"panes of one-way glass", written->oneway_count, again->oneway_count},
-        {"seams", written->seam_count, again->seam_count},
+        {"seams", written->seam_count - sl_map_partial_walls(written),
+         again->seam_count - sl_map_partial_walls(again)},
         {"starts", written->start_count, again->start_count},
         {"paths", written->path_count, again->path_count},
         {"objects", written->object_count, again->object_count},
@@ -473,13 +476,39 @@ static sl_status read_map_back(sl_context *context, const void *user, const char
     return status;
 }
 
+static sl_status write_map(sl_context *context, const sl_map *map, const sl_map_format *format,
+                           const char *path) {
+    tell_left_out(context, map, format, path);
+    const map_file file = {map, format};
+    const sli_to_write written = {&file, print_map, read_map_back};
+    return sli_file_write(context, path, &written);
+}
+
+/// Into a format that has no place for what walls stop.
+static sl_status write_settled(sl_context *context, const sl_map *map, const sl_map_format *format,
+                               const char *path) {
+    sl_map settled = {0};
+    size_t all = sl_map_partial_walls(map), left_out = 0;
+    char channel[SL_STOPS_TEXT];
+    sl_stops_write(sl_map_channel(map), channel);
+    SL_TRY(sl_map_copy(context, map, &settled));
+    sl_status status = sl_map_settle_stops(context, &settled, &left_out);
+    if (status == SL_OK)
+        sl_note(context,
+                "%s: %s has no place for what walls stop: %zu of %zu that do not stop all stop %s "
+                "and are written as walls, the others are left out",
+                path, format->what, all - left_out, all, channel);
+    if (status == SL_OK) status = write_map(context, &settled, format, path);
+    sl_map_destroy(context, &settled);
+    return status;
+}
+
 sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
                        const char *path) {
     if (!format) format = &formats[0];
     if (!format->write)
         return sl_fail(context, SL_UNSUPPORTED, "%s: %s is only read", path, format->what);
-    tell_left_out(context, map, format, path);
-    const map_file file = {map, format};
-    const sli_to_write written = {&file, print_map, read_map_back};
-    return sli_file_write(context, path, &written);
+    return format->keeps & SL_KEEPS_STOPS || !sl_map_partial_walls(map)
+               ? write_map(context, map, format, path)
+               : write_settled(context, map, format, path);
 }

@@ -303,6 +303,8 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
     for (size_t i = 0; i < from->seam_count; i++) {
         SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
         to->seams[i].entrance = from->seams[i].entrance;
+        to->seams[i].stops = from->seams[i].stops;
+        to->seams[i].ground = from->seams[i].ground;
     }
     return SL_OK;
 }
@@ -342,6 +344,7 @@ static sl_status copy_interior(sl_context *context, const sl_map *from, sl_map *
 
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.precision = from->precision,
+                  .channel = from->channel,
                   .range = from->range,
                   .range_line = from->range_line,
                   .unit_line = from->unit_line,

@@ -25,6 +25,7 @@ typedef struct text_reader {
     SL_ARRAY(double) numbers;
     SL_ARRAY(char) notes;
     char *label;      ///< the name of a door, path or object
+    uint32_t stops;   ///< of the current statement
     sli_word comment; ///< of the current line; empty for none
     size_t waiting;   ///< from this comment on they wait for their statement
 } text_reader;
@@ -249,9 +250,9 @@ typedef struct statement {
 #define ANY SIZE_MAX
 
 static const statement statements[] = {
-    {"wall", "wall x0 y0 x1 y1 [solid]", false, 4, 5, 4, read_wall},
-    {"walls", "walls x0 y0 x1 y1 ...", false, 4, ANY, ANY, read_walls},
-    {"solid", "solid x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_solid},
+    {"wall", "wall x0 y0 x1 y1 [solid] [stops WHAT]", false, 4, 5, 4, read_wall},
+    {"walls", "walls x0 y0 x1 y1 ... [stops WHAT]", false, 4, ANY, ANY, read_walls},
+    {"solid", "solid x0 y0 x1 y1 x2 y2 ... [stops WHAT]", false, 6, ANY, ANY, read_solid},
     {"open", "open x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_open},
     {"door", "door NAME x0 y0 x1 y1 [open|shut]", true, 4, 5, 4, read_door},
     {"mirror", "mirror x0 y0 x1 y1 [one|both]", false, 4, 5, 4, read_mirror},
@@ -314,9 +315,29 @@ static sl_status read_numbers(text_reader *reader, size_t count) {
     return SL_OK;
 }
 
+/// Takes the end of a statement that says what its walls stop.
+static sl_status take_stops(text_reader *reader, const statement *row) {
+    size_t *count = &reader->words.count;
+    reader->stops = SL_STOPS_ALL;
+    if (row->read != read_wall && row->read != read_walls && row->read != read_solid) return SL_OK;
+    for (size_t i = 0; i < *count; i++) {
+        if (!sli_word_is(reader->words.items[i], "stops")) continue;
+        const sli_word what = i + 1 < *count ? reader->words.items[i + 1] : (sli_word){"", 0};
+        if (i + 2 != *count || !sl_stops_read(what.at, what.length, &reader->stops))
+            return sl_fail_at(reader->context, reader->name, reader->line,
+                              "%s: expected sight, steps, sound or several joined by commas after "
+                              "'stops', at the end, found '%s'",
+                              row->word, sli_show(what).text);
+        *count = i;
+    }
+    return SL_OK;
+}
+
 /// Reads the words after the first one, by the statement's row of the table.
 static sl_status read_by(text_reader *reader, const statement *row) {
+    SL_TRY(take_stops(reader, row));
     const size_t values = reader->words.count, names = row->named;
+    const size_t walls = reader->map->wall_count;
     const bool any = row->numbers == ANY;
     if (values < row->least + names || (!any && values > row->most + names) ||
         (any && (values - names) % 2))
@@ -329,7 +350,8 @@ static sl_status read_by(text_reader *reader, const statement *row) {
                 --reader->words.count * sizeof(sli_word));
     }
     SL_TRY(read_numbers(reader, any ? reader->words.count : row->numbers));
-    return row->read(reader);
+    SL_TRY(row->read(reader));
+    return sl_map_walls_stop(reader->context, reader->map, walls, reader->stops);
 }
 
 static sl_status read_statement(text_reader *reader) {
@@ -466,7 +488,8 @@ typedef struct text_writer {
     const sl_map *map;
     FILE *stream;
     bool *done;
-    size_t walls; ///< written so far
+    size_t walls;   ///< written so far
+    uint32_t stops; ///< what those do that are being written
 } text_writer;
 
 /// The first comment that belongs to a line, or to one below.
@@ -509,6 +532,11 @@ static void begin(text_writer *writer, uint32_t line, const char *word) {
 }
 
 static void end(text_writer *writer, uint32_t line) {
+    if (writer->stops) {
+        char stops[SL_STOPS_TEXT];
+        sl_stops_write(writer->stops, stops);
+        fprintf(writer->stream, " stops %s", stops);
+    }
     if (line && writer->map->source.comment_count) print_comments(writer, line, true);
     putc('\n', writer->stream);
 }
@@ -580,6 +608,7 @@ static void print_others(text_writer *writer) {
         end(writer, map->oneways[i].line);
     }
     for (size_t i = 0; i < map->seam_count; i++) {
+        if (map->seams[i].stops) continue;
         begin(writer, map->seams[i].line, "seam");
         print_ends(stream, map->seams[i].segment.a, map->seams[i].segment.b);
         end(writer, map->seams[i].line);
@@ -652,18 +681,41 @@ static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32
 }
 
 /// Walls without solid ground beside them; then solid ground, whose outline is wall.
-static sl_status print_walls(text_writer *writer) {
-    const sl_map *map = writer->map;
-    for (size_t i = 0; i < map->wall_count; i++) {
-        const sl_wall *wall = &map->walls[i];
+static sl_status print_walls(text_writer *writer, const sl_wall *walls, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const sl_wall *wall = &walls[i];
         const bool solid = wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT);
         if (solid && !sli_ground_parts_rooms(wall->ground)) continue;
         SL_TRY(print_plain_wall(writer, wall->a, wall->b, wall->line));
     }
     const sli_loop_user plain = {.user = writer, .plain = print_plain_wall};
     const sli_loop_user user = {writer, print_polygon, print_solid_wall, NULL};
-    SL_TRY(sli_ground_trace(writer->context, map->walls, map->wall_count, &plain));
-    return sli_ground_trace(writer->context, map->walls, map->wall_count, &user);
+    SL_TRY(sli_ground_trace(writer->context, walls, count, &plain));
+    return sli_ground_trace(writer->context, walls, count, &user);
+}
+
+/// Walls that do not stop all, by what they stop.
+static sl_status print_partial_walls(text_writer *writer) {
+    const sl_map *map = writer->map;
+    size_t all = 0;
+    for (size_t i = 0; i < map->seam_count; i++) all += map->seams[i].stops != 0;
+    if (!all) return SL_OK;
+    sl_wall *walls = sl_alloc_array(writer->context, all, sizeof *walls);
+    sl_status status = walls ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t stops = 1; stops < SL_STOPS_ALL && status == SL_OK; stops++) {
+        size_t count = 0;
+        for (size_t i = 0; i < map->seam_count; i++) {
+            const sl_glass *seam = &map->seams[i];
+            if (seam->stops == stops)
+                walls[count++] =
+                    (sl_wall){seam->segment.a, seam->segment.b, seam->line, seam->ground};
+        }
+        writer->stops = stops;
+        if (count) status = print_walls(writer, walls, count);
+    }
+    writer->stops = 0;
+    sl_free(writer->context, walls);
+    return status;
 }
 
 static sl_status print_map(text_writer *writer) {
@@ -693,7 +745,8 @@ static sl_status print_map(text_writer *writer) {
         print_number(writer->stream, map->precision);
         putc('\n', writer->stream);
     }
-    SL_TRY(print_walls(writer));
+    SL_TRY(print_walls(writer, map->walls, map->wall_count));
+    SL_TRY(print_partial_walls(writer));
     print_others(writer);
     print_cells(writer);
     print_rest(writer);

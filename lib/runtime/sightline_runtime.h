@@ -69,6 +69,8 @@ typedef struct sl_runtime_transform {
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
 #define SL_RUNTIME_NO_DOOR UINT32_MAX
+/// The number of a box that does not exist.
+#define SL_RUNTIME_NO_BOX UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -96,6 +98,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    bool has_glass; ///< one-way glass, somewhere
+    const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
     uint32_t start_count, object_count, path_count, mirror_count;
@@ -129,8 +133,9 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
 /// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
-/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
-/// cells; call it again when the box has moved.
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: the cells
+/// near the box, once for each 8,192 cells that they have numbers among; all cells in a loose file
+/// of version 1. Call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
@@ -376,8 +381,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// one.)
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
-/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
-/// cells along the line, and of clearing a byte for each cell.
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
+/// the cells along the line. A line that touches ends of portals in more than 32 cells also clears
+/// a byte for each cell.
 SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
@@ -387,8 +393,8 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
 /// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
 /// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
 /// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the cells that the step touches, and all doors; all walls if these are more than 32 cells,
-/// or the step touches the map's border.
+/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
+/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -534,6 +540,116 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
 
+/// As sl_runtime_visible_polygon, past boxes that block: their sides are walls, from outside and
+/// for an eye in the box from within. With `boxes_scratch` as for sl_runtime_boxes_seen.
+///
+/// It is decided exactly which sides are seen and in what order (if no coordinate but 0 is 1e70
+/// times smaller than another one). A point where a side crosses an oblique wall is rounded. A box
+/// that is a point hides nothing. Boxes may touch walls and each other, and overlap. An eye on a
+/// side sees one side of it, as on a wall: what is right of the eye and over it, if its cell is
+/// there, else left and over, right and under, left and under. At a corner it sees the part around
+/// it that has this one. All this is as sl_query_region of the library says, but in files with
+/// oblique walls that takes another side of a box that the eye is on.
+///
+/// Time: that of sl_runtime_visible_polygon and of the boxes in the cells that are seen. If some of
+/// these block, twice that, n log n for n such boxes, and what of their sides is seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_boxes *boxes,
+                                                              const sl_runtime_view *view,
+                                                              const unsigned char *shut,
+                                                              double range, uint32_t *boxes_scratch,
+                                                              double *points, uint32_t room);
+
+/// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
+/// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
+/// It passes a flat box where it crosses that between its ends, and never one that is a point. An
+/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
+/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+///
+/// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
+/// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
+/// whether the eye is inside. Time: as sl_runtime_sees, and the boxes in the cells along the line.
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch);
+
+/// As sl_runtime_can_walk, past boxes that block: no point of the way, ends included, is in such a
+/// box or on its side. Box `except` does not count: that of who walks, or SL_RUNTIME_NO_BOX. Exact,
+/// and the same both ways. Boxes that had no room, or only touch the map's bounds, stop nothing.
+/// Time: as sl_runtime_can_walk, and the boxes in the cells along the step.
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except);
+
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
+// Servers: what each player may see before it hears of the next tick.
+
+/// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count);
+
+/// Box to box, for many: finds which things each player may see. Player p may see thing t if
+/// bits[p * ((thing_count + 7) / 8) + t / 8] >> t % 8 & 1. Returns the number of such pairs. `bits`
+/// has a row for each player. `shut` and `range` are as for sl_runtime_look_past, but the distance
+/// between two places counts. Boxes do not hide each other.
+///
+/// `margin` is how far a player may come before the next answer. Its box grows by that to each
+/// side, through walls too: all of it looks but what is in solid ground or outside the map.
+///
+/// Conservative: no pair is missed of which one point of the grown box sees one point of the thing
+/// by sl_runtime_sees, with closed sight. It needs no rows, so it is that in any file but a loose
+/// one. Few pairs are added: on the maps of the tests at most 10 % more than the exact answer from
+/// box to box. More are added near the end of the range. A player's box takes everything if its
+/// lines of sight come to 16 times as many portals as the map has, which real maps do not cause.
+///
+/// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
+/// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
+/// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
+/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits);
+
+/// The same for two squares: whether some place within `radius0` of (x0, y0) along each axis may
+/// see some place within `radius1` of (x1, y1). `scratch` is as for sl_runtime_look. Time: the
+/// portals between them, and to clear a bit for each cell.
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch);
+
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
@@ -632,6 +748,7 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
+    SLRT_PORTAL_BYTES = 40,
     SLRT_DIRECTED_BYTES = 40,
     SLRT_DOOR_BYTES = 12,
     SLRT_START_BYTES = 24,
@@ -730,7 +847,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
-                          {"PORT", 40},
+                          {"PORT", SLRT_PORTAL_BYTES},
                           {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
@@ -823,6 +940,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
     rt->directed = found[SLRT_PORTAL].items;
+    rt->portals = found[SLRT_PORT].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
     rt->unfinished = found[SLRT_PART].items != NULL;
@@ -1110,6 +1228,8 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
         if (portal < before || portal >= rt->portal_count) return false;
         if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
         before = portal;
+        rt->has_glass =
+            rt->has_glass || slrt_u32(rt->seams + slrt_u32(on + 4) * (size_t)40 + 32) == 2;
     }
     return true;
 }
@@ -2110,15 +2230,22 @@ static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, dou
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is in a cell or on its border.
-static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+/// Where a point is: 1 in a cell, 0 on its border, -1 outside.
+static int slrt_place_in(const sl_runtime *rt, uint32_t number, double x, double y) {
     const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
     const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
     const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
-    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES)
-        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
-    return true;
+    int place = 1;
+    for (; corner < stop && place >= 0; before = corner, corner += SLRT_VERTEX_BYTES) {
+        const int side = slrt_side_of_line(before, corner, x, y);
+        if (side < place) place = side;
+    }
+    return place;
+}
+
+static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+    return slrt_place_in(rt, number, x, y) >= 0;
 }
 
 /// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
@@ -2172,11 +2299,14 @@ static double slrt_before(double number) {
     return number;
 }
 
+static bool slrt_in_bounds(const sl_runtime *rt, double x, double y) {
+    return x >= rt->min_x && x <= rt->max_x && y >= rt->min_y && y <= rt->max_y;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
     uint32_t first = SL_RUNTIME_NO_CELL;
     int side;
-    if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
-        return SL_RUNTIME_NO_CELL;
+    if (!slrt_in_bounds(runtime, x, y)) return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
         const uint32_t cell =
@@ -2213,12 +2343,96 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
     if (slrt_is_beside_box(rt, &cell, box)) return false;
     for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
-        bool outside = true;
-        int k;
-        for (k = 0; k < 4 && outside; k++)
-            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
-        if (outside) return false;
+        // The corner of the box that is farthest to the left of the side.
+        const double x = box[slrt_f64(corner + 8) > slrt_f64(before + 8) ? 0 : 2];
+        const double y = box[slrt_f64(corner) > slrt_f64(before) ? 3 : 1];
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
     }
+    return true;
+}
+
+/// What is done with a cell near a box; false to stop.
+typedef bool slrt_visit(void *context, uint32_t cell);
+
+static bool slrt_visit_all(const sl_runtime *rt, slrt_visit *visit, void *context) {
+    uint32_t i;
+    for (i = 0; i < rt->cell_count; i++)
+        if (!visit(context, i)) return false;
+    return true;
+}
+
+/// The cells of all buckets that a box meets; a cell may come more than once.
+static bool slrt_visit_by_grid(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
+    const double low_x = box[0] > rt->min_x ? box[0] : rt->min_x;
+    const double low_y = box[1] > rt->min_y ? box[1] : rt->min_y;
+    const double high_x = box[2] < rt->max_x ? box[2] : rt->max_x;
+    const double high_y = box[3] < rt->max_y ? box[3] : rt->max_y;
+    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
+    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
+    uint32_t y, x, i;
+    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
+        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
+            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
+            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
+                if (!visit(context, slrt_u32(rt->grid_cells + (size_t)i * 4))) return false;
+        }
+    return true;
+}
+
+static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    enum { MOST = 128 };
+    int32_t stack[MOST];
+    uint32_t count = 1;
+    stack[0] = rt->root;
+    while (count && count < MOST - 1) {
+        const int32_t child = stack[--count];
+        const unsigned char *node;
+        int axis;
+        if (child < 0) {
+            if (!visit(context, (uint32_t)~child)) return false;
+            continue;
+        }
+        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
+        axis = slrt_i32(node + 8) ? 1 : 0;
+        if (box[axis] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
+        if (box[2 + axis] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
+    }
+    return !count || slrt_visit_all(rt, visit, context); // the tree is too deep
+}
+
+/// Visits all cells that a box touches, and some that are near: by the grid or the tree, or all if
+/// there is neither. False if a visit stopped it.
+static bool slrt_visit_near(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                            void *context) {
+    if (box[2] < rt->min_x || box[3] < rt->min_y || box[0] > rt->max_x || box[1] > rt->max_y)
+        return true;
+    if (rt->grid_cells) return slrt_visit_by_grid(rt, box, visit, context);
+    if (rt->nodes) return slrt_visit_by_tree(rt, box, visit, context);
+    return slrt_visit_all(rt, visit, context);
+}
+
+/// So many cells are noted at a time: a number that 32 divides.
+#ifndef SLRT_WINDOW
+#define SLRT_WINDOW 8192
+#endif
+
+/// Cells by number, from `first` on, as bits.
+typedef struct slrt_window {
+    uint32_t first, next; ///< next: the first one behind the bits
+    uint32_t bits[SLRT_WINDOW / 32];
+} slrt_window;
+
+static bool slrt_note(void *context, uint32_t cell) {
+    slrt_window *w = (slrt_window *)context;
+    const uint32_t at = cell - w->first;
+    if (cell < w->first) return true;
+    if (at < SLRT_WINDOW)
+        w->bits[at / 32] |= UINT32_C(1) << at % 32;
+    else if (cell < w->next)
+        w->next = cell;
     return true;
 }
 
@@ -2226,13 +2440,20 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room) {
     double box[4];
-    uint32_t cell, count = 0;
+    uint32_t i, bits, cell, count = 0;
+    slrt_window w;
     if (!(min_x <= max_x && min_y <= max_y)) return 0;
     box[0] = min_x, box[1] = min_y, box[2] = max_x, box[3] = max_y;
-    for (cell = 0; cell < runtime->cell_count; cell++) {
-        if (!slrt_meets_box(runtime, cell, box)) continue;
-        if (count < room) cells[count] = cell;
-        count++;
+    for (w.first = 0; w.first != SL_RUNTIME_NO_CELL; w.first = w.next) {
+        w.next = SL_RUNTIME_NO_CELL;
+        memset(w.bits, 0, sizeof w.bits);
+        slrt_visit_near(runtime, box, slrt_note, &w);
+        for (i = 0; i < SLRT_WINDOW / 32; i++)
+            for (bits = w.bits[i], cell = w.first + 32 * i; bits; bits >>= 1, cell++) {
+                if (!(bits & 1) || !slrt_meets_box(runtime, cell, box)) continue;
+                if (count < room) cells[count] = cell;
+                count++;
+            }
     }
     return count;
 }
@@ -2348,86 +2569,48 @@ static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const doubl
     return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
 }
 
+/// A box that is put into its cells.
+typedef struct slrt_placing {
+    sl_runtime_boxes *boxes;
+    uint32_t box;
+    double at[4];
+} slrt_placing;
+
 /// Puts a box into a cell, if it reaches into it. False if there is no room.
-static bool slrt_put_in_cell(sl_runtime_boxes *boxes, uint32_t box, const double at[4],
-                             uint32_t cell) {
-    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, box);
+static bool slrt_put_in_cell(void *context, uint32_t cell) {
+    const slrt_placing *placing = (const slrt_placing *)context;
+    sl_runtime_boxes *boxes = placing->boxes;
+    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, placing->box);
     const uint32_t free = boxes->memory[0];
     uint32_t *entry;
     // The last box that came to a cell is the first in its list: a second bucket has the cell too.
-    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == box) return true;
-    if (!slrt_reaches_into(boxes->runtime, cell, at)) return true;
+    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == placing->box)
+        return true;
+    if (!slrt_reaches_into(boxes->runtime, cell, placing->at)) return true;
     if (free == SLRT_NO_ENTRY) return false;
     entry = slrt_entry(boxes, free);
     boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
     entry[SLRT_ENTRY_CELL] = cell;
-    entry[SLRT_ENTRY_BOX] = box;
+    entry[SLRT_ENTRY_BOX] = placing->box;
     entry[SLRT_ENTRY_IN_CELL] = *first;
     entry[SLRT_ENTRY_OF_BOX] = *own;
     *first = *own = free;
     return true;
 }
 
-/// Puts a box into the cells of all buckets that it meets.
-static bool slrt_put_by_grid(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    const sl_runtime *rt = boxes->runtime;
-    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
-    const double low_x = at[0] > rt->min_x ? at[0] : rt->min_x;
-    const double low_y = at[1] > rt->min_y ? at[1] : rt->min_y;
-    const double high_x = at[2] < rt->max_x ? at[2] : rt->max_x;
-    const double high_y = at[3] < rt->max_y ? at[3] : rt->max_y;
-    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
-    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
-    uint32_t y, x, i;
-    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
-        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
-            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
-            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
-                if (!slrt_put_in_cell(boxes, box, at, slrt_u32(rt->grid_cells + (size_t)i * 4)))
-                    return false;
-        }
-    return true;
-}
-
-/// Puts a box into the cells that the tree has there, or that there are without a tree.
-static bool slrt_put_by_tree(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    enum { MOST = 128 };
-    const sl_runtime *rt = boxes->runtime;
-    int32_t stack[MOST];
-    uint32_t count = 0, i;
-    if (rt->nodes) stack[count++] = rt->root;
-    while (count && count < MOST - 1) {
-        const int32_t child = stack[--count];
-        const unsigned char *node;
-        if (child < 0) {
-            if (!slrt_put_in_cell(boxes, box, at, (uint32_t)~child)) return false;
-            continue;
-        }
-        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
-        i = slrt_i32(node + 8) ? 1 : 0;
-        if (at[i] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
-        if (at[2 + i] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
-    }
-    if (rt->nodes && !count) return true;
-    for (i = 0; i < rt->cell_count; i++) // no tree, or one that is too deep
-        if (!slrt_put_in_cell(boxes, box, at, i)) return false;
-    return true;
-}
-
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
-    const sl_runtime *rt = boxes->runtime;
-    double at[4];
-    bool usable = true;
+    slrt_placing placing;
+    bool usable = to->min_x <= to->max_x && to->min_y <= to->max_y;
     int i;
-    at[0] = to->min_x, at[1] = to->min_y, at[2] = to->max_x, at[3] = to->max_y;
-    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(at[i]);
+    placing.boxes = boxes;
+    placing.box = box;
+    placing.at[0] = to->min_x, placing.at[1] = to->min_y;
+    placing.at[2] = to->max_x, placing.at[3] = to->max_y;
+    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(placing.at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!(usable && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x || at[3] < rt->min_y ||
-        at[0] > rt->max_x || at[1] > rt->max_y)
-        return true;
-    if (rt->grid_cells ? slrt_put_by_grid(boxes, box, at) : slrt_put_by_tree(boxes, box, at))
+    if (!usable || slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
         return true;
     slrt_take_out(boxes, box);
     *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
@@ -2499,19 +2682,23 @@ typedef struct slrt_search {
     double range;              ///< 0 for no limit
     double x, y;               ///< the eye
     uint32_t eye_cell;         ///< that sl_runtime_locate gives
-    uint32_t own_count;        ///< of SLRT_OWN
+    uint32_t own_count;        ///< of the cells listed: the eye's, or those on a way
+    bool has_marks;            ///< the marks of these say so
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
+    bool on_foot; ///< glass is a wall from both sides
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
     /// boxes is built without what is only for them.
     void (*meet_boxes)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
+    bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
+    uint32_t except;                   ///< a box that stops nothing
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
     uint32_t *blockers, blocker_count; ///< those that hide something
     uint32_t *chosen;                  ///< room for as many as there are boxes
@@ -2649,7 +2836,7 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
-        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(s, seam)) return true;
+        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
     }
     return false;
 }
@@ -3136,432 +3323,6 @@ static void slrt_meet_boxes(slrt_search *s, uint32_t cell, const slrt_sector *se
     }
 }
 
-// --- Eye-to-cell: the search through portals
-
-/// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
-/// path was seen through a wider sector, and a cell that was entered with a wider one needs no
-/// second visit.
-static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
-    uint32_t *top = s->path + 4 * (size_t)s->depth;
-    unsigned char *marks = s->marks + cell;
-    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
-    if (*marks & SLRT_ON_PATH) return;
-    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
-    slrt_see(s, cell);
-    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
-    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
-                             sector->along);
-    s->sectors[2 * (size_t)cell] = sector->right;
-    s->sectors[2 * (size_t)cell + 1] = sector->left;
-    top[0] = cell;
-    top[1] = 0;
-    top[2] = sector->right;
-    top[3] = sector->left;
-    s->depth++;
-}
-
-static void slrt_see_row(slrt_search *s) {
-    uint32_t i;
-    s->gave_up = true;
-    for (i = 0; i < s->rt->cell_count; i++)
-        if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
-}
-
-/// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
-/// start of a search: none leads there.
-static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
-    slrt_sector sector;
-    if (s->marks[to] & SLRT_OWN) return;
-    sector.right = top[2];
-    sector.left = top[3];
-    sector.along = s->marks[top[0]] & SLRT_ALONG;
-    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
-    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
-    if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
-    slrt_enter(s, to, &sector);
-}
-
-/// Whether a sector leads into a cell of the eye's: some of its directions enter the cell, or run
-/// along its border. Either the first direction of the sector does, or the sector has the first one
-/// of the cell, which is along a side at the eye.
-static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
-    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
-    const unsigned char *a = s->rt->vertices + (size_t)c.first_vertex * SLRT_VERTEX_BYTES;
-    const unsigned char *b = a + (size_t)(c.vertex_count - 1) * SLRT_VERTEX_BYTES;
-    slrt_arm u, v, p, side;
-    bool enters = true;
-    uint32_t i;
-    if (sector->right == SLRT_ALL_ROUND) return true;
-    u = slrt_border(s, sector->right);
-    v = slrt_border(s, sector->left);
-    for (i = 0; i < c.vertex_count; i++, b = a, a += SLRT_VERTEX_BYTES) {
-        if (slrt_side_of_line(b, a, s->x, s->y)) continue;
-        p = slrt_make_arm(s->x, s->y, slrt_f64(a), slrt_f64(a + 8));
-        if (slrt_within(&p, &u, &v, slrt_side(&u, &p), slrt_side(&p, &v))) return true;
-        side = slrt_make_arm(slrt_f64(b), slrt_f64(b + 8), slrt_f64(a), slrt_f64(a + 8));
-        if (slrt_side(&side, &u) < 0) enters = false;
-    }
-    return enters;
-}
-
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
-    while (s->depth) {
-        uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
-        if (top[1] == c.directed_count) {
-            s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
-            s->depth--;
-        } else if (!s->patience) {
-            slrt_see_row(s);
-            s->depth = 0;
-        } else {
-            s->patience--;
-            slrt_search_on(s, top, c.first_directed + top[1]++);
-        }
-    }
-}
-
-static bool slrt_is_direction(const double *d) {
-    const double larger = slrt_larger(d[0], d[1]);
-    return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
-}
-
-/// Replaces a number that is too small for a map by 0, as its products would underflow.
-static double slrt_no_dust(double number) {
-    return number > -1e-200 && number < 1e-200 ? 0 : number;
-}
-
-static slrt_arm slrt_direction(double x, double y) {
-    return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
-}
-
-SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
-    return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
-}
-
-/// Whether the eye is on a directed portal, ends included.
-static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
-}
-
-/// Adds the row of a cell to the cells that the search may enter.
-static void slrt_allow_row(slrt_search *s, uint32_t cell) {
-    sl_runtime_run run = sl_runtime_row(s->rt, cell);
-    uint32_t i;
-    while (sl_runtime_next(&run))
-        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
-}
-
-/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
-static bool slrt_overlap(double a, double b, double c, double d) {
-    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
-}
-
-/// Whether the way from the eye to a point meets a directed portal, ends included.
-static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
-    if (right * left > 0) return false;
-    if (!right && !left)
-        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
-               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
-}
-
-/// Lists and marks the eye's cell and those that it leads to through all open portals that a way
-/// meets, until a cell touches the end of the way: then true. NULL for the way that is the eye
-/// alone: the cells are the eye's, and their rows count. Until the search starts, the path is the
-/// list.
-static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
-    uint32_t at, i;
-    s->path[0] = s->eye_cell;
-    s->own_count = 1;
-    s->marks[s->eye_cell] |= SLRT_OWN;
-    for (at = 0; at < s->own_count; at++) {
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
-        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
-        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
-            if (s->marks[to] & SLRT_OWN ||
-                !(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
-                slrt_is_blocked(s, i))
-                continue;
-            s->marks[to] |= SLRT_OWN;
-            s->path[s->own_count++] = to;
-            if (s->has_row) slrt_allow_row(s, to);
-        }
-    }
-    return false;
-}
-
-/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
-/// through a directed portal is one sector. All round from within a cell, each directed portal is
-/// such a piece.
-static void slrt_search_cone(slrt_search *s, uint32_t cell) {
-    const double *right = s->view->right, *left = s->view->left;
-    uint32_t i, pieces = 3, last = 3;
-    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (s->own_count == 1) {
-            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-            return;
-        }
-        s->cone[0] = slrt_direction(1, 0);
-        s->cone[1] = slrt_direction(-1, 1);
-        s->cone[2] = slrt_direction(-1, -1);
-        last = 0;
-    } else {
-        s->cone[0] = slrt_direction(right[0], right[1]);
-        s->cone[1] = slrt_direction(-right[1], right[0]);
-        s->cone[2] = slrt_direction(-right[0], -right[1]);
-        s->cone[3] = slrt_direction(left[0], left[1]);
-        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
-            pieces = 1;
-    }
-    for (i = 0; i < pieces; i++)
-        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
-}
-
-/// The smaller one of a caller's range and the map's own; 0 for no limit.
-static double slrt_range(const sl_runtime *rt, double range) {
-    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
-                                        uint32_t *scratch, uint32_t *cells, uint32_t room) {
-    return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
-}
-
-/// Prepares a search. False if the eye sees nothing.
-static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
-                              const unsigned char *shut, double range, uint32_t *scratch) {
-    const size_t count = rt->cell_count;
-    memset(s, 0, sizeof *s);
-    s->rt = rt;
-    s->view = view;
-    s->shut = shut;
-    s->range = slrt_range(rt, range);
-    s->x = slrt_no_dust(view->x);
-    s->y = slrt_no_dust(view->y);
-    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
-    s->path = scratch;
-    s->sectors = scratch + 4 * count;
-    s->marks = (unsigned char *)(scratch + 6 * count);
-    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
-}
-
-static void slrt_run_search(slrt_search *s) {
-    sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
-    uint32_t i;
-    s->count = 0;
-    s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
-    memset(s->marks, 0, s->rt->cell_count);
-    s->has_row = run.next != run.stop;
-    while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
-    slrt_follow(s, NULL);
-    slrt_search_cone(s, s->eye_cell);
-    for (i = 0; i < s->rt->cell_count && s->own_count > 1; i++)
-        if (s->marks[i] & SLRT_OWN && i != s->eye_cell) slrt_search_cone(s, i);
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
-                                             const unsigned char *shut, double range,
-                                             uint32_t *scratch, uint32_t *cells, uint32_t room) {
-    slrt_search s;
-    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
-    s.cells = cells;
-    s.room = room;
-    slrt_run_search(&s);
-    return s.count;
-}
-
-/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
-/// that no product overflows, and the range is more than any distance where it is left out.
-static bool slrt_is_within(const slrt_search *s, double x, double y) {
-    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
-    const double scale = slrt_scale_of(largest), range = scale * s->range;
-    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
-    double parts[14];
-    int count = 0, i;
-    if (!(s->range > 0) || range > 8) return true;
-    for (i = 0; i < 2; i++) {
-        count = slrt_add_product(parts, count, to[i], to[i]);
-        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
-        count = slrt_add_product(parts, count, from[i], from[i]);
-    }
-    count = slrt_add_product(parts, count, -range, range);
-    return !count || parts[count - 1] <= 0;
-}
-
-SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
-                                    double y1, const unsigned char *shut, double range,
-                                    uint32_t *scratch) {
-    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
-    const double x = slrt_no_dust(x1), y = slrt_no_dust(y1);
-    slrt_search s;
-    slrt_arm way;
-    if (!slrt_start_search(&s, runtime, &view, shut, range, scratch) ||
-        sl_runtime_locate(runtime, x, y) == SL_RUNTIME_NO_CELL || !slrt_is_within(&s, x, y))
-        return false;
-    way = slrt_make_arm(s.x, s.y, x, y);
-    memset(s.marks, 0, runtime->cell_count);
-    return slrt_follow(&s, &way);
-}
-
-/// Adds to a search that has run what is seen by mirror from somewhere in a cell.
-static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint32_t cell) {
-    sl_runtime_run run = sl_runtime_row(rows, cell);
-    slrt_door_pairs pairs = slrt_door_pairs_of(rows, cell);
-    uint32_t i;
-    while (sl_runtime_next(&run))
-        for (i = run.first; i < run.end; i++)
-            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
-}
-
-/// Adds to a search that has run what the eye may see by mirror.
-static void slrt_see_mirrored(slrt_search *s) {
-    const sl_runtime rows = slrt_mirrored(s->rt);
-    const bool known = s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row;
-    uint32_t i;
-    if (known) slrt_see_mirrored_from(s, &rows, s->eye_cell);
-    for (i = 0; i < s->rt->cell_count && !(known && s->own_count == 1); i++) {
-        if (known && s->marks[i] & SLRT_OWN) slrt_see_mirrored_from(s, &rows, i);
-        if (!known && !sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
-    }
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
-                                                 const sl_runtime_view *view,
-                                                 const unsigned char *shut, double range,
-                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
-                                                 uint32_t *direct) {
-    slrt_search s;
-    *direct = 0;
-    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
-    s.cells = cells;
-    s.room = room;
-    slrt_run_search(&s);
-    *direct = s.count;
-    if (runtime->mirrors) slrt_see_mirrored(&s);
-    return s.count;
-}
-
-// --- Boxes: what is asked
-
-SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
-    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
-}
-
-/// Twice the distance from the eye to a box's middle, squared.
-static double slrt_away(const slrt_search *s, uint32_t box) {
-    const sl_runtime_box *at = &s->boxes->boxes[box];
-    const double x = at->min_x + at->max_x - 2 * s->x, y = at->min_y + at->max_y - 2 * s->y;
-    return x * x + y * y;
-}
-
-/// Sorts boxes, the nearest first (Shell 1959).
-static void slrt_sort_by_distance(const slrt_search *s, uint32_t *boxes, uint32_t count) {
-    uint32_t gap, i, k;
-    for (gap = count / 2; gap; gap = gap == 2 ? 1 : (uint32_t)(gap / 2.2))
-        for (i = gap; i < count; i++) {
-            const uint32_t box = boxes[i];
-            const double away = slrt_away(s, box);
-            for (k = i; k >= gap && slrt_away(s, boxes[k - gap]) > away; k -= gap)
-                boxes[k] = boxes[k - gap];
-            boxes[k] = box;
-        }
-}
-
-/// Whether boxes hide all of another one: the first `front` blockers, or all of them.
-static bool slrt_is_hidden_by(slrt_search *s, uint32_t box, uint32_t front) {
-    const uint32_t all = s->blocker_count;
-    bool hidden;
-    if (s->box_marks[box] != SLRT_BOX_PAST_WALLS) return false;
-    s->blocker_count = front;
-    hidden = slrt_is_hidden_box(s, box);
-    s->blocker_count = all;
-    return hidden || slrt_is_hidden_box(s, box);
-}
-
-/// Marks the boxes that others hide wholly, walls aside. Few boxes near the eye hide most of a
-/// crowd. So boxes are asked the nearest first, against those that are not hidden themselves, and
-/// only then against all. Blockers that are not hidden gather at the front of the list, and are
-/// what is left: what hides a box wholly also hides what is behind that box.
-static void slrt_hide_boxes(slrt_search *s) {
-    uint32_t i, front = 0;
-    slrt_sort_by_distance(s, s->blockers, s->blocker_count);
-    for (i = 0; i < s->blocker_count; i++) {
-        const uint32_t box = s->blockers[i];
-        if (slrt_is_hidden_by(s, box, front)) {
-            s->box_marks[box] = SLRT_BOX_HIDDEN;
-        } else {
-            s->blockers[i] = s->blockers[front];
-            s->blockers[front++] = box;
-        }
-    }
-    for (i = 0; i < s->boxes->count; i++)
-        if (!s->boxes->boxes[i].blocks && slrt_is_hidden_by(s, i, front))
-            s->box_marks[i] = SLRT_BOX_HIDDEN;
-    s->blocker_count = front;
-}
-
-/// The first search finds the boxes that are seen past walls. If some of them block, a second one
-/// asks which of these are seen past the others, and leaves out cells that are hidden.
-static void slrt_look_at_boxes(slrt_search *s) {
-    const sl_runtime_boxes *boxes = s->boxes;
-    uint32_t i;
-    for (i = 0; i < boxes->count; i++)
-        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
-    slrt_run_search(s);
-    for (i = 0; i < boxes->count && !s->gave_up; i++)
-        if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
-    if (!s->blocker_count) return;
-    s->is_hidden = slrt_is_hidden_portal;
-    slrt_hide_boxes(s);
-    slrt_run_search(s);
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
-                                                   const sl_runtime_view *view,
-                                                   const unsigned char *shut, double range,
-                                                   uint32_t *boxes_scratch, unsigned char *seen,
-                                                   uint32_t *cells, uint32_t room) {
-    slrt_search s;
-    uint32_t i;
-    unsigned char wanted;
-    if (boxes->count) memset(seen, 0, boxes->count);
-    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
-    s.cells = cells;
-    s.room = room;
-    s.meet_boxes = slrt_meet_boxes;
-    s.boxes = boxes;
-    s.box_marks = seen;
-    s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);
-    s.chosen = s.blockers + boxes->count;
-    slrt_look_at_boxes(&s);
-    wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
-    for (i = 0; i < boxes->count; i++)
-        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
-    return s.count;
-}
-
-SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
-                                              const sl_runtime_view *view,
-                                              const unsigned char *shut, double range,
-                                              uint32_t *boxes_scratch, unsigned char *seen) {
-    uint32_t i, count = 0;
-    sl_runtime_look_past_boxes(boxes, view, shut, range, boxes_scratch, seen, NULL, 0);
-    for (i = 0; i < boxes->count; i++) count += seen[i];
-    return count;
-}
-
 // --- The boundary of a cell, piece by piece
 
 /// No directed portal: a wall, or the border of the map. Also: no border, but a piece's own end.
@@ -3598,17 +3359,27 @@ typedef struct slrt_polygon {
     double arc[2], arc_end[2];
     bool pending;           ///< the end of the last piece is not added yet
     slrt_piece piece;       ///< that piece
-    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE
+    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE for
+    double piece_end[2];    ///< this place
     slrt_piece first_piece; ///< that starts at the first point
     bool first_is_short;    ///< it is shorter than a step of doubles
     bool inside;            ///< the eye lies within its cell
     uint32_t fan_first;     ///< the cell where the way around the eye starts
     bool fan_is_closed;     ///< it leads back to that cell
     bool gap;               ///< the eye lies on a wall, which hides some directions
-    bool in_sector;         ///< only what is between these borders is looked at
-    uint32_t right, left;   ///< borders of the sector
+    double fan_right[2];    ///< if it is not closed: where walls end it, and may be one wall
+    double fan_left[2];
+    bool in_sector;       ///< only what is between these borders is looked at
+    uint32_t right, left; ///< borders of the sector
     bool second_lap, started, done;
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
+    uint32_t fan_cell;         ///< its cell
+    /// For cells that are entered, and in place of adding a wall; NULL for none. By these a program
+    /// that does not ask for boxes is built without what is only for them.
+    void (*meet)(struct slrt_polygon *p, uint32_t cell);
+    void (*see_wall)(struct slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
+                     uint32_t left);
+    void *job; ///< theirs
 } slrt_polygon;
 
 static void slrt_read_vertex(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t corner,
@@ -3775,6 +3546,547 @@ static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
     return true;
 }
 
+// --- A line from cell to cell
+
+// Nearly always the line from an eye to a point leaves each cell within one portal, until it comes
+// to the cell of the point, or to a wall:
+//
+//     +--------+---------+     The portal by which the line leaves a cell, and then on which side
+//     | eye *--|----* .. |     of that portal the point is: before it, the line arrives; behind
+//     +--------+---------+     it, the line goes on.
+//
+// Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
+// several cells. Then all cells are followed that it comes to by portals that it meets.
+
+/// Replaces a number that is too small for a map by 0, as its products would underflow.
+static double slrt_no_dust(double number) {
+    return number > -1e-200 && number < 1e-200 ? 0 : number;
+}
+
+/// Puts an eye, or who walks, at a place. False outside and in solid ground.
+static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, double y,
+                           const unsigned char *shut) {
+    memset(s, 0, sizeof *s);
+    s->rt = rt;
+    s->shut = shut;
+    s->x = slrt_no_dust(x);
+    s->y = slrt_no_dust(y);
+    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
+    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
+}
+
+/// Where the line from the eye to a point leads.
+typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
+
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
+/// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
+/// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
+static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             bool *touches) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    uint32_t i;
+    *touches = false;
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
+        const int right = slrt_side(way, &p), left = right > 0 ? -1 : slrt_side(way, &q);
+        if (left < 0) continue;
+        if (left && right) return i;
+        *touches = true;
+    }
+    return SLRT_NONE;
+}
+
+/// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
+/// to, or a box, stops it.
+static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
+    uint32_t cell = s->eye_cell, steps = s->rt->loose ? 0 : s->rt->cell_count;
+    if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
+    for (; steps; steps--) {
+        bool touches;
+        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        int place;
+        if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
+        if (touches) return SLRT_TOUCHES;
+        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
+        if (place > 0) return SLRT_ARRIVES;
+        if (!place) return SLRT_TOUCHES;
+        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
+        cell = slrt_cell_across(s->rt, out);
+    }
+    return SLRT_TOUCHES;
+}
+
+/// Whether the eye is on a directed portal, ends included.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
+}
+
+/// Adds the row of a cell to the cells that the search may enter.
+static void slrt_allow_row(slrt_search *s, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(s->rt, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
+}
+
+/// Allows the rows of the cells at glass that the eye is in line with. A line along it may cross it
+/// as rows do not know it; after the last such portal, they know all of it.
+static void slrt_allow_rows_in_line(slrt_search *s) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i;
+    for (i = 0; i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12;
+        const unsigned char *seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        const unsigned char *portal = rt->portals + (size_t)slrt_u32(on) * SLRT_PORTAL_BYTES;
+        if (slrt_u32(seam + 32) != 2 || slrt_side_of_line(seam, seam + 16, s->x, s->y)) continue;
+        slrt_allow_row(s, slrt_u32(portal)); // empty for what is no cell
+        slrt_allow_row(s, slrt_u32(portal + 4));
+    }
+}
+
+/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
+static bool slrt_overlap(double a, double b, double c, double d) {
+    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
+}
+
+/// Whether the way from the eye to a point meets a directed portal, ends included.
+static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
+    if (right * left > 0) return false;
+    if (!right && !left)
+        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
+               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
+}
+
+/// Of so many cells, a list is faster than marks, which have to be cleared first.
+enum { SLRT_FEW_CELLS = 32 };
+
+static bool slrt_is_listed(const slrt_search *s, uint32_t cell) {
+    uint32_t i;
+    if (s->has_marks) return (s->marks[cell] & SLRT_OWN) != 0;
+    for (i = 0; i < s->own_count && s->path[i] != cell; i++) {
+    }
+    return i < s->own_count;
+}
+
+/// Until the search starts, the path is the list.
+static void slrt_list(slrt_search *s, uint32_t cell) {
+    uint32_t i = s->own_count;
+    s->path[s->own_count++] = cell;
+    if (!s->has_marks && s->own_count < SLRT_FEW_CELLS) return;
+    if (!s->has_marks) {
+        memset(s->marks, 0, s->rt->cell_count);
+        s->has_marks = true;
+        i = 0;
+    }
+    for (; i < s->own_count; i++) s->marks[s->path[i]] |= SLRT_OWN;
+}
+
+/// Lists the eye's cell and those that it leads to through all open portals that a way meets, until
+/// a cell touches the end of the way: then true. NULL for the way that is the eye alone: the cells
+/// are the eye's, and their rows count.
+static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, i;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
+        if (s->stops && s->stops(s, way, s->path[at])) return false;
+        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+            const uint32_t to = slrt_cell_across(s->rt, i);
+            if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
+                slrt_is_listed(s, to) || slrt_is_blocked(s, i))
+                continue;
+            slrt_list(s, to);
+            if (s->has_row) slrt_allow_row(s, to);
+        }
+    }
+    return false;
+}
+
+// --- Eye-to-cell: the search through portals
+
+/// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
+/// path was seen through a wider sector, and a cell that was entered with a wider one needs no
+/// second visit.
+static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    uint32_t *top = s->path + 4 * (size_t)s->depth;
+    unsigned char *marks = s->marks + cell;
+    if (s->has_row && !(*marks & SLRT_IN_ROW)) return;
+    if (*marks & SLRT_ON_PATH) return;
+    if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
+    slrt_see(s, cell);
+    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
+    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
+                             sector->along);
+    s->sectors[2 * (size_t)cell] = sector->right;
+    s->sectors[2 * (size_t)cell + 1] = sector->left;
+    top[0] = cell;
+    top[1] = 0;
+    top[2] = sector->right;
+    top[3] = sector->left;
+    s->depth++;
+}
+
+static void slrt_see_row(slrt_search *s) {
+    uint32_t i;
+    s->gave_up = true;
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
+}
+
+/// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
+/// start of a search: none leads there.
+static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
+    const uint32_t to = slrt_cell_across(s->rt, directed);
+    slrt_sector sector;
+    if (s->marks[to] & SLRT_OWN) return;
+    sector.right = top[2];
+    sector.left = top[3];
+    sector.along = s->marks[top[0]] & SLRT_ALONG;
+    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
+    if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
+    if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
+    slrt_enter(s, to, &sector);
+}
+
+/// Whether a sector leads into a cell of the eye's: some of its directions enter the cell, or run
+/// along its border. Either the first direction of the sector does, or the sector has the first one
+/// of the cell, which is along a side at the eye.
+static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    const unsigned char *a = s->rt->vertices + (size_t)c.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *b = a + (size_t)(c.vertex_count - 1) * SLRT_VERTEX_BYTES;
+    slrt_arm u, v, p, side;
+    bool enters = true;
+    uint32_t i;
+    if (sector->right == SLRT_ALL_ROUND) return true;
+    u = slrt_border(s, sector->right);
+    v = slrt_border(s, sector->left);
+    for (i = 0; i < c.vertex_count; i++, b = a, a += SLRT_VERTEX_BYTES) {
+        if (slrt_side_of_line(b, a, s->x, s->y)) continue;
+        p = slrt_make_arm(s->x, s->y, slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_within(&p, &u, &v, slrt_side(&u, &p), slrt_side(&p, &v))) return true;
+        side = slrt_make_arm(slrt_f64(b), slrt_f64(b + 8), slrt_f64(a), slrt_f64(a + 8));
+        if (slrt_side(&side, &u) < 0) enters = false;
+    }
+    return enters;
+}
+
+static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    slrt_sector sector;
+    sector.right = right;
+    sector.left = left;
+    sector.along = 0;
+    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
+    while (s->depth) {
+        uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
+        if (top[1] == c.directed_count) {
+            s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
+            s->depth--;
+        } else if (!s->patience) {
+            slrt_see_row(s);
+            s->depth = 0;
+        } else {
+            s->patience--;
+            slrt_search_on(s, top, c.first_directed + top[1]++);
+        }
+    }
+}
+
+static bool slrt_is_direction(const double *d) {
+    const double larger = slrt_larger(d[0], d[1]);
+    return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
+}
+
+static slrt_arm slrt_direction(double x, double y) {
+    return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
+}
+
+SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
+    return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
+}
+
+/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
+/// through a directed portal is one sector. All round from within a cell, each directed portal is
+/// such a piece.
+static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+    const double *right = s->view->right, *left = s->view->left;
+    uint32_t i, pieces = 3, last = 3;
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
+        if (s->own_count == 1) {
+            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+            return;
+        }
+        s->cone[0] = slrt_direction(1, 0);
+        s->cone[1] = slrt_direction(-1, 1);
+        s->cone[2] = slrt_direction(-1, -1);
+        last = 0;
+    } else {
+        s->cone[0] = slrt_direction(right[0], right[1]);
+        s->cone[1] = slrt_direction(-right[1], right[0]);
+        s->cone[2] = slrt_direction(-right[0], -right[1]);
+        s->cone[3] = slrt_direction(left[0], left[1]);
+        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
+            pieces = 1;
+    }
+    for (i = 0; i < pieces; i++)
+        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+}
+
+/// The smaller one of a caller's range and the map's own; 0 for no limit.
+static double slrt_range(const sl_runtime *rt, double range) {
+    return range > 0 && !(rt->range > 0 && rt->range < range) ? range : rt->range;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
+                                        uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
+}
+
+/// Prepares a search. False if the eye sees nothing.
+static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
+                              const unsigned char *shut, double range, uint32_t *scratch) {
+    const size_t count = rt->cell_count;
+    const bool sees = slrt_place_eye(s, rt, view->x, view->y, shut);
+    s->view = view;
+    s->range = slrt_range(rt, range);
+    s->path = scratch;
+    s->sectors = scratch + 4 * count;
+    s->marks = (unsigned char *)(scratch + 6 * count);
+    return sees;
+}
+
+/// The cells that the eye stands in, once they are found. If there are more than one, none of these
+/// is entered from another cell. So the path has room for them behind it.
+static uint32_t *slrt_own_cells(const slrt_search *s) {
+    return s->path + 4 * (size_t)s->rt->cell_count - s->own_count;
+}
+
+static void slrt_run_search(slrt_search *s) {
+    sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
+    uint32_t i;
+    s->count = s->own_count = 0;
+    s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
+    memset(s->marks, 0, s->rt->cell_count);
+    s->has_marks = true;
+    s->has_row = run.next != run.stop;
+    while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
+    slrt_follow(s, NULL);
+    if (s->has_row && s->rt->has_glass) slrt_allow_rows_in_line(s);
+    for (i = s->own_count; i-- > 0;) slrt_own_cells(s)[i] = s->path[i]; // upwards: from the last on
+    slrt_search_cone(s, s->eye_cell);
+    for (i = 1; i < s->own_count; i++) slrt_search_cone(s, slrt_own_cells(s)[i]);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
+                                             const unsigned char *shut, double range,
+                                             uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    slrt_search s;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    return s.count;
+}
+
+/// Adds to a search that has run what is seen by mirror from somewhere in a cell.
+static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(rows, cell);
+    slrt_door_pairs pairs = slrt_door_pairs_of(rows, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++)
+            if (!s->shut || slrt_pair_is_open(&pairs, i, s->shut)) slrt_see(s, i);
+}
+
+/// Adds to a search that has run what the eye may see by mirror.
+static void slrt_see_mirrored(slrt_search *s) {
+    const sl_runtime rows = slrt_mirrored(s->rt);
+    uint32_t i;
+    if (s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row) {
+        slrt_see_mirrored_from(s, &rows, s->eye_cell);
+        for (i = 1; i < s->own_count; i++) slrt_see_mirrored_from(s, &rows, slrt_own_cells(s)[i]);
+        return;
+    }
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
+                                                 const sl_runtime_view *view,
+                                                 const unsigned char *shut, double range,
+                                                 uint32_t *scratch, uint32_t *cells, uint32_t room,
+                                                 uint32_t *direct) {
+    slrt_search s;
+    *direct = 0;
+    if (!slrt_start_search(&s, runtime, view, shut, range, scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    slrt_run_search(&s);
+    *direct = s.count;
+    if (runtime->mirrors) slrt_see_mirrored(&s);
+    return s.count;
+}
+
+// --- Boxes: what is asked
+
+/// Twice the distance from the eye to a box's middle, squared.
+static double slrt_away(const slrt_search *s, uint32_t box) {
+    const sl_runtime_box *at = &s->boxes->boxes[box];
+    const double x = at->min_x + at->max_x - 2 * s->x, y = at->min_y + at->max_y - 2 * s->y;
+    return x * x + y * y;
+}
+
+/// Sorts boxes, the nearest first (Shell 1959).
+static void slrt_sort_by_distance(const slrt_search *s, uint32_t *boxes, uint32_t count) {
+    uint32_t gap, i, k;
+    for (gap = count / 2; gap; gap = gap == 2 ? 1 : (uint32_t)(gap / 2.2))
+        for (i = gap; i < count; i++) {
+            const uint32_t box = boxes[i];
+            const double away = slrt_away(s, box);
+            for (k = i; k >= gap && slrt_away(s, boxes[k - gap]) > away; k -= gap)
+                boxes[k] = boxes[k - gap];
+            boxes[k] = box;
+        }
+}
+
+/// Whether boxes hide all of another one: the first `front` blockers, or all of them.
+static bool slrt_is_hidden_by(slrt_search *s, uint32_t box, uint32_t front) {
+    const uint32_t all = s->blocker_count;
+    bool hidden;
+    if (s->box_marks[box] != SLRT_BOX_PAST_WALLS) return false;
+    s->blocker_count = front;
+    hidden = slrt_is_hidden_box(s, box);
+    s->blocker_count = all;
+    return hidden || slrt_is_hidden_box(s, box);
+}
+
+/// Marks the boxes that others hide wholly, walls aside. Few boxes near the eye hide most of a
+/// crowd. So boxes are asked the nearest first, against those that are not hidden themselves, and
+/// only then against all. Blockers that are not hidden gather at the front of the list, and are
+/// what is left: what hides a box wholly also hides what is behind that box.
+static void slrt_hide_boxes(slrt_search *s) {
+    uint32_t i, front = 0;
+    slrt_sort_by_distance(s, s->blockers, s->blocker_count);
+    for (i = 0; i < s->blocker_count; i++) {
+        const uint32_t box = s->blockers[i];
+        if (slrt_is_hidden_by(s, box, front)) {
+            s->box_marks[box] = SLRT_BOX_HIDDEN;
+        } else {
+            s->blockers[i] = s->blockers[front];
+            s->blockers[front++] = box;
+        }
+    }
+    for (i = 0; i < s->boxes->count; i++)
+        if (!s->boxes->boxes[i].blocks && slrt_is_hidden_by(s, i, front))
+            s->box_marks[i] = SLRT_BOX_HIDDEN;
+    s->blocker_count = front;
+}
+
+/// The first search finds the boxes that are seen past walls. If some of them block, a second one
+/// asks which of these are seen past the others, and leaves out cells that are hidden.
+static void slrt_look_at_boxes(slrt_search *s) {
+    const sl_runtime_boxes *boxes = s->boxes;
+    uint32_t i;
+    for (i = 0; i < boxes->count; i++)
+        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
+    slrt_run_search(s);
+    for (i = 0; i < boxes->count && !s->gave_up; i++)
+        if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;
+    if (!s->blocker_count) return;
+    s->is_hidden = slrt_is_hidden_portal;
+    slrt_hide_boxes(s);
+    slrt_run_search(s);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes,
+                                                   const sl_runtime_view *view,
+                                                   const unsigned char *shut, double range,
+                                                   uint32_t *boxes_scratch, unsigned char *seen,
+                                                   uint32_t *cells, uint32_t room) {
+    slrt_search s;
+    uint32_t i;
+    unsigned char wanted;
+    if (boxes->count) memset(seen, 0, boxes->count);
+    if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
+    s.cells = cells;
+    s.room = room;
+    s.meet_boxes = slrt_meet_boxes;
+    s.boxes = boxes;
+    s.box_marks = seen;
+    s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);
+    s.chosen = s.blockers + boxes->count;
+    slrt_look_at_boxes(&s);
+    wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
+    for (i = 0; i < boxes->count; i++)
+        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
+    return s.count;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_boxes_seen(const sl_runtime_boxes *boxes,
+                                              const sl_runtime_view *view,
+                                              const unsigned char *shut, double range,
+                                              uint32_t *boxes_scratch, unsigned char *seen) {
+    uint32_t i, count = 0;
+    sl_runtime_look_past_boxes(boxes, view, shut, range, boxes_scratch, seen, NULL, 0);
+    for (i = 0; i < boxes->count; i++) count += seen[i];
+    return count;
+}
+
+// --- Point to point
+
+/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
+/// that no product overflows, and the range is more than any distance where it is left out.
+static bool slrt_is_within(const slrt_search *s, double x, double y) {
+    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
+    const double scale = slrt_scale_of(largest), range = scale * s->range;
+    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
+    double parts[14];
+    int count = 0, i;
+    if (range > 8) return true;
+    for (i = 0; i < 2; i++) {
+        count = slrt_add_product(parts, count, to[i], to[i]);
+        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
+        count = slrt_add_product(parts, count, from[i], from[i]);
+    }
+    count = slrt_add_product(parts, count, -range, range);
+    return !count || parts[count - 1] <= 0;
+}
+
+/// Whether a search's eye sees a point.
+static bool slrt_sees_point(slrt_search *s, double point_x, double point_y) {
+    const double x = slrt_no_dust(point_x), y = slrt_no_dust(point_y);
+    const slrt_arm way = slrt_make_arm(s->x, s->y, x, y);
+    slrt_finding found;
+    if (!slrt_in_bounds(s->rt, x, y) || (s->range > 0 && !slrt_is_within(s, x, y))) return false;
+    found = slrt_follow_within(s, &way);
+    return found == SLRT_TOUCHES ? slrt_follow(s, &way) : found == SLRT_ARRIVES;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
+                                    double y1, const unsigned char *shut, double range,
+                                    uint32_t *scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    slrt_search s;
+    return slrt_start_search(&s, runtime, &view, shut, range, scratch) &&
+           slrt_sees_point(&s, x1, y1);
+}
+
 // --- Whether a step passes no wall and no shut door
 
 /// Whether the segments from a to b and from c to d have a point in common.
@@ -3805,106 +4117,162 @@ static bool slrt_is_on_border(const sl_runtime *rt, const slrt_piece *piece) {
            (a[1] == b[1] && (a[1] == rt->min_y || a[1] == rt->max_y));
 }
 
-/// So many cells of a step are gone through.
+/// So many cells of a step that touches something are gone through.
 enum { SLRT_STEP_CELLS = 32 };
 
-typedef enum slrt_way { SLRT_WAY_CLEAR, SLRT_WAY_STOPPED, SLRT_WAY_UNKNOWN } slrt_way;
-
-/// Whether a step touches a wall. All cells that it touches are found through portals that it
-/// touches, up to its first wall: the cells about a point are joined by portals that end there, but
-/// for walls that do. Unknown on the map's border, which may be wall in part, and for many cells.
-static slrt_way slrt_way_of(const sl_runtime *rt, const double *from, const double *to,
-                            uint32_t start) {
+/// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
+/// are found through portals that it touches, up to its first wall: the cells about a point are
+/// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
+/// on the map's border, which may be wall in part, and for many cells.
+static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
+                                       const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
     slrt_polygon p;
-    if (rt->loose) return SLRT_WAY_UNKNOWN;
+    if (s->rt->loose) return SLRT_TOUCHES;
     memset(&p, 0, sizeof p);
-    p.s.rt = rt;
-    p.s.patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
-    cells[0] = start;
+    p.s = *s;
+    p.s.patience = (uint64_t)16 * ((uint64_t)s->rt->directed_count + s->rt->vertex_count + 16);
+    cells[0] = s->eye_cell;
     for (i = 0; i < count; i++) {
         slrt_walk w;
         slrt_piece piece;
+        if (s->stops && s->stops(s, way, cells[i])) return SLRT_STOPS;
         slrt_walk_around(&p, &w, cells[i], 1);
         while (slrt_walk_next(&p, &w, &piece)) {
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(rt, &piece) ? SLRT_WAY_UNKNOWN : SLRT_WAY_STOPPED;
-            next = slrt_u32(rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+            if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
-            if (count == SLRT_STEP_CELLS) return SLRT_WAY_UNKNOWN;
+            if (count == SLRT_STEP_CELLS) return SLRT_TOUCHES;
             cells[count++] = next;
         }
     }
-    return p.broken ? SLRT_WAY_UNKNOWN : SLRT_WAY_CLEAR;
+    return p.broken ? SLRT_TOUCHES : SLRT_ARRIVES;
 }
 
-static bool slrt_touches_wall(const sl_runtime *rt, const double *from, const double *to,
-                              uint32_t start) {
-    const slrt_way way = slrt_way_of(rt, from, to, start);
+/// Whether a step touches no wall, shut door, glass or box of all there are.
+static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const double *from,
+                               const double *to) {
+    const sl_runtime *rt = s->rt;
     uint32_t i;
-    if (way != SLRT_WAY_UNKNOWN) return way == SLRT_WAY_STOPPED;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return true;
-    return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + (size_t)i * 40;
+        const uint32_t kind = slrt_u32(seam + 32);
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+            slrt_touches(from, to, seam))
+            return false;
+    }
+    for (i = 0; s->stops && i < rt->cell_count; i++)
+        if (s->stops(s, way, i)) return false;
+    return true;
+}
+
+/// Whether who stands at a search's eye can step to a point.
+static bool slrt_can_step(slrt_search *s, double x, double y) {
+    const double from[2] = {s->x, s->y}, to[2] = {slrt_no_dust(x), slrt_no_dust(y)};
+    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
+    slrt_finding found;
+    if (!s->rt->walls || !slrt_in_bounds(s->rt, to[0], to[1])) return false;
+    s->on_foot = true;
+    found = slrt_follow_within(s, &way);
+    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(s, &way, from, to);
+    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
+    return sl_runtime_locate(s->rt, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
+           slrt_step_by_walls(s, &way, from, to);
 }
 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut) {
-    const double from[2] = {slrt_no_dust(x0), slrt_no_dust(y0)};
-    const double to[2] = {slrt_no_dust(x1), slrt_no_dust(y1)};
-    const uint32_t start = sl_runtime_locate(runtime, from[0], from[1]);
-    const uint32_t end = sl_runtime_locate(runtime, to[0], to[1]);
-    uint32_t i;
-    if (!runtime->walls || start == SL_RUNTIME_NO_CELL || end == SL_RUNTIME_NO_CELL ||
-        sl_runtime_is_solid(runtime, start) || slrt_touches_wall(runtime, from, to, start))
-        return false;
-    for (i = 0; i < runtime->seam_count; i++) {
-        const unsigned char *seam = runtime->seams + (size_t)i * 40;
-        const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && shut && shut[slrt_u32(seam + 36)])) &&
-            slrt_touches(from, to, seam))
-            return false;
-    }
-    return true;
+    slrt_search s;
+    return slrt_place_eye(&s, runtime, x0, y0, shut) && slrt_can_step(&s, x1, y1);
 }
 
-// --- The visible polygon
+// --- Boxes that block: points and steps past them
 
-// The view spreads from the cells at the eye through open portals, as sectors between two borders:
-//
-//      +---------+--------.-+
-//      |         |    .  left     On the way around the next cell, counter-clockwise from the
-//      |         b .        |     portal ab, pieces of its boundary come that are right of the
-//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
-//      |         a .        |     added to the polygon; a portal is entered with the sector
-//      |         |    .  right    between its ends.
-//      +---------+--------.-+
-//
-// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
-// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
-// in one line join; where one ends is computed only when the next one is known not to join. Cost:
-// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
-// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+// A line meets a box in a cell that both have points in, so only the lists of the cells along the
+// line are asked.
+
+static bool slrt_is_in_box(const sl_runtime_box *box, double x, double y) {
+    return box->min_x < x && x < box->max_x && box->min_y < y && y < box->max_y;
+}
+
+/// Whether ranges of numbers have none in common, `touch`: or just an end.
+static bool slrt_is_apart(double a, double b, double low, double high, bool touch) {
+    const double least = a < b ? a : b, most = a < b ? b : a;
+    return touch ? most < low || least > high : most <= low || least >= high;
+}
+
+/// Whether a line passes the inside of a box; `touch`: or touches it. The inside of a flat box is
+/// what lies between its ends. A line and a box are convex: if they are apart, a side of the box or
+/// the line itself separates them.
+static bool slrt_passes_box(const slrt_arm *way, const sl_runtime_box *box, bool touch) {
+    bool left = false, right = false;
+    int k;
+    if (slrt_is_apart(way->from_x, way->to_x, box->min_x, box->max_x, touch) ||
+        slrt_is_apart(way->from_y, way->to_y, box->min_y, box->max_y, touch))
+        return false;
+    for (k = 0; k < 4; k++) {
+        const slrt_arm corner =
+            slrt_make_arm(way->from_x, way->from_y, k & 1 ? box->max_x : box->min_x,
+                          k & 2 ? box->max_y : box->min_y);
+        const int side = slrt_side(way, &corner);
+        left = left || side > 0 || (touch && !side);
+        right = right || side < 0 || (touch && !side);
+    }
+    return left && right;
+}
+
+/// Whether a box in a cell stops a line of sight, or a step.
+static bool slrt_is_stopped(const slrt_search *s, const slrt_arm *way, uint32_t cell) {
+    uint32_t at = *slrt_first_entry(s->boxes, cell);
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(s->boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(s->boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &s->boxes->boxes[number];
+        if (!box->blocks || number == s->except || !slrt_passes_box(way, box, s->on_foot)) continue;
+        if (s->on_foot ||
+            !((slrt_is_in_box(box, s->x, s->y) && slrt_box_holds(box, way->to_x, way->to_y)) ||
+              (slrt_is_in_box(box, way->to_x, way->to_y) && slrt_box_holds(box, s->x, s->y))))
+            return true;
+    }
+    return false;
+}
+
+static void slrt_heed_boxes(slrt_search *s, const sl_runtime_boxes *boxes, uint32_t except) {
+    s->boxes = boxes;
+    s->except = except;
+    s->stops = slrt_is_stopped;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch) {
+    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
+    slrt_search s;
+    if (!slrt_start_search(&s, boxes->runtime, &view, shut, range, boxes_scratch)) return false;
+    slrt_heed_boxes(&s, boxes, SL_RUNTIME_NO_BOX);
+    return slrt_sees_point(&s, x1, y1);
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except) {
+    slrt_search s;
+    if (!slrt_place_eye(&s, boxes->runtime, x0, y0, shut)) return false;
+    slrt_heed_boxes(&s, boxes, except);
+    return slrt_can_step(&s, x1, y1);
+}
+
+// --- The points of the polygon: where pieces join, and how a range cuts them
 
 static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
     return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);
-}
-
-/// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
-static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
-    const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
-    const uint32_t portal = slrt_u32(at);
-    const sl_runtime_cell cell = sl_runtime_get_cell(p->s.rt, slrt_u32(at + 4));
-    uint32_t i;
-    for (i = cell.first_directed; i < cell.first_directed + cell.directed_count; i++)
-        if (i != directed &&
-            slrt_u32(p->s.rt->directed + (size_t)i * SLRT_DIRECTED_BYTES) == portal)
-            return i;
-    return SLRT_NONE;
 }
 
 /// If a damaged file has corners far outside its bounds, a point may be no number: then there is no
@@ -4113,28 +4481,34 @@ static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
     return sum;
 }
 
-/// The end of a piece: its own, or where a border meets its line.
-static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own,
-                       const slrt_piece *piece, double *out) {
+/// Where a ray meets the line of a piece.
+static void slrt_meet_line(const slrt_polygon *p, const slrt_arm *ray, const slrt_piece *piece,
+                           double *out) {
     const double *a = piece->a, *b = piece->b;
-    slrt_arm ray, along, to;
+    slrt_arm along, to;
     double share;
-    if (border == SLRT_NONE) {
-        memcpy(out, own, 2 * sizeof *out);
-        return;
-    }
-    ray = slrt_border(&p->s, border);
     if (a[0] == b[0]) {
-        share = (a[0] - p->s.x) / ray.x;
+        share = (a[0] - p->s.x) / ray->x;
     } else if (a[1] == b[1]) {
-        share = (a[1] - p->s.y) / ray.y;
+        share = (a[1] - p->s.y) / ray->y;
     } else {
         along = slrt_make_arm(a[0], a[1], b[0], b[1]);
         to = slrt_arm_to(p, a);
-        share = slrt_cross(&to, &along) / slrt_cross(&ray, &along);
+        share = slrt_cross(&to, &along) / slrt_cross(ray, &along);
     }
-    out[0] = slrt_limited(a[0], p->s.x + ray.x * share, b[0]);
-    out[1] = slrt_limited(a[1], p->s.y + ray.y * share, b[1]);
+    out[0] = slrt_limited(a[0], p->s.x + ray->x * share, b[0]);
+    out[1] = slrt_limited(a[1], p->s.y + ray->y * share, b[1]);
+}
+
+/// The end of a piece: its own, or where a border meets its line.
+static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own,
+                       const slrt_piece *piece, double *out) {
+    if (border == SLRT_NONE) {
+        memcpy(out, own, 2 * sizeof *out);
+    } else {
+        const slrt_arm ray = slrt_border(&p->s, border);
+        slrt_meet_line(p, &ray, piece, out);
+    }
 }
 
 /// Whether two pieces lie in one line.
@@ -4149,23 +4523,39 @@ static bool slrt_in_line(const slrt_piece *piece, const slrt_piece *other) {
 static void slrt_end_pending(slrt_polygon *p) {
     double end[2];
     if (!p->pending) return;
-    slrt_place(p, p->piece_left, p->piece.b, &p->piece, end);
+    slrt_place(p, p->piece_left, p->piece_end, &p->piece, end);
     slrt_add_point(p, end, false);
     p->pending = false;
 }
 
-/// Adds a wall, from the border `right` to the border `left` or, for SLRT_NONE, its own ends.
-static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t right, uint32_t left) {
-    if (!p->pending || !slrt_in_line(&p->piece, piece)) {
-        double start[2];
-        slrt_place(p, right, piece->a, piece, start);
-        slrt_end_pending(p);
-        if (!p->count) p->first_piece = *piece;
-        slrt_add_point(p, start, true);
-    }
+static bool slrt_joins(const slrt_polygon *p, const slrt_piece *piece) {
+    return p->pending && slrt_in_line(&p->piece, piece);
+}
+
+/// Adds the start of a piece that does not join the pending one.
+static void slrt_start_piece(slrt_polygon *p, const slrt_piece *piece, const double *start) {
+    slrt_end_pending(p);
+    if (!p->count) p->first_piece = *piece;
+    slrt_add_point(p, start, true);
+}
+
+/// Goes on with a piece up to a border, or to a place for SLRT_NONE.
+static void slrt_extend_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t left,
+                              const double *end) {
     p->pending = true;
     p->piece = *piece;
     p->piece_left = left;
+    memcpy(p->piece_end, end, sizeof p->piece_end);
+}
+
+/// Adds a wall, from the border `right` to the border `left` or, for SLRT_NONE, its own ends.
+static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t right, uint32_t left) {
+    if (!slrt_joins(p, piece)) {
+        double start[2];
+        slrt_place(p, right, piece->a, piece, start);
+        slrt_start_piece(p, piece, start);
+    }
+    slrt_extend_piece(p, piece, left, piece->b);
 }
 
 /// Adds the eye, where the polygon has it as a corner.
@@ -4174,6 +4564,7 @@ static void slrt_add_eye(slrt_polygon *p) {
     eye[0] = p->s.x;
     eye[1] = p->s.y;
     slrt_end_pending(p);
+    if (!p->count) p->first_is_short = true; // no piece starts there
     slrt_add_point(p, eye, true);
 }
 
@@ -4201,6 +4592,37 @@ static void slrt_close(slrt_polygon *p, bool all_round) {
     slrt_end_arc(p);
 }
 
+// --- The visible polygon
+
+// The view spreads from the cells at the eye through open portals, as sectors between two borders:
+//
+//      +---------+--------.-+
+//      |         |    .  left     On the way around the next cell, counter-clockwise from the
+//      |         b .        |     portal ab, pieces of its boundary come that are right of the
+//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
+//      |         a .        |     added to the polygon; a portal is entered with the sector
+//      |         |    .  right    between its ends.
+//      +---------+--------.-+
+//
+// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
+// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// in one line join; where one ends is computed only when the next one is known not to join. Cost:
+// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
+// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+
+/// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
+static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
+    const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    const uint32_t portal = slrt_u32(at);
+    const sl_runtime_cell cell = sl_runtime_get_cell(p->s.rt, slrt_u32(at + 4));
+    uint32_t i;
+    for (i = cell.first_directed; i < cell.first_directed + cell.directed_count; i++)
+        if (i != directed &&
+            slrt_u32(p->s.rt->directed + (size_t)i * SLRT_DIRECTED_BYTES) == portal)
+            return i;
+    return SLRT_NONE;
+}
+
 /// The borders of what is seen through a portal: those given, or its own ends for SLRT_NONE. False
 /// if it is blocked or out of range, and for no portal.
 static bool slrt_pass(const slrt_polygon *p, uint32_t portal, uint32_t *right, uint32_t *left) {
@@ -4208,6 +4630,14 @@ static bool slrt_pass(const slrt_polygon *p, uint32_t portal, uint32_t *right, u
     if (*right == SLRT_NONE) *right = 2 * portal + 1;
     if (*left == SLRT_NONE) *left = 2 * portal;
     return !(p->s.range > 0) || slrt_in_range(&p->s, portal, *right, *left);
+}
+
+static void slrt_see_wall(slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
+                          uint32_t left) {
+    if (p->see_wall)
+        p->see_wall(p, cell, piece, right, left);
+    else
+        slrt_add_wall(p, piece, right, left);
 }
 
 // The search. The path is a stack of six numbers for each cell: the cell, the portal through which
@@ -4230,6 +4660,7 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[4] = right;
     top[5] = left;
     p->s.depth++;
+    if (p->meet) p->meet(p, top[0]);
 }
 
 /// Goes on around the cell on top of the path: adds walls up to the next open portal and enters
@@ -4262,7 +4693,7 @@ static void slrt_spread_on(slrt_polygon *p) {
             slrt_push(p, portal, right, left);
             return;
         }
-        slrt_add_wall(p, &piece, right, left);
+        slrt_see_wall(p, top[0], &piece, right, left);
         if (end <= 0) break;
     }
     p->s.depth--;
@@ -4273,7 +4704,7 @@ static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t ri
                            uint32_t left) {
     const uint32_t portal = piece->directed;
     if (!slrt_pass(p, portal, &right, &left)) {
-        slrt_add_wall(p, piece, right, left);
+        slrt_see_wall(p, p->fan_cell, piece, right, left);
         return;
     }
     slrt_push(p, portal, right, left);
@@ -4311,6 +4742,8 @@ static void slrt_see_fan_cell(slrt_polygon *p, uint32_t cell) {
     bool run = p->inside, ready = p->inside;
     slrt_walk w;
     slrt_piece piece;
+    p->fan_cell = cell;
+    if (p->meet) p->meet(p, cell);
     slrt_walk_around(p, &w, cell, p->inside ? 1 : 2);
     while (slrt_walk_next(p, &w, &piece)) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
@@ -4380,9 +4813,10 @@ static void slrt_find_fan(slrt_polygon *p) {
     }
     while (last.before != SLRT_NONE && !p->broken)
         last = slrt_touch_of(p, slrt_cell_behind(p, last.before));
+    memcpy(p->fan_right, touch.behind_end, sizeof p->fan_right);
+    memcpy(p->fan_left, last.before_end, sizeof p->fan_left);
     {
-        const slrt_arm right = slrt_arm_to(p, touch.behind_end);
-        const slrt_arm left = slrt_arm_to(p, last.before_end);
+        const slrt_arm right = slrt_arm_to(p, p->fan_right), left = slrt_arm_to(p, p->fan_left);
         p->gap = !slrt_same_ray(&right, &left);
     }
 }
@@ -4428,47 +4862,1727 @@ static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
     slrt_see_fan(p);
 }
 
+/// Prepares a polygon. False if the eye sees nothing.
+static bool slrt_start_polygon(slrt_polygon *p, const sl_runtime *rt, const sl_runtime_view *view,
+                               const unsigned char *shut, double range, uint32_t *scratch,
+                               double *points, uint32_t room) {
+    // So that no number in units of the range overflows.
+    const double least = 1e-100 * (rt->max_x - rt->min_x) + 1e-100 * (rt->max_y - rt->min_y);
+    memset(p, 0, sizeof *p);
+    p->s.rt = rt;
+    p->s.view = view;
+    p->s.shut = shut;
+    p->s.range = slrt_range(rt, range);
+    if (p->s.range > 0 && p->s.range < least) p->s.range = least;
+    p->s.x = slrt_no_dust(view->x);
+    p->s.y = slrt_no_dust(view->y);
+    p->s.eye_cell = sl_runtime_locate(rt, p->s.x, p->s.y);
+    p->s.path = scratch;
+    p->s.patience =
+        (uint64_t)SLRT_PATIENCE * 16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
+    p->fan_last = UINT32_MAX;
+    p->points = points;
+    p->room = room;
+    return !rt->loose && p->s.eye_cell != SL_RUNTIME_NO_CELL &&
+           !sl_runtime_is_solid(rt, p->s.eye_cell);
+}
+
+/// Makes the polygon, after slrt_find_fan. Returns the number of its points.
+static uint32_t slrt_see_polygon(slrt_polygon *p) {
+    uint32_t last, i;
+    const uint32_t pieces = slrt_cut_cone(&p->s, &last);
+    p->waits = !pieces && !p->gap;
+    if (!pieces) {
+        slrt_see_fan(p);
+    } else {
+        slrt_add_eye(p);
+        for (i = 0; i < pieces; i++)
+            slrt_see_sector(p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    }
+    slrt_close(p, !pieces && !p->gap);
+    return p->broken || p->count < 3 || p->written < 3 ? 0 : p->written;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room) {
-    const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
-    const uint32_t cell = sl_runtime_locate(runtime, x, y);
-    // So that no number in units of the range overflows.
-    const double least =
-        1e-100 * (runtime->max_x - runtime->min_x) + 1e-100 * (runtime->max_y - runtime->min_y);
-    uint32_t last, i, pieces;
     slrt_polygon p;
-    if (runtime->loose || cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell))
-        return 0;
-    memset(&p, 0, sizeof p);
-    p.s.rt = runtime;
-    p.s.view = view;
-    p.s.shut = shut;
-    p.s.range = slrt_range(runtime, range);
-    if (p.s.range > 0 && p.s.range < least) p.s.range = least;
-    p.s.x = x;
-    p.s.y = y;
-    p.s.path = scratch;
-    p.s.patience = (uint64_t)SLRT_PATIENCE * 16 *
-                   ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
-    p.s.eye_cell = cell;
-    p.points = points;
-    p.room = room;
+    if (!slrt_start_polygon(&p, runtime, view, shut, range, scratch, points, room)) return 0;
     slrt_find_fan(&p);
-    pieces = slrt_cut_cone(&p.s, &last);
-    p.fan_last = UINT32_MAX;
-    p.waits = !pieces && !p.gap;
-    if (!pieces) {
-        slrt_see_fan(&p);
-    } else {
-        slrt_add_eye(&p);
-        for (i = 0; i < pieces; i++)
-            slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    return slrt_see_polygon(&p);
+}
+
+// --- Discs that move: how far, and along what
+
+// A disc of radius r moves as its middle does, if walls and all else that stops it have grown by r.
+// The distance to a segment changes along a straight way as a convex function does. So Newton's
+// steps from the start come to the first place where the distance is r, and never behind it:
+//
+//      .--___                 The disc then slides: what is left of the way, without its part
+//     | o ---> ''--.          toward the nearest place of the segment. It ends in a corner, where
+//      '--....--____|_        it would go back.
+//      =================
+//
+// All that is within reach of the way is in the cells that open portals within reach lead to: the
+// nearest of it has no other before it.
+//
+// Distances are rounded. So three limits lie apart by more than rounding can do (`slack`): r
+// itself; r + 2 slack, from where a way is free; r + 3 slack, where a disc comes to rest. No rest
+// is therefore nearer than r, and none is stuck to what it rests at. Whether a way crosses
+// something is exact.
+
+/// A disc on a straight way.
+typedef struct slrt_disc {
+    slrt_polygon p; ///< its search is from where the disc is
+    double radius, slack, from[2], to[2];
+    double along[2], length; ///< the way's direction and length
+    bool is_near;            ///< something is nearer to the way than it may
+    double stop;             ///< how far along the way the disc comes
+    double normal[2];        ///< if that is not all of it: away from what stops it
+    double push;             ///< how far the disc is nearer to that than at rest
+} slrt_disc;
+
+/// The square of the distance from a point to the segment from a to b. `away` leads to the point
+/// from the nearest place.
+static double slrt_away_from(const double *point, const double *a, const double *b, double *away) {
+    const double side[2] = {b[0] - a[0], b[1] - a[1]};
+    const double to[2] = {point[0] - a[0], point[1] - a[1]};
+    const double square = slrt_dot(side, side), part = slrt_dot(to, side);
+    double at = part > 0 ? part / square : 0;
+    if (!(at < 1)) at = 1;
+    if (!(square > 0)) at = 0;
+    away[0] = to[0] - at * side[0];
+    away[1] = to[1] - at * side[1];
+    return slrt_dot(away, away);
+}
+
+/// Whether a segment is nearer to the way than a limit, or crosses it.
+static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
+    const double square = limit * limit;
+    double away[2];
+    return !(slrt_away_from(d->from, a, b, away) >= square &&
+             slrt_away_from(d->to, a, b, away) >= square &&
+             slrt_away_from(a, d->from, d->to, away) >= square &&
+             slrt_away_from(b, d->from, d->to, away) >= square) ||
+           slrt_meets(d->from, d->to, a, b);
+}
+
+/// Has a segment stop the disc. One that the disc is nearer to than it may, but moves away from,
+/// does not.
+static void slrt_stop_at(slrt_disc *d, const double *a, const double *b) {
+    const double rest = d->radius + 3 * d->slack;
+    double at = 0, gap = 0, rate = 0, distance = 0;
+    double place[2], away[2] = {0, 0};
+    int i;
+    if (!slrt_is_near(d, a, b, d->radius + 2 * d->slack)) return;
+    d->is_near = true;
+    for (i = 0; i < 16; i++) {
+        place[0] = d->from[0] + at * d->along[0];
+        place[1] = d->from[1] + at * d->along[1];
+        distance = slrt_root(slrt_away_from(place, a, b, away));
+        gap = distance - rest;
+        rate = -slrt_dot(away, d->along) / distance;
+        if (!(gap > 0 && rate > 0)) break;
+        at += gap / rate;
     }
-    slrt_close(&p, !pieces && !p.gap);
-    return p.broken || p.count < 3 || p.written < 3 ? 0 : p.written;
+    if (!(at < d->stop) ||
+        (!(rate > 0) && (at > 0 || slrt_away_from(d->to, a, b, place) >= distance * distance)))
+        return;
+    d->stop = at;
+    d->normal[0] = away[0] / distance;
+    d->normal[1] = away[1] / distance;
+    d->push = gap < 0 ? -gap : 0;
+}
+
+/// Has the sides of the boxes in a cell stop the disc.
+static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
+    const sl_runtime_boxes *boxes = d->p.s.boxes;
+    uint32_t at = boxes ? *slrt_first_entry(boxes, cell) : SLRT_NO_ENTRY;
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &boxes->boxes[number];
+        const double corners[5][2] = {{box->min_x, box->min_y},
+                                      {box->max_x, box->min_y},
+                                      {box->max_x, box->max_y},
+                                      {box->min_x, box->max_y},
+                                      {box->min_x, box->min_y}};
+        int k;
+        for (k = 0; k < 4 && box->blocks && number != d->p.s.except; k++)
+            slrt_stop_at(d, corners[k], corners[k + 1]);
+    }
+}
+
+/// Goes through the cells within reach of the disc's way, and has what is there stop it.
+static void slrt_stop_within(slrt_disc *d) {
+    slrt_search *s = &d->p.s;
+    uint32_t at;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        slrt_walk w;
+        slrt_piece piece;
+        slrt_stop_at_boxes(d, s->path[at]);
+        slrt_walk_around(&d->p, &w, s->path[at], 1);
+        while (slrt_walk_next(&d->p, &w, &piece)) {
+            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+                slrt_stop_at(d, piece.a, piece.b);
+            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
+                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
+                if (!slrt_is_listed(s, to)) slrt_list(s, to);
+            }
+        }
+    }
+}
+
+/// Puts a disc at the start of a way, and finds how far it comes. False for nowhere.
+static bool slrt_move_disc(slrt_disc *d, const sl_runtime *rt, const sl_runtime_walker *walker,
+                           const double *from, const double *to, uint32_t *scratch) {
+    slrt_search *s = &d->p.s;
+    memset(d, 0, sizeof *d);
+    if (rt->loose || !slrt_place_eye(s, rt, from[0], from[1], walker->shut) ||
+        !slrt_is_coordinate(to[0]) || !slrt_is_coordinate(to[1]))
+        return false;
+    if (walker->boxes) slrt_heed_boxes(s, walker->boxes, walker->own_box);
+    s->on_foot = true;
+    s->path = scratch;
+    s->marks = (unsigned char *)(scratch + 6 * (size_t)rt->cell_count);
+    s->patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
+    d->radius = walker->radius > 0 ? walker->radius : 0;
+    d->slack =
+        1e-14 * (slrt_larger(rt->min_x, rt->max_x) + slrt_larger(rt->min_y, rt->max_y) + d->radius);
+    d->from[0] = s->x, d->from[1] = s->y;
+    d->to[0] = slrt_no_dust(to[0]), d->to[1] = slrt_no_dust(to[1]);
+    d->along[0] = d->to[0] - d->from[0];
+    d->along[1] = d->to[1] - d->from[1];
+    d->length = d->stop = slrt_root(slrt_dot(d->along, d->along));
+    if (d->length > 0) d->along[0] /= d->length, d->along[1] /= d->length;
+    slrt_stop_within(d);
+    return !d->p.broken;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch) {
+    const double from[2] = {x0, y0}, to[2] = {x1, y1};
+    slrt_disc d;
+    return slrt_move_disc(&d, runtime, walker, from, to, scratch) &&
+           (!d.is_near || !(walker->radius > 0)) && slrt_can_step(&d.p.s, x1, y1);
+}
+
+/// Turns a way along what stops a disc, which is `at` that. False if nothing is left of the way, or
+/// if it would go back.
+static bool slrt_turn_along(const slrt_disc *d, const double *at, const double *first,
+                            double *goal) {
+    const double into = slrt_dot(d->along, d->normal), left = d->length - d->stop;
+    const double most = 4 * d->slack, push = d->push < most ? d->push : most;
+    double rest[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        rest[i] = left * (d->along[i] - into * d->normal[i]);
+        goal[i] = at[i] + rest[i] + push * d->normal[i];
+    }
+    return slrt_dot(rest, rest) > most * most && slrt_dot(rest, first) > 0;
+}
+
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y) {
+    enum { TURNS = 4 };
+    double at[2] = {x0, y0}, goal[2] = {x1, y1}, first[2];
+    int turn;
+    for (turn = 0; turn < TURNS; turn++) {
+        slrt_disc d;
+        double next[2];
+        bool all;
+        if (!slrt_move_disc(&d, runtime, walker, at, goal, scratch)) break;
+        if (!turn) memcpy(first, d.along, sizeof first);
+        all = !(d.stop < d.length) || (!turn && !(d.radius > 0) && slrt_can_step(&d.p.s, x1, y1));
+        next[0] = all ? goal[0] : at[0] + d.stop * d.along[0];
+        next[1] = all ? goal[1] : at[1] + d.stop * d.along[1];
+        if (!slrt_can_step(&d.p.s, next[0], next[1])) break;
+        memcpy(at, next, sizeof at);
+        if (all || !slrt_turn_along(&d, at, first, goal)) break;
+    }
+    *x = at[0], *y = at[1];
+    return *x == x1 && *y == y1;
+}
+
+// --- What the parts need that the library has in common with this header: box_envelope.h says what
+
+typedef struct slrt_point {
+    double x, y;
+} slrt_point;
+typedef slrt_search slrt_eye;
+typedef slrt_arm slrt_ray;
+typedef slrt_polygon slrt_sight;
+typedef sl_runtime_box slrt_box_list;
+
+static slrt_point slrt_eye_at(const slrt_eye *eye) {
+    slrt_point at;
+    at.x = eye->x;
+    at.y = eye->y;
+    return at;
+}
+
+static slrt_arm slrt_ray_to(const slrt_eye *eye, slrt_point at) {
+    return slrt_make_arm(eye->x, eye->y, at.x, at.y);
+}
+
+static int slrt_turn_to(const slrt_eye *eye, const slrt_arm *ray, slrt_point at) {
+    const slrt_arm to = slrt_ray_to(eye, at);
+    return slrt_side(ray, &to);
+}
+
+static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
+    const slrt_arm ray = slrt_ray_to(eye, a);
+    return slrt_turn_to(eye, &ray, b);
+}
+
+static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
+    (void)eye;
+    return slrt_arm_sign(ray, axis);
+}
+
+static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
+    box[0] = boxes[number].min_x;
+    box[1] = boxes[number].min_y;
+    box[2] = boxes[number].max_x;
+    box[3] = boxes[number].max_y;
+}
+
+// --- Boxes about an eye: in each direction, the nearest side of all
+
+// Of each box the sides that face the eye count. They are merged, box by box, to their lower
+// envelope about the eye: arcs, each with the one side that is nearest there.
+//
+//       wall ----------------------      arcs, counter-clockwise: side 1, side 2, a gap, side 3
+//                  .--------.
+//                  |   2  .-|--.         Where two sides cross, the upright one is nearer on the
+//                 1|      |3|  |         side of the x axis, the level one on that of the y axis.
+//                  '------|-'  |
+//             eye *       '----'
+//
+// Invariant: arcs start and end at rays through exact points: corners of boxes, places where their
+// sides cross. So all signs are exact. An arc is less than half a turn, and none passes +x. Cost:
+// O(n log n) for n boxes (Hershberger 1989, Finding the upper envelope of n line segments in
+// O(n log n) time: merging; here about an eye).
+//
+// The header and the library have this part and box_sieve.h in common. Each says before them what
+// these are:
+//
+//     slrt_point         x, y
+//     slrt_eye           an eye, which slrt_eye_at gives as a point
+//     slrt_point_turn    which side of the ray from the eye through a point another point is on: 1
+//                        left, -1 right, 0 in one line; exact
+//     slrt_box_list      an array of boxes, of which slrt_read_box gives one: min x, min y, max x,
+//                        max y
+
+/// The directions from `right` to `left` in which one side of a box is the nearest of all. Side k
+/// of box i is number 4 * i + k: its left, right, lower and upper side.
+typedef struct slrt_arc {
+    slrt_point right, left; ///< on its rays
+    uint32_t side;
+} slrt_arc;
+
+/// In place of a side, for all numbers from here on: what the eye itself hides, as it stands where
+/// sides of boxes part what is around it.
+#define SLRT_AT_EYE (UINT32_MAX - 8)
+/// No side, but what stands behind all of them.
+#define SLRT_NO_SIDE UINT32_MAX
+
+enum { SLRT_ARC_WORDS = (sizeof(slrt_arc) + 3) / 4 };
+
+/// The envelope. Its memory is the caller's, of any alignment: see slrt_arcs_room.
+typedef struct slrt_envelope {
+    const slrt_eye *eye;
+    const slrt_box_list *boxes;
+    uint32_t *memory;
+    size_t count; ///< of arcs
+} slrt_envelope;
+
+/// An envelope as it is made.
+typedef struct slrt_envelope_maker {
+    slrt_envelope e;
+    int toward[2];   ///< a quadrant that is seen, by its signs: if the eye is on a box's border, it
+                     ///< says whether the eye is in it
+    size_t room;     ///< of arcs
+    size_t floor;    ///< those from here on are being merged
+    uint32_t last;   ///< the side of the last one
+    size_t runs[64]; ///< where each run starts that waits to be merged
+    unsigned char ranks[64]; ///< of these: a run of rank r has 2^r boxes
+    unsigned run_count;
+    bool is_full; ///< there were more, which slrt_arcs_room rules out where signs are right
+} slrt_envelope_maker;
+
+/// Room for the arcs of so many boxes. Corners of a box end three arcs. Counter-clockwise from the
+/// x axis two sides cross from an upright one to a level one, so that each crossing needs a corner
+/// or an end at which a level side gives way to an upright one: one for each box. So there are up
+/// to 4n + 6 arcs. Runs that wait have up to 5n + 8, and merging them takes room for the result.
+static size_t slrt_arcs_room(size_t boxes) {
+    return 9 * boxes + 40;
+}
+
+/// A side of a box, as the eye sees it from right to left.
+typedef struct slrt_box_side {
+    slrt_point a, b;
+    double at; ///< its x (axis 0) or y (axis 1)
+    int axis;
+} slrt_box_side;
+
+static slrt_box_side slrt_side_of(const slrt_envelope *e, uint32_t number) {
+    const int k = (int)(number % 4), axis = k >= 2;
+    const slrt_point eye = slrt_eye_at(e->eye);
+    slrt_box_side side;
+    slrt_point low, high;
+    double box[4];
+    slrt_read_box(e->boxes, number / 4, box);
+    side.axis = axis;
+    side.at = box[axis + 2 * (k % 2)];
+    low.x = axis ? box[0] : side.at;
+    high.x = axis ? box[2] : side.at;
+    low.y = axis ? side.at : box[1];
+    high.y = axis ? side.at : box[3];
+    if (axis ? side.at < eye.y : side.at > eye.x) {
+        side.a = low, side.b = high;
+    } else {
+        side.a = high, side.b = low;
+    }
+    return side;
+}
+
+static double slrt_across(const slrt_box_side *side, slrt_point p) {
+    return side->axis ? p.y : p.x;
+}
+
+/// Where a direction lies, given the signs of its x and y: 0 from +x on, 1 from -x on, 2 for an end
+/// at +x, once around.
+static int slrt_half_of(int x, int y, bool is_end) {
+    if (y) return y < 0;
+    return x < 0 ? 1 : is_end ? 2 : 0;
+}
+
+static int slrt_half_at(slrt_point eye, slrt_point p, bool is_end) {
+    if (p.y != eye.y) return p.y < eye.y;
+    return slrt_half_of(p.x < eye.x ? -1 : 1, 0, is_end);
+}
+
+/// The order of the directions of two points, counter-clockwise from +x.
+static int slrt_point_order(const slrt_eye *eye, slrt_point p, bool p_ends, slrt_point q,
+                            bool q_ends) {
+    const slrt_point at = slrt_eye_at(eye);
+    const int a = slrt_half_at(at, p, p_ends), b = slrt_half_at(at, q, q_ends);
+    return a != b ? a - b : -slrt_point_turn(eye, p, q);
+}
+
+static slrt_arc slrt_get_arc(const slrt_envelope *e, size_t i) {
+    slrt_arc arc;
+    memcpy(&arc, e->memory + SLRT_ARC_WORDS * i, sizeof arc);
+    return arc;
+}
+
+/// Adds an arc. One that goes on along the side of the last one becomes one with it.
+static void slrt_push_arc(slrt_envelope_maker *m, uint32_t side, slrt_point right,
+                          slrt_point left) {
+    slrt_arc arc;
+    if (m->e.count > m->floor && m->last == side) {
+        arc = slrt_get_arc(&m->e, m->e.count - 1);
+        if (arc.left.x == right.x && arc.left.y == right.y) {
+            right = arc.right;
+            m->e.count--;
+        }
+    }
+    if (m->e.count == m->room) {
+        m->is_full = true;
+        return;
+    }
+    arc.right = right;
+    arc.left = left;
+    arc.side = m->last = side;
+    memcpy(m->e.memory + SLRT_ARC_WORDS * m->e.count++, &arc, sizeof arc);
+}
+
+/// Adds the nearer one of two sides for all directions from `right` to `left`. At one distance it
+/// is the first one.
+static void slrt_push_nearer(slrt_envelope_maker *m, uint32_t a, uint32_t b, slrt_point right,
+                             slrt_point left) {
+    const slrt_point eye = slrt_eye_at(m->e.eye);
+    slrt_box_side side_a, side_b;
+    slrt_point cross;
+    uint32_t first, then;
+    if (a >= SLRT_AT_EYE || b >= SLRT_AT_EYE) {
+        slrt_push_arc(m, a >= SLRT_AT_EYE ? a : b, right, left);
+        return;
+    }
+    side_a = slrt_side_of(&m->e, a);
+    side_b = slrt_side_of(&m->e, b);
+    if (side_a.axis == side_b.axis) {
+        const bool before = side_a.at<side_b.at, ahead = side_a.at> slrt_across(&side_a, eye);
+        slrt_push_arc(m, side_a.at == side_b.at || before == ahead ? a : b, right, left);
+        return;
+    }
+    cross.x = side_a.axis ? side_b.at : side_a.at;
+    cross.y = side_a.axis ? side_a.at : side_b.at;
+    // Closer to the x axis than the crossing, the upright side is nearer.
+    first = ((cross.x > eye.x) == (cross.y > eye.y)) == (side_a.axis == 0) ? a : b;
+    then = first == a ? b : a;
+    if (slrt_point_turn(m->e.eye, left, cross) >= 0) {
+        slrt_push_arc(m, first, right, left);
+    } else if (slrt_point_turn(m->e.eye, right, cross) <= 0) {
+        slrt_push_arc(m, then, right, left);
+    } else {
+        slrt_push_arc(m, first, right, cross);
+        slrt_push_arc(m, then, cross, left);
+    }
+}
+
+/// A run of arcs that is used up from its start.
+typedef struct slrt_run {
+    slrt_arc arc; ///< what is left of the first one
+    size_t at, end;
+} slrt_run;
+
+static slrt_run slrt_start_run(const slrt_envelope_maker *m, size_t at, size_t end) {
+    slrt_run run;
+    run.arc = slrt_get_arc(&m->e, at);
+    run.at = at;
+    run.end = end;
+    return run;
+}
+
+static void slrt_next_arc(const slrt_envelope_maker *m, slrt_run *run) {
+    if (++run->at < run->end) run->arc = slrt_get_arc(&m->e, run->at);
+}
+
+static void slrt_push_rest(slrt_envelope_maker *m, slrt_run *run) {
+    for (; run->at < run->end; slrt_next_arc(m, run))
+        slrt_push_arc(m, run->arc.side, run->arc.right, run->arc.left);
+}
+
+/// Merges two runs, with what comes first of them.
+static void slrt_merge_next(slrt_envelope_maker *m, slrt_run *a, slrt_run *b) {
+    const int order = slrt_point_order(m->e.eye, a->arc.right, false, b->arc.right, false);
+    if (order) {
+        // The one that starts first goes up to its end, or to where the other one starts.
+        slrt_run *first = order < 0 ? a : b;
+        const slrt_point stop = order < 0 ? b->arc.right : a->arc.right;
+        const bool apart = slrt_point_order(m->e.eye, first->arc.left, true, stop, false) <= 0;
+        slrt_push_arc(m, first->arc.side, first->arc.right, apart ? first->arc.left : stop);
+        first->arc.right = stop;
+        if (apart) slrt_next_arc(m, first);
+    } else {
+        const int ends = slrt_point_order(m->e.eye, a->arc.left, true, b->arc.left, true);
+        const slrt_point stop = ends <= 0 ? a->arc.left : b->arc.left;
+        slrt_push_nearer(m, a->arc.side, b->arc.side, a->arc.right, stop);
+        a->arc.right = b->arc.right = stop;
+        if (ends <= 0) slrt_next_arc(m, a);
+        if (ends >= 0) slrt_next_arc(m, b);
+    }
+}
+
+/// Merges the last two runs.
+static void slrt_merge_last(slrt_envelope_maker *m) {
+    const size_t to = m->runs[m->run_count - 2], stop = m->e.count;
+    slrt_run a, b;
+    size_t i;
+    m->run_count--;
+    m->ranks[m->run_count - 1]++;
+    a = slrt_start_run(m, to, m->runs[m->run_count]);
+    b = slrt_start_run(m, m->runs[m->run_count], stop);
+    m->floor = stop;
+    while (a.at < a.end && b.at < b.end) slrt_merge_next(m, &a, &b);
+    slrt_push_rest(m, &a);
+    slrt_push_rest(m, &b);
+    m->e.count -= stop - to;
+    for (i = to; i < m->e.count; i++)
+        memcpy(m->e.memory + SLRT_ARC_WORDS * i, m->e.memory + SLRT_ARC_WORDS * (i + stop - to),
+               sizeof(slrt_arc));
+}
+
+static void slrt_start_envelope(slrt_envelope_maker *m, const slrt_eye *eye,
+                                const slrt_box_list *boxes, uint32_t *memory, size_t room) {
+    m->e.eye = eye;
+    m->e.boxes = boxes;
+    m->e.memory = memory;
+    m->e.count = 0;
+    m->toward[0] = m->toward[1] = 1;
+    m->room = room;
+    m->run_count = 0;
+    m->is_full = false;
+}
+
+/// Starts a run with an arc, in two parts where it passes +x.
+static void slrt_push_run(slrt_envelope_maker *m, uint32_t side, slrt_point right,
+                          slrt_point left) {
+    m->floor = m->runs[m->run_count] = m->e.count;
+    m->ranks[m->run_count++] = 0;
+    if (slrt_point_order(m->e.eye, right, false, left, true) < 0) {
+        slrt_push_arc(m, side, right, left);
+    } else {
+        slrt_point split;
+        split.x = slrt_side_of(&m->e, side).at;
+        split.y = slrt_eye_at(m->e.eye).y;
+        slrt_push_arc(m, side, split, left);
+        slrt_push_arc(m, side, right, split);
+    }
+}
+
+/// Whether the eye is in a box and the quadrant that it sees too.
+static bool slrt_looks_from_within(const slrt_envelope_maker *m, const double *box) {
+    const slrt_point eye = slrt_eye_at(m->e.eye);
+    return (m->toward[0] > 0 ? box[0] <= eye.x && eye.x < box[2]
+                             : box[0] < eye.x && eye.x <= box[2]) &&
+           (m->toward[1] > 0 ? box[1] <= eye.y && eye.y < box[3]
+                             : box[1] < eye.y && eye.y <= box[3]);
+}
+
+/// Whether the eye sees side k of a box, if nothing else is there: one that faces it, or any from
+/// within.
+static bool slrt_sees_side(const slrt_envelope_maker *m, const double *box, bool is_in, int k) {
+    const slrt_point eye = slrt_eye_at(m->e.eye);
+    const int axis = k >= 2;
+    const double from = axis ? eye.y : eye.x, at = box[axis + 2 * (k % 2)];
+    if (!(box[!axis] < box[2 + !axis])) return false;
+    if (is_in) return from != at;
+    return k % 2 ? from > at : from < at;
+}
+
+/// Adds a box. Runs of as many boxes are merged: so each arc takes part in few merges.
+static void slrt_add_box(slrt_envelope_maker *m, uint32_t number) {
+    const unsigned before = m->run_count;
+    bool is_in;
+    double box[4];
+    int k;
+    slrt_read_box(m->e.boxes, number, box);
+    is_in = slrt_looks_from_within(m, box);
+    for (k = 0; k < 4; k++) {
+        slrt_box_side side;
+        if (!slrt_sees_side(m, box, is_in, k)) continue;
+        side = slrt_side_of(&m->e, 4 * number + (uint32_t)k);
+        slrt_push_run(m, 4 * number + (uint32_t)k, side.a, side.b);
+        if (m->run_count > before + 1) slrt_merge_last(m);
+    }
+    if (m->run_count == before) return;
+    m->ranks[before] = 0;
+    while (m->run_count > 1 && m->ranks[m->run_count - 2] == m->ranks[m->run_count - 1])
+        slrt_merge_last(m);
+}
+
+static void slrt_finish_envelope(slrt_envelope_maker *m) {
+    while (m->run_count > 1) slrt_merge_last(m);
+}
+
+// --- What stands before a piece of a wall: the sides of boxes that are nearer
+
+// A piece is compared with the arcs of the envelope that it meets. Within one arc its line and that
+// of the side cross once at most. So the order at both ends of an interval says which is nearer:
+//
+//        1           2        the piece is behind side 1, before the gap and side 2 it is seen,
+//     .-----.      .---.      side 3 crosses it. What is seen comes counter-clockwise, part by
+//     |  ---+------+---+--*-  part, and one part ends where the next one starts, or straight
+//                        / 3  before it or behind it.
+//
+// Only where a side crosses an oblique wall is a point rounded, and nothing is compared with that.
+//
+// Beside what box_envelope.h needs, the header and the library say what these are:
+//
+//     slrt_sight         where parts go
+//     slrt_ray           from the eye; slrt_ray_to makes it through a point other than the eye
+//     slrt_turn_to       which side of a ray a point is on: 1 left, -1 right, 0 in one line; exact
+//     slrt_ray_sign      whether a ray goes up along an axis (0: x) or down: 1, -1, 0
+//
+// and define after it the functions that it declares without a body.
+
+/// Where a part starts or ends: at a ray.
+typedef struct slrt_part_end {
+    slrt_ray ray;
+    bool on;      ///< the ray's point is on the part, and is where it ends
+    bool crosses; ///< there the piece and a side cross
+} slrt_part_end;
+
+/// A piece from a to b as the eye sees it, of which the part from `start` to `stop` is asked for.
+typedef struct slrt_sieve {
+    const slrt_envelope *envelope;
+    slrt_sight *sight;
+    slrt_point a, b;
+    slrt_part_end start, stop;
+} slrt_sieve;
+
+/// The sign of u_m (s x (a - eye)) - (s x u)(at - eye_m), for s = b - a, the ray's direction u and
+/// the coordinate m of the axis: on which side of the axial line the ray meets that through a and
+/// b. Exact.
+static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
+                           int axis, double at);
+
+/// Where the line through a and b crosses a side.
+static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side);
+
+/// Takes what is seen between two bounds: of a side of a box, or of the piece (SLRT_NO_SIDE).
+static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
+                          const slrt_part_end *from, const slrt_part_end *to);
+
+static slrt_part_end slrt_bound_at(const slrt_sieve *s, slrt_point p, bool on) {
+    slrt_part_end bound;
+    bound.ray = slrt_ray_to(s->envelope->eye, p);
+    bound.on = on;
+    bound.crosses = false;
+    return bound;
+}
+
+/// A bound as one of a side, whose end may be on its ray.
+static slrt_part_end slrt_bound_on(const slrt_sieve *s, const slrt_part_end *at, slrt_point end) {
+    slrt_part_end bound = *at;
+    if (at->crosses) return bound;
+    if (!slrt_turn_to(s->envelope->eye, &at->ray, end)) return slrt_bound_at(s, end, true);
+    bound.on = false;
+    return bound;
+}
+
+static void slrt_see_side(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
+                          const slrt_part_end *from, const slrt_part_end *to) {
+    slrt_part_end start, stop;
+    if (number >= SLRT_AT_EYE) {
+        slrt_see_part(s, number, NULL, from, to);
+        return;
+    }
+    start = slrt_bound_on(s, from, side->a);
+    stop = slrt_bound_on(s, to, side->b);
+    slrt_see_part(s, number, side, &start, &stop);
+}
+
+/// Whether the piece is behind a side (1), before it (-1) or at it, on a ray that meets both.
+static int slrt_depth_at(const slrt_sieve *s, const slrt_box_side *side, const slrt_ray *ray) {
+    const slrt_eye *eye = s->envelope->eye;
+    const int sign = slrt_side_meets(eye, ray, s->a, s->b, side->axis, side->at);
+    return side->at > slrt_across(side, slrt_eye_at(eye)) ? -sign : sign;
+}
+
+/// How far the parts of a piece have come: what is before `at` is added, but for the piece itself
+/// from `from` on while it is `open`.
+typedef struct slrt_sieving {
+    slrt_part_end at, from;
+    bool open;
+} slrt_sieving;
+
+/// Ends the part of the piece that is open.
+static void slrt_shut(const slrt_sieve *s, slrt_sieving *now, const slrt_part_end *at) {
+    if (now->open) slrt_see_part(s, SLRT_NO_SIDE, NULL, &now->from, at);
+    now->open = false;
+}
+
+static void slrt_open(slrt_sieving *now, const slrt_part_end *at) {
+    if (!now->open) now->from = *at;
+    now->open = true;
+}
+
+/// Goes on to a bound, with the side of an arc all the way.
+static void slrt_pass_side(const slrt_sieve *s, slrt_sieving *now, uint32_t number,
+                           const slrt_part_end *to) {
+    slrt_box_side side;
+    int first = 1, last = 1;
+    if (number < SLRT_AT_EYE) {
+        side = slrt_side_of(s->envelope, number);
+        first = slrt_depth_at(s, &side, &now->at.ray);
+        last = slrt_depth_at(s, &side, &to->ray);
+    }
+    if (first <= 0 && last <= 0) {
+        slrt_open(now, &now->at);
+    } else if (first >= 0 && last >= 0) {
+        slrt_shut(s, now, &now->at);
+        slrt_see_side(s, number, &side, &now->at, to);
+    } else {
+        slrt_part_end middle = slrt_bound_at(s, slrt_cross_side(s->a, s->b, &side), true);
+        middle.crosses = true;
+        if (first < 0) {
+            slrt_open(now, &now->at);
+            slrt_shut(s, now, &middle);
+            slrt_see_side(s, number, &side, &middle, to);
+        } else {
+            slrt_shut(s, now, &now->at);
+            slrt_see_side(s, number, &side, &now->at, &middle);
+            slrt_open(now, &middle);
+        }
+    }
+    now->at = *to;
+}
+
+/// The first arc that ends beyond the start of the piece.
+static size_t slrt_first_arc(const slrt_sieve *s) {
+    const slrt_envelope *e = s->envelope;
+    const slrt_point eye = slrt_eye_at(e->eye);
+    const slrt_ray *start = &s->start.ray;
+    const int half =
+        slrt_half_of(slrt_ray_sign(e->eye, start, 0), slrt_ray_sign(e->eye, start, 1), false);
+    size_t low = 0, high = e->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const slrt_point left = slrt_get_arc(e, middle).left;
+        const int order = slrt_half_at(eye, left, true) - half;
+        if (order ? order < 0 : slrt_turn_to(e->eye, start, left) <= 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < e->count ? low : 0;
+}
+
+/// Whether an arc and the piece have directions in common. *held: the piece starts within the arc.
+static bool slrt_meets_arc(const slrt_sieve *s, const slrt_arc *arc, bool is_first, bool *held) {
+    const slrt_eye *eye = s->envelope->eye;
+    const int from = slrt_turn_to(eye, &s->start.ray, arc->right);
+    *held = is_first && from <= 0 && slrt_turn_to(eye, &s->start.ray, arc->left) > 0;
+    return *held || (from >= 0 && slrt_turn_to(eye, &s->stop.ray, arc->right) < 0);
+}
+
+/// Sees a piece past the boxes.
+static void slrt_sieve_piece(const slrt_sieve *s) {
+    const slrt_envelope *e = s->envelope;
+    size_t k = slrt_first_arc(s), i;
+    slrt_arc arc = slrt_get_arc(e, k);
+    slrt_sieving now;
+    bool held, done = false;
+    if (!slrt_meets_arc(s, &arc, true, &held)) {
+        slrt_see_part(s, SLRT_NO_SIDE, NULL, &s->start, &s->stop);
+        return;
+    }
+    now.at = now.from = s->start;
+    now.open = false;
+    for (i = 0; i < e->count && !done; i++) {
+        slrt_part_end to;
+        if (i && !slrt_meets_arc(s, &arc, false, &held)) break;
+        if (!held && slrt_turn_to(e->eye, &now.at.ray, arc.right) > 0) {
+            slrt_open(&now, &now.at);
+            now.at = slrt_bound_at(s, arc.right, false);
+        }
+        done = slrt_turn_to(e->eye, &s->stop.ray, arc.left) >= 0;
+        to = done ? s->stop : slrt_bound_at(s, arc.left, false);
+        slrt_pass_side(s, &now, arc.side, &to);
+        k = k + 1 < e->count ? k + 1 : 0;
+        arc = slrt_get_arc(e, k);
+    }
+    if (!done) slrt_open(&now, &now.at);
+    slrt_shut(s, &now, &s->stop);
+}
+
+// --- The visible polygon past boxes
+
+// The polygon is made without boxes, and the boxes of the cells that it comes to are gathered. If
+// some of these block, it is made again: each piece of a wall is compared with the envelope of
+// their sides (box_envelope.h, box_sieve.h).
+//
+//         \   |          Sides of boxes that go through the eye hide nothing, but they part what is
+//      .---*--+  the     around it, as walls there do. The eye sees the part that begins with its
+//      |  / box  eye     own cell. What lies beside that part is hidden: arcs at no distance at
+//      all.
+
+SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
+    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count +
+           SLRT_ARC_WORDS * slrt_arcs_room(boxes->count);
+}
+
+static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b,
+                           int axis, double at) {
+    double from[2], to[2];
+    from[0] = a.x, from[1] = a.y;
+    to[0] = b.x, to[1] = b.y;
+    return slrt_meet_sign(eye, ray, from, to, axis, at);
+}
+
+static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side) {
+    const int axis = side->axis;
+    const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
+    const double share = (side->at - from) / (to - from);
+    slrt_point cross;
+    cross.x = axis ? slrt_limited(a.x, a.x + share * (b.x - a.x), b.x) : side->at;
+    cross.y = axis ? side->at : slrt_limited(a.y, a.y + share * (b.y - a.y), b.y);
+    return cross;
+}
+
+static void slrt_place_bound(const slrt_polygon *p, const slrt_part_end *at,
+                             const slrt_piece *piece, double *out) {
+    if (at->on) {
+        out[0] = at->ray.to_x;
+        out[1] = at->ray.to_y;
+    } else {
+        slrt_meet_line(p, &at->ray, piece, out);
+    }
+}
+
+static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
+                          const slrt_part_end *from, const slrt_part_end *to) {
+    slrt_polygon *p = s->sight;
+    const slrt_point a = side ? side->a : s->a, b = side ? side->b : s->b;
+    slrt_piece piece;
+    double end[2];
+    if (!side && number != SLRT_NO_SIDE) {
+        slrt_add_eye(p);
+        return;
+    }
+    piece.a[0] = a.x, piece.a[1] = a.y;
+    piece.b[0] = b.x, piece.b[1] = b.y;
+    piece.directed = SLRT_NONE;
+    if (!slrt_joins(p, &piece)) {
+        slrt_place_bound(p, from, &piece, end);
+        slrt_start_piece(p, &piece, end);
+    }
+    slrt_place_bound(p, to, &piece, end);
+    slrt_extend_piece(p, &piece, SLRT_NONE, end);
+}
+
+/// What is done with the boxes of a polygon.
+typedef struct slrt_past_boxes {
+    const sl_runtime_boxes *boxes;
+    uint32_t *blockers, count; ///< boxes that block in the cells that are seen
+    uint32_t *marks;           ///< by box: whether it is one
+    slrt_envelope_maker maker;
+} slrt_past_boxes;
+
+static void slrt_gather_boxes(slrt_polygon *p, uint32_t cell) {
+    slrt_past_boxes *past = (slrt_past_boxes *)p->job;
+    uint32_t at = *slrt_first_entry(past->boxes, cell);
+    while (at != SLRT_NO_ENTRY) {
+        const uint32_t *entry = slrt_entry(past->boxes, at);
+        const uint32_t box = entry[SLRT_ENTRY_BOX];
+        if (past->boxes->boxes[box].blocks && !past->marks[box]) {
+            past->marks[box] = 1;
+            past->blockers[past->count++] = box;
+        }
+        at = entry[SLRT_ENTRY_IN_CELL];
+    }
+}
+
+static void slrt_see_past_boxes(slrt_polygon *p, uint32_t cell, const slrt_piece *piece,
+                                uint32_t right, uint32_t left) {
+    const slrt_past_boxes *past = (const slrt_past_boxes *)p->job;
+    slrt_sieve s;
+    (void)cell;
+    s.envelope = &past->maker.e;
+    s.sight = p;
+    s.a.x = piece->a[0], s.a.y = piece->a[1];
+    s.b.x = piece->b[0], s.b.y = piece->b[1];
+    s.start = slrt_bound_at(&s, s.a, right == SLRT_NONE);
+    s.stop = slrt_bound_at(&s, s.b, left == SLRT_NONE);
+    if (right != SLRT_NONE) s.start.ray = slrt_border(&p->s, right);
+    if (left != SLRT_NONE) s.stop.ray = slrt_border(&p->s, left);
+    slrt_sieve_piece(&s);
+}
+
+// Where sides of boxes go through the eye.
+
+/// A point straight along an axis from the eye: 0 right, 1 above, 2 left, 3 under.
+static slrt_point slrt_axis_point(const slrt_polygon *p, int quarter) {
+    const sl_runtime *rt = p->s.rt;
+    slrt_point at = slrt_eye_at(&p->s);
+    const double x = slrt_larger(at.x, rt->max_x - rt->min_x);
+    const double y = slrt_larger(at.y, rt->max_y - rt->min_y);
+    at.x += quarter == 0 ? x : quarter == 2 ? -x : 0;
+    at.y += quarter == 1 ? y : quarter == 3 ? -y : 0;
+    return at;
+}
+
+/// The directions, as bits of quarters, in which sides of a box leave the eye.
+static unsigned slrt_sides_at_eye(const slrt_polygon *p, const sl_runtime_box *box) {
+    const double x = p->s.x, y = p->s.y;
+    unsigned found = 0;
+    if (!slrt_box_holds(box, x, y)) return 0;
+    if (y == box->min_y || y == box->max_y) {
+        if (x < box->max_x) found |= 1;
+        if (x > box->min_x) found |= 4;
+    }
+    if (x == box->min_x || x == box->max_x) {
+        if (y < box->max_y) found |= 2;
+        if (y > box->min_y) found |= 8;
+    }
+    return found;
+}
+
+/// Whether a ray is in the sector from u to v, of at most 180 degrees, but not on v.
+static bool slrt_begins_in(const slrt_arm *u, const slrt_arm *v, const slrt_arm *ray) {
+    return (slrt_side(u, ray) > 0 && slrt_side(ray, v) > 0) || slrt_same_ray(u, ray);
+}
+
+/// Where, counter-clockwise, the quadrant begins that counts for an eye on the border of a box: the
+/// part of it that the eye's cell is in. It is the one right of the eye and over it, if the cell
+/// reaches into that, else the next one in the order of sl_runtime_locate.
+static slrt_point slrt_find_quadrant(slrt_polygon *p, int toward[2]) {
+    const slrt_touch touch = slrt_touch_of(p, p->s.eye_cell);
+    const slrt_arm u = slrt_arm_to(p, touch.behind_end), v = slrt_arm_to(p, touch.before_end);
+    slrt_point at = slrt_axis_point(p, 0);
+    int i;
+    for (i = 0; i < 4; i++) {
+        const int quarter = i == 2 ? 3 : i == 3 ? 2 : i;
+        const slrt_point from = slrt_axis_point(p, quarter);
+        const slrt_arm a = slrt_ray_to(&p->s, from);
+        const slrt_arm b = slrt_ray_to(&p->s, slrt_axis_point(p, (quarter + 1) % 4));
+        toward[0] = i & 1 ? -1 : 1;
+        toward[1] = i & 2 ? -1 : 1;
+        if (!touch.any || slrt_begins_in(&u, &v, &a)) return from;
+        at.x = touch.behind_end[0], at.y = touch.behind_end[1];
+        if (slrt_begins_in(&a, &b, &u)) return at;
+    }
+    return at;
+}
+
+/// Whether the ray through p comes before the one through q, counter-clockwise from behind `base`
+/// once around to it.
+static bool slrt_comes_before(const slrt_eye *eye, slrt_point base, slrt_point p, slrt_point q) {
+    const slrt_arm b = slrt_ray_to(eye, base), u = slrt_ray_to(eye, p), v = slrt_ray_to(eye, q);
+    const int b_u = slrt_side(&b, &u), b_v = slrt_side(&b, &v);
+    const int lap_u = b_u > 0 ? 0 : b_u < 0 ? 2 : slrt_same_way(&b, &u) ? 3 : 1;
+    const int lap_v = b_v > 0 ? 0 : b_v < 0 ? 2 : slrt_same_way(&b, &v) ? 3 : 1;
+    return lap_u != lap_v ? lap_u < lap_v : slrt_side(&u, &v) > 0;
+}
+
+/// Hides all directions from one to another one, in parts that end at the axes.
+static void slrt_hide_from_eye(slrt_polygon *p, slrt_envelope_maker *m, slrt_point from,
+                               slrt_point to) {
+    uint32_t i;
+    for (i = 0; i < 5; i++) {
+        const slrt_arm u = slrt_ray_to(&p->s, from), v = slrt_ray_to(&p->s, to);
+        const int x = slrt_arm_sign(&u, 0), y = slrt_arm_sign(&u, 1);
+        const int next = x > 0 && y >= 0 ? 1 : x <= 0 && y > 0 ? 2 : x < 0 ? 3 : 0;
+        const slrt_point axis = slrt_axis_point(p, next);
+        const bool ends = slrt_side(&u, &v) > 0 && slrt_point_turn(&p->s, to, axis) >= 0;
+        slrt_push_run(m, SLRT_AT_EYE + i, from, ends ? to : axis);
+        if (m->run_count > 1) slrt_merge_last(m);
+        if (ends) return;
+        from = axis;
+    }
+}
+
+/// Hides what the eye does not see as sides of boxes, perhaps with walls, part what is around it.
+/// One side alone, or a wall in its direction, is seen edge-on.
+static void slrt_part_at_eye(slrt_polygon *p, slrt_past_boxes *past) {
+    slrt_point rays[6], base, first, last;
+    unsigned sides = 0;
+    uint32_t i, count = 0;
+    for (i = 0; i < past->count; i++)
+        sides |= slrt_sides_at_eye(p, &past->boxes->boxes[past->blockers[i]]);
+    if (!sides) return;
+    for (i = 0; i < 4; i++)
+        if (sides >> i & 1) rays[count++] = slrt_axis_point(p, (int)i);
+    if (!p->fan_is_closed) {
+        rays[count].x = p->fan_right[0], rays[count++].y = p->fan_right[1];
+        rays[count].x = p->fan_left[0], rays[count++].y = p->fan_left[1];
+    }
+    base = slrt_find_quadrant(p, past->maker.toward);
+    first = last = rays[0];
+    for (i = 1; i < count; i++) {
+        if (slrt_comes_before(&p->s, base, rays[i], first)) first = rays[i];
+        if (slrt_comes_before(&p->s, base, last, rays[i])) last = rays[i];
+    }
+    if (slrt_comes_before(&p->s, base, first, last))
+        slrt_hide_from_eye(p, &past->maker, first, last);
+}
+
+/// Makes the envelope of the boxes gathered. False if nothing of them hides anything.
+static bool slrt_make_envelope(slrt_polygon *p, slrt_past_boxes *past, uint32_t *memory) {
+    uint32_t i;
+    slrt_start_envelope(&past->maker, &p->s, past->boxes->boxes, memory,
+                        slrt_arcs_room(past->boxes->count));
+    slrt_part_at_eye(p, past);
+    for (i = 0; i < past->count; i++) slrt_add_box(&past->maker, past->blockers[i]);
+    slrt_finish_envelope(&past->maker);
+    p->broken = p->broken || past->maker.is_full;
+    return past->maker.e.count != 0;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_boxes *boxes,
+                                                              const sl_runtime_view *view,
+                                                              const unsigned char *shut,
+                                                              double range, uint32_t *boxes_scratch,
+                                                              double *points, uint32_t room) {
+    const sl_runtime *rt = boxes->runtime;
+    slrt_past_boxes past;
+    slrt_polygon p;
+    uint32_t count;
+    past.boxes = boxes;
+    past.blockers = boxes_scratch + sl_runtime_scratch_count(rt);
+    past.marks = past.blockers + boxes->count;
+    past.count = 0;
+    if (boxes->count) memset(past.marks, 0, boxes->count * sizeof *past.marks);
+    if (!slrt_start_polygon(&p, rt, view, shut, range, boxes_scratch, points, room)) return 0;
+    p.meet = slrt_gather_boxes;
+    p.job = &past;
+    slrt_find_fan(&p);
+    count = slrt_see_polygon(&p);
+    if (!count || !past.count) return count;
+    slrt_start_polygon(&p, rt, view, shut, range, boxes_scratch, points, room);
+    slrt_find_fan(&p);
+    if (!slrt_make_envelope(&p, &past, past.marks + boxes->count)) return count;
+    p.see_wall = slrt_see_past_boxes;
+    p.job = &past;
+    return slrt_see_polygon(&p);
+}
+
+/// Box to box: what is seen from anywhere in a box, by a search through portals.
+///
+/// A beam is all lines of sight that start in a part of the box and pass some portals in turn. On
+/// each side a bound holds it: behind the portals, no line of the beam is to the left of the left
+/// bound.
+///
+///            l2 |                The left bound leads from a right end to a later left end, as
+///        l1 |   |                r1 to l2, or from a corner of the box to a left end. A portal
+///     box   |   r2               turns it if its left end lies to the right of it. It stays where
+///           r1                   it was if no such line is a bound for sure.
+///
+/// What is left out is so for sure: a sign that rounding may change counts for sight. And any bound
+/// through these points leaves out no line of sight, so which of them is the best may be rounded.
+
+/// A bound. Its points are `from` and `to`: ends of portals, numbered as borders of sectors, or
+/// corners of boxes. `from` is SLRT_NONE for no bound, as of two points in one place.
+typedef struct slrt_bound {
+    uint32_t from, to;
+    slrt_arm arm; ///< from one to the other
+} slrt_bound;
+
+/// Corners of the box's part that the beams start in, then those of the box: 1 right, 2 top.
+#define SLRT_PART_CORNER (UINT32_MAX - 8)
+#define SLRT_BOX_CORNER  (UINT32_MAX - 4)
+
+enum { SLRT_RIGHT, SLRT_LEFT };
+
+typedef struct slrt_beam {
+    slrt_bound bounds[2];
+} slrt_beam;
+
+/// A cell on the path: its number, how many of the ways out are done, the points of the bounds.
+enum { SLRT_BEAM_CELL, SLRT_BEAM_DONE, SLRT_BEAM_BOUNDS, SLRT_BEAM_STEP = SLRT_BEAM_BOUNDS + 4 };
+
+/// A beam that came into a cell.
+typedef struct slrt_past_beam {
+    uint32_t cell, entry; ///< the directed portal that it came through
+    uint32_t source;      ///< the cell that it started in
+    uint32_t line;        ///< 1 if it is all in one line
+    uint32_t bounds[4];
+} slrt_past_beam;
+
+enum { SLRT_PAST_BEAMS = 256, SLRT_WAYS = 5 };
+
+/// The limit of portals that the beams of a box come to, for each directed portal of the map.
+#ifndef SLRT_BEAM_PATIENCE
+#define SLRT_BEAM_PATIENCE 16
+#endif
+
+typedef struct slrt_beams {
+    const sl_runtime *rt;
+    const unsigned char *shut; ///< NULL for none
+    double range;              ///< 0 for no limit
+    double box[4];             ///< within the bounds of the map
+    uint32_t source;           ///< the cell that the beams start in
+    double part[4];            ///< the part of the box within the bounds of that cell
+    const double *target;      ///< beams beside this box are left out; NULL for none
+    /// For each cell that a beam comes to, and the first. True ends the search.
+    bool (*meet)(struct slrt_beams *b, uint32_t cell, const slrt_beam *beam);
+    void *context;
+    uint64_t patience;
+    uint32_t *path, depth, *on_path; ///< on_path: a bit for each cell
+    slrt_beam beam;                  ///< in the cell on top of the path
+    sl_runtime_cell cell;            ///< that cell
+    uint32_t entry;                  ///< the directed portal to it, or SLRT_NONE
+    slrt_past_beam past[SLRT_PAST_BEAMS];
+} slrt_beams;
+
+// --- boxes and lines
+
+/// The part of a box within the bounds of a cell that it meets.
+static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box[4],
+                         double part[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    double low[2], high[2], at[2];
+    uint32_t i;
+    int k;
+    sl_runtime_get_vertex(rt, cell.first_vertex, &low[0], &low[1]);
+    memcpy(high, low, sizeof high);
+    for (i = 1; i < cell.vertex_count; i++) {
+        sl_runtime_get_vertex(rt, cell.first_vertex + i, &at[0], &at[1]);
+        for (k = 0; k < 2; k++) {
+            if (at[k] < low[k]) low[k] = at[k];
+            if (at[k] > high[k]) high[k] = at[k];
+        }
+    }
+    for (k = 0; k < 2; k++) {
+        part[k] = box[k] > low[k] ? box[k] : low[k];
+        part[2 + k] = box[2 + k] < high[k] ? box[2 + k] : high[k];
+    }
+}
+
+/// The side of a line that a point is on, without the exact sign: 1 left, -1 right, 0 if rounding
+/// may decide.
+static int slrt_surely(const slrt_arm *line, double x, double y) {
+    const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
+    const double product = left - right;
+    const double bound = 4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    return (product > bound) - (-product > bound);
+}
+
+/// Whether all of a box is to the left (1) or right (-1) of a line for sure.
+static bool slrt_is_box_beside(const slrt_arm *line, const double box[4], int side) {
+    const bool up = side * line->y > 0, right = side * line->x > 0;
+    return slrt_surely(line, box[up ? 2 : 0], box[right ? 1 : 3]) * side > 0;
+}
+
+static bool slrt_is_beam_beside(const slrt_beam *beam, const double box[4]) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    return (right->from != SLRT_NONE && slrt_is_box_beside(&right->arm, box, -1)) ||
+           (left->from != SLRT_NONE && slrt_is_box_beside(&left->arm, box, 1));
+}
+
+/// Whether a box is out of range of all of the box that looks, for sure.
+static bool slrt_is_out_of_range(const slrt_beams *b, const double box[4]) {
+    double square = 0;
+    int k;
+    if (!(b->range > 0)) return false;
+    for (k = 0; k < 2; k++) {
+        const double over = box[k] - b->box[2 + k], under = b->box[k] - box[2 + k];
+        const double gap = (over > under ? over : under) / b->range;
+        if (gap > 0) square += gap * gap;
+    }
+    return square > 1 + 1e-12;
+}
+
+// --- bounds
+
+static void slrt_point_of(const slrt_beams *b, uint32_t number, double *x, double *y) {
+    if (number >= SLRT_PART_CORNER) {
+        const double *box = number < SLRT_BOX_CORNER ? b->part : b->box;
+        const uint32_t corner = (number - SLRT_PART_CORNER) % 4;
+        *x = box[corner & 1 ? 2 : 0];
+        *y = box[corner & 2 ? 3 : 1];
+    } else {
+        double end[2];
+        slrt_read_end(b->rt, number / 2, (int)(number % 2), end);
+        *x = end[0];
+        *y = end[1];
+    }
+}
+
+static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t to) {
+    slrt_bound bound;
+    double x, y, to_x, to_y;
+    memset(&bound, 0, sizeof bound);
+    bound.from = from;
+    bound.to = to;
+    if (from == SLRT_NONE) return bound;
+    slrt_point_of(b, from, &x, &y);
+    slrt_point_of(b, to, &to_x, &to_y);
+    bound.arm = slrt_make_arm(x, y, to_x, to_y);
+    if (slrt_is_zero(&bound.arm)) bound.from = SLRT_NONE;
+    return bound;
+}
+
+/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
+/// a point in the box.
+static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
+    // By column and row of the point about the box.
+    static const unsigned char corners[3][3][2] = {
+        {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
+    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
+    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    if (column == 1 && row == 1) return SLRT_NONE;
+    return SLRT_PART_CORNER + corners[column][row][side];
+}
+
+/// Turns a bound of a beam to the end of a directed portal on its side, if that leaves more out.
+/// `across` leads from the portal's right end to its left; `last` is the last point of the other
+/// bound, or SLRT_NONE.
+static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t last,
+                            uint32_t directed, const slrt_arm *across, int side) {
+    const int sign = side == SLRT_LEFT ? 1 : -1;
+    const uint32_t end = 2 * directed + (side == SLRT_RIGHT), from = bound->from;
+    const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
+    const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
+    const slrt_arm *arm = &bound->arm;
+    // Points that no line of the beam passes on the bound's side. Those that start in the part do
+    // so by definition, seen from the end.
+    uint32_t pivots[4];
+    int i;
+    if (from != SLRT_NONE &&
+        sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
+        return;
+    pivots[0] = slrt_tangent(b->part, x, y, side);
+    pivots[1] = from >= SLRT_PART_CORNER && from < SLRT_BOX_CORNER ? SLRT_NONE : from;
+    pivots[2] = last;
+    pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
+    for (i = 0; i < 4; i++) {
+        double from_x, from_y;
+        if (pivots[i] == SLRT_NONE) continue;
+        slrt_point_of(b, pivots[i], &from_x, &from_y);
+        if (bound->to == end &&
+            sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
+            continue;
+        // Only from before the portal does a line to its end bound what is behind it.
+        if (slrt_surely(across, from_x, from_y) <= 0) continue;
+        bound->from = pivots[i];
+        bound->to = end;
+        bound->arm = slrt_make_arm(from_x, from_y, x, y);
+    }
+}
+
+// --- portals
+
+/// Whether a directed portal is on a shut door, or on glass that is dark from all of the box.
+static bool slrt_is_closed(const slrt_beams *b, uint32_t portal) {
+    const sl_runtime *rt = b->rt;
+    uint32_t i;
+    if (!rt->seam_portal_count) return false;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
+        slrt_arm line;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 1 && b->shut && b->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) != 2) continue;
+        line = slrt_make_arm(slrt_f64(seam), slrt_f64(seam + 8), slrt_f64(seam + 16),
+                             slrt_f64(seam + 24));
+        if (slrt_is_box_beside(&line, b->box, 1)) return true;
+    }
+    return false;
+}
+
+/// Whether a point is beyond a side of the box: left, right, bottom, top.
+static bool slrt_is_beyond(const double box[4], const double point[2], int side) {
+    return side & 1 ? point[side / 2] > box[2 + side / 2] : point[side / 2] < box[side / 2];
+}
+
+/// Whether no corner of the part is before a portal: `across` leads from its right end to its left.
+static bool slrt_is_part_on(const slrt_beams *b, const slrt_arm *across) {
+    const slrt_arm to =
+        slrt_make_arm(across->from_x, across->from_y, b->part[across->y > 0 ? 0 : 2],
+                      b->part[across->x > 0 ? 3 : 1]);
+    return slrt_side(across, &to) <= 0;
+}
+
+/// Whether the part is nearer to a portal's right end than to its left.
+static bool slrt_is_part_right(const slrt_beams *b, const slrt_arm *across) {
+    return slrt_size(b->part[0] - across->from_x, b->part[1] - across->from_y) <
+           slrt_size(b->part[0] - across->to_x, b->part[1] - across->to_y);
+}
+
+/// The ways out of the first cell through a directed portal. Lines that cross it within the box are
+/// those of the part in the next cell, which has its own beams. All others leave the box before,
+/// across one of its sides, and stay beyond it. Way 0 is the whole portal, if it is beyond a side
+/// or leads to solid ground; else ways 1 to 4 are what is beyond a side.
+static bool slrt_is_whole(const slrt_beams *b, const sl_runtime_directed_portal *p) {
+    int side;
+    for (side = 0; side < 4; side++)
+        if (slrt_is_beyond(b->box, p->left, side) && slrt_is_beyond(b->box, p->right, side))
+            return true;
+    return sl_runtime_is_solid(b->rt, p->cell);
+}
+
+/// Bounds a beam by the side of the box that it leaves across; false for no such beam. From a part
+/// that is on the portal's line, only that line crosses it.
+static bool slrt_leave_box(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                           uint32_t directed, const slrt_arm *across, uint32_t way,
+                           slrt_beam *beam) {
+    // The ends of the sides, clockwise about the box.
+    static const unsigned char from[4] = {0, 3, 1, 2}, to[4] = {2, 1, 0, 3};
+    const int side = (int)way - 1;
+    bool left = way && slrt_is_beyond(b->box, p->left, side);
+    if (way && left == slrt_is_beyond(b->box, p->right, side)) return false;
+    if (slrt_is_part_on(b, across) && !sl_runtime_is_solid(b->rt, p->cell)) {
+        if (!way) left = slrt_is_part_right(b, across);
+        beam->bounds[0] = slrt_make_bound(b, 2 * directed + left, 2 * directed + !left);
+        beam->bounds[1] = beam->bounds[0];
+    } else if (way) {
+        const uint32_t first = SLRT_BOX_CORNER + (left ? from : to)[side];
+        const uint32_t last = SLRT_BOX_CORNER + (left ? to : from)[side];
+        beam->bounds[left ? SLRT_RIGHT : SLRT_LEFT] = slrt_make_bound(b, first, last);
+    }
+    return true;
+}
+
+static uint32_t slrt_last_point(const slrt_bound *bound) {
+    return bound->from == SLRT_NONE ? SLRT_NONE : bound->to;
+}
+
+/// Whether no line of a beam crosses a portal, for sure: it lies to one side of a bound, or all
+/// lines would cross it the other way. That one end is beside a bound does not tell: lines may come
+/// to the other end from behind.
+static bool slrt_is_portal_beside(const slrt_beam *beam, const slrt_arm *across) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const bool beside_left = left->from != SLRT_NONE &&
+                             slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
+    const bool beside_right = right->from != SLRT_NONE &&
+                              slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
+    if (!beside_left && !beside_right) return false;
+    if ((beside_left && slrt_surely(&left->arm, across->to_x, across->to_y) > 0) ||
+        (beside_right && slrt_surely(&right->arm, across->from_x, across->from_y) < 0))
+        return true;
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           slrt_side(&right->arm, &left->arm) > 0 && slrt_side(&right->arm, across) < 0 &&
+           slrt_side(&left->arm, across) < 0;
+}
+
+static bool slrt_is_portal_far(const slrt_beams *b, const slrt_arm *across) {
+    double box[4];
+    box[0] = across->x < 0 ? across->to_x : across->from_x;
+    box[1] = across->y < 0 ? across->to_y : across->from_y;
+    box[2] = across->x < 0 ? across->from_x : across->to_x;
+    box[3] = across->y < 0 ? across->from_y : across->to_y;
+    return slrt_is_out_of_range(b, box);
+}
+
+/// The part of the beam on top of the path that leaves through a directed portal; false for none.
+static bool slrt_pass_portal(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                             uint32_t directed, uint32_t way, slrt_beam *out) {
+    const slrt_arm across = slrt_make_arm(p->right[0], p->right[1], p->left[0], p->left[1]);
+    slrt_bound *right = &out->bounds[SLRT_RIGHT], *left = &out->bounds[SLRT_LEFT];
+    uint32_t right_last, left_last;
+    if (slrt_is_portal_beside(&b->beam, &across)) return false;
+    *out = b->beam;
+    if ((b->range > 0 && slrt_is_portal_far(b, &across)) || slrt_is_closed(b, p->portal) ||
+        (b->depth == 1 && !slrt_leave_box(b, p, directed, &across, way, out)))
+        return false;
+    right_last = slrt_last_point(right);
+    left_last = slrt_last_point(left);
+    slrt_turn_bound(b, right, left_last, directed, &across, SLRT_RIGHT);
+    slrt_turn_bound(b, left, right_last, directed, &across, SLRT_LEFT);
+    return !b->target || !slrt_is_beam_beside(out, b->target);
+}
+
+// --- the search
+
+/// Whether a beam is all in one line.
+static bool slrt_is_one_line(const slrt_beam *beam) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
+                                      left->arm.to_y);
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
+           slrt_same_way(&right->arm, &left->arm);
+}
+
+static int slrt_turn_of(const slrt_arm *line, const double point[2]) {
+    const slrt_arm to = slrt_make_arm(line->from_x, line->from_y, point[0], point[1]);
+    return slrt_side(line, &to);
+}
+
+/// Whether a line is that of a past beam, and touches the portal through which that came.
+static bool slrt_is_past_line(const slrt_beams *b, const slrt_past_beam *past,
+                              const slrt_arm *line) {
+    const slrt_bound was = slrt_make_bound(b, past->bounds[0], past->bounds[1]);
+    const double from[2] = {line->from_x, line->from_y};
+    double right[2], left[2];
+    slrt_read_end(b->rt, past->entry, 1, right);
+    slrt_read_end(b->rt, past->entry, 0, left);
+    return !slrt_side(&was.arm, line) && !slrt_turn_of(&was.arm, from) &&
+           slrt_same_way(&was.arm, line) && slrt_turn_of(line, right) <= 0 &&
+           slrt_turn_of(line, left) >= 0;
+}
+
+/// Whether a beam that came to a cell before had all lines of this one, and bounds that hold for
+/// them. If not, this one takes its place. (It is not enough that the other one has shown all that
+/// this one does of the cell: behind the next portal it may show less.)
+static bool slrt_is_past(slrt_beams *b, uint32_t cell, uint32_t entry, const slrt_beam *beam) {
+    const bool line = slrt_is_one_line(beam);
+    slrt_past_beam now, *past = &b->past[(line ? cell : entry) % SLRT_PAST_BEAMS];
+    int side;
+    now.cell = cell;
+    now.entry = entry;
+    now.source = b->source;
+    now.line = line;
+    for (side = 0; side < 2; side++) {
+        now.bounds[2 * side] = beam->bounds[side].from;
+        now.bounds[2 * side + 1] = beam->bounds[side].to;
+    }
+    if (line && past->line && past->cell == cell && past->source == b->source &&
+        slrt_is_past_line(b, past, &beam->bounds[SLRT_RIGHT].arm))
+        return true;
+    if (!memcmp(past, &now, sizeof now)) return true;
+    *past = now;
+    return false;
+}
+
+/// Puts a cell on top of the path.
+static void slrt_come_to(slrt_beams *b, uint32_t cell, uint32_t entry, const slrt_beam *beam) {
+    uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)b->depth++;
+    int side;
+    top[SLRT_BEAM_CELL] = cell;
+    top[SLRT_BEAM_DONE] = 0;
+    for (side = 0; side < 2; side++) {
+        top[SLRT_BEAM_BOUNDS + 2 * side] = beam->bounds[side].from;
+        top[SLRT_BEAM_BOUNDS + 2 * side + 1] = beam->bounds[side].to;
+    }
+    b->on_path[cell / 32] |= UINT32_C(1) << cell % 32;
+    b->cell = sl_runtime_get_cell(b->rt, cell);
+    b->entry = entry;
+    b->beam = *beam;
+}
+
+static void slrt_leave_top(slrt_beams *b) {
+    const uint32_t cell = b->path[SLRT_BEAM_STEP * (size_t)--b->depth];
+    b->on_path[cell / 32] &= ~(UINT32_C(1) << cell % 32);
+}
+
+/// How many ways there are out of the cell on top.
+static uint32_t slrt_ways(const slrt_beams *b) {
+    return b->cell.directed_count * (b->depth == 1 ? SLRT_WAYS : 1);
+}
+
+/// Goes back to a cell with ways that are not done.
+static void slrt_go_back(slrt_beams *b) {
+    const uint32_t *top;
+    do {
+        slrt_leave_top(b);
+        if (!b->depth) return;
+        top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
+        b->cell = sl_runtime_get_cell(b->rt, top[SLRT_BEAM_CELL]);
+    } while (top[SLRT_BEAM_DONE] == slrt_ways(b));
+    b->beam.bounds[0] = slrt_make_bound(b, top[SLRT_BEAM_BOUNDS], top[SLRT_BEAM_BOUNDS + 1]);
+    b->beam.bounds[1] = slrt_make_bound(b, top[SLRT_BEAM_BOUNDS + 2], top[SLRT_BEAM_BOUNDS + 3]);
+    b->entry = SLRT_NONE;
+    if (b->depth == 1) return;
+    top -= SLRT_BEAM_STEP;
+    b->entry = sl_runtime_get_cell(b->rt, top[SLRT_BEAM_CELL]).first_directed +
+               (top[SLRT_BEAM_DONE] - 1) / (b->depth == 2 ? SLRT_WAYS : 1);
+}
+
+/// Follows the next way out of the cell on top. True if `meet` ends the search.
+static bool slrt_go_on(slrt_beams *b) {
+    uint32_t *done = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1) + SLRT_BEAM_DONE;
+    const uint32_t ways = b->depth == 1 ? SLRT_WAYS : 1, way = *done % ways;
+    const uint32_t directed = b->cell.first_directed + (*done)++ / ways;
+    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
+    slrt_beam beam;
+    if (b->depth == 1 && !way) {
+        if (!slrt_is_whole(b, &p)) return false;
+        *done += SLRT_WAYS - 1;
+    }
+    // A line passes a convex cell once.
+    if (b->on_path[p.cell / 32] >> p.cell % 32 & 1 ||
+        !slrt_pass_portal(b, &p, directed, way, &beam) || slrt_is_past(b, p.cell, directed, &beam))
+        return false;
+    slrt_come_to(b, p.cell, directed, &beam);
+    return b->meet(b, p.cell, &beam);
+}
+
+/// Sends beams from the part of the box that is in a cell. Returns true if `meet` ended the search,
+/// or it took too long.
+static bool slrt_send_beams(slrt_beams *b, uint32_t source) {
+    slrt_beam beam;
+    bool ended;
+    memset(&beam, 0, sizeof beam);
+    beam.bounds[0].from = beam.bounds[1].from = SLRT_NONE;
+    b->source = source;
+    b->depth = 0;
+    slrt_part_of(b->rt, source, b->box, b->part);
+    slrt_come_to(b, source, SLRT_NONE, &beam);
+    ended = b->meet(b, source, &beam);
+    while (b->depth && !ended) {
+        const uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
+        if (top[SLRT_BEAM_DONE] == slrt_ways(b))
+            slrt_go_back(b);
+        else if (b->patience--)
+            ended = slrt_go_on(b);
+        else
+            ended = true;
+    }
+    while (b->depth) slrt_leave_top(b);
+    return ended;
+}
+
+// --- Whole servers: which players may see which things
+
+/// The part of a box, with a margin around it, within the bounds of the map. False for none.
+static bool slrt_box_in_map(const sl_runtime *rt, const sl_runtime_box *of, double margin,
+                            double box[4]) {
+    const double low_x = of->min_x - margin, low_y = of->min_y - margin;
+    const double high_x = of->max_x + margin, high_y = of->max_y + margin;
+    box[0] = low_x > rt->min_x ? low_x : rt->min_x;
+    box[1] = low_y > rt->min_y ? low_y : rt->min_y;
+    box[2] = high_x < rt->max_x ? high_x : rt->max_x;
+    box[3] = high_y < rt->max_y ? high_y : rt->max_y;
+    return low_x <= high_x && low_y <= high_y && box[0] <= box[2] && box[1] <= box[3];
+}
+
+// --- from all of a box
+
+/// A search from the cells of a box.
+typedef struct slrt_origin {
+    slrt_beams beams;
+    uint32_t sources[32], count; ///< the last cells that it came from: a cell may be visited again
+} slrt_origin;
+
+static bool slrt_look_from_cell(void *context, uint32_t cell) {
+    slrt_origin *o = (slrt_origin *)context;
+    enum { MOST = sizeof o->sources / sizeof *o->sources };
+    uint32_t i;
+    for (i = 0; i < MOST && i < o->count; i++)
+        if (o->sources[i] == cell) return true;
+    if (sl_runtime_is_solid(o->beams.rt, cell) ||
+        !slrt_meets_box(o->beams.rt, cell, o->beams.box))
+        return true;
+    o->sources[o->count++ % MOST] = cell;
+    return !slrt_send_beams(&o->beams, cell);
+}
+
+/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
+                              double range, uint32_t *scratch) {
+    memset(&o->beams, 0, sizeof o->beams);
+    o->beams.rt = rt;
+    o->beams.shut = shut;
+    o->beams.range = slrt_range(rt, range);
+    o->beams.path = scratch;
+    o->beams.on_path = scratch + SLRT_BEAM_STEP * (size_t)rt->cell_count;
+    memset(o->beams.on_path, 0, ((size_t)rt->cell_count + 31) / 32 * sizeof *scratch);
+}
+
+/// Looks from all of a box. True if `meet` ended the search, or it took too long.
+static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double margin) {
+    if (!slrt_box_in_map(o->beams.rt, box, margin, o->beams.box)) return false;
+    memset(o->beams.past, 0xff, sizeof o->beams.past);
+    o->beams.patience = SLRT_BEAM_PATIENCE * ((uint64_t)o->beams.rt->directed_count + 1024);
+    o->count = 0;
+    return !slrt_visit_near(o->beams.rt, o->beams.box, slrt_look_from_cell, o);
+}
+
+// --- one box
+
+static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
+    double part[4];
+    if (!slrt_meets_box(b->rt, cell, b->target)) return false;
+    slrt_part_of(b->rt, cell, b->target, part);
+    return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
+}
+
+static sl_runtime_box slrt_square(double x, double y, double radius) {
+    sl_runtime_box box;
+    box.min_x = x - radius;
+    box.min_y = y - radius;
+    box.max_x = x + radius;
+    box.max_y = y + radius;
+    box.blocks = false;
+    return box;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch) {
+    const sl_runtime_box from = slrt_square(x0, y0, radius0), to = slrt_square(x1, y1, radius1);
+    slrt_origin o;
+    double target[4];
+    if (!slrt_box_in_map(runtime, &to, 0, target)) return false;
+    slrt_start_origin(&o, runtime, shut, range, scratch);
+    o.beams.target = target;
+    o.beams.meet = slrt_meet_target;
+    return slrt_look_from_box(&o, &from, 0);
+}
+
+// --- many things
+
+// Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
+// a thing that touches the cell, and the cell's next entry.
+
+enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+
+typedef struct slrt_relevant {
+    slrt_origin origin;
+    const sl_runtime_box *things;
+    uint32_t *first, *entries, count;
+    size_t room;
+    uint32_t thing;        ///< is being placed,
+    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
+    double box[4];  ///< within the bounds of the map
+    unsigned char *bits;
+    size_t pairs;
+} slrt_relevant;
+
+static bool slrt_place_thing(void *context, uint32_t cell) {
+    slrt_relevant *t = (slrt_relevant *)context;
+    uint32_t *first = t->first + cell;
+    if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
+        !slrt_meets_box(t->origin.beams.rt, cell, t->box))
+        return true;
+    if (t->skip) {
+        t->skip--;
+        return true;
+    }
+    if (t->count == t->room) return false;
+    t->entries[2 * (size_t)t->count] = t->thing;
+    t->entries[2 * (size_t)t->count + 1] = *first;
+    *first = t->count++;
+    return true;
+}
+
+static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
+    slrt_relevant *t = (slrt_relevant *)b->context;
+    uint32_t at = t->first[cell];
+    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+        const uint32_t thing = t->entries[2 * (size_t)at];
+        double box[4], part[4];
+        if (t->bits[thing / 8] >> thing % 8 & 1) continue;
+        slrt_box_in_map(b->rt, &t->things[thing], 0, box);
+        slrt_part_of(b->rt, cell, box, part);
+        if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
+        t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
+        t->pairs++;
+    }
+    return false;
+}
+
+/// Places things until there is no room. Those that are left have their turn after these.
+static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
+    const sl_runtime *rt = t->origin.beams.rt;
+    memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
+    t->count = 0;
+    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
+        const uint32_t before = t->count;
+        t->skip = t->placed;
+        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
+            slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            continue;
+        t->placed += t->count - before;
+        return;
+    }
+}
+
+/// Takes each thing in the map for relevant.
+static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
+    double box[4];
+    uint32_t i;
+    for (i = 0; i < thing_count; i++) {
+        if (t->bits[i / 8] >> i % 8 & 1 ||
+            !slrt_box_in_map(t->origin.beams.rt, &t->things[i], 0, box))
+            continue;
+        t->bits[i / 8] |= (unsigned char)(1 << i % 8);
+        t->pairs++;
+    }
+}
+
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
+    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
+           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+}
+
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits) {
+    const size_t stride = ((size_t)thing_count + 7) / 8;
+    slrt_relevant t;
+    uint32_t i;
+    memset(bits, 0, stride * player_count);
+    memset(&t, 0, sizeof t);
+    slrt_start_origin(&t.origin, runtime, shut, range, relevant_scratch);
+    t.origin.beams.meet = slrt_meet_things;
+    t.origin.beams.context = &t;
+    t.things = things;
+    t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
+    t.entries = t.first + runtime->cell_count;
+    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    while (t.thing < thing_count) {
+        slrt_place_things(&t, thing_count);
+        for (i = 0; i < player_count; i++) {
+            t.bits = bits + stride * i;
+            if (slrt_look_from_box(&t.origin, &players[i], margin)) slrt_meet_all(&t, thing_count);
+        }
+    }
+    return t.pairs;
 }
 
 #ifdef __cplusplus

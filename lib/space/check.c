@@ -11,6 +11,7 @@
 #include "space/kd_tree.h"
 #include "space/mesh.h"
 #include "space/seams.h"
+#include "space/walled.h"
 
 #include <math.h>
 
@@ -320,6 +321,7 @@ static sl_status check_all(checker *c) {
 sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
+    if (space->passage_count) SL_TRY(sli_passages_check(context, space));
     if (space->neighbour) return sli_check_mesh(context, space);
     if (space->loose)
         return sl_fail(context, SL_BAD_INPUT, "a loose space that does not know its sides");

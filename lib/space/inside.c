@@ -25,6 +25,7 @@
 #include "sightline/support.h"
 #include "space/index.h"
 #include "space/subdivide.h"
+#include "space/walled.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,7 @@ typedef struct inside {
     uint32_t *open_by;  ///< by cell: 1 + a wall that says open, 0 for none
     uint32_t *stack;    ///< cells
     uint32_t *beside;   ///< by wall: a cell at its left, and one at its right; SL_NO_CELL for none
+    bool partial;       ///< some walls do not stop all
 } inside;
 
 // --- the ground that walls say
@@ -180,9 +182,21 @@ static bool is_entrance(const inside *m, uint32_t portal) {
     return false;
 }
 
-/// Gives all cells that portals connect with those on the stack a value that is not 0. `indoors`:
-/// but not through entrances.
-static void flood(const inside *m, uint32_t *values, size_t count, bool indoors) {
+/// Where cells are connected.
+typedef enum connection {
+    BY_PORTALS, ///< through all portals
+    BY_STEPS,   ///< but not through walls that stop steps
+    INDOORS,    ///< nor through entrances
+} connection;
+
+static bool connects(const inside *m, connection by, uint32_t portal) {
+    if (by == BY_PORTALS) return true;
+    if (m->partial && sli_portal_stops(m->map, m->space, portal) & SL_STOPS_STEPS) return false;
+    return by == BY_STEPS || !is_entrance(m, portal);
+}
+
+/// Gives all cells that are connected with those on the stack a value that is not 0.
+static void flood(const inside *m, uint32_t *values, size_t count, connection by) {
     const sl_space *s = m->space;
     while (count) {
         const uint32_t at = m->stack[--count];
@@ -190,7 +204,7 @@ static void flood(const inside *m, uint32_t *values, size_t count, bool indoors)
         for (uint32_t i = 0; i < cell->directed_count; i++) {
             const sl_directed_portal *way = &s->directed[cell->first_directed + i];
             const uint32_t next = way->cell;
-            if (values[next] || (indoors && is_entrance(m, way->portal))) continue;
+            if (values[next] || !connects(m, by, way->portal)) continue;
             values[next] = values[at];
             m->stack[count++] = next;
         }
@@ -460,6 +474,44 @@ static sl_status add_covered(const inside *m) {
     return done ? SL_OK : SL_NO_MEMORY;
 }
 
+// --- ground behind walls that do not stop all
+
+/// Whether a portal is on the outline of ground that nobody steps on; then *cell is on this ground.
+static bool is_shore(const inside *m, const sl_seam_portal *on, uint32_t *cell) {
+    const sl_seam *seam = &m->space->seams[on->seam];
+    if (seam->kind != SL_SEAM_PLAIN) return false;
+    const sl_glass *wall = &m->map->seams[seam->number];
+    if (!(wall->stops & SL_STOPS_STEPS) || !(wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)))
+        return false;
+    const bool left = wall->ground & SL_SOLID_LEFT;
+    *cell = m->space->portals[on->portal].cell[left == (on->forward != 0)];
+    return true;
+}
+
+/// Takes water and the like out of what is inside: all within outlines that stop steps and have
+/// solid ground on one side. `value`: what `reached` has where it is inside.
+static sl_status leave_out_fenced(const inside *m, uint32_t *reached, bool value) {
+    const sl_space *s = m->space;
+    size_t count = 0;
+    uint32_t cell;
+    for (uint32_t i = 0; i < s->seam_portal_count; i++)
+        count += is_shore(m, &s->seam_portals[i], &cell);
+    if (!count) return SL_OK;
+    uint32_t *fenced = sl_alloc_array(m->context, s->cell_count, sizeof *fenced);
+    if (!fenced) return SL_NO_MEMORY;
+    count = 0;
+    for (uint32_t i = 0; i < s->seam_portal_count; i++) {
+        if (!is_shore(m, &s->seam_portals[i], &cell) || fenced[cell]) continue;
+        fenced[cell] = 1;
+        m->stack[count++] = cell;
+    }
+    flood(m, fenced, count, BY_STEPS);
+    for (uint32_t i = 0; i < s->cell_count; i++)
+        if (fenced[i]) reached[i] = !value;
+    sl_free(m->context, fenced);
+    return SL_OK;
+}
+
 // --- all of it
 
 static sl_status mark(inside *m, bool marked, uint32_t *reached) {
@@ -467,8 +519,8 @@ static sl_status mark(inside *m, bool marked, uint32_t *reached) {
     size_t count = 0, reopened = 0;
     if (marked) {
         say_all(m);
-        flood(m, m->solid_by, take(m, m->solid_by), false);
-        flood(m, m->open_by, take(m, m->open_by), false);
+        flood(m, m->solid_by, take(m, m->solid_by), BY_PORTALS);
+        flood(m, m->open_by, take(m, m->open_by), BY_PORTALS);
         SL_TRY(add_covered(m));
         SL_TRY(settle_open(m, &reopened));
         SL_TRY(settle_doors(m, &reopened));
@@ -487,7 +539,8 @@ static sl_status mark(inside *m, bool marked, uint32_t *reached) {
         reached[i] = 1;
         m->stack[count++] = i;
     }
-    flood(m, reached, count, indoors);
+    flood(m, reached, count, indoors ? INDOORS : BY_STEPS);
+    if (m->partial) SL_TRY(leave_out_fenced(m, reached, from_starts || indoors));
     uint32_t solid = 0;
     s->inside_count = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
@@ -512,6 +565,7 @@ sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piec
     const size_t cells = space->cell_count, room = cells + space->tree_depth + 2;
     inside m = {.context = context, .map = map, .pieces = walls, .space = space};
     bool marked = false;
+    for (size_t i = 0; i < map->seam_count; i++) m.partial |= map->seams[i].stops != 0;
     for (uint32_t i = 0; i < space->wall_count; i++) marked |= space->walls[i].ground != 0;
     uint32_t *reached = sl_alloc_array(context, cells, sizeof *reached);
     m.solid_by = sl_alloc_array(context, cells, sizeof *m.solid_by);

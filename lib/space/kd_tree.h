@@ -64,8 +64,9 @@ sl_status sli_make_directed(sl_context *context, sl_space *space);
 /// SL_BAD_INPUT for a map without walls, which has no size.
 sl_status sli_check_has_walls(sl_context *context, const sl_map *map);
 
-/// A map whose walls all lie on one line has no area. This adds the missing width on both sides.
-sl_box sli_padded(sl_box box);
+/// The bounds of a space: those of the map; wider where they would have no area, and where a wall
+/// on their border does not stop all, so that there are cells on both sides of it.
+sl_box sli_space_bounds(const sl_map *map);
 
 /// Marks the cells that are solid, and those that are inside (inside.c). A mesh does not need
 /// `walls`. SL_BAD_INPUT, with the line, where the map contradicts itself: see sl_space.

@@ -28,6 +28,7 @@
 #include "space/kd_tree.h"
 #include "space/seams.h"
 #include "space/subdivide.h"
+#include "space/walled.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -368,7 +369,8 @@ static sl_status make(merger *m, const sl_map *map, const sli_mesh_lines *lines)
     SL_TRY(sl_check_cancelled(m->context));
     SL_TRY(sli_cell_grid_make(m->context, m->space));
     SL_TRY(sl_check_cancelled(m->context));
-    return sli_mark_inside(m->context, map, NULL, m->space);
+    SL_TRY(sli_mark_inside(m->context, map, NULL, m->space));
+    return sli_walled_by_channel(m->context, map, m->space);
 }
 
 sl_status sli_mesh_make(sl_context *context, const sl_map *map, const sli_mesh_lines *lines,
@@ -393,7 +395,7 @@ sl_status sli_mesh_lines_of_map(sl_context *context, const sl_map *map, sli_mesh
                                 sl_space *space) {
     SL_TRY(sli_check_has_walls(context, map));
     if (map->wall_count > INT32_MAX / 2) return sl_fail_memory(context);
-    space->bounds = sli_padded(sl_map_bounds(map));
+    space->bounds = sli_space_bounds(map);
     SL_TRY(sli_seams_of_map(context, map, false, space));
     for (size_t i = 0; i < map->wall_count; i++)
         SL_TRY(sli_mesh_add_line(context, lines, (sl_segment){map->walls[i].a, map->walls[i].b}));

@@ -15,6 +15,7 @@
 #include "space/kd_tree.h"
 #include "space/seams.h"
 #include "space/subdivide.h"
+#include "space/walled.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,15 +36,19 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sli_cell_grid_destroy(context, &space->grid);
     sl_free(context, space->seams);
     sl_free(context, space->seam_portals);
+    sl_free(context, space->passages);
     *space = (sl_space){0};
 }
 
 sl_status sli_check_has_walls(sl_context *context, const sl_map *map) {
     if (map->wall_count) return SL_OK;
+    for (size_t i = 0; i < map->seam_count; i++)
+        if (map->seams[i].stops & sl_map_channel(map)) return SL_OK;
     return sl_fail_at(context, sli_map_name(map), 0, "the map has no walls: nothing to subdivide");
 }
 
-sl_box sli_padded(sl_box box) {
+/// A map whose walls all lie on one line has no area. This adds the missing width on both sides.
+static sl_box padded(sl_box box) {
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
     const double wider = width > height ? width : height;
     if (width == 0) {
@@ -89,6 +94,24 @@ static sl_status build_tree(sl_context *context, const sli_piece *walls, size_t 
     return status;
 }
 
+static bool on_border(const sl_box *b, sl_segment at) {
+    return (at.a.x == at.b.x && (at.a.x == b->min.x || at.a.x == b->max.x)) ||
+           (at.a.y == at.b.y && (at.a.y == b->min.y || at.a.y == b->max.y));
+}
+
+sl_box sli_space_bounds(const sl_map *map) {
+    sl_box box = sl_map_bounds(map);
+    bool wider = false;
+    for (size_t i = 0; i < map->seam_count && !wider; i++)
+        wider = map->seams[i].stops && on_border(&box, map->seams[i].segment);
+    if (!wider) return padded(box);
+    const double more = fmax(box.max.x - box.min.x, box.max.y - box.min.y) / 16;
+    return (sl_box){{fmin(box.min.x - more, nextafter(box.min.x, -INFINITY)),
+                     fmin(box.min.y - more, nextafter(box.min.y, -INFINITY))},
+                    {fmax(box.max.x + more, nextafter(box.max.x, INFINITY)),
+                     fmax(box.max.y + more, nextafter(box.max.y, INFINITY))}};
+}
+
 static sl_status fill_space(sl_context *context, const sl_map *map, const sli_piece *walls,
                             const sli_seam_parts *seams, const sl_subdivide_options *options,
                             sli_kd_tree *tree, sl_space *space) {
@@ -96,7 +119,7 @@ static sl_status fill_space(sl_context *context, const sl_map *map, const sli_pi
     SL_TRY(copy_cells(context, tree, space));
     space->walls = sl_alloc_array(context, map->wall_count, sizeof *space->walls);
     if (!space->walls) return SL_NO_MEMORY;
-    memcpy(space->walls, map->walls, map->wall_count * sizeof *space->walls);
+    if (map->wall_count) memcpy(space->walls, map->walls, map->wall_count * sizeof *space->walls);
     space->wall_count = (uint32_t)map->wall_count;
     SL_TRY(sli_make_portals(context, tree, space));
     if (space->seam_count) SL_TRY(sli_seams_tag_axial(context, seams, space));
@@ -106,6 +129,7 @@ static sl_status fill_space(sl_context *context, const sl_map *map, const sli_pi
     space->nodes = tree->nodes.items;
     tree->nodes.items = NULL;
     SL_TRY(sli_mark_inside(context, map, walls, space));
+    SL_TRY(sli_walled_by_channel(context, map, space));
     sl_report(context, "subdivide", "cells", space->cell_count, space->cell_count);
     return SL_OK;
 }
@@ -116,7 +140,7 @@ sl_status sli_subdivide_kd(sl_context *context, const sl_map *map,
         return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
     SL_TRY(sli_check_has_walls(context, map));
     if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
-    sl_space space = {.bounds = sli_padded(sl_map_bounds(map))};
+    sl_space space = {.bounds = sli_space_bounds(map)};
     sli_kd_tree tree = {0};
     sli_piece *walls = NULL;
     sli_seam_parts seams = {0};

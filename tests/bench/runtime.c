@@ -124,6 +124,30 @@ static uint32_t ask_sees_near(const bench *b, uint32_t i) {
                            b->scratch);
 }
 
+/// A step of a 400th of the map, as that of a thing that moves.
+static uint32_t ask_can_walk(const bench *b, uint32_t i) {
+    const double step = (b->runtime.max_x - b->runtime.min_x) / 400;
+    return sl_runtime_can_walk(&b->runtime, b->x[i], b->y[i], b->x[i] + step * cos(b->angle[i]),
+                               b->y[i] + step * sin(b->angle[i]), NULL);
+}
+
+/// The same step by a disc of half its length, which slides.
+static uint32_t ask_walk(const bench *b, uint32_t i) {
+    const double step = (b->runtime.max_x - b->runtime.min_x) / 400;
+    const sl_runtime_walker walker = {step / 2, NULL, NULL, SL_RUNTIME_NO_BOX};
+    double x, y;
+    return sl_runtime_walk(&b->runtime, &walker, b->x[i], b->y[i],
+                           b->x[i] + step * cos(b->angle[i]), b->y[i] + step * sin(b->angle[i]),
+                           b->scratch, &x, &y);
+}
+
+/// Those of a thing that is a thousandth of the map wide.
+static uint32_t ask_box_cells(const bench *b, uint32_t i) {
+    const double half = (b->runtime.max_x - b->runtime.min_x) / 2000;
+    return sl_runtime_box_cells(&b->runtime, b->x[i] - half, b->y[i] - half, b->x[i] + half,
+                                b->y[i] + half, b->cells, b->runtime.cell_count);
+}
+
 static uint32_t ask_polygon(const bench *b, uint32_t i) {
     const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
     return sl_runtime_visible_polygon(&b->runtime, &view, NULL, 0, b->scratch, b->points, POINTS);
@@ -233,6 +257,9 @@ static void print_table(const bench *b, const char *name) {
         {"look in a cone of 60", ask_look_60, LOOKS, b->size},
         {"one place sees another", ask_sees, LOOKS, b->size},
         {"one place sees one in a cell in view", ask_sees_near, LOOKS, b->size},
+        {"a step is free", ask_can_walk, LOOKS, b->size},
+        {"a disc walks", ask_walk, LOOKS, b->size},
+        {"the cells of a box", ask_box_cells, LOOKS, b->size},
         {"visible polygon all round", ask_polygon, LOOKS, b->size},
         {"visible polygon in a cone of 60", ask_polygon_60, LOOKS, b->size},
         {"open the file", ask_open, 1, b->size},

@@ -285,6 +285,13 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
                                                           b->cells, r->cell_count);
         FUZZ_CHECK(cells <= r->cell_count);
         for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
+        const double x1 = i ? odd_real(random) : x + range / 8, y1 = y - range / 8;
+        sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
+        sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
+        const sl_runtime_walker walker = {i ? odd_real(random) : range / 16, shut, boxes, 0};
+        double to_x, to_y;
+        const bool can = sl_runtime_can_walk_wide(r, &walker, x, y, x1, y1, scratch);
+        FUZZ_CHECK(sl_runtime_walk(r, &walker, x, y, x1, y1, scratch, &to_x, &to_y) || !can);
     }
     free(scratch);
     free(seen);

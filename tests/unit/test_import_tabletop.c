@@ -90,37 +90,47 @@ static void assert_foundry_refused(const char *text, const char *message) {
 
 static void test_foundry_walls(void **state) {
     (void)state;
-    assert_foundry(NULL, SCENE(BASE "," WALL("1, 2, 3, 4.5", ", \"sight\": 20, \"move\": 0")),
+    assert_foundry(NULL, SCENE(BASE "," WALL("1, 2, 3, 4.5", ", \"sight\": 20, \"move\": 20")),
                    BASE_WALL "wall 1 8 3 5.5\n");
     assert_foundry(NULL, "[" BASE "," WALL("1, 2, 3, 4", ", \"sense\": 1") "]",
                    BASE_WALL "wall 1 8 3 6\n");
-    // Left out: no sight stopped, the first of two, by distance, no length.
-    assert_foundry(
-        NULL,
-        SCENE(BASE "," WALL("1, 2, 3, 4", ", \"sight\": 0, \"move\": 20") "," WALL(
-            "1, 2, 3, 4",
-            ", "
-            "\"sigh"
-            "t\": "
-            "10") "," WALL("1, 2, 3, 4",
-                           ", \"sight\": 30") "," WALL("1, 2, 3, 4",
-                                                       ", \"sight\": 40") "," WALL("1, 2, 1, 2",
-                                                                                   "") "," WALL("1,"
-                                                                                                " 2"
-                                                                                                ", "
-                                                                                                "3,"
-                                                                                                " "
-                                                                                                "4",
-                                                                                                ", "
-                                                                                                "\""
-                                                                                                "se"
-                                                                                                "ns"
-                                                                                                "e"
-                                                                                                "\""
-                                                                                                ": "
-                                                                                                "2")),
-        BASE_WALL);
+    assert_foundry(NULL, SCENE(BASE "," WALL("1, 2, 1, 2", "")), BASE_WALL);
     assert_foundry(NULL, SCENE(""), "");
+}
+
+/// A wall, what the file says that it does, and what it then stops.
+static void test_foundry_stops(void **state) {
+    (void)state;
+    static const struct {
+        const char *members, *stops;
+    } walls[] = {
+        {"\"sight\": 20, \"move\": 0", " stops sight,sound"},
+        {"\"sight\": 20, \"move\": 0, \"sound\": 0", " stops sight"},
+        {"\"sight\": 0, \"move\": 20", " stops steps,sound"},
+        {"\"sight\": 0, \"move\": 20, \"sound\": 0, \"light\": 20", " stops steps"},
+        {"\"sight\": 0, \"move\": 0, \"sound\": 20", " stops sound"},
+        {"\"sight\": 0, \"move\": 0, \"sound\": 0", NULL},
+        {"\"sense\": 0, \"move\": 1", " stops steps,sound"},
+        {"\"sight\": 20, \"sound\": 10", " stops sight,steps"},
+        {"\"sight\": 20, \"sound\": null, \"move\": true", ""},
+        // Limited, and by distance: they count as open, as does what is behind another.
+        {"\"sight\": 10, \"move\": 0, \"sound\": 0", NULL},
+        {"\"sight\": 10", " stops steps,sound"},
+        {"\"sense\": 2", " stops steps,sound"},
+        {"\"sight\": 30, \"sound\": 40", " stops steps"},
+        {"\"sight\": 40, \"sound\": 0", " stops steps"},
+        // Doors that are seen through are walls while they are shut.
+        {"\"sight\": 0, \"door\": 1, \"ds\": 0", " stops steps,sound"},
+        {"\"sight\": 0, \"door\": 1, \"ds\": 1", NULL},
+        {"\"sight\": 0, \"dir\": 1", " stops steps,sound"},
+    };
+    for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
+        char text[256], expected[128] = BASE_WALL;
+        snprintf(text, sizeof text, "[%s, {\"c\": [1, 2, 3, 2], %s}]", BASE, walls[i].members);
+        if (walls[i].stops)
+            snprintf(expected, sizeof expected, "%swall 1 8 3 8%s\n", BASE_WALL, walls[i].stops);
+        assert_foundry(NULL, text, expected);
+    }
 }
 
 static void test_foundry_sides(void **state) {
@@ -149,9 +159,12 @@ static void test_foundry_doors(void **state) {
                                                                                   "\": 1, "        \
                                                                                   "\"sight"        \
                                                                                   "\": 0"))
-    assert_foundry(NULL, DOORS, BASE_WALL "wall 1 8 3 8\nwall 5 8 7 8\noneway 7 8 9 8\n");
+    assert_foundry(NULL, DOORS,
+                   BASE_WALL
+                   "wall 1 8 3 8\nwall 5 8 7 8\nwall 7 8 9 8 stops steps,sound\noneway 7 8 9 8\n");
     assert_foundry(&with_doors, DOORS,
                    BASE_WALL
+                   "wall 7 8 9 8 stops steps,sound\n"
                    "door door1 1 8 3 8 shut\ndoor door2 3 8 5 8 open\ndoor door3 5 8 7 8 shut\n"
                    "door door4 7 8 9 8 shut\n");
 }
@@ -292,11 +305,17 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uvtt),          cmocka_unit_test(test_uvtt_refused),
-        cmocka_unit_test(test_foundry_walls), cmocka_unit_test(test_foundry_sides),
-        cmocka_unit_test(test_foundry_doors), cmocka_unit_test(test_foundry_refused),
-        cmocka_unit_test(test_export),        cmocka_unit_test(test_export_all),
-        cmocka_unit_test(test_export_ground), cmocka_unit_test(test_export_refused),
+        cmocka_unit_test(test_uvtt),
+        cmocka_unit_test(test_uvtt_refused),
+        cmocka_unit_test(test_foundry_walls),
+        cmocka_unit_test(test_foundry_stops),
+        cmocka_unit_test(test_foundry_sides),
+        cmocka_unit_test(test_foundry_doors),
+        cmocka_unit_test(test_foundry_refused),
+        cmocka_unit_test(test_export),
+        cmocka_unit_test(test_export_all),
+        cmocka_unit_test(test_export_ground),
+        cmocka_unit_test(test_export_refused),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

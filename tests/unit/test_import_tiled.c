@@ -140,6 +140,25 @@ static void test_layers_that_are_solid(void **state) {
                  TWO_TILES "wall 9 10 17 10\nwall 9 2 17 2\nwall 9 2 9 10\nwall 17 2 17 10\n");
 }
 
+/// A property says what walls of objects stop; an object's own is over that of its layer.
+static void test_objects_that_stop_some(void **state) {
+    (void)state;
+#define STOPS(what)  "<properties><property name='stops' value='" what "'/></properties>"
+#define FENCE(more)  "<object id='1' x='8' y='8'>" more "<polyline points='0,0 8,0'/></object>"
+#define FENCES(more) "<objectgroup name='fences'>" more "</objectgroup>"
+    const char *plan = "wall 8 8 16 8 stops steps\n";
+    assert_walls(MAP(SET FENCES(FENCE(STOPS("steps")))), plan);
+    assert_walls(MAP(SET FENCES(STOPS("steps") FENCE(""))), plan);
+    assert_walls(MAP(SET FENCES(STOPS("sight") FENCE(STOPS("steps")))), plan);
+    assert_walls(MAP(SET FENCES(STOPS("sound,steps,sight") FENCE(""))), "wall 8 8 16 8\n");
+    assert_refused(MAP(SET FENCES(FENCE(STOPS("stairs")))),
+                   "f: stops: expected sight, steps, sound");
+    assert_refused(
+        MAP(SET "<objectgroup name='sightline-wall-stops-stairs'>" FENCE("") "</objectgroup>"),
+        "f:1: a layer whose walls stop something: expected a name such as "
+        "sightline-wall-stops-sight");
+}
+
 static void test_layers_asked_for(void **state) {
     (void)state;
 #define THREE MAP(SET LAYER("a:b", CSV("0,5,7,0,0,0")) LAYER("walls", CSV("1,1,1,1,1,0")))
@@ -846,6 +865,7 @@ int main(void) {
         cmocka_unit_test(test_json),
         cmocka_unit_test(test_names_that_say_solid),
         cmocka_unit_test(test_layers_that_are_solid),
+        cmocka_unit_test(test_objects_that_stop_some),
         cmocka_unit_test(test_layers_asked_for),
         cmocka_unit_test(test_tiles_that_are_solid),
         cmocka_unit_test(test_shapes_of_tiles),

@@ -108,7 +108,8 @@ static void test_refusals(void **state) {
     } lines[] = {
         {"wal 0 0 1 1", "unknown statement 'wal'"},
         {"wall", "'wall' with 0 values"},
-        {"wall 0 0 1", "expected 'wall x0 y0 x1 y1 [solid]', found 'wall' with 3 values"},
+        {"wall 0 0 1",
+         "expected 'wall x0 y0 x1 y1 [solid] [stops WHAT]', found 'wall' with 3 values"},
         {"wall 0 0 1 1 2", "wall: expected 'solid' or nothing after the coordinates, found '2'"},
         {"wall 0 0 1 1 solid 2", "with 6 values"},
         {"solid 0 0 1 1", "'solid' with 4 values"},

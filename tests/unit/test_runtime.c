@@ -1,6 +1,7 @@
 // The runtime for games answers as the library does: on every map, for all pairs of cells and for
 // points wherever they can fall.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#define SLRT_WINDOW 32 // cells are noted many times
 #include "runtime_maps.h"
 
 #include "geometry/orient.h"

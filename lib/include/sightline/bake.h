@@ -94,6 +94,10 @@ SL_API sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options
 SL_API sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options,
                                sl_baked *out, sl_bake_account *account);
 
+/// The map that a baked file was made from, but for comments, cells of its own and what else map
+/// text alone keeps. `out` must be empty, and stays so on failure.
+SL_API sl_status sl_baked_copy_map(sl_context *context, const sl_baked *baked, sl_map *out);
+
 /// Whether reports and pictures count a cell: the bake looked from it, it is not solid ground, and
 /// it is inside, where the map's starts say what inside is.
 SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);

@@ -28,11 +28,12 @@ extern "C" {
 
 /// What is drawn, one over the other.
 typedef enum sl_layer {
-    SL_LAYER_CELLS = 1,      ///< cells in tones that tell neighbours apart, and their outlines
-    SL_LAYER_PORTALS = 2,    ///< portals
-    SL_LAYER_WALLS = 4,      ///< walls, doors, mirrors and one-way glass
-    SL_LAYER_PVS = 8,        ///< the cells that the chosen cell sees; with none chosen, each cell
-                             ///< by the share of the area that it sees
+    SL_LAYER_CELLS = 1,   ///< cells in tones that tell neighbours apart, and their outlines
+    SL_LAYER_PORTALS = 2, ///< portals
+    SL_LAYER_WALLS = 4,   ///< walls, doors, mirrors and one-way glass. Walls that do not stop all
+                          ///< are hollow, or dashed where the space does not have them
+    SL_LAYER_PVS = 8,     ///< the cells that the chosen cell sees; with none chosen, each cell
+                          ///< by the share of the area that it sees
     SL_LAYER_STAB_TREE = 16, ///< the chosen cell's stab tree, from portal to portal or mirror
     SL_LAYER_STARTS = 32,    ///< starts with their heading, paths, objects
     SL_LAYER_LEGEND = 64,    ///< what the picture shows, its colours and counts, a scale bar

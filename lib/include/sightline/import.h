@@ -86,7 +86,9 @@ typedef enum sl_map_keeps {
     SL_KEEPS_COMMENTS = 2048,
     SL_KEEPS_UNIT = 4096,     ///< what a map's lengths are in
     SL_KEEPS_ENTRANCE = 8192, ///< how wide entrances are
-    SL_KEEPS_ALL = 16383,
+    SL_KEEPS_STOPS = 16384,   ///< what walls stop; else those that do not stop what the map is
+                              ///< for are left out (sl_map.channel)
+    SL_KEEPS_ALL = 32767,
 } sl_map_keeps;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read

@@ -29,8 +29,17 @@ static inline uint32_t sl_ground_turned(uint32_t ground) {
            (ground & (SL_SOLID_RIGHT | SL_OPEN_RIGHT)) >> 1 | (0 - (ground & ~31u));
 }
 
-/// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file, or
-/// the number of an item where the map says so (sl_map_source.lines_are_items); 0 for none.
+/// What a wall stops, as bits. Light is sight.
+enum {
+    SL_STOPS_SIGHT = 1,
+    SL_STOPS_STEPS = 2,
+    SL_STOPS_SOUND = 4,
+    SL_STOPS_ALL = 7,
+};
+
+/// A wall: a closed segment that stops sight, steps and sound. `line`, here and below, is the line
+/// of the file, or the number of an item where the map says so (sl_map_source.lines_are_items); 0
+/// for none.
 typedef struct sl_wall {
     sl_point a, b;
     uint32_t line;
@@ -49,12 +58,14 @@ typedef struct sl_door {
 } sl_door;
 
 /// A mirror; one-way glass, seen through from its right to its left, going from a to b; or a seam,
-/// a line that cuts the cells and is seen through.
+/// a line that cuts the cells. A seam is passed by all, or it is a wall that does not stop all.
 typedef struct sl_glass {
     sl_segment segment;
     uint32_t line;
     bool one_sided; ///< for a mirror: it reflects on its left only, going from a to b
     bool entrance;  ///< for a seam: what is inside ends there (sl_map_find_inside)
+    uint8_t stops;  ///< for a seam: what it stops, as bits of SL_STOPS_SIGHT ...; 0 for most
+    uint8_t ground; ///< of such a wall: bits of SL_SOLID_LEFT ... (sl_map_walls_stop)
 } sl_glass;
 
 /// A viewpoint. The heading is in degrees, counter-clockwise from +x.
@@ -190,7 +201,10 @@ typedef struct sl_map {
     double entrance; ///< how wide openings to the outside are at most; 0 where nobody says it
     uint32_t entrance_line;
     sl_interior interior; ///< map text and .slv files do not keep it
-    double range;         ///< the view range; 0 for no limit
+    /// Which walls a space of the map has: those that stop one of these, as bits of SL_STOPS_SIGHT
+    /// ...; 0: those that stop sight. Others are open there. Map text does not keep it.
+    uint32_t channel;
+    double range; ///< the view range; 0 for no limit
     uint32_t range_line;
     bool ground_guessed; ///< the reader found the walls' ground by rules of thumb: where they
                          ///< contradict each other, ground is open
@@ -219,6 +233,29 @@ SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_poi
 /// parts of their sides.
 SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
+/// Says that the walls from number `first` on stop these alone (bits of SL_STOPS_SIGHT ...). They
+/// become seams of the map (sl_glass.stops), with SL_STOPS_ALL they stay. Polygons of ground keep
+/// their marks, but the ground is open for all: one sees from there, and over it. It is not inside
+/// if the walls stop steps. SL_BAD_ARGUMENT for 0 and for other bits.
+SL_API sl_status sl_map_walls_stop(sl_context *context, sl_map *map, size_t first, uint32_t stops);
+
+/// Walls that stop what a space of the map is for (sl_map.channel) stop all then, and those that do
+/// not are left out. *left_out, which may be NULL, is their number.
+SL_API sl_status sl_map_settle_stops(sl_context *context, sl_map *map, size_t *left_out);
+/// How many walls do not stop all.
+SL_API size_t sl_map_partial_walls(const sl_map *map);
+
+/// Room for what sl_stops_write writes.
+#define SL_STOPS_TEXT 24
+/// What is stopped, as map text says it: "sight,steps"; "" for 0.
+SL_API void sl_stops_write(uint32_t stops, char text[SL_STOPS_TEXT]);
+/// Reads such a text of `length` characters; false where it is none, or names a thing twice.
+SL_API bool sl_stops_read(const char *text, size_t length, uint32_t *out);
+/// What a space of the map lets its walls stop (sl_map.channel), never 0.
+static inline uint32_t sl_map_channel(const sl_map *map) {
+    return map->channel ? map->channel : SL_STOPS_SIGHT;
+}
+
 /// Adds a door. As sl_map_add_wall.
 SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                                  bool open, uint32_t line);

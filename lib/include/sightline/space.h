@@ -70,6 +70,14 @@ typedef struct sl_seam_portal {
                       ///< its right to its left; else 0
 } sl_seam_portal;
 
+/// A wall that stops only some of sight, steps and sound, and the cells beside it. What it does not
+/// stop crosses it from one to the other, all along the wall.
+typedef struct sl_passage {
+    uint32_t wall;
+    uint32_t stops;   ///< bits of SL_STOPS_SIGHT ...
+    uint32_t cell[2]; ///< at the wall's left, going from a to b, and at its right
+} sl_passage;
+
 /// The values of sl_space.neighbour: the cell's next directed portal, the map's border, or else the
 /// number of a wall. SL_NEIGHBOUR_RIGHT is or-ed to it if the cell is at the right of the wall,
 /// going from a to b.
@@ -97,6 +105,11 @@ typedef struct sl_seam_portal {
 ///    with one of its places, but not through an entrance.
 /// 4. Else, cells that portals do not connect with the border of the bounds are inside.
 /// 5. If that leaves none, all cells that are not solid are inside.
+/// Whatever the space is for, walls count here that stop steps: who sees through a window is not
+/// outside. Ground of solid polygons whose walls stop steps, but not all, is not inside.
+///
+/// A space is for one of sight, steps and sound (sl_map.channel). Walls that do not stop that are
+/// seams with portals.
 ///
 /// Cells do not run over seams: a portal lies on a seam as a whole, or not at all. There is no
 /// portal where a wall covers a seam.
@@ -110,7 +123,7 @@ typedef struct sl_space {
                         ///< cells may overlap or leave gaps
     uint32_t cut_walls; ///< 1 for a mesh with boxes: a wall may be several sides of cells, end to
                         ///< end, and bent by rounding between them
-    uint32_t seam_count, seam_portal_count;
+    uint32_t seam_count, seam_portal_count, passage_count;
     sl_node *nodes; ///< a parent before its children; none for a mesh
     sl_cell *cells;
     sl_point *vertices;
@@ -122,6 +135,7 @@ typedef struct sl_space {
     sl_cell_grid grid;   ///< none for a kd-tree
     sl_seam *seams;      ///< the map's doors, one-way glass and seams; NULL for none
     sl_seam_portal *seam_portals; ///< by portal, then seam; NULL for none
+    sl_passage *passages;         ///< by wall; NULL for none
 } sl_space;
 
 /// Finds what is inside of a clean map (sl_map_clean) that has no starts: what a disc as wide as an

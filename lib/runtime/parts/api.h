@@ -69,6 +69,8 @@ typedef struct sl_runtime_transform {
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 /// The number of a door that does not exist.
 #define SL_RUNTIME_NO_DOOR UINT32_MAX
+/// The number of a box that does not exist.
+#define SL_RUNTIME_NO_BOX UINT32_MAX
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
@@ -96,6 +98,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    bool has_glass; ///< one-way glass, somewhere
+    const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
     uint32_t start_count, object_count, path_count, mirror_count;
@@ -129,8 +133,9 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
 /// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
-/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
-/// cells; call it again when the box has moved.
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: the cells
+/// near the box, once for each 8,192 cells that they have numbers among; all cells in a loose file
+/// of version 1. Call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
@@ -376,8 +381,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// one.)
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
-/// see a point though sl_runtime_can_see says no of the cells of both points. Time: that of the
-/// cells along the line, and of clearing a byte for each cell.
+/// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
+/// the cells along the line. A line that touches ends of portals in more than 32 cells also clears
+/// a byte for each cell.
 SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
@@ -387,8 +393,8 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
 /// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
 /// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
 /// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the cells that the step touches, and all doors; all walls if these are more than 32 cells,
-/// or the step touches the map's border.
+/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
+/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -533,6 +539,116 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    const unsigned char *shut, double range,
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
+
+/// As sl_runtime_visible_polygon, past boxes that block: their sides are walls, from outside and
+/// for an eye in the box from within. With `boxes_scratch` as for sl_runtime_boxes_seen.
+///
+/// It is decided exactly which sides are seen and in what order (if no coordinate but 0 is 1e70
+/// times smaller than another one). A point where a side crosses an oblique wall is rounded. A box
+/// that is a point hides nothing. Boxes may touch walls and each other, and overlap. An eye on a
+/// side sees one side of it, as on a wall: what is right of the eye and over it, if its cell is
+/// there, else left and over, right and under, left and under. At a corner it sees the part around
+/// it that has this one. All this is as sl_query_region of the library says, but in files with
+/// oblique walls that takes another side of a box that the eye is on.
+///
+/// Time: that of sl_runtime_visible_polygon and of the boxes in the cells that are seen. If some of
+/// these block, twice that, n log n for n such boxes, and what of their sides is seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_boxes *boxes,
+                                                              const sl_runtime_view *view,
+                                                              const unsigned char *shut,
+                                                              double range, uint32_t *boxes_scratch,
+                                                              double *points, uint32_t room);
+
+/// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
+/// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
+/// It passes a flat box where it crosses that between its ends, and never one that is a point. An
+/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
+/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+///
+/// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
+/// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
+/// whether the eye is inside. Time: as sl_runtime_sees, and the boxes in the cells along the line.
+SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, double x0, double y0,
+                                               double x1, double y1, const unsigned char *shut,
+                                               double range, uint32_t *boxes_scratch);
+
+/// As sl_runtime_can_walk, past boxes that block: no point of the way, ends included, is in such a
+/// box or on its side. Box `except` does not count: that of who walks, or SL_RUNTIME_NO_BOX. Exact,
+/// and the same both ways. Boxes that had no room, or only touch the map's bounds, stop nothing.
+/// Time: as sl_runtime_can_walk, and the boxes in the cells along the step.
+SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
+                                                   double y0, double x1, double y1,
+                                                   const unsigned char *shut, uint32_t except);
+
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
+// Servers: what each player may see before it hears of the next tick.
+
+/// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count);
+
+/// Box to box, for many: finds which things each player may see. Player p may see thing t if
+/// bits[p * ((thing_count + 7) / 8) + t / 8] >> t % 8 & 1. Returns the number of such pairs. `bits`
+/// has a row for each player. `shut` and `range` are as for sl_runtime_look_past, but the distance
+/// between two places counts. Boxes do not hide each other.
+///
+/// `margin` is how far a player may come before the next answer. Its box grows by that to each
+/// side, through walls too: all of it looks but what is in solid ground or outside the map.
+///
+/// Conservative: no pair is missed of which one point of the grown box sees one point of the thing
+/// by sl_runtime_sees, with closed sight. It needs no rows, so it is that in any file but a loose
+/// one. Few pairs are added: on the maps of the tests at most 10 % more than the exact answer from
+/// box to box. More are added near the end of the range. A player's box takes everything if its
+/// lines of sight come to 16 times as many portals as the map has, which real maps do not cause.
+///
+/// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
+/// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
+/// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
+/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits);
+
+/// The same for two squares: whether some place within `radius0` of (x0, y0) along each axis may
+/// see some place within `radius1` of (x1, y1). `scratch` is as for sl_runtime_look. Time: the
+/// portals between them, and to clear a bit for each cell.
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.

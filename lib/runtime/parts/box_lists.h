@@ -109,86 +109,48 @@ static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const doubl
     return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
 }
 
+/// A box that is put into its cells.
+typedef struct slrt_placing {
+    sl_runtime_boxes *boxes;
+    uint32_t box;
+    double at[4];
+} slrt_placing;
+
 /// Puts a box into a cell, if it reaches into it. False if there is no room.
-static bool slrt_put_in_cell(sl_runtime_boxes *boxes, uint32_t box, const double at[4],
-                             uint32_t cell) {
-    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, box);
+static bool slrt_put_in_cell(void *context, uint32_t cell) {
+    const slrt_placing *placing = (const slrt_placing *)context;
+    sl_runtime_boxes *boxes = placing->boxes;
+    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, placing->box);
     const uint32_t free = boxes->memory[0];
     uint32_t *entry;
     // The last box that came to a cell is the first in its list: a second bucket has the cell too.
-    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == box) return true;
-    if (!slrt_reaches_into(boxes->runtime, cell, at)) return true;
+    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == placing->box)
+        return true;
+    if (!slrt_reaches_into(boxes->runtime, cell, placing->at)) return true;
     if (free == SLRT_NO_ENTRY) return false;
     entry = slrt_entry(boxes, free);
     boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
     entry[SLRT_ENTRY_CELL] = cell;
-    entry[SLRT_ENTRY_BOX] = box;
+    entry[SLRT_ENTRY_BOX] = placing->box;
     entry[SLRT_ENTRY_IN_CELL] = *first;
     entry[SLRT_ENTRY_OF_BOX] = *own;
     *first = *own = free;
     return true;
 }
 
-/// Puts a box into the cells of all buckets that it meets.
-static bool slrt_put_by_grid(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    const sl_runtime *rt = boxes->runtime;
-    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
-    const double low_x = at[0] > rt->min_x ? at[0] : rt->min_x;
-    const double low_y = at[1] > rt->min_y ? at[1] : rt->min_y;
-    const double high_x = at[2] < rt->max_x ? at[2] : rt->max_x;
-    const double high_y = at[3] < rt->max_y ? at[3] : rt->max_y;
-    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
-    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
-    uint32_t y, x, i;
-    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
-        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
-            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
-            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
-                if (!slrt_put_in_cell(boxes, box, at, slrt_u32(rt->grid_cells + (size_t)i * 4)))
-                    return false;
-        }
-    return true;
-}
-
-/// Puts a box into the cells that the tree has there, or that there are without a tree.
-static bool slrt_put_by_tree(sl_runtime_boxes *boxes, uint32_t box, const double at[4]) {
-    enum { MOST = 128 };
-    const sl_runtime *rt = boxes->runtime;
-    int32_t stack[MOST];
-    uint32_t count = 0, i;
-    if (rt->nodes) stack[count++] = rt->root;
-    while (count && count < MOST - 1) {
-        const int32_t child = stack[--count];
-        const unsigned char *node;
-        if (child < 0) {
-            if (!slrt_put_in_cell(boxes, box, at, (uint32_t)~child)) return false;
-            continue;
-        }
-        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
-        i = slrt_i32(node + 8) ? 1 : 0;
-        if (at[i] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
-        if (at[2 + i] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
-    }
-    if (rt->nodes && !count) return true;
-    for (i = 0; i < rt->cell_count; i++) // no tree, or one that is too deep
-        if (!slrt_put_in_cell(boxes, box, at, i)) return false;
-    return true;
-}
-
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
-    const sl_runtime *rt = boxes->runtime;
-    double at[4];
-    bool usable = true;
+    slrt_placing placing;
+    bool usable = to->min_x <= to->max_x && to->min_y <= to->max_y;
     int i;
-    at[0] = to->min_x, at[1] = to->min_y, at[2] = to->max_x, at[3] = to->max_y;
-    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(at[i]);
+    placing.boxes = boxes;
+    placing.box = box;
+    placing.at[0] = to->min_x, placing.at[1] = to->min_y;
+    placing.at[2] = to->max_x, placing.at[3] = to->max_y;
+    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(placing.at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!(usable && at[0] <= at[2] && at[1] <= at[3]) || at[2] < rt->min_x || at[3] < rt->min_y ||
-        at[0] > rt->max_x || at[1] > rt->max_y)
-        return true;
-    if (rt->grid_cells ? slrt_put_by_grid(boxes, box, at) : slrt_put_by_tree(boxes, box, at))
+    if (!usable || slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
         return true;
     slrt_take_out(boxes, box);
     *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;

@@ -8,15 +8,22 @@ static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, dou
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is in a cell or on its border.
-static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+/// Where a point is: 1 in a cell, 0 on its border, -1 outside.
+static int slrt_place_in(const sl_runtime *rt, uint32_t number, double x, double y) {
     const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
     const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
     const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
-    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES)
-        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
-    return true;
+    int place = 1;
+    for (; corner < stop && place >= 0; before = corner, corner += SLRT_VERTEX_BYTES) {
+        const int side = slrt_side_of_line(before, corner, x, y);
+        if (side < place) place = side;
+    }
+    return place;
+}
+
+static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+    return slrt_place_in(rt, number, x, y) >= 0;
 }
 
 /// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
@@ -70,11 +77,14 @@ static double slrt_before(double number) {
     return number;
 }
 
+static bool slrt_in_bounds(const sl_runtime *rt, double x, double y) {
+    return x >= rt->min_x && x <= rt->max_x && y >= rt->min_y && y <= rt->max_y;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
     uint32_t first = SL_RUNTIME_NO_CELL;
     int side;
-    if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
-        return SL_RUNTIME_NO_CELL;
+    if (!slrt_in_bounds(runtime, x, y)) return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
         const uint32_t cell =
@@ -111,12 +121,96 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
     if (slrt_is_beside_box(rt, &cell, box)) return false;
     for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
-        bool outside = true;
-        int k;
-        for (k = 0; k < 4 && outside; k++)
-            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
-        if (outside) return false;
+        // The corner of the box that is farthest to the left of the side.
+        const double x = box[slrt_f64(corner + 8) > slrt_f64(before + 8) ? 0 : 2];
+        const double y = box[slrt_f64(corner) > slrt_f64(before) ? 3 : 1];
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
     }
+    return true;
+}
+
+/// What is done with a cell near a box; false to stop.
+typedef bool slrt_visit(void *context, uint32_t cell);
+
+static bool slrt_visit_all(const sl_runtime *rt, slrt_visit *visit, void *context) {
+    uint32_t i;
+    for (i = 0; i < rt->cell_count; i++)
+        if (!visit(context, i)) return false;
+    return true;
+}
+
+/// The cells of all buckets that a box meets; a cell may come more than once.
+static bool slrt_visit_by_grid(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    const uint32_t columns = rt->grid_columns, rows = rt->grid_rows;
+    const double low_x = box[0] > rt->min_x ? box[0] : rt->min_x;
+    const double low_y = box[1] > rt->min_y ? box[1] : rt->min_y;
+    const double high_x = box[2] < rt->max_x ? box[2] : rt->max_x;
+    const double high_y = box[3] < rt->max_y ? box[3] : rt->max_y;
+    const uint32_t right = slrt_step(high_x, rt->min_x, rt->max_x, columns);
+    const uint32_t top = slrt_step(high_y, rt->min_y, rt->max_y, rows);
+    uint32_t y, x, i;
+    for (y = slrt_step(low_y, rt->min_y, rt->max_y, rows); y <= top; y++)
+        for (x = slrt_step(low_x, rt->min_x, rt->max_x, columns); x <= right; x++) {
+            const unsigned char *bucket = rt->grid_offsets + ((size_t)y * columns + x) * 4;
+            for (i = slrt_u32(bucket); i < slrt_u32(bucket + 4); i++)
+                if (!visit(context, slrt_u32(rt->grid_cells + (size_t)i * 4))) return false;
+        }
+    return true;
+}
+
+static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                               void *context) {
+    enum { MOST = 128 };
+    int32_t stack[MOST];
+    uint32_t count = 1;
+    stack[0] = rt->root;
+    while (count && count < MOST - 1) {
+        const int32_t child = stack[--count];
+        const unsigned char *node;
+        int axis;
+        if (child < 0) {
+            if (!visit(context, (uint32_t)~child)) return false;
+            continue;
+        }
+        node = rt->nodes + (size_t)child * SLRT_NODE_BYTES;
+        axis = slrt_i32(node + 8) ? 1 : 0;
+        if (box[axis] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
+        if (box[2 + axis] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
+    }
+    return !count || slrt_visit_all(rt, visit, context); // the tree is too deep
+}
+
+/// Visits all cells that a box touches, and some that are near: by the grid or the tree, or all if
+/// there is neither. False if a visit stopped it.
+static bool slrt_visit_near(const sl_runtime *rt, const double box[4], slrt_visit *visit,
+                            void *context) {
+    if (box[2] < rt->min_x || box[3] < rt->min_y || box[0] > rt->max_x || box[1] > rt->max_y)
+        return true;
+    if (rt->grid_cells) return slrt_visit_by_grid(rt, box, visit, context);
+    if (rt->nodes) return slrt_visit_by_tree(rt, box, visit, context);
+    return slrt_visit_all(rt, visit, context);
+}
+
+/// So many cells are noted at a time: a number that 32 divides.
+#ifndef SLRT_WINDOW
+#define SLRT_WINDOW 8192
+#endif
+
+/// Cells by number, from `first` on, as bits.
+typedef struct slrt_window {
+    uint32_t first, next; ///< next: the first one behind the bits
+    uint32_t bits[SLRT_WINDOW / 32];
+} slrt_window;
+
+static bool slrt_note(void *context, uint32_t cell) {
+    slrt_window *w = (slrt_window *)context;
+    const uint32_t at = cell - w->first;
+    if (cell < w->first) return true;
+    if (at < SLRT_WINDOW)
+        w->bits[at / 32] |= UINT32_C(1) << at % 32;
+    else if (cell < w->next)
+        w->next = cell;
     return true;
 }
 
@@ -124,13 +218,20 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room) {
     double box[4];
-    uint32_t cell, count = 0;
+    uint32_t i, bits, cell, count = 0;
+    slrt_window w;
     if (!(min_x <= max_x && min_y <= max_y)) return 0;
     box[0] = min_x, box[1] = min_y, box[2] = max_x, box[3] = max_y;
-    for (cell = 0; cell < runtime->cell_count; cell++) {
-        if (!slrt_meets_box(runtime, cell, box)) continue;
-        if (count < room) cells[count] = cell;
-        count++;
+    for (w.first = 0; w.first != SL_RUNTIME_NO_CELL; w.first = w.next) {
+        w.next = SL_RUNTIME_NO_CELL;
+        memset(w.bits, 0, sizeof w.bits);
+        slrt_visit_near(runtime, box, slrt_note, &w);
+        for (i = 0; i < SLRT_WINDOW / 32; i++)
+            for (bits = w.bits[i], cell = w.first + 32 * i; bits; bits >>= 1, cell++) {
+                if (!(bits & 1) || !slrt_meets_box(runtime, cell, box)) continue;
+                if (count < room) cells[count] = cell;
+                count++;
+            }
     }
     return count;
 }

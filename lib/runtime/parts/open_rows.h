@@ -185,6 +185,8 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
         if (portal < before || portal >= rt->portal_count) return false;
         if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
         before = portal;
+        rt->has_glass =
+            rt->has_glass || slrt_u32(rt->seams + slrt_u32(on + 4) * (size_t)40 + 32) == 2;
     }
     return true;
 }

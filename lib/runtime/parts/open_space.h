@@ -33,6 +33,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
     rt->directed = found[SLRT_PORTAL].items;
+    rt->portals = found[SLRT_PORT].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
     rt->unfinished = found[SLRT_PART].items != NULL;

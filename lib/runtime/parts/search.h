@@ -32,7 +32,7 @@ static void slrt_see_row(slrt_search *s) {
 /// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
 /// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const uint32_t to = slrt_cell_across(s->rt, directed);
     slrt_sector sector;
     if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];
@@ -94,74 +94,12 @@ static bool slrt_is_direction(const double *d) {
     return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
 }
 
-/// Replaces a number that is too small for a map by 0, as its products would underflow.
-static double slrt_no_dust(double number) {
-    return number > -1e-200 && number < 1e-200 ? 0 : number;
-}
-
 static slrt_arm slrt_direction(double x, double y) {
     return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
 }
 
 SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
     return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
-}
-
-/// Whether the eye is on a directed portal, ends included.
-static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
-}
-
-/// Adds the row of a cell to the cells that the search may enter.
-static void slrt_allow_row(slrt_search *s, uint32_t cell) {
-    sl_runtime_run run = sl_runtime_row(s->rt, cell);
-    uint32_t i;
-    while (sl_runtime_next(&run))
-        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
-}
-
-/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
-static bool slrt_overlap(double a, double b, double c, double d) {
-    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
-}
-
-/// Whether the way from the eye to a point meets a directed portal, ends included.
-static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
-    if (right * left > 0) return false;
-    if (!right && !left)
-        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
-               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
-}
-
-/// Lists and marks the eye's cell and those that it leads to through all open portals that a way
-/// meets, until a cell touches the end of the way: then true. NULL for the way that is the eye
-/// alone: the cells are the eye's, and their rows count. Until the search starts, the path is the
-/// list.
-static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
-    uint32_t at, i;
-    s->path[0] = s->eye_cell;
-    s->own_count = 1;
-    s->marks[s->eye_cell] |= SLRT_OWN;
-    for (at = 0; at < s->own_count; at++) {
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
-        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
-        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
-            if (s->marks[to] & SLRT_OWN ||
-                !(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
-                slrt_is_blocked(s, i))
-                continue;
-            s->marks[to] |= SLRT_OWN;
-            s->path[s->own_count++] = to;
-            if (s->has_row) slrt_allow_row(s, to);
-        }
-    }
-    return false;
 }
 
 /// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
@@ -205,32 +143,35 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
 static bool slrt_start_search(slrt_search *s, const sl_runtime *rt, const sl_runtime_view *view,
                               const unsigned char *shut, double range, uint32_t *scratch) {
     const size_t count = rt->cell_count;
-    memset(s, 0, sizeof *s);
-    s->rt = rt;
+    const bool sees = slrt_place_eye(s, rt, view->x, view->y, shut);
     s->view = view;
-    s->shut = shut;
     s->range = slrt_range(rt, range);
-    s->x = slrt_no_dust(view->x);
-    s->y = slrt_no_dust(view->y);
-    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
     s->path = scratch;
     s->sectors = scratch + 4 * count;
     s->marks = (unsigned char *)(scratch + 6 * count);
-    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
+    return sees;
+}
+
+/// The cells that the eye stands in, once they are found. If there are more than one, none of these
+/// is entered from another cell. So the path has room for them behind it.
+static uint32_t *slrt_own_cells(const slrt_search *s) {
+    return s->path + 4 * (size_t)s->rt->cell_count - s->own_count;
 }
 
 static void slrt_run_search(slrt_search *s) {
     sl_runtime_run run = sl_runtime_row(s->rt, s->eye_cell);
     uint32_t i;
-    s->count = 0;
+    s->count = s->own_count = 0;
     s->patience = SLRT_PATIENCE * ((uint64_t)s->rt->directed_count + 16);
     memset(s->marks, 0, s->rt->cell_count);
+    s->has_marks = true;
     s->has_row = run.next != run.stop;
     while (sl_runtime_next(&run)) memset(s->marks + run.first, SLRT_IN_ROW, run.end - run.first);
     slrt_follow(s, NULL);
+    if (s->has_row && s->rt->has_glass) slrt_allow_rows_in_line(s);
+    for (i = s->own_count; i-- > 0;) slrt_own_cells(s)[i] = s->path[i]; // upwards: from the last on
     slrt_search_cone(s, s->eye_cell);
-    for (i = 0; i < s->rt->cell_count && s->own_count > 1; i++)
-        if (s->marks[i] & SLRT_OWN && i != s->eye_cell) slrt_search_cone(s, i);
+    for (i = 1; i < s->own_count; i++) slrt_search_cone(s, slrt_own_cells(s)[i]);
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
@@ -242,39 +183,6 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     s.room = room;
     slrt_run_search(&s);
     return s.count;
-}
-
-/// Whether a point is within the range of the eye: the sign of an exact sum. Numbers are scaled, so
-/// that no product overflows, and the range is more than any distance where it is left out.
-static bool slrt_is_within(const slrt_search *s, double x, double y) {
-    const double largest = slrt_larger(slrt_larger(s->x, s->y), slrt_larger(x, y));
-    const double scale = slrt_scale_of(largest), range = scale * s->range;
-    const double from[2] = {scale * s->x, scale * s->y}, to[2] = {scale * x, scale * y};
-    double parts[14];
-    int count = 0, i;
-    if (!(s->range > 0) || range > 8) return true;
-    for (i = 0; i < 2; i++) {
-        count = slrt_add_product(parts, count, to[i], to[i]);
-        count = slrt_add_product(parts, count, -2 * to[i], from[i]);
-        count = slrt_add_product(parts, count, from[i], from[i]);
-    }
-    count = slrt_add_product(parts, count, -range, range);
-    return !count || parts[count - 1] <= 0;
-}
-
-SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double y0, double x1,
-                                    double y1, const unsigned char *shut, double range,
-                                    uint32_t *scratch) {
-    const sl_runtime_view view = sl_runtime_view_all_round(x0, y0);
-    const double x = slrt_no_dust(x1), y = slrt_no_dust(y1);
-    slrt_search s;
-    slrt_arm way;
-    if (!slrt_start_search(&s, runtime, &view, shut, range, scratch) ||
-        sl_runtime_locate(runtime, x, y) == SL_RUNTIME_NO_CELL || !slrt_is_within(&s, x, y))
-        return false;
-    way = slrt_make_arm(s.x, s.y, x, y);
-    memset(s.marks, 0, runtime->cell_count);
-    return slrt_follow(&s, &way);
 }
 
 /// Adds to a search that has run what is seen by mirror from somewhere in a cell.
@@ -290,13 +198,14 @@ static void slrt_see_mirrored_from(slrt_search *s, const sl_runtime *rows, uint3
 /// Adds to a search that has run what the eye may see by mirror.
 static void slrt_see_mirrored(slrt_search *s) {
     const sl_runtime rows = slrt_mirrored(s->rt);
-    const bool known = s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row;
     uint32_t i;
-    if (known) slrt_see_mirrored_from(s, &rows, s->eye_cell);
-    for (i = 0; i < s->rt->cell_count && !(known && s->own_count == 1); i++) {
-        if (known && s->marks[i] & SLRT_OWN) slrt_see_mirrored_from(s, &rows, i);
-        if (!known && !sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
+    if (s->rt->mirrors == SL_RUNTIME_MIRRORS_BAKED && s->has_row) {
+        slrt_see_mirrored_from(s, &rows, s->eye_cell);
+        for (i = 1; i < s->own_count; i++) slrt_see_mirrored_from(s, &rows, slrt_own_cells(s)[i]);
+        return;
     }
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!sl_runtime_is_solid(s->rt, i)) slrt_see(s, i);
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,

@@ -63,19 +63,23 @@ typedef struct slrt_search {
     double range;              ///< 0 for no limit
     double x, y;               ///< the eye
     uint32_t eye_cell;         ///< that sl_runtime_locate gives
-    uint32_t own_count;        ///< of SLRT_OWN
+    uint32_t own_count;        ///< of the cells listed: the eye's, or those on a way
+    bool has_marks;            ///< the marks of these say so
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
+    bool on_foot; ///< glass is a wall from both sides
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
     /// boxes is built without what is only for them.
     void (*meet_boxes)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
+    bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
+    uint32_t except;                   ///< a box that stops nothing
     unsigned char *box_marks;          ///< by box, of SLRT_BOX_*
     uint32_t *blockers, blocker_count; ///< those that hide something
     uint32_t *chosen;                  ///< room for as many as there are boxes
@@ -213,7 +217,7 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
-        if (slrt_u32(seam + 32) == 2 && slrt_is_dark(s, seam)) return true;
+        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
     }
     return false;
 }

@@ -28,69 +28,79 @@ static bool slrt_is_on_border(const sl_runtime *rt, const slrt_piece *piece) {
            (a[1] == b[1] && (a[1] == rt->min_y || a[1] == rt->max_y));
 }
 
-/// So many cells of a step are gone through.
+/// So many cells of a step that touches something are gone through.
 enum { SLRT_STEP_CELLS = 32 };
 
-typedef enum slrt_way { SLRT_WAY_CLEAR, SLRT_WAY_STOPPED, SLRT_WAY_UNKNOWN } slrt_way;
-
-/// Whether a step touches a wall. All cells that it touches are found through portals that it
-/// touches, up to its first wall: the cells about a point are joined by portals that end there, but
-/// for walls that do. Unknown on the map's border, which may be wall in part, and for many cells.
-static slrt_way slrt_way_of(const sl_runtime *rt, const double *from, const double *to,
-                            uint32_t start) {
+/// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
+/// are found through portals that it touches, up to its first wall: the cells about a point are
+/// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
+/// on the map's border, which may be wall in part, and for many cells.
+static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
+                                       const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
     slrt_polygon p;
-    if (rt->loose) return SLRT_WAY_UNKNOWN;
+    if (s->rt->loose) return SLRT_TOUCHES;
     memset(&p, 0, sizeof p);
-    p.s.rt = rt;
-    p.s.patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
-    cells[0] = start;
+    p.s = *s;
+    p.s.patience = (uint64_t)16 * ((uint64_t)s->rt->directed_count + s->rt->vertex_count + 16);
+    cells[0] = s->eye_cell;
     for (i = 0; i < count; i++) {
         slrt_walk w;
         slrt_piece piece;
+        if (s->stops && s->stops(s, way, cells[i])) return SLRT_STOPS;
         slrt_walk_around(&p, &w, cells[i], 1);
         while (slrt_walk_next(&p, &w, &piece)) {
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(rt, &piece) ? SLRT_WAY_UNKNOWN : SLRT_WAY_STOPPED;
-            next = slrt_u32(rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+            if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
-            if (count == SLRT_STEP_CELLS) return SLRT_WAY_UNKNOWN;
+            if (count == SLRT_STEP_CELLS) return SLRT_TOUCHES;
             cells[count++] = next;
         }
     }
-    return p.broken ? SLRT_WAY_UNKNOWN : SLRT_WAY_CLEAR;
+    return p.broken ? SLRT_TOUCHES : SLRT_ARRIVES;
 }
 
-static bool slrt_touches_wall(const sl_runtime *rt, const double *from, const double *to,
-                              uint32_t start) {
-    const slrt_way way = slrt_way_of(rt, from, to, start);
+/// Whether a step touches no wall, shut door, glass or box of all there are.
+static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const double *from,
+                               const double *to) {
+    const sl_runtime *rt = s->rt;
     uint32_t i;
-    if (way != SLRT_WAY_UNKNOWN) return way == SLRT_WAY_STOPPED;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return true;
-    return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+    for (i = 0; i < rt->seam_count; i++) {
+        const unsigned char *seam = rt->seams + (size_t)i * 40;
+        const uint32_t kind = slrt_u32(seam + 32);
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+            slrt_touches(from, to, seam))
+            return false;
+    }
+    for (i = 0; s->stops && i < rt->cell_count; i++)
+        if (s->stops(s, way, i)) return false;
+    return true;
+}
+
+/// Whether who stands at a search's eye can step to a point.
+static bool slrt_can_step(slrt_search *s, double x, double y) {
+    const double from[2] = {s->x, s->y}, to[2] = {slrt_no_dust(x), slrt_no_dust(y)};
+    const slrt_arm way = slrt_make_arm(from[0], from[1], to[0], to[1]);
+    slrt_finding found;
+    if (!s->rt->walls || !slrt_in_bounds(s->rt, to[0], to[1])) return false;
+    s->on_foot = true;
+    found = slrt_follow_within(s, &way);
+    if (found == SLRT_TOUCHES) found = slrt_step_by_cells(s, &way, from, to);
+    if (found != SLRT_TOUCHES) return found == SLRT_ARRIVES;
+    return sl_runtime_locate(s->rt, to[0], to[1]) != SL_RUNTIME_NO_CELL &&
+           slrt_step_by_walls(s, &way, from, to);
 }
 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut) {
-    const double from[2] = {slrt_no_dust(x0), slrt_no_dust(y0)};
-    const double to[2] = {slrt_no_dust(x1), slrt_no_dust(y1)};
-    const uint32_t start = sl_runtime_locate(runtime, from[0], from[1]);
-    const uint32_t end = sl_runtime_locate(runtime, to[0], to[1]);
-    uint32_t i;
-    if (!runtime->walls || start == SL_RUNTIME_NO_CELL || end == SL_RUNTIME_NO_CELL ||
-        sl_runtime_is_solid(runtime, start) || slrt_touches_wall(runtime, from, to, start))
-        return false;
-    for (i = 0; i < runtime->seam_count; i++) {
-        const unsigned char *seam = runtime->seams + (size_t)i * 40;
-        const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && shut && shut[slrt_u32(seam + 36)])) &&
-            slrt_touches(from, to, seam))
-            return false;
-    }
-    return true;
+    slrt_search s;
+    return slrt_place_eye(&s, runtime, x0, y0, shut) && slrt_can_step(&s, x1, y1);
 }

@@ -1,0 +1,132 @@
+// What an eye sees of a baked level, with doors opened and shut by name: C#, with Mono or .NET.
+//
+//     mcs Seen.cs && mono Seen.exe LEVEL.slv X Y [open NAME | shut NAME]...
+//
+// The system must find the shared library sightline_level (Linux: LD_LIBRARY_PATH).
+using System;
+using System.Globalization;
+using System.Runtime.InteropServices;
+using System.Text;
+
+/// A baked level. One thread at a time.
+public sealed class Level : IDisposable
+{
+    private const string Library = "sightline_level";
+    private IntPtr handle;
+
+    [DllImport(Library)] private static extern IntPtr sl_level_open(byte[] bytes, UIntPtr size);
+    [DllImport(Library)] private static extern IntPtr sl_level_error();
+    [DllImport(Library)] private static extern void sl_level_close(IntPtr level);
+    [DllImport(Library)] private static extern int sl_level_cell_count(IntPtr level);
+    [DllImport(Library)] private static extern int sl_level_find_door(IntPtr level, byte[] name, int from);
+    [DllImport(Library)] private static extern void sl_level_set_door(IntPtr level, int door, int open);
+    [DllImport(Library)] private static extern int sl_level_locate(IntPtr level, double x, double y);
+    [DllImport(Library)] private static extern int sl_level_can_see(IntPtr level, int from, int to);
+    [DllImport(Library)] private static extern int sl_level_sees(IntPtr level, double x0, double y0, double x1,
+                                                                 double y1);
+    [DllImport(Library)] private static extern IntPtr sl_level_look(IntPtr level, double x, double y, double heading,
+                                                                    double fov, double range, out int count);
+    [DllImport(Library)] private static extern IntPtr sl_level_visible_polygon(
+        IntPtr level, double x, double y, double heading, double fov, double range, out int count);
+
+    public Level(byte[] bytes)
+    {
+        handle = sl_level_open(bytes, (UIntPtr)bytes.Length);
+        if (handle == IntPtr.Zero) throw new FormatException(Marshal.PtrToStringAnsi(sl_level_error()));
+    }
+
+    public void Dispose()
+    {
+        sl_level_close(handle);
+        handle = IntPtr.Zero;
+    }
+
+    public int CellCount { get { return sl_level_cell_count(handle); } }
+
+    /// Opens or shuts all doors of a name; false if there is none.
+    public bool SetDoor(string name, bool open)
+    {
+        byte[] text = Encoding.UTF8.GetBytes(name + "\0");
+        bool found = false;
+        for (int door = sl_level_find_door(handle, text, 0); door >= 0;
+             door = sl_level_find_door(handle, text, door + 1))
+        {
+            sl_level_set_door(handle, door, open ? 1 : 0);
+            found = true;
+        }
+        return found;
+    }
+
+    /// The cell of a point; -1 for none.
+    public int Locate(double x, double y) { return sl_level_locate(handle, x, y); }
+
+    public bool CanSee(int from, int to) { return sl_level_can_see(handle, from, to) == 1; }
+
+    public bool Sees(double x0, double y0, double x1, double y1)
+    {
+        return sl_level_sees(handle, x0, y0, x1, y1) == 1;
+    }
+
+    /// The cells that an eye sees.
+    public int[] Look(double x, double y, double heading = 0, double fov = 360, double range = 0)
+    {
+        int count;
+        IntPtr answer = sl_level_look(handle, x, y, heading, fov, range, out count);
+        int[] cells = new int[count];
+        if (count > 0) Marshal.Copy(answer, cells, 0, count);
+        return cells;
+    }
+
+    /// The polygon that an eye sees: x and y of each corner, counter-clockwise.
+    public double[] VisiblePolygon(double x, double y, double heading = 0, double fov = 360, double range = 0)
+    {
+        int count;
+        IntPtr answer = sl_level_visible_polygon(handle, x, y, heading, fov, range, out count);
+        double[] points = new double[2 * count];
+        if (count > 0) Marshal.Copy(answer, points, 0, points.Length);
+        return points;
+    }
+}
+
+public static class Seen
+{
+    public static int Main(string[] arguments)
+    {
+        CultureInfo.DefaultThreadCurrentCulture = CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
+        double x = double.Parse(arguments[1]), y = double.Parse(arguments[2]);
+        try
+        {
+            using (Level level = new Level(System.IO.File.ReadAllBytes(arguments[0])))
+                return Print(level, x, y, arguments);
+        }
+        catch (FormatException fault)
+        {
+            Console.Error.WriteLine("seen: " + arguments[0] + ": " + fault.Message);
+            return 2;
+        }
+    }
+
+    private static int Print(Level level, double x, double y, string[] arguments)
+    {
+        for (int i = 3; i + 1 < arguments.Length; i += 2)
+            if (!level.SetDoor(arguments[i + 1], arguments[i] == "open"))
+            {
+                Console.Error.WriteLine("seen: there is no door " + arguments[i + 1]);
+                return 2;
+            }
+        int cell = level.Locate(x, y);
+        Console.WriteLine("cell " + cell);
+        Console.Write("row");
+        for (int i = 0; i < level.CellCount; i++)
+            if (level.CanSee(cell, i)) Console.Write(" " + i);
+        int[] cells = level.Look(x, y);
+        Array.Sort(cells);
+        Console.Write("\nseen");
+        foreach (int each in cells) Console.Write(" " + each);
+        double[] points = level.VisiblePolygon(x, y);
+        Console.WriteLine("\npoints " + points.Length / 2);
+        for (int i = 0; i < points.Length; i += 2)
+            Console.WriteLine(points[i].ToString("R") + " " + points[i + 1].ToString("R"));
+        return 0;
+    }
+}

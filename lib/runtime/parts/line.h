@@ -1,0 +1,170 @@
+/// A line from cell to cell.
+
+// Nearly always the line from an eye to a point leaves each cell within one portal, until it comes
+// to the cell of the point, or to a wall:
+//
+//     +--------+---------+     The portal by which the line leaves a cell, and then on which side
+//     | eye *--|----* .. |     of that portal the point is: before it, the line arrives; behind
+//     +--------+---------+     it, the line goes on.
+//
+// Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
+// several cells. Then all cells are followed that it comes to by portals that it meets.
+
+/// Replaces a number that is too small for a map by 0, as its products would underflow.
+static double slrt_no_dust(double number) {
+    return number > -1e-200 && number < 1e-200 ? 0 : number;
+}
+
+/// Puts an eye, or who walks, at a place. False outside and in solid ground.
+static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, double y,
+                           const unsigned char *shut) {
+    memset(s, 0, sizeof *s);
+    s->rt = rt;
+    s->shut = shut;
+    s->x = slrt_no_dust(x);
+    s->y = slrt_no_dust(y);
+    s->eye_cell = sl_runtime_locate(rt, s->x, s->y);
+    return s->eye_cell != SL_RUNTIME_NO_CELL && !sl_runtime_is_solid(rt, s->eye_cell);
+}
+
+/// Where the line from the eye to a point leads.
+typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
+
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
+/// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
+/// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
+static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             bool *touches) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    uint32_t i;
+    *touches = false;
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
+        const int right = slrt_side(way, &p), left = right > 0 ? -1 : slrt_side(way, &q);
+        if (left < 0) continue;
+        if (left && right) return i;
+        *touches = true;
+    }
+    return SLRT_NONE;
+}
+
+/// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
+/// to, or a box, stops it.
+static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
+    uint32_t cell = s->eye_cell, steps = s->rt->loose ? 0 : s->rt->cell_count;
+    if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
+    for (; steps; steps--) {
+        bool touches;
+        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        int place;
+        if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
+        if (touches) return SLRT_TOUCHES;
+        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
+        if (place > 0) return SLRT_ARRIVES;
+        if (!place) return SLRT_TOUCHES;
+        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
+        cell = slrt_cell_across(s->rt, out);
+    }
+    return SLRT_TOUCHES;
+}
+
+/// Whether the eye is on a directed portal, ends included.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    return !slrt_same_way(&p, &q) && !slrt_side(&p, &q);
+}
+
+/// Adds the row of a cell to the cells that the search may enter.
+static void slrt_allow_row(slrt_search *s, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(s->rt, cell);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) s->marks[i] |= SLRT_IN_ROW;
+}
+
+/// Allows the rows of the cells at glass that the eye is in line with. A line along it may cross it
+/// as rows do not know it; after the last such portal, they know all of it.
+static void slrt_allow_rows_in_line(slrt_search *s) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i;
+    for (i = 0; i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12;
+        const unsigned char *seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        const unsigned char *portal = rt->portals + (size_t)slrt_u32(on) * SLRT_PORTAL_BYTES;
+        if (slrt_u32(seam + 32) != 2 || slrt_side_of_line(seam, seam + 16, s->x, s->y)) continue;
+        slrt_allow_row(s, slrt_u32(portal)); // empty for what is no cell
+        slrt_allow_row(s, slrt_u32(portal + 4));
+    }
+}
+
+/// Whether two ranges of numbers, each with its ends in any order, have a number in common.
+static bool slrt_overlap(double a, double b, double c, double d) {
+    return (a < b ? b : a) >= (c < d ? c : d) && (c < d ? d : c) >= (a < b ? a : b);
+}
+
+/// Whether the way from the eye to a point meets a directed portal, ends included.
+static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    const int right = slrt_side(way, &p), left = slrt_side(way, &q);
+    if (right * left > 0) return false;
+    if (!right && !left)
+        return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
+               slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
+}
+
+/// Of so many cells, a list is faster than marks, which have to be cleared first.
+enum { SLRT_FEW_CELLS = 32 };
+
+static bool slrt_is_listed(const slrt_search *s, uint32_t cell) {
+    uint32_t i;
+    if (s->has_marks) return (s->marks[cell] & SLRT_OWN) != 0;
+    for (i = 0; i < s->own_count && s->path[i] != cell; i++) {
+    }
+    return i < s->own_count;
+}
+
+/// Until the search starts, the path is the list.
+static void slrt_list(slrt_search *s, uint32_t cell) {
+    uint32_t i = s->own_count;
+    s->path[s->own_count++] = cell;
+    if (!s->has_marks && s->own_count < SLRT_FEW_CELLS) return;
+    if (!s->has_marks) {
+        memset(s->marks, 0, s->rt->cell_count);
+        s->has_marks = true;
+        i = 0;
+    }
+    for (; i < s->own_count; i++) s->marks[s->path[i]] |= SLRT_OWN;
+}
+
+/// Lists the eye's cell and those that it leads to through all open portals that a way meets, until
+/// a cell touches the end of the way: then true. NULL for the way that is the eye alone: the cells
+/// are the eye's, and their rows count.
+static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, i;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
+        if (s->stops && s->stops(s, way, s->path[at])) return false;
+        if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+            const uint32_t to = slrt_cell_across(s->rt, i);
+            if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
+                slrt_is_listed(s, to) || slrt_is_blocked(s, i))
+                continue;
+            slrt_list(s, to);
+            if (s->has_row) slrt_allow_row(s, to);
+        }
+    }
+    return false;
+}

@@ -1,0 +1,81 @@
+"""The shared library sightline_level from other languages: test_level.py LIBRARY PROGRAM SOURCE
+
+The examples of lib/bindings/level in LuaJIT, C# and Python print what lib/runtime/examples/fog.c prints
+about the same levels, to the last digit. A language whose program is not here is left out, with a message.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+LEVELS = {
+    "doors": ("maps/effects/doors.map", [(5.1, 5.03), (12.3, 7.1)], ["shut", "west", "open", "north-east"]),
+    "office": ("maps/office.map", [(53, 20), (5, 3), (30.2, 11.1)], []),
+    "chapel": ("maps/oblique/chapel.map", [(9.3, 12.1)], []),
+}
+TOOLS = {"Lua": ["luajit"], "C#": ["mcs", "mono"], "Python": []}
+
+
+def read(text):
+    """The printed answer: numbers compared as numbers, for languages print the same double in two ways."""
+    return [[word if i == 0 and word.isalpha() else float(word) for i, word in enumerate(line.split())]
+            for line in text.splitlines()]
+
+
+class Level(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.at = pathlib.Path(folder.name)
+        cls.environment = {**os.environ, "SIGHTLINE_LEVEL": str(LIBRARY), "LD_LIBRARY_PATH": str(LIBRARY.parent)}
+        examples = SOURCE / "lib/bindings/level/examples"
+        subprocess.run(["cc", "-std=c99", SOURCE / "lib/runtime/examples/fog.c", f"-I{SOURCE / 'lib/runtime'}",
+                        "-o", cls.at / "fog"], check=True)
+        cls.programs = {"Python": [sys.executable, "-B", examples / "seen.py"],
+                        "Lua": ["luajit", "-e", f"package.path='{examples.parent}/?.lua'", examples / "seen.lua"],
+                        "C#": ["mono", cls.at / "Seen.exe"]}
+        for language, tools in TOOLS.items():
+            missing = [tool for tool in tools if not shutil.which(tool)]
+            if missing:
+                print(f"{', '.join(missing)} not here: {language} is left out", file=sys.stderr)
+                del cls.programs[language]
+        if "C#" in cls.programs:
+            subprocess.run(["mcs", f"-out:{cls.at / 'Seen.exe'}", examples / "Seen.cs"], check=True)
+        for name, (path, _, _) in LEVELS.items():
+            subprocess.run([PROGRAM, "bake", SOURCE / path, "-o", cls.at / f"{name}.slv", "--quiet"], check=True)
+
+    def run_one(self, command, *arguments):
+        return subprocess.run([*command, *map(str, arguments)], env=self.environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, check=False)
+
+    def test_they_answer_alike(self):
+        for name, (_, eyes, doors) in LEVELS.items():
+            file = self.at / f"{name}.slv"
+            for x, y in eyes:
+                wanted = self.run_one([self.at / "fog"], file, self.at / "fog.svg", x, y, *doors)
+                self.assertEqual(wanted.returncode, 0, wanted.stderr)
+                self.assertGreater(len(read(wanted.stdout)), 6)
+                for language, command in self.programs.items():
+                    done = self.run_one(command, file, x, y, *doors)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), language)
+                    self.assertEqual(read(done.stdout), read(wanted.stdout), (language, name, x, y))
+
+    def test_faults_are_told(self):
+        broken = self.at / "broken.slv"
+        broken.write_bytes((self.at / "doors.slv").read_bytes()[:-1])
+        for language, command in self.programs.items():
+            done = self.run_one(command, broken, 5, 5)
+            self.assertNotEqual(done.returncode, 0, language)
+            self.assertIn("cut short", done.stderr, language)
+            done = self.run_one(command, self.at / "doors.slv", 5, 5, "shut", "moon")
+            self.assertNotEqual(done.returncode, 0, language)
+            self.assertIn("no door", done.stderr, language)
+
+
+if __name__ == "__main__":
+    LIBRARY, PROGRAM, SOURCE = map(pathlib.Path, sys.argv[1:4])
+    unittest.main(argv=sys.argv[:1])
