@@ -128,9 +128,8 @@ static void gather(walk *w) {
     for (size_t i = 0; i < w->count; i++) {
         const corner a = corner_of(w->walls[i].a), b = corner_of(w->walls[i].b);
         const int of_a = side(w->at, a), of_b = side(w->at, b);
-        event e = {.along = !of_a && !of_b,
-                   .left = of_a > 0 || of_b > 0,
-                   .right = of_a < 0 || of_b < 0};
+        event e = {
+            .along = !of_a && !of_b, .left = of_a > 0 || of_b > 0, .right = of_a < 0 || of_b < 0};
         if (of_a * of_b > 0) continue;
         e.at = along(w->at, of_a ? of_b ? meet(through(a, b), w->at) : b : a);
         e.end = along(w->at, of_b ? of_a ? meet(through(a, b), w->at) : a : b);
@@ -203,7 +202,8 @@ static size_t corners_of(const sl_segment *walls, size_t count, const sl_box box
             for (size_t m = 0; m < count; m++) {
                 const corner a = corner_of(walls[m].a), b = corner_of(walls[m].b);
                 const line wall = through(a, b), edge = through(c[k], c[k + 1]);
-                if (side(edge, a) * side(edge, b) < 0 && side(wall, c[k]) * side(wall, c[k + 1]) < 0)
+                if (side(edge, a) * side(edge, b) < 0 &&
+                    side(wall, c[k]) * side(wall, c[k + 1]) < 0)
                     corners[found++] = meet(wall, edge);
             }
         }

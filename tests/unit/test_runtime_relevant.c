@@ -82,9 +82,9 @@ static bool within(trial *t, const sl_runtime_box *from, const sl_runtime_box *t
     const double a = (from->max_x - from->min_x) / 2, b = (to->max_x - to->min_x) / 2;
     uint32_t *scratch = malloc(sl_runtime_scratch_count(r) * sizeof *scratch);
     assert_non_null(scratch);
-    const bool sees = sl_runtime_sees_within(
-        r, from->min_x + a, from->min_y + a, a + t->margin, to->min_x + b, to->min_y + b, b,
-        t->shut, t->range, scratch);
+    const bool sees =
+        sl_runtime_sees_within(r, from->min_x + a, from->min_y + a, a + t->margin, to->min_x + b,
+                               to->min_y + b, b, t->shut, t->range, scratch);
     free(scratch);
     return sees;
 }

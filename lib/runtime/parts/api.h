@@ -401,7 +401,8 @@ SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, do
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
-// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+// bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
+// sl_runtime_visible_polygon_mirrored goes on behind them, and needs no rows.
 
 /// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
 /// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
@@ -457,6 +458,46 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
+/// mirror: a polygon.
+typedef struct sl_runtime_mirror_part {
+    uint32_t mirror; ///< that it is seen in; none for depth 0, what is seen directly
+    uint32_t parent; ///< the part in which the mirror is seen
+    uint32_t depth;  ///< reflections
+    bool rounded;    ///< the image of the eye is rounded
+    double eye[2];   ///< the image of the eye, about which the points go counter-clockwise
+    double frame[6]; ///< where the map seems to be, straight on: a place (x, y) of it at
+                     ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
+    uint32_t first, count; ///< its points are points[first .. first + count)
+    uint32_t cell;         ///< this and the rest is for the function only
+    double right[4], left[4], at[4];
+} sl_runtime_mirror_part;
+
+/// As sl_runtime_visible_polygon, and what is seen in mirrors by up to `depth` reflections. Returns
+/// the number of points of all parts together, and puts the first `room` of them into `points`. The
+/// parts, of which parts[0] is what is seen directly, come each after its parent; *part_count is
+/// their number. If that is more than part_room, parts are missing, and so are those that are seen
+/// in them: ask again with more room. (A part is not empty. So there are none if nothing is seen.)
+///
+/// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
+/// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
+/// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
+/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
+/// each other show the same. An eye on a mirror sees nothing in it.
+///
+/// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
+/// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
+/// those of drawings and games, it always is. If not, and behind oblique mirrors, `rounded` is set.
+/// A part is then exact for an eye and borders that each reflection moves by a few units in the
+/// last place of the largest coordinates. What a range cuts off a mirror is rounded.
+///
+/// 1 part, that seen directly, in a file without mirrors and in one before 2.0, which has not where
+/// they are. Time: a polygon for each part, and for each wall seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room);
 
 // Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
 // without them, and no bake is made when they move. The header keeps, for each cell, a list of the

@@ -95,7 +95,8 @@ static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box
 static int slrt_surely(const slrt_arm *line, double x, double y) {
     const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
     const double product = left - right;
-    const double bound = 4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    const double bound =
+        4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
     return (product > bound) - (-product > bound);
 }
 
@@ -180,8 +181,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     // so by definition, seen from the end.
     uint32_t pivots[4];
     int i;
-    if (from != SLRT_NONE &&
-        sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
+    if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
         return;
     pivots[0] = slrt_tangent(b->part, x, y, side);
     pivots[1] = from >= SLRT_PART_CORNER && from < SLRT_BOX_CORNER ? SLRT_NONE : from;
@@ -285,10 +285,10 @@ static uint32_t slrt_last_point(const slrt_bound *bound) {
 /// to the other end from behind.
 static bool slrt_is_portal_beside(const slrt_beam *beam, const slrt_arm *across) {
     const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
-    const bool beside_left = left->from != SLRT_NONE &&
-                             slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
-    const bool beside_right = right->from != SLRT_NONE &&
-                              slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
+    const bool beside_left =
+        left->from != SLRT_NONE && slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
+    const bool beside_right =
+        right->from != SLRT_NONE && slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
     if (!beside_left && !beside_right) return false;
     if ((beside_left && slrt_surely(&left->arm, across->to_x, across->to_y) > 0) ||
         (beside_right && slrt_surely(&right->arm, across->from_x, across->from_y) < 0))
@@ -330,8 +330,8 @@ static bool slrt_pass_portal(const slrt_beams *b, const sl_runtime_directed_port
 /// Whether a beam is all in one line.
 static bool slrt_is_one_line(const slrt_beam *beam) {
     const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
-    const slrt_arm to = slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x,
-                                      left->arm.to_y);
+    const slrt_arm to =
+        slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x, left->arm.to_y);
     return right->from != SLRT_NONE && left->from != SLRT_NONE &&
            !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
            slrt_same_way(&right->arm, &left->arm);

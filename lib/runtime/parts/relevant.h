@@ -26,8 +26,7 @@ static bool slrt_look_from_cell(void *context, uint32_t cell) {
     uint32_t i;
     for (i = 0; i < MOST && i < o->count; i++)
         if (o->sources[i] == cell) return true;
-    if (sl_runtime_is_solid(o->beams.rt, cell) ||
-        !slrt_meets_box(o->beams.rt, cell, o->beams.box))
+    if (sl_runtime_is_solid(o->beams.rt, cell) || !slrt_meets_box(o->beams.rt, cell, o->beams.box))
         return true;
     o->sources[o->count++ % MOST] = cell;
     return !slrt_send_beams(&o->beams, cell);
@@ -101,7 +100,7 @@ typedef struct slrt_relevant {
     size_t room;
     uint32_t thing;        ///< is being placed,
     uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
-    double box[4];  ///< within the bounds of the map
+    double box[4];         ///< within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
