@@ -1055,9 +1055,6 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 /// The index that locates points: a tree if all walls are axial, else a grid. Files of version 1
 /// with oblique walls have a tree along oblique lines. It is ignored, and all cells are tested.
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
-    rt->root = 0;
-    rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
@@ -1192,8 +1189,6 @@ static bool slrt_stands_for_cells(const sl_runtime *rt) {
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
     int tag;
-    rt->view_cell_count = rt->view_node_count = 0;
-    rt->views = rt->view_parents = rt->view_offsets = rt->view_bytes = NULL;
     if (!found[SLRT_VCIN].items) return true;
     for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
         if (!found[tag].items) return false;
@@ -1256,12 +1251,9 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
-    rt->seam_count = 0;
-    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    rt->door_count = 0;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + i * 40;
         const uint32_t number = slrt_u32(seam + 36);
@@ -1543,7 +1535,6 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
     const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    rt->range = 0;
     rt->door_count = 0;
     rt->text = section->items ? section->items : (const unsigned char *)"";
     rt->text_bytes = (size_t)section->count;
@@ -1660,18 +1651,11 @@ static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
 
 /// What the map holds beside walls. Files before 2.0 have it as text alone.
 static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
-    const bool old = !found[SLRT_MAPI].items;
-    memset(&rt->transform, 0, sizeof rt->transform);
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
-    rt->text = NULL;
-    rt->text_bytes = 0;
+    if (!found[SLRT_MAPI].items)
 #ifdef SL_RUNTIME_WITHOUT_OLD_FILES
-    if (old) return SL_RUNTIME_OLD;
+        return SL_RUNTIME_OLD;
 #else
-    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
-    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
-    rt->mirror_lines = NULL;
-    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+        return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 #endif
     return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 }
@@ -1685,6 +1669,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     sl_runtime_status status = slrt_check_header(file, size);
     if (status != SL_RUNTIME_OK) return status;
     memset(found, 0, sizeof found);
+    memset(&rt, 0, sizeof rt);
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
@@ -1726,7 +1711,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_TEXT:
         return "damaged: a door, a start or another thing of the map";
     case SL_RUNTIME_OLD:
-        return "of a version before 2.0, which this program leaves out: bake the map again";
+        return "made before 2.0, and this program leaves that out: bake the map again";
     }
     return "unknown status";
 }
