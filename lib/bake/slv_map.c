@@ -1,6 +1,7 @@
 /// The things of a map (doors, starts, objects, paths, mirrors) as items of a baked file, so that a
 /// game reads no map text. Both the writer and the reader of the library make them from the map:
-/// the one to write them, the other to compare.
+/// the one to write them, the other to compare. Coordinates too small to be used are 0, as in the
+/// map text that is read.
 #include "bake/slv.h"
 #include "geometry/orient.h"
 
@@ -19,11 +20,6 @@ static sli_slv_name add_name(names *to, const char *name) {
     if (to->bytes) memcpy(to->bytes + to->count, name, length);
     to->count += length;
     return at;
-}
-
-/// A point as it comes back from the map text, but without -0.
-static sl_point plain(sl_point p) {
-    return (sl_point){sli_coordinate(p.x) + 0.0, sli_coordinate(p.y) + 0.0};
 }
 
 static size_t count_names(const sl_map *map) {
@@ -47,7 +43,7 @@ static void fill_paths(const sl_map *map, names *to, sli_slv_path *paths, sl_poi
     for (size_t i = 0; i < map->path_count; i++) {
         const sl_path *path = &map->paths[i];
         paths[i] = (sli_slv_path){add_name(to, path->name), count, (uint32_t)path->count};
-        for (size_t k = 0; k < path->count; k++) points[count++] = plain(path->points[k]);
+        for (size_t k = 0; k < path->count; k++) points[count++] = sli_coordinates(path->points[k]);
     }
 }
 
@@ -60,18 +56,19 @@ static void fill(const sl_map *map, sli_slv_part_of_map *parts) {
     for (size_t i = 0; i < map->door_count; i++)
         doors[i] = (sli_slv_door){add_name(&to, map->doors[i].name), map->doors[i].open};
     for (size_t i = 0; i < map->start_count; i++) {
-        const sl_point at = plain(map->starts[i].at);
-        starts[i] = (sli_slv_start){at.x, at.y, map->starts[i].heading + 0.0};
+        const sl_point at = sli_coordinates(map->starts[i].at);
+        starts[i] = (sli_slv_start){at.x, at.y, map->starts[i].heading};
     }
     for (size_t i = 0; i < map->object_count; i++) {
         const sl_box box = map->objects[i].box;
-        objects[i] =
-            (sli_slv_object){add_name(&to, map->objects[i].name), {plain(box.min), plain(box.max)}};
+        objects[i] = (sli_slv_object){add_name(&to, map->objects[i].name),
+                                      {sli_coordinates(box.min), sli_coordinates(box.max)}};
     }
     fill_paths(map, &to, parts[PATHS].items, parts[POINTS].items);
     for (size_t i = 0; i < map->mirror_count; i++) {
         const sl_segment s = map->mirrors[i].segment;
-        mirrors[i] = (sli_slv_mirror){{plain(s.a), plain(s.b)}, map->mirrors[i].one_sided};
+        mirrors[i] = (sli_slv_mirror){{sli_coordinates(s.a), sli_coordinates(s.b)},
+                                      map->mirrors[i].one_sided};
     }
 }
 

@@ -35,7 +35,8 @@ sl_box sli_region_reach(const sl_region *region, const sl_box *bounds);
 /// Makes the envelope of boxes about an eye: of those that meet `reach`, or of all where that is
 /// NULL.
 sl_status sli_box_envelope_make(sl_context *context, const sl_moving_box *boxes, size_t count,
-                                sl_point eye, const sl_box *reach, sli_box_envelope *envelope);
+                                const sli_eye_place *eye, const sl_box *reach,
+                                sli_box_envelope *envelope);
 
 /// Adds a piece to a region with an envelope, as far as it is seen, and the sides before it. As
 /// see_piece in region.c: from `right` to `left`, or where these are NULL from and to its ends.

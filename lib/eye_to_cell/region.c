@@ -231,7 +231,7 @@ static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sli_ey
                                   const sli_eye_ray *b, const sli_eye_ray *right,
                                   const sli_eye_ray *left) {
     struct sli_region_memory *m = x->region->memory;
-    if (SLI_BOXES && m->envelope.arcs.count)
+    if (SLI_BOXES && m->envelope.count)
         return sli_region_see_past(x->context, x->region, neighbour, a, b, right, left);
     if (!m->pending || m->piece.neighbour != neighbour || neighbour == SLI_PIECE_FAR)
         SL_TRY(sli_region_start_piece(x->context, x->region, neighbour, a, b, right));
@@ -518,7 +518,7 @@ sl_status sli_region_start(sl_context *context, const sl_outline *outline, const
     struct sli_region_memory *m = region->memory;
     m->pending = false;
     m->first = SLI_PIECE_FAR;
-    m->frames.count = m->reflected_views.count = m->envelope.arcs.count = 0;
+    m->frames.count = m->reflected_views.count = m->envelope.count = 0;
     m->mirrors = NULL;
     m->eye = sli_eye_place_at(view->eye);
     m->limit = sli_eye_limit(outline->space, view);
@@ -546,8 +546,8 @@ sl_status sli_region_make_past(sl_context *context, const sl_outline *outline,
     SL_TRY(sli_region_check_view(context, view, range));
     SL_TRY(sli_region_start(context, outline, view, range, region));
     if (SLI_BOXES && count)
-        SL_TRY(sli_box_envelope_make(context, boxes, count, view->eye, many ? &reach : NULL,
-                                     &region->memory->envelope));
+        SL_TRY(sli_box_envelope_make(context, boxes, count, &region->memory->eye,
+                                     many ? &reach : NULL, &region->memory->envelope));
     region->cell = sli_eye_cell(outline->space, view->eye);
     const sl_status status = sli_region_spread(context, outline, region);
     if (status != SL_OK) region->count = 0;
@@ -561,7 +561,6 @@ void sli_region_settle(sl_context *context, sl_region *region) {
         sl_free(context, region->memory->whole.items);
         sl_free(context, region->memory->reflected_views.items);
         sl_free(context, region->memory->envelope.arcs.items);
-        sl_free(context, region->memory->envelope.scratch.items);
     }
     sl_free(context, region->memory);
     region->memory = NULL;

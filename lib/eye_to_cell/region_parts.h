@@ -51,22 +51,11 @@ typedef struct sli_region_corner {
     sl_region_edge edge;
 } sli_region_corner;
 
-/// The directions from `right` to `left`, less than half a turn, in which one side of a box is the
-/// nearest of all.
-typedef struct sli_box_arc {
-    sl_point right, left; ///< on its rays
-    sl_point a, b;        ///< the side, as the eye sees it from right to left
-    double at;            ///< the side's x (axis 0) or y (axis 1)
-    int axis;
-    uint32_t wall; ///< of its edges
-} sli_box_arc;
-
-typedef SL_ARRAY(sli_box_arc) sli_box_arcs;
-
 /// The lower envelope of the sides of boxes about an eye (past_boxes.h).
 typedef struct sli_box_envelope {
-    sli_box_arcs arcs; ///< counter-clockwise from +x
-    sli_box_arcs scratch;
+    const sl_moving_box *boxes;
+    SL_ARRAY(uint32_t) arcs; ///< the memory of `count` arcs, counter-clockwise from +x
+    size_t count;
 } sli_box_envelope;
 
 struct sli_region_memory {

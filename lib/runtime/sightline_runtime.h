@@ -433,7 +433,8 @@ SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, do
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
-// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+// bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
+// sl_runtime_visible_polygon_mirrored goes on behind them, and needs no rows.
 
 /// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
 /// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
@@ -489,6 +490,46 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
+/// mirror: a polygon.
+typedef struct sl_runtime_mirror_part {
+    uint32_t mirror; ///< that it is seen in; none for depth 0, what is seen directly
+    uint32_t parent; ///< the part in which the mirror is seen
+    uint32_t depth;  ///< reflections
+    bool rounded;    ///< the image of the eye is rounded
+    double eye[2];   ///< the image of the eye, about which the points go counter-clockwise
+    double frame[6]; ///< where the map seems to be, straight on: a place (x, y) of it at
+                     ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
+    uint32_t first, count; ///< its points are points[first .. first + count)
+    uint32_t cell;         ///< this and the rest is for the function only
+    double right[4], left[4], at[4];
+} sl_runtime_mirror_part;
+
+/// As sl_runtime_visible_polygon, and what is seen in mirrors by up to `depth` reflections. Returns
+/// the number of points of all parts together, and puts the first `room` of them into `points`. The
+/// parts, of which parts[0] is what is seen directly, come each after its parent; *part_count is
+/// their number. If that is more than part_room, parts are missing, and so are those that are seen
+/// in them: ask again with more room. (A part is not empty. So there are none if nothing is seen.)
+///
+/// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
+/// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
+/// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
+/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
+/// each other show the same. An eye on a mirror sees nothing in it.
+///
+/// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
+/// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
+/// those of drawings and games, it always is. If not, and behind oblique mirrors, `rounded` is set.
+/// A part is then exact for an eye and borders that each reflection moves by a few units in the
+/// last place of the largest coordinates. What a range cuts off a mirror is rounded.
+///
+/// 1 part, that seen directly, in a file without mirrors and in one before 2.0, which has not where
+/// they are. Time: a polygon for each part, and for each wall seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room);
 
 // Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
 // without them, and no bake is made when they move. The header keeps, for each cell, a list of the
@@ -572,6 +613,25 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
 
+/// As sl_runtime_visible_polygon, past boxes that block: their sides are walls, from outside and
+/// for an eye in the box from within. With `boxes_scratch` as for sl_runtime_boxes_seen.
+///
+/// It is decided exactly which sides are seen and in what order (if no coordinate but 0 is 1e70
+/// times smaller than another one). A point where a side crosses an oblique wall is rounded. A box
+/// that is a point hides nothing. Boxes may touch walls and each other, and overlap. An eye on a
+/// side sees one side of it, as on a wall: what is right of the eye and over it, if its cell is
+/// there, else left and over, right and under, left and under. At a corner it sees the part around
+/// it that has this one. All this is as sl_query_region of the library says, but in files with
+/// oblique walls that takes another side of a box that the eye is on.
+///
+/// Time: that of sl_runtime_visible_polygon and of the boxes in the cells that are seen. If some of
+/// these block, twice that, n log n for n such boxes, and what of their sides is seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_boxes *boxes,
+                                                              const sl_runtime_view *view,
+                                                              const unsigned char *shut,
+                                                              double range, uint32_t *boxes_scratch,
+                                                              double *points, uint32_t room);
+
 /// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
 /// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
 /// It passes a flat box where it crosses that between its ends, and never one that is a point. An
@@ -592,6 +652,76 @@ SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, do
 SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
                                                    double y0, double x1, double y1,
                                                    const unsigned char *shut, uint32_t except);
+
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
+// Servers: what each player may see before it hears of the next tick.
+
+/// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count);
+
+/// Box to box, for many: finds which things each player may see. Player p may see thing t if
+/// bits[p * ((thing_count + 7) / 8) + t / 8] >> t % 8 & 1. Returns the number of such pairs. `bits`
+/// has a row for each player. `shut` and `range` are as for sl_runtime_look_past, but the distance
+/// between two places counts. Boxes do not hide each other.
+///
+/// `margin` is how far a player may come before the next answer. Its box grows by that to each
+/// side, through walls too: all of it looks but what is in solid ground or outside the map.
+///
+/// Conservative: no pair is missed of which one point of the grown box sees one point of the thing
+/// by sl_runtime_sees, with closed sight. It needs no rows, so it is that in any file but a loose
+/// one. Few pairs are added: on the maps of the tests at most 10 % more than the exact answer from
+/// box to box. More are added near the end of the range. A player's box takes everything if its
+/// lines of sight come to 16 times as many portals as the map has, which real maps do not cause.
+///
+/// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
+/// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
+/// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
+/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits);
+
+/// The same for two squares: whether some place within `radius0` of (x0, y0) along each axis may
+/// see some place within `radius1` of (x1, y1). `scratch` is as for sl_runtime_look. Time: the
+/// portals between them, and to clear a bit for each cell.
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
@@ -1754,12 +1884,11 @@ SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, u
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
-    size_t length = 0;
-    uint32_t door;
-    while (name[length]) length++;
+    uint32_t door, i;
     for (door = 0; door < runtime->door_count; door++) {
         const sl_runtime_name own = sl_runtime_door_name(runtime, door);
-        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
+        for (i = 0; i < own.length && name[i] && name[i] == own.text[i];) i++;
+        if (i == own.length && !name[i]) return door;
     }
     return SL_RUNTIME_NO_DOOR;
 }
@@ -2341,11 +2470,10 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
     if (slrt_is_beside_box(rt, &cell, box)) return false;
     for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
-        bool outside = true;
-        int k;
-        for (k = 0; k < 4 && outside; k++)
-            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
-        if (outside) return false;
+        // The corner of the box that is farthest to the left of the side.
+        const double x = box[slrt_f64(corner + 8) > slrt_f64(before + 8) ? 0 : 2];
+        const double y = box[slrt_f64(corner) > slrt_f64(before) ? 3 : 1];
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
     }
     return true;
 }
@@ -2659,6 +2787,25 @@ static uint32_t slrt_next_way(const sl_runtime *rt, uint32_t cell, uint32_t from
     return rt->passage_count;
 }
 
+/// The right (0) or left (1) end of a passage as its cell crosses it: two numbers of the file.
+static const unsigned char *slrt_passage_end(const sl_runtime *rt, uint32_t passage, int left) {
+    const uint32_t wall = slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 4);
+    const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
+    return (wall > INT32_MAX) == (left != 0) ? ends
+                                             : ends + 16; // the cell is at its right, or left
+}
+
+static void slrt_read_passage(const sl_runtime *rt, uint32_t passage, double *right, double *left) {
+    const unsigned char *ends[2];
+    int i;
+    ends[0] = slrt_passage_end(rt, passage, 0);
+    ends[1] = slrt_passage_end(rt, passage, 1);
+    for (i = 0; i < 2; i++) {
+        right[i] = slrt_f64(ends[0] + 8 * i);
+        left[i] = slrt_f64(ends[1] + 8 * i);
+    }
+}
+
 /// Whether steps pass a wall beside a cell.
 static bool slrt_has_way(const sl_runtime *rt, uint32_t cell) {
     return slrt_next_way(rt, cell, slrt_first_passage(rt, cell)) < rt->passage_count;
@@ -2690,17 +2837,11 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
     uint32_t i = slrt_first_passage(runtime, cell), count = 0;
     for (; i < runtime->passage_count; i++, count++) {
         const unsigned char *at = runtime->passages + (size_t)i * SLRT_PASSAGE_BYTES;
-        const uint32_t wall = slrt_u32(at + 4);
-        const unsigned char *ends = runtime->walls + (size_t)(wall & INT32_MAX) * 32;
-        const int right = wall > INT32_MAX ? 16 : 0; // of the cell at the wall's left: end a
         if (slrt_u32(at) != cell) break;
         if (count >= room) continue;
         passages[count].cell = slrt_u32(at + 8);
         passages[count].stops = slrt_u32(at + 12);
-        passages[count].right[0] = slrt_f64(ends + right);
-        passages[count].right[1] = slrt_f64(ends + right + 8);
-        passages[count].left[0] = slrt_f64(ends + 16 - right);
-        passages[count].left[1] = slrt_f64(ends + 24 - right);
+        slrt_read_passage(runtime, i, passages[count].right, passages[count].left);
     }
     return count;
 }
@@ -3437,17 +3578,27 @@ typedef struct slrt_polygon {
     double arc[2], arc_end[2];
     bool pending;           ///< the end of the last piece is not added yet
     slrt_piece piece;       ///< that piece
-    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE
+    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE for
+    double piece_end[2];    ///< this place
     slrt_piece first_piece; ///< that starts at the first point
     bool first_is_short;    ///< it is shorter than a step of doubles
     bool inside;            ///< the eye lies within its cell
     uint32_t fan_first;     ///< the cell where the way around the eye starts
     bool fan_is_closed;     ///< it leads back to that cell
     bool gap;               ///< the eye lies on a wall, which hides some directions
-    bool in_sector;         ///< only what is between these borders is looked at
-    uint32_t right, left;   ///< borders of the sector
+    double fan_right[2];    ///< if it is not closed: where walls end it, and may be one wall
+    double fan_left[2];
+    bool in_sector;       ///< only what is between these borders is looked at
+    uint32_t right, left; ///< borders of the sector
     bool second_lap, started, done;
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
+    uint32_t fan_cell;         ///< its cell
+    /// For cells that are entered, and in place of adding a wall; NULL for none. By these a program
+    /// that does not ask for boxes is built without what is only for them.
+    void (*meet)(struct slrt_polygon *p, uint32_t cell);
+    void (*see_wall)(struct slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
+                     uint32_t left);
+    void *job; ///< theirs
 } slrt_polygon;
 
 static void slrt_read_vertex(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t corner,
@@ -3646,6 +3797,16 @@ static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, doubl
 /// Where the line from the eye to a point leads.
 typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
 
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -3677,12 +3838,10 @@ static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t
     uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
     for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
         const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
-        const uint32_t wall = slrt_u32(at + 4);
-        const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
         slrt_arm p, q;
         int right, left;
-        out->right = wall > INT32_MAX ? ends + 16 : ends;
-        out->left = wall > INT32_MAX ? ends : ends + 16;
+        out->right = slrt_passage_end(rt, i, 0);
+        out->left = slrt_passage_end(rt, i, 1);
         p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
         q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
         right = slrt_side(way, &p);
@@ -3708,7 +3867,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
         return out;
     }
     portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
-    out.cell = slrt_u32(portal + 4);
+    out.cell = slrt_cell_across(s->rt, directed);
     out.is_blocked = slrt_is_blocked(s, directed);
     out.right = portal + 24;
     out.left = portal + 8;
@@ -3773,14 +3932,13 @@ static bool slrt_overlap(double a, double b, double c, double d) {
 
 /// Whether the way from the eye to a point meets a directed portal, ends included.
 static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
     const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const int right = slrt_side(way, &p), left = slrt_side(way, &q);
     if (right * left > 0) return false;
     if (!right && !left)
         return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
                slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
 }
 
 /// Of so many cells, a list is faster than marks, which have to be cleared first.
@@ -3818,7 +3976,7 @@ static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
         for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            const uint32_t to = slrt_cell_across(s->rt, i);
             if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
                 slrt_is_listed(s, to) || slrt_is_blocked(s, i))
                 continue;
@@ -3863,7 +4021,7 @@ static void slrt_see_row(slrt_search *s) {
 /// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
 /// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const uint32_t to = slrt_cell_across(s->rt, directed);
     slrt_sector sector;
     if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];
@@ -4056,10 +4214,6 @@ SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
 }
 
 // --- Boxes: what is asked
-
-SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
-    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
-}
 
 /// Twice the distance from the eye to a box's middle, squared.
 static double slrt_away(const slrt_search *s, uint32_t box) {
@@ -4263,7 +4417,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
                            ? SLRT_TOUCHES
                            : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
-            next = slrt_u32(s->rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;
@@ -4390,39 +4544,10 @@ SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes
     return slrt_can_step(&s, x1, y1);
 }
 
-// --- The visible polygon
-
-// The view spreads from the cells at the eye through open portals, as sectors between two borders:
-//
-//      +---------+--------.-+
-//      |         |    .  left     On the way around the next cell, counter-clockwise from the
-//      |         b .        |     portal ab, pieces of its boundary come that are right of the
-//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
-//      |         a .        |     added to the polygon; a portal is entered with the sector
-//      |         |    .  right    between its ends.
-//      +---------+--------.-+
-//
-// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
-// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
-// in one line join; where one ends is computed only when the next one is known not to join. Cost:
-// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
-// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+// --- The points of the polygon: where pieces join, and how a range cuts them
 
 static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
     return slrt_make_arm(p->s.x, p->s.y, point[0], point[1]);
-}
-
-/// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
-static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
-    const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
-    const uint32_t portal = slrt_u32(at);
-    const sl_runtime_cell cell = sl_runtime_get_cell(p->s.rt, slrt_u32(at + 4));
-    uint32_t i;
-    for (i = cell.first_directed; i < cell.first_directed + cell.directed_count; i++)
-        if (i != directed &&
-            slrt_u32(p->s.rt->directed + (size_t)i * SLRT_DIRECTED_BYTES) == portal)
-            return i;
-    return SLRT_NONE;
 }
 
 /// If a damaged file has corners far outside its bounds, a point may be no number: then there is no
@@ -4631,28 +4756,34 @@ static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
     return sum;
 }
 
-/// The end of a piece: its own, or where a border meets its line.
-static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own,
-                       const slrt_piece *piece, double *out) {
+/// Where a ray meets the line of a piece.
+static void slrt_meet_line(const slrt_polygon *p, const slrt_arm *ray, const slrt_piece *piece,
+                           double *out) {
     const double *a = piece->a, *b = piece->b;
-    slrt_arm ray, along, to;
+    slrt_arm along, to;
     double share;
-    if (border == SLRT_NONE) {
-        memcpy(out, own, 2 * sizeof *out);
-        return;
-    }
-    ray = slrt_border(&p->s, border);
     if (a[0] == b[0]) {
-        share = (a[0] - p->s.x) / ray.x;
+        share = (a[0] - p->s.x) / ray->x;
     } else if (a[1] == b[1]) {
-        share = (a[1] - p->s.y) / ray.y;
+        share = (a[1] - p->s.y) / ray->y;
     } else {
         along = slrt_make_arm(a[0], a[1], b[0], b[1]);
         to = slrt_arm_to(p, a);
-        share = slrt_cross(&to, &along) / slrt_cross(&ray, &along);
+        share = slrt_cross(&to, &along) / slrt_cross(ray, &along);
     }
-    out[0] = slrt_limited(a[0], p->s.x + ray.x * share, b[0]);
-    out[1] = slrt_limited(a[1], p->s.y + ray.y * share, b[1]);
+    out[0] = slrt_limited(a[0], p->s.x + ray->x * share, b[0]);
+    out[1] = slrt_limited(a[1], p->s.y + ray->y * share, b[1]);
+}
+
+/// The end of a piece: its own, or where a border meets its line.
+static void slrt_place(const slrt_polygon *p, uint32_t border, const double *own,
+                       const slrt_piece *piece, double *out) {
+    if (border == SLRT_NONE) {
+        memcpy(out, own, 2 * sizeof *out);
+    } else {
+        const slrt_arm ray = slrt_border(&p->s, border);
+        slrt_meet_line(p, &ray, piece, out);
+    }
 }
 
 /// Whether two pieces lie in one line.
@@ -4667,23 +4798,39 @@ static bool slrt_in_line(const slrt_piece *piece, const slrt_piece *other) {
 static void slrt_end_pending(slrt_polygon *p) {
     double end[2];
     if (!p->pending) return;
-    slrt_place(p, p->piece_left, p->piece.b, &p->piece, end);
+    slrt_place(p, p->piece_left, p->piece_end, &p->piece, end);
     slrt_add_point(p, end, false);
     p->pending = false;
 }
 
-/// Adds a wall, from the border `right` to the border `left` or, for SLRT_NONE, its own ends.
-static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t right, uint32_t left) {
-    if (!p->pending || !slrt_in_line(&p->piece, piece)) {
-        double start[2];
-        slrt_place(p, right, piece->a, piece, start);
-        slrt_end_pending(p);
-        if (!p->count) p->first_piece = *piece;
-        slrt_add_point(p, start, true);
-    }
+static bool slrt_joins(const slrt_polygon *p, const slrt_piece *piece) {
+    return p->pending && slrt_in_line(&p->piece, piece);
+}
+
+/// Adds the start of a piece that does not join the pending one.
+static void slrt_start_piece(slrt_polygon *p, const slrt_piece *piece, const double *start) {
+    slrt_end_pending(p);
+    if (!p->count) p->first_piece = *piece;
+    slrt_add_point(p, start, true);
+}
+
+/// Goes on with a piece up to a border, or to a place for SLRT_NONE.
+static void slrt_extend_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t left,
+                              const double *end) {
     p->pending = true;
     p->piece = *piece;
     p->piece_left = left;
+    memcpy(p->piece_end, end, sizeof p->piece_end);
+}
+
+/// Adds a wall, from the border `right` to the border `left` or, for SLRT_NONE, its own ends.
+static void slrt_add_wall(slrt_polygon *p, const slrt_piece *piece, uint32_t right, uint32_t left) {
+    if (!slrt_joins(p, piece)) {
+        double start[2];
+        slrt_place(p, right, piece->a, piece, start);
+        slrt_start_piece(p, piece, start);
+    }
+    slrt_extend_piece(p, piece, left, piece->b);
 }
 
 /// Adds the eye, where the polygon has it as a corner.
@@ -4692,6 +4839,7 @@ static void slrt_add_eye(slrt_polygon *p) {
     eye[0] = p->s.x;
     eye[1] = p->s.y;
     slrt_end_pending(p);
+    if (!p->count) p->first_is_short = true; // no piece starts there
     slrt_add_point(p, eye, true);
 }
 
@@ -4719,6 +4867,37 @@ static void slrt_close(slrt_polygon *p, bool all_round) {
     slrt_end_arc(p);
 }
 
+// --- The visible polygon
+
+// The view spreads from the cells at the eye through open portals, as sectors between two borders:
+//
+//      +---------+--------.-+
+//      |         |    .  left     On the way around the next cell, counter-clockwise from the
+//      |         b .        |     portal ab, pieces of its boundary come that are right of the
+//      |  eye *  |   seen   |     sector, then those within it, then those left of it. A wall is
+//      |         a .        |     added to the polygon; a portal is entered with the sector
+//      |         |    .  right    between its ends.
+//      +---------+--------.-+
+//
+// Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
+// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// in one line join; where one ends is computed only when the next one is known not to join. Cost:
+// the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
+// with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
+
+/// The other cell's directed portal of the same portal; SLRT_NONE in a file that is not sound.
+static uint32_t slrt_twin(const slrt_polygon *p, uint32_t directed) {
+    const unsigned char *at = p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    const uint32_t portal = slrt_u32(at);
+    const sl_runtime_cell cell = sl_runtime_get_cell(p->s.rt, slrt_u32(at + 4));
+    uint32_t i;
+    for (i = cell.first_directed; i < cell.first_directed + cell.directed_count; i++)
+        if (i != directed &&
+            slrt_u32(p->s.rt->directed + (size_t)i * SLRT_DIRECTED_BYTES) == portal)
+            return i;
+    return SLRT_NONE;
+}
+
 /// The borders of what is seen through a portal: those given, or its own ends for SLRT_NONE. False
 /// if it is blocked or out of range, and for no portal.
 static bool slrt_pass(const slrt_polygon *p, uint32_t portal, uint32_t *right, uint32_t *left) {
@@ -4726,6 +4905,14 @@ static bool slrt_pass(const slrt_polygon *p, uint32_t portal, uint32_t *right, u
     if (*right == SLRT_NONE) *right = 2 * portal + 1;
     if (*left == SLRT_NONE) *left = 2 * portal;
     return !(p->s.range > 0) || slrt_in_range(&p->s, portal, *right, *left);
+}
+
+static void slrt_see_wall(slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
+                          uint32_t left) {
+    if (p->see_wall)
+        p->see_wall(p, cell, piece, right, left);
+    else
+        slrt_add_wall(p, piece, right, left);
 }
 
 // The search. The path is a stack of six numbers for each cell: the cell, the portal through which
@@ -4748,6 +4935,7 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[4] = right;
     top[5] = left;
     p->s.depth++;
+    if (p->meet) p->meet(p, top[0]);
 }
 
 /// Goes on around the cell on top of the path: adds walls up to the next open portal and enters
@@ -4780,7 +4968,7 @@ static void slrt_spread_on(slrt_polygon *p) {
             slrt_push(p, portal, right, left);
             return;
         }
-        slrt_add_wall(p, &piece, right, left);
+        slrt_see_wall(p, top[0], &piece, right, left);
         if (end <= 0) break;
     }
     p->s.depth--;
@@ -4791,7 +4979,7 @@ static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t ri
                            uint32_t left) {
     const uint32_t portal = piece->directed;
     if (!slrt_pass(p, portal, &right, &left)) {
-        slrt_add_wall(p, piece, right, left);
+        slrt_see_wall(p, p->fan_cell, piece, right, left);
         return;
     }
     slrt_push(p, portal, right, left);
@@ -4829,6 +5017,8 @@ static void slrt_see_fan_cell(slrt_polygon *p, uint32_t cell) {
     bool run = p->inside, ready = p->inside;
     slrt_walk w;
     slrt_piece piece;
+    p->fan_cell = cell;
+    if (p->meet) p->meet(p, cell);
     slrt_walk_around(p, &w, cell, p->inside ? 1 : 2);
     while (slrt_walk_next(p, &w, &piece)) {
         const slrt_arm from = slrt_arm_to(p, piece.a), to = slrt_arm_to(p, piece.b);
@@ -4898,9 +5088,10 @@ static void slrt_find_fan(slrt_polygon *p) {
     }
     while (last.before != SLRT_NONE && !p->broken)
         last = slrt_touch_of(p, slrt_cell_behind(p, last.before));
+    memcpy(p->fan_right, touch.behind_end, sizeof p->fan_right);
+    memcpy(p->fan_left, last.before_end, sizeof p->fan_left);
     {
-        const slrt_arm right = slrt_arm_to(p, touch.behind_end);
-        const slrt_arm left = slrt_arm_to(p, last.before_end);
+        const slrt_arm right = slrt_arm_to(p, p->fan_right), left = slrt_arm_to(p, p->fan_left);
         p->gap = !slrt_same_ray(&right, &left);
     }
 }
@@ -4946,47 +5137,2071 @@ static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
     slrt_see_fan(p);
 }
 
+/// Prepares a polygon. False if the eye sees nothing.
+static bool slrt_start_polygon(slrt_polygon *p, const sl_runtime *rt, const sl_runtime_view *view,
+                               const unsigned char *shut, double range, uint32_t *scratch,
+                               double *points, uint32_t room) {
+    // So that no number in units of the range overflows.
+    const double least = 1e-100 * (rt->max_x - rt->min_x) + 1e-100 * (rt->max_y - rt->min_y);
+    memset(p, 0, sizeof *p);
+    p->s.rt = rt;
+    p->s.view = view;
+    p->s.shut = shut;
+    p->s.range = slrt_range(rt, range);
+    if (p->s.range > 0 && p->s.range < least) p->s.range = least;
+    p->s.x = slrt_no_dust(view->x);
+    p->s.y = slrt_no_dust(view->y);
+    p->s.eye_cell = sl_runtime_locate(rt, p->s.x, p->s.y);
+    p->s.path = scratch;
+    p->s.patience =
+        (uint64_t)SLRT_PATIENCE * 16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
+    p->fan_last = UINT32_MAX;
+    p->points = points;
+    p->room = room;
+    return !rt->loose && p->s.eye_cell != SL_RUNTIME_NO_CELL &&
+           !sl_runtime_is_solid(rt, p->s.eye_cell);
+}
+
+/// Makes the polygon, after slrt_find_fan. Returns the number of its points.
+static uint32_t slrt_see_polygon(slrt_polygon *p) {
+    uint32_t last, i;
+    const uint32_t pieces = slrt_cut_cone(&p->s, &last);
+    p->waits = !pieces && !p->gap;
+    if (!pieces) {
+        slrt_see_fan(p);
+    } else {
+        slrt_add_eye(p);
+        for (i = 0; i < pieces; i++)
+            slrt_see_sector(p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    }
+    slrt_close(p, !pieces && !p->gap);
+    return p->broken || p->count < 3 || p->written < 3 ? 0 : p->written;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const sl_runtime_view *view,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room) {
-    const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
-    const uint32_t cell = sl_runtime_locate(runtime, x, y);
-    // So that no number in units of the range overflows.
-    const double least =
-        1e-100 * (runtime->max_x - runtime->min_x) + 1e-100 * (runtime->max_y - runtime->min_y);
-    uint32_t last, i, pieces;
     slrt_polygon p;
-    if (runtime->loose || cell == SL_RUNTIME_NO_CELL || sl_runtime_is_solid(runtime, cell))
-        return 0;
-    memset(&p, 0, sizeof p);
-    p.s.rt = runtime;
-    p.s.view = view;
-    p.s.shut = shut;
-    p.s.range = slrt_range(runtime, range);
-    if (p.s.range > 0 && p.s.range < least) p.s.range = least;
-    p.s.x = x;
-    p.s.y = y;
-    p.s.path = scratch;
-    p.s.patience = (uint64_t)SLRT_PATIENCE * 16 *
-                   ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
-    p.s.eye_cell = cell;
-    p.points = points;
-    p.room = room;
+    if (!slrt_start_polygon(&p, runtime, view, shut, range, scratch, points, room)) return 0;
     slrt_find_fan(&p);
-    pieces = slrt_cut_cone(&p.s, &last);
-    p.fan_last = UINT32_MAX;
-    p.waits = !pieces && !p.gap;
-    if (!pieces) {
-        slrt_see_fan(&p);
-    } else {
-        slrt_add_eye(&p);
-        for (i = 0; i < pieces; i++)
-            slrt_see_sector(&p, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    return slrt_see_polygon(&p);
+}
+
+// --- Discs that move: how far, and along what
+
+// A disc of radius r moves as its middle does, if walls and all else that stops it have grown by r.
+// The distance to a segment changes along a straight way as a convex function does. So Newton's
+// steps from the start come to the first place where the distance is r, and never behind it:
+//
+//      .--___                 The disc then slides: what is left of the way, without its part
+//     | o ---> ''--.          toward the nearest place of the segment. It ends in a corner, where
+//      '--....--____|_        it would go back.
+//      =================
+//
+// All that is within reach of the way is in the cells that open portals within reach lead to: the
+// nearest of it has no other before it.
+//
+// Distances are rounded. So three limits lie apart by more than rounding can do (`slack`): r
+// itself; r + 2 slack, from where a way is free; r + 3 slack, where a disc comes to rest. No rest
+// is therefore nearer than r, and none is stuck to what it rests at. Whether a way crosses
+// something is exact.
+
+/// A disc on a straight way.
+typedef struct slrt_disc {
+    slrt_polygon p; ///< its search is from where the disc is
+    double radius, slack, from[2], to[2];
+    double along[2], length; ///< the way's direction and length
+    bool is_near;            ///< something is nearer to the way than it may
+    double stop;             ///< how far along the way the disc comes
+    double normal[2];        ///< if that is not all of it: away from what stops it
+    double push;             ///< how far the disc is nearer to that than at rest
+} slrt_disc;
+
+/// The square of the distance from a point to the segment from a to b. `away` leads to the point
+/// from the nearest place.
+static double slrt_away_from(const double *point, const double *a, const double *b, double *away) {
+    const double side[2] = {b[0] - a[0], b[1] - a[1]};
+    const double to[2] = {point[0] - a[0], point[1] - a[1]};
+    const double square = slrt_dot(side, side), part = slrt_dot(to, side);
+    double at = part > 0 ? part / square : 0;
+    if (!(at < 1)) at = 1;
+    if (!(square > 0)) at = 0;
+    away[0] = to[0] - at * side[0];
+    away[1] = to[1] - at * side[1];
+    return slrt_dot(away, away);
+}
+
+/// Whether a segment is nearer to the way than a limit, or crosses it.
+static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
+    const double square = limit * limit;
+    double away[2];
+    return !(slrt_away_from(d->from, a, b, away) >= square &&
+             slrt_away_from(d->to, a, b, away) >= square &&
+             slrt_away_from(a, d->from, d->to, away) >= square &&
+             slrt_away_from(b, d->from, d->to, away) >= square) ||
+           slrt_meets(d->from, d->to, a, b);
+}
+
+/// Has a segment stop the disc. One that the disc is nearer to than it may, but moves away from,
+/// does not.
+static void slrt_stop_at(slrt_disc *d, const double *a, const double *b) {
+    const double rest = d->radius + 3 * d->slack;
+    double at = 0, gap = 0, rate = 0, distance = 0;
+    double place[2], away[2] = {0, 0};
+    int i;
+    if (!slrt_is_near(d, a, b, d->radius + 2 * d->slack)) return;
+    d->is_near = true;
+    for (i = 0; i < 16; i++) {
+        place[0] = d->from[0] + at * d->along[0];
+        place[1] = d->from[1] + at * d->along[1];
+        distance = slrt_root(slrt_away_from(place, a, b, away));
+        gap = distance - rest;
+        rate = -slrt_dot(away, d->along) / distance;
+        if (!(gap > 0 && rate > 0)) break;
+        at += gap / rate;
     }
-    slrt_close(&p, !pieces && !p.gap);
-    return p.broken || p.count < 3 || p.written < 3 ? 0 : p.written;
+    if (!(at < d->stop) ||
+        (!(rate > 0) && (at > 0 || slrt_away_from(d->to, a, b, place) >= distance * distance)))
+        return;
+    d->stop = at;
+    d->normal[0] = away[0] / distance;
+    d->normal[1] = away[1] / distance;
+    d->push = gap < 0 ? -gap : 0;
+}
+
+/// Has the sides of the boxes in a cell stop the disc.
+static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
+    const sl_runtime_boxes *boxes = d->p.s.boxes;
+    uint32_t at = boxes ? *slrt_first_entry(boxes, cell) : SLRT_NO_ENTRY;
+    for (; at != SLRT_NO_ENTRY; at = slrt_entry(boxes, at)[SLRT_ENTRY_IN_CELL]) {
+        const uint32_t number = slrt_entry(boxes, at)[SLRT_ENTRY_BOX];
+        const sl_runtime_box *box = &boxes->boxes[number];
+        const double corners[5][2] = {{box->min_x, box->min_y},
+                                      {box->max_x, box->min_y},
+                                      {box->max_x, box->max_y},
+                                      {box->min_x, box->max_y},
+                                      {box->min_x, box->min_y}};
+        int k;
+        for (k = 0; k < 4 && box->blocks && number != d->p.s.except; k++)
+            slrt_stop_at(d, corners[k], corners[k + 1]);
+    }
+}
+
+/// Notes that a disc may get to the cell behind a way out of a cell.
+static void slrt_reach_across(slrt_disc *d, const double *a, const double *b, uint32_t to) {
+    if (slrt_is_near(d, a, b, d->radius + 4 * d->slack) && !slrt_is_listed(&d->p.s, to))
+        slrt_list(&d->p.s, to);
+}
+
+/// The next wall along a piece of a cell's boundary that steps pass, from a place on: passage_count
+/// for none. A piece is one wall, or axial.
+static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double *from,
+                              const slrt_piece *piece, slrt_piece *gap) {
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell)), found = rt->passage_count;
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        slrt_piece at;
+        slrt_read_passage(rt, i, at.a, at.b);
+        if (rt->neighbours ? !slrt_same_place(at.a, piece->a) || !slrt_same_place(at.b, piece->b)
+                           : !slrt_is_on(from, piece->b, at.a) || !slrt_is_on(from, piece->b, at.b))
+            continue;
+        if (found < rt->passage_count && !slrt_is_on(from, gap->a, at.a)) continue;
+        found = i;
+        *gap = at;
+    }
+    return found;
+}
+
+/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
+    const sl_runtime *rt = d->p.s.rt;
+    double from[2] = {piece->a[0], piece->a[1]};
+    uint32_t left = rt->passage_count;
+    for (; left; left--) {
+        slrt_piece gap;
+        const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
+        if (passage == rt->passage_count) break;
+        if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
+        slrt_reach_across(d, gap.a, gap.b,
+                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        from[0] = gap.b[0], from[1] = gap.b[1];
+        if (slrt_same_place(from, piece->b)) return;
+    }
+    slrt_stop_at(d, from, piece->b);
+}
+
+/// Goes through the cells within reach of the disc's way, and has what is there stop it.
+static void slrt_stop_within(slrt_disc *d) {
+    slrt_search *s = &d->p.s;
+    uint32_t at;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) {
+        slrt_walk w;
+        slrt_piece piece;
+        slrt_stop_at_boxes(d, s->path[at]);
+        slrt_walk_around(&d->p, &w, s->path[at], 1);
+        while (slrt_walk_next(&d->p, &w, &piece)) {
+            if (piece.directed == SLRT_NONE)
+                slrt_stop_at_walls(d, s->path[at], &piece);
+            else if (slrt_is_blocked(s, piece.directed))
+                slrt_stop_at(d, piece.a, piece.b);
+            else
+                slrt_reach_across(d, piece.a, piece.b, slrt_cell_across(s->rt, piece.directed));
+        }
+    }
+}
+
+/// Puts a disc at the start of a way, and finds how far it comes. False for nowhere.
+static bool slrt_move_disc(slrt_disc *d, const sl_runtime *rt, const sl_runtime_walker *walker,
+                           const double *from, const double *to, uint32_t *scratch) {
+    slrt_search *s = &d->p.s;
+    memset(d, 0, sizeof *d);
+    if (rt->loose || !slrt_place_eye(s, rt, from[0], from[1], walker->shut) ||
+        !slrt_is_coordinate(to[0]) || !slrt_is_coordinate(to[1]))
+        return false;
+    if (walker->boxes) slrt_heed_boxes(s, walker->boxes, walker->own_box);
+    s->on_foot = true;
+    s->path = scratch;
+    s->marks = (unsigned char *)(scratch + 6 * (size_t)rt->cell_count);
+    s->patience = (uint64_t)16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
+    d->radius = walker->radius > 0 ? walker->radius : 0;
+    d->slack =
+        1e-14 * (slrt_larger(rt->min_x, rt->max_x) + slrt_larger(rt->min_y, rt->max_y) + d->radius);
+    d->from[0] = s->x, d->from[1] = s->y;
+    d->to[0] = slrt_no_dust(to[0]), d->to[1] = slrt_no_dust(to[1]);
+    d->along[0] = d->to[0] - d->from[0];
+    d->along[1] = d->to[1] - d->from[1];
+    d->length = d->stop = slrt_root(slrt_dot(d->along, d->along));
+    if (d->length > 0) d->along[0] /= d->length, d->along[1] /= d->length;
+    slrt_stop_within(d);
+    return !d->p.broken;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch) {
+    const double from[2] = {x0, y0}, to[2] = {x1, y1};
+    slrt_disc d;
+    return slrt_move_disc(&d, runtime, walker, from, to, scratch) &&
+           (!d.is_near || !(walker->radius > 0)) && slrt_can_step(&d.p.s, x1, y1);
+}
+
+/// Turns a way along what stops a disc, which is `at` that. False if nothing is left of the way, or
+/// if it would go back.
+static bool slrt_turn_along(const slrt_disc *d, const double *at, const double *first,
+                            double *goal) {
+    const double into = slrt_dot(d->along, d->normal), left = d->length - d->stop;
+    const double most = 4 * d->slack, push = d->push < most ? d->push : most;
+    double rest[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        rest[i] = left * (d->along[i] - into * d->normal[i]);
+        goal[i] = at[i] + rest[i] + push * d->normal[i];
+    }
+    return slrt_dot(rest, rest) > most * most && slrt_dot(rest, first) > 0;
+}
+
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y) {
+    enum { TURNS = 4 };
+    double at[2] = {x0, y0}, goal[2] = {x1, y1}, first[2];
+    int turn;
+    for (turn = 0; turn < TURNS; turn++) {
+        slrt_disc d;
+        double next[2];
+        bool all;
+        if (!slrt_move_disc(&d, runtime, walker, at, goal, scratch)) break;
+        if (!turn) memcpy(first, d.along, sizeof first);
+        all = !(d.stop < d.length) || (!turn && !(d.radius > 0) && slrt_can_step(&d.p.s, x1, y1));
+        next[0] = all ? goal[0] : at[0] + d.stop * d.along[0];
+        next[1] = all ? goal[1] : at[1] + d.stop * d.along[1];
+        if (!slrt_can_step(&d.p.s, next[0], next[1])) break;
+        memcpy(at, next, sizeof at);
+        if (all || !slrt_turn_along(&d, at, first, goal)) break;
+    }
+    *x = at[0], *y = at[1];
+    return *x == x1 && *y == y1;
+}
+
+// --- What the parts need that the library has in common with this header: box_envelope.h says what
+
+typedef struct slrt_point {
+    double x, y;
+} slrt_point;
+typedef slrt_search slrt_eye;
+typedef slrt_arm slrt_ray;
+typedef slrt_polygon slrt_sight;
+typedef sl_runtime_box slrt_box_list;
+
+static slrt_point slrt_eye_at(const slrt_eye *eye) {
+    slrt_point at;
+    at.x = eye->x;
+    at.y = eye->y;
+    return at;
+}
+
+static slrt_arm slrt_ray_to(const slrt_eye *eye, slrt_point at) {
+    return slrt_make_arm(eye->x, eye->y, at.x, at.y);
+}
+
+static int slrt_turn_to(const slrt_eye *eye, const slrt_arm *ray, slrt_point at) {
+    const slrt_arm to = slrt_ray_to(eye, at);
+    return slrt_side(ray, &to);
+}
+
+static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
+    const slrt_arm ray = slrt_ray_to(eye, a);
+    return slrt_turn_to(eye, &ray, b);
+}
+
+static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
+    (void)eye;
+    return slrt_arm_sign(ray, axis);
+}
+
+static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
+    box[0] = boxes[number].min_x;
+    box[1] = boxes[number].min_y;
+    box[2] = boxes[number].max_x;
+    box[3] = boxes[number].max_y;
+}
+
+// --- Boxes about an eye: in each direction, the nearest side of all
+
+// Of each box the sides that face the eye count. They are merged, box by box, to their lower
+// envelope about the eye: arcs, each with the one side that is nearest there.
+//
+//       wall ----------------------      arcs, counter-clockwise: side 1, side 2, a gap, side 3
+//                  .--------.
+//                  |   2  .-|--.         Where two sides cross, the upright one is nearer on the
+//                 1|      |3|  |         side of the x axis, the level one on that of the y axis.
+//                  '------|-'  |
+//             eye *       '----'
+//
+// Invariant: arcs start and end at rays through exact points: corners of boxes, places where their
+// sides cross. So all signs are exact. An arc is less than half a turn, and none passes +x. Cost:
+// O(n log n) for n boxes (Hershberger 1989, Finding the upper envelope of n line segments in
+// O(n log n) time: merging; here about an eye).
+//
+// The header and the library have this part and box_sieve.h in common. Each says before them what
+// these are:
+//
+//     slrt_point         x, y
+//     slrt_eye           an eye, which slrt_eye_at gives as a point
+//     slrt_point_turn    which side of the ray from the eye through a point another point is on: 1
+//                        left, -1 right, 0 in one line; exact
+//     slrt_box_list      an array of boxes, of which slrt_read_box gives one: min x, min y, max x,
+//                        max y
+
+/// The directions from `right` to `left` in which one side of a box is the nearest of all. Side k
+/// of box i is number 4 * i + k: its left, right, lower and upper side.
+typedef struct slrt_arc {
+    slrt_point right, left; ///< on its rays
+    uint32_t side;
+} slrt_arc;
+
+/// In place of a side, for all numbers from here on: what the eye itself hides, as it stands where
+/// sides of boxes part what is around it.
+#define SLRT_AT_EYE (UINT32_MAX - 8)
+/// No side, but what stands behind all of them.
+#define SLRT_NO_SIDE UINT32_MAX
+
+enum { SLRT_ARC_WORDS = (sizeof(slrt_arc) + 3) / 4 };
+
+/// The envelope. Its memory is the caller's, of any alignment: see slrt_arcs_room.
+typedef struct slrt_envelope {
+    const slrt_eye *eye;
+    const slrt_box_list *boxes;
+    uint32_t *memory;
+    size_t count; ///< of arcs
+} slrt_envelope;
+
+/// An envelope as it is made.
+typedef struct slrt_envelope_maker {
+    slrt_envelope e;
+    int toward[2];   ///< a quadrant that is seen, by its signs: if the eye is on a box's border, it
+                     ///< says whether the eye is in it
+    size_t room;     ///< of arcs
+    size_t floor;    ///< those from here on are being merged
+    uint32_t last;   ///< the side of the last one
+    size_t runs[64]; ///< where each run starts that waits to be merged
+    unsigned char ranks[64]; ///< of these: a run of rank r has 2^r boxes
+    unsigned run_count;
+    bool is_full; ///< there were more, which slrt_arcs_room rules out where signs are right
+} slrt_envelope_maker;
+
+/// Room for the arcs of so many boxes. Corners of a box end three arcs. Counter-clockwise from the
+/// x axis two sides cross from an upright one to a level one, so that each crossing needs a corner
+/// or an end at which a level side gives way to an upright one: one for each box. So there are up
+/// to 4n + 6 arcs. Runs that wait have up to 5n + 8, and merging them takes room for the result.
+static size_t slrt_arcs_room(size_t boxes) {
+    return 9 * boxes + 40;
+}
+
+/// A side of a box, as the eye sees it from right to left.
+typedef struct slrt_box_side {
+    slrt_point a, b;
+    double at; ///< its x (axis 0) or y (axis 1)
+    int axis;
+} slrt_box_side;
+
+static slrt_box_side slrt_side_of(const slrt_envelope *e, uint32_t number) {
+    const int k = (int)(number % 4), axis = k >= 2;
+    const slrt_point eye = slrt_eye_at(e->eye);
+    slrt_box_side side;
+    slrt_point low, high;
+    double box[4];
+    slrt_read_box(e->boxes, number / 4, box);
+    side.axis = axis;
+    side.at = box[axis + 2 * (k % 2)];
+    low.x = axis ? box[0] : side.at;
+    high.x = axis ? box[2] : side.at;
+    low.y = axis ? side.at : box[1];
+    high.y = axis ? side.at : box[3];
+    if (axis ? side.at < eye.y : side.at > eye.x) {
+        side.a = low, side.b = high;
+    } else {
+        side.a = high, side.b = low;
+    }
+    return side;
+}
+
+static double slrt_across(const slrt_box_side *side, slrt_point p) {
+    return side->axis ? p.y : p.x;
+}
+
+/// Where a direction lies, given the signs of its x and y: 0 from +x on, 1 from -x on, 2 for an end
+/// at +x, once around.
+static int slrt_half_of(int x, int y, bool is_end) {
+    if (y) return y < 0;
+    return x < 0 ? 1 : is_end ? 2 : 0;
+}
+
+static int slrt_half_at(slrt_point eye, slrt_point p, bool is_end) {
+    if (p.y != eye.y) return p.y < eye.y;
+    return slrt_half_of(p.x < eye.x ? -1 : 1, 0, is_end);
+}
+
+/// The order of the directions of two points, counter-clockwise from +x.
+static int slrt_point_order(const slrt_eye *eye, slrt_point p, bool p_ends, slrt_point q,
+                            bool q_ends) {
+    const slrt_point at = slrt_eye_at(eye);
+    const int a = slrt_half_at(at, p, p_ends), b = slrt_half_at(at, q, q_ends);
+    return a != b ? a - b : -slrt_point_turn(eye, p, q);
+}
+
+static slrt_arc slrt_get_arc(const slrt_envelope *e, size_t i) {
+    slrt_arc arc;
+    memcpy(&arc, e->memory + SLRT_ARC_WORDS * i, sizeof arc);
+    return arc;
+}
+
+/// Adds an arc. One that goes on along the side of the last one becomes one with it.
+static void slrt_push_arc(slrt_envelope_maker *m, uint32_t side, slrt_point right,
+                          slrt_point left) {
+    slrt_arc arc;
+    if (m->e.count > m->floor && m->last == side) {
+        arc = slrt_get_arc(&m->e, m->e.count - 1);
+        if (arc.left.x == right.x && arc.left.y == right.y) {
+            right = arc.right;
+            m->e.count--;
+        }
+    }
+    if (m->e.count == m->room) {
+        m->is_full = true;
+        return;
+    }
+    arc.right = right;
+    arc.left = left;
+    arc.side = m->last = side;
+    memcpy(m->e.memory + SLRT_ARC_WORDS * m->e.count++, &arc, sizeof arc);
+}
+
+/// Adds the nearer one of two sides for all directions from `right` to `left`. At one distance it
+/// is the first one.
+static void slrt_push_nearer(slrt_envelope_maker *m, uint32_t a, uint32_t b, slrt_point right,
+                             slrt_point left) {
+    const slrt_point eye = slrt_eye_at(m->e.eye);
+    slrt_box_side side_a, side_b;
+    slrt_point cross;
+    uint32_t first, then;
+    if (a >= SLRT_AT_EYE || b >= SLRT_AT_EYE) {
+        slrt_push_arc(m, a >= SLRT_AT_EYE ? a : b, right, left);
+        return;
+    }
+    side_a = slrt_side_of(&m->e, a);
+    side_b = slrt_side_of(&m->e, b);
+    if (side_a.axis == side_b.axis) {
+        const bool before = side_a.at<side_b.at, ahead = side_a.at> slrt_across(&side_a, eye);
+        slrt_push_arc(m, side_a.at == side_b.at || before == ahead ? a : b, right, left);
+        return;
+    }
+    cross.x = side_a.axis ? side_b.at : side_a.at;
+    cross.y = side_a.axis ? side_a.at : side_b.at;
+    // Closer to the x axis than the crossing, the upright side is nearer.
+    first = ((cross.x > eye.x) == (cross.y > eye.y)) == (side_a.axis == 0) ? a : b;
+    then = first == a ? b : a;
+    if (slrt_point_turn(m->e.eye, left, cross) >= 0) {
+        slrt_push_arc(m, first, right, left);
+    } else if (slrt_point_turn(m->e.eye, right, cross) <= 0) {
+        slrt_push_arc(m, then, right, left);
+    } else {
+        slrt_push_arc(m, first, right, cross);
+        slrt_push_arc(m, then, cross, left);
+    }
+}
+
+/// A run of arcs that is used up from its start.
+typedef struct slrt_run {
+    slrt_arc arc; ///< what is left of the first one
+    size_t at, end;
+} slrt_run;
+
+static slrt_run slrt_start_run(const slrt_envelope_maker *m, size_t at, size_t end) {
+    slrt_run run;
+    run.arc = slrt_get_arc(&m->e, at);
+    run.at = at;
+    run.end = end;
+    return run;
+}
+
+static void slrt_next_arc(const slrt_envelope_maker *m, slrt_run *run) {
+    if (++run->at < run->end) run->arc = slrt_get_arc(&m->e, run->at);
+}
+
+static void slrt_push_rest(slrt_envelope_maker *m, slrt_run *run) {
+    for (; run->at < run->end; slrt_next_arc(m, run))
+        slrt_push_arc(m, run->arc.side, run->arc.right, run->arc.left);
+}
+
+/// Merges two runs, with what comes first of them.
+static void slrt_merge_next(slrt_envelope_maker *m, slrt_run *a, slrt_run *b) {
+    const int order = slrt_point_order(m->e.eye, a->arc.right, false, b->arc.right, false);
+    if (order) {
+        // The one that starts first goes up to its end, or to where the other one starts.
+        slrt_run *first = order < 0 ? a : b;
+        const slrt_point stop = order < 0 ? b->arc.right : a->arc.right;
+        const bool apart = slrt_point_order(m->e.eye, first->arc.left, true, stop, false) <= 0;
+        slrt_push_arc(m, first->arc.side, first->arc.right, apart ? first->arc.left : stop);
+        first->arc.right = stop;
+        if (apart) slrt_next_arc(m, first);
+    } else {
+        const int ends = slrt_point_order(m->e.eye, a->arc.left, true, b->arc.left, true);
+        const slrt_point stop = ends <= 0 ? a->arc.left : b->arc.left;
+        slrt_push_nearer(m, a->arc.side, b->arc.side, a->arc.right, stop);
+        a->arc.right = b->arc.right = stop;
+        if (ends <= 0) slrt_next_arc(m, a);
+        if (ends >= 0) slrt_next_arc(m, b);
+    }
+}
+
+/// Merges the last two runs.
+static void slrt_merge_last(slrt_envelope_maker *m) {
+    const size_t to = m->runs[m->run_count - 2], stop = m->e.count;
+    slrt_run a, b;
+    size_t i;
+    m->run_count--;
+    m->ranks[m->run_count - 1]++;
+    a = slrt_start_run(m, to, m->runs[m->run_count]);
+    b = slrt_start_run(m, m->runs[m->run_count], stop);
+    m->floor = stop;
+    while (a.at < a.end && b.at < b.end) slrt_merge_next(m, &a, &b);
+    slrt_push_rest(m, &a);
+    slrt_push_rest(m, &b);
+    m->e.count -= stop - to;
+    for (i = to; i < m->e.count; i++)
+        memcpy(m->e.memory + SLRT_ARC_WORDS * i, m->e.memory + SLRT_ARC_WORDS * (i + stop - to),
+               sizeof(slrt_arc));
+}
+
+static void slrt_start_envelope(slrt_envelope_maker *m, const slrt_eye *eye,
+                                const slrt_box_list *boxes, uint32_t *memory, size_t room) {
+    m->e.eye = eye;
+    m->e.boxes = boxes;
+    m->e.memory = memory;
+    m->e.count = 0;
+    m->toward[0] = m->toward[1] = 1;
+    m->room = room;
+    m->run_count = 0;
+    m->is_full = false;
+}
+
+/// Starts a run with an arc, in two parts where it passes +x.
+static void slrt_push_run(slrt_envelope_maker *m, uint32_t side, slrt_point right,
+                          slrt_point left) {
+    m->floor = m->runs[m->run_count] = m->e.count;
+    m->ranks[m->run_count++] = 0;
+    if (slrt_point_order(m->e.eye, right, false, left, true) < 0) {
+        slrt_push_arc(m, side, right, left);
+    } else {
+        slrt_point split;
+        split.x = slrt_side_of(&m->e, side).at;
+        split.y = slrt_eye_at(m->e.eye).y;
+        slrt_push_arc(m, side, split, left);
+        slrt_push_arc(m, side, right, split);
+    }
+}
+
+/// Whether the eye is in a box and the quadrant that it sees too.
+static bool slrt_looks_from_within(const slrt_envelope_maker *m, const double *box) {
+    const slrt_point eye = slrt_eye_at(m->e.eye);
+    return (m->toward[0] > 0 ? box[0] <= eye.x && eye.x < box[2]
+                             : box[0] < eye.x && eye.x <= box[2]) &&
+           (m->toward[1] > 0 ? box[1] <= eye.y && eye.y < box[3]
+                             : box[1] < eye.y && eye.y <= box[3]);
+}
+
+/// Whether the eye sees side k of a box, if nothing else is there: one that faces it, or any from
+/// within.
+static bool slrt_sees_side(const slrt_envelope_maker *m, const double *box, bool is_in, int k) {
+    const slrt_point eye = slrt_eye_at(m->e.eye);
+    const int axis = k >= 2;
+    const double from = axis ? eye.y : eye.x, at = box[axis + 2 * (k % 2)];
+    if (!(box[!axis] < box[2 + !axis])) return false;
+    if (is_in) return from != at;
+    return k % 2 ? from > at : from < at;
+}
+
+/// Adds a box. Runs of as many boxes are merged: so each arc takes part in few merges.
+static void slrt_add_box(slrt_envelope_maker *m, uint32_t number) {
+    const unsigned before = m->run_count;
+    bool is_in;
+    double box[4];
+    int k;
+    slrt_read_box(m->e.boxes, number, box);
+    is_in = slrt_looks_from_within(m, box);
+    for (k = 0; k < 4; k++) {
+        slrt_box_side side;
+        if (!slrt_sees_side(m, box, is_in, k)) continue;
+        side = slrt_side_of(&m->e, 4 * number + (uint32_t)k);
+        slrt_push_run(m, 4 * number + (uint32_t)k, side.a, side.b);
+        if (m->run_count > before + 1) slrt_merge_last(m);
+    }
+    if (m->run_count == before) return;
+    m->ranks[before] = 0;
+    while (m->run_count > 1 && m->ranks[m->run_count - 2] == m->ranks[m->run_count - 1])
+        slrt_merge_last(m);
+}
+
+static void slrt_finish_envelope(slrt_envelope_maker *m) {
+    while (m->run_count > 1) slrt_merge_last(m);
+}
+
+// --- What stands before a piece of a wall: the sides of boxes that are nearer
+
+// A piece is compared with the arcs of the envelope that it meets. Within one arc its line and that
+// of the side cross once at most. So the order at both ends of an interval says which is nearer:
+//
+//        1           2        the piece is behind side 1, before the gap and side 2 it is seen,
+//     .-----.      .---.      side 3 crosses it. What is seen comes counter-clockwise, part by
+//     |  ---+------+---+--*-  part, and one part ends where the next one starts, or straight
+//                        / 3  before it or behind it.
+//
+// Only where a side crosses an oblique wall is a point rounded, and nothing is compared with that.
+//
+// Beside what box_envelope.h needs, the header and the library say what these are:
+//
+//     slrt_sight         where parts go
+//     slrt_ray           from the eye; slrt_ray_to makes it through a point other than the eye
+//     slrt_turn_to       which side of a ray a point is on: 1 left, -1 right, 0 in one line; exact
+//     slrt_ray_sign      whether a ray goes up along an axis (0: x) or down: 1, -1, 0
+//
+// and define after it the functions that it declares without a body.
+
+/// Where a part starts or ends: at a ray.
+typedef struct slrt_part_end {
+    slrt_ray ray;
+    bool on;      ///< the ray's point is on the part, and is where it ends
+    bool crosses; ///< there the piece and a side cross
+} slrt_part_end;
+
+/// A piece from a to b as the eye sees it, of which the part from `start` to `stop` is asked for.
+typedef struct slrt_sieve {
+    const slrt_envelope *envelope;
+    slrt_sight *sight;
+    slrt_point a, b;
+    slrt_part_end start, stop;
+} slrt_sieve;
+
+/// The sign of u_m (s x (a - eye)) - (s x u)(at - eye_m), for s = b - a, the ray's direction u and
+/// the coordinate m of the axis: on which side of the axial line the ray meets that through a and
+/// b. Exact.
+static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
+                           int axis, double at);
+
+/// Where the line through a and b crosses a side.
+static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side);
+
+/// Takes what is seen between two bounds: of a side of a box, or of the piece (SLRT_NO_SIDE).
+static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
+                          const slrt_part_end *from, const slrt_part_end *to);
+
+static slrt_part_end slrt_bound_at(const slrt_sieve *s, slrt_point p, bool on) {
+    slrt_part_end bound;
+    bound.ray = slrt_ray_to(s->envelope->eye, p);
+    bound.on = on;
+    bound.crosses = false;
+    return bound;
+}
+
+/// A bound as one of a side, whose end may be on its ray.
+static slrt_part_end slrt_bound_on(const slrt_sieve *s, const slrt_part_end *at, slrt_point end) {
+    slrt_part_end bound = *at;
+    if (at->crosses) return bound;
+    if (!slrt_turn_to(s->envelope->eye, &at->ray, end)) return slrt_bound_at(s, end, true);
+    bound.on = false;
+    return bound;
+}
+
+static void slrt_see_side(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
+                          const slrt_part_end *from, const slrt_part_end *to) {
+    slrt_part_end start, stop;
+    if (number >= SLRT_AT_EYE) {
+        slrt_see_part(s, number, NULL, from, to);
+        return;
+    }
+    start = slrt_bound_on(s, from, side->a);
+    stop = slrt_bound_on(s, to, side->b);
+    slrt_see_part(s, number, side, &start, &stop);
+}
+
+/// Whether the piece is behind a side (1), before it (-1) or at it, on a ray that meets both.
+static int slrt_depth_at(const slrt_sieve *s, const slrt_box_side *side, const slrt_ray *ray) {
+    const slrt_eye *eye = s->envelope->eye;
+    const int sign = slrt_side_meets(eye, ray, s->a, s->b, side->axis, side->at);
+    return side->at > slrt_across(side, slrt_eye_at(eye)) ? -sign : sign;
+}
+
+/// How far the parts of a piece have come: what is before `at` is added, but for the piece itself
+/// from `from` on while it is `open`.
+typedef struct slrt_sieving {
+    slrt_part_end at, from;
+    bool open;
+} slrt_sieving;
+
+/// Ends the part of the piece that is open.
+static void slrt_shut(const slrt_sieve *s, slrt_sieving *now, const slrt_part_end *at) {
+    if (now->open) slrt_see_part(s, SLRT_NO_SIDE, NULL, &now->from, at);
+    now->open = false;
+}
+
+static void slrt_open(slrt_sieving *now, const slrt_part_end *at) {
+    if (!now->open) now->from = *at;
+    now->open = true;
+}
+
+/// Goes on to a bound, with the side of an arc all the way.
+static void slrt_pass_side(const slrt_sieve *s, slrt_sieving *now, uint32_t number,
+                           const slrt_part_end *to) {
+    slrt_box_side side;
+    int first = 1, last = 1;
+    if (number < SLRT_AT_EYE) {
+        side = slrt_side_of(s->envelope, number);
+        first = slrt_depth_at(s, &side, &now->at.ray);
+        last = slrt_depth_at(s, &side, &to->ray);
+    }
+    if (first <= 0 && last <= 0) {
+        slrt_open(now, &now->at);
+    } else if (first >= 0 && last >= 0) {
+        slrt_shut(s, now, &now->at);
+        slrt_see_side(s, number, &side, &now->at, to);
+    } else {
+        slrt_part_end middle = slrt_bound_at(s, slrt_cross_side(s->a, s->b, &side), true);
+        middle.crosses = true;
+        if (first < 0) {
+            slrt_open(now, &now->at);
+            slrt_shut(s, now, &middle);
+            slrt_see_side(s, number, &side, &middle, to);
+        } else {
+            slrt_shut(s, now, &now->at);
+            slrt_see_side(s, number, &side, &now->at, &middle);
+            slrt_open(now, &middle);
+        }
+    }
+    now->at = *to;
+}
+
+/// The first arc that ends beyond the start of the piece.
+static size_t slrt_first_arc(const slrt_sieve *s) {
+    const slrt_envelope *e = s->envelope;
+    const slrt_point eye = slrt_eye_at(e->eye);
+    const slrt_ray *start = &s->start.ray;
+    const int half =
+        slrt_half_of(slrt_ray_sign(e->eye, start, 0), slrt_ray_sign(e->eye, start, 1), false);
+    size_t low = 0, high = e->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const slrt_point left = slrt_get_arc(e, middle).left;
+        const int order = slrt_half_at(eye, left, true) - half;
+        if (order ? order < 0 : slrt_turn_to(e->eye, start, left) <= 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < e->count ? low : 0;
+}
+
+/// Whether an arc and the piece have directions in common. *held: the piece starts within the arc.
+static bool slrt_meets_arc(const slrt_sieve *s, const slrt_arc *arc, bool is_first, bool *held) {
+    const slrt_eye *eye = s->envelope->eye;
+    const int from = slrt_turn_to(eye, &s->start.ray, arc->right);
+    *held = is_first && from <= 0 && slrt_turn_to(eye, &s->start.ray, arc->left) > 0;
+    return *held || (from >= 0 && slrt_turn_to(eye, &s->stop.ray, arc->right) < 0);
+}
+
+/// Sees a piece past the boxes.
+static void slrt_sieve_piece(const slrt_sieve *s) {
+    const slrt_envelope *e = s->envelope;
+    size_t k = slrt_first_arc(s), i;
+    slrt_arc arc = slrt_get_arc(e, k);
+    slrt_sieving now;
+    bool held, done = false;
+    if (!slrt_meets_arc(s, &arc, true, &held)) {
+        slrt_see_part(s, SLRT_NO_SIDE, NULL, &s->start, &s->stop);
+        return;
+    }
+    now.at = now.from = s->start;
+    now.open = false;
+    for (i = 0; i < e->count && !done; i++) {
+        slrt_part_end to;
+        if (i && !slrt_meets_arc(s, &arc, false, &held)) break;
+        if (!held && slrt_turn_to(e->eye, &now.at.ray, arc.right) > 0) {
+            slrt_open(&now, &now.at);
+            now.at = slrt_bound_at(s, arc.right, false);
+        }
+        done = slrt_turn_to(e->eye, &s->stop.ray, arc.left) >= 0;
+        to = done ? s->stop : slrt_bound_at(s, arc.left, false);
+        slrt_pass_side(s, &now, arc.side, &to);
+        k = k + 1 < e->count ? k + 1 : 0;
+        arc = slrt_get_arc(e, k);
+    }
+    if (!done) slrt_open(&now, &now.at);
+    slrt_shut(s, &now, &s->stop);
+}
+
+// --- The visible polygon past boxes
+
+// The polygon is made without boxes, and the boxes of the cells that it comes to are gathered. If
+// some of these block, it is made again: each piece of a wall is compared with the envelope of
+// their sides (box_envelope.h, box_sieve.h).
+//
+//         \   |          Sides of boxes that go through the eye hide nothing, but they part what is
+//      .---*--+  the     around it, as walls there do. The eye sees the part that begins with its
+//      |  / box  eye     own cell. What lies beside that part is hidden: arcs at no distance at
+//      all.
+
+SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
+    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count +
+           SLRT_ARC_WORDS * slrt_arcs_room(boxes->count);
+}
+
+static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b,
+                           int axis, double at) {
+    double from[2], to[2];
+    from[0] = a.x, from[1] = a.y;
+    to[0] = b.x, to[1] = b.y;
+    return slrt_meet_sign(eye, ray, from, to, axis, at);
+}
+
+static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side) {
+    const int axis = side->axis;
+    const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
+    const double share = (side->at - from) / (to - from);
+    slrt_point cross;
+    cross.x = axis ? slrt_limited(a.x, a.x + share * (b.x - a.x), b.x) : side->at;
+    cross.y = axis ? side->at : slrt_limited(a.y, a.y + share * (b.y - a.y), b.y);
+    return cross;
+}
+
+static void slrt_place_bound(const slrt_polygon *p, const slrt_part_end *at,
+                             const slrt_piece *piece, double *out) {
+    if (at->on) {
+        out[0] = at->ray.to_x;
+        out[1] = at->ray.to_y;
+    } else {
+        slrt_meet_line(p, &at->ray, piece, out);
+    }
+}
+
+static void slrt_see_part(const slrt_sieve *s, uint32_t number, const slrt_box_side *side,
+                          const slrt_part_end *from, const slrt_part_end *to) {
+    slrt_polygon *p = s->sight;
+    const slrt_point a = side ? side->a : s->a, b = side ? side->b : s->b;
+    slrt_piece piece;
+    double end[2];
+    if (!side && number != SLRT_NO_SIDE) {
+        slrt_add_eye(p);
+        return;
+    }
+    piece.a[0] = a.x, piece.a[1] = a.y;
+    piece.b[0] = b.x, piece.b[1] = b.y;
+    piece.directed = SLRT_NONE;
+    if (!slrt_joins(p, &piece)) {
+        slrt_place_bound(p, from, &piece, end);
+        slrt_start_piece(p, &piece, end);
+    }
+    slrt_place_bound(p, to, &piece, end);
+    slrt_extend_piece(p, &piece, SLRT_NONE, end);
+}
+
+/// What is done with the boxes of a polygon.
+typedef struct slrt_past_boxes {
+    const sl_runtime_boxes *boxes;
+    uint32_t *blockers, count; ///< boxes that block in the cells that are seen
+    uint32_t *marks;           ///< by box: whether it is one
+    slrt_envelope_maker maker;
+} slrt_past_boxes;
+
+static void slrt_gather_boxes(slrt_polygon *p, uint32_t cell) {
+    slrt_past_boxes *past = (slrt_past_boxes *)p->job;
+    uint32_t at = *slrt_first_entry(past->boxes, cell);
+    while (at != SLRT_NO_ENTRY) {
+        const uint32_t *entry = slrt_entry(past->boxes, at);
+        const uint32_t box = entry[SLRT_ENTRY_BOX];
+        if (past->boxes->boxes[box].blocks && !past->marks[box]) {
+            past->marks[box] = 1;
+            past->blockers[past->count++] = box;
+        }
+        at = entry[SLRT_ENTRY_IN_CELL];
+    }
+}
+
+static void slrt_see_past_boxes(slrt_polygon *p, uint32_t cell, const slrt_piece *piece,
+                                uint32_t right, uint32_t left) {
+    const slrt_past_boxes *past = (const slrt_past_boxes *)p->job;
+    slrt_sieve s;
+    (void)cell;
+    s.envelope = &past->maker.e;
+    s.sight = p;
+    s.a.x = piece->a[0], s.a.y = piece->a[1];
+    s.b.x = piece->b[0], s.b.y = piece->b[1];
+    s.start = slrt_bound_at(&s, s.a, right == SLRT_NONE);
+    s.stop = slrt_bound_at(&s, s.b, left == SLRT_NONE);
+    if (right != SLRT_NONE) s.start.ray = slrt_border(&p->s, right);
+    if (left != SLRT_NONE) s.stop.ray = slrt_border(&p->s, left);
+    slrt_sieve_piece(&s);
+}
+
+// Where sides of boxes go through the eye.
+
+/// A point straight along an axis from the eye: 0 right, 1 above, 2 left, 3 under.
+static slrt_point slrt_axis_point(const slrt_polygon *p, int quarter) {
+    const sl_runtime *rt = p->s.rt;
+    slrt_point at = slrt_eye_at(&p->s);
+    const double x = slrt_larger(at.x, rt->max_x - rt->min_x);
+    const double y = slrt_larger(at.y, rt->max_y - rt->min_y);
+    at.x += quarter == 0 ? x : quarter == 2 ? -x : 0;
+    at.y += quarter == 1 ? y : quarter == 3 ? -y : 0;
+    return at;
+}
+
+/// The directions, as bits of quarters, in which sides of a box leave the eye.
+static unsigned slrt_sides_at_eye(const slrt_polygon *p, const sl_runtime_box *box) {
+    const double x = p->s.x, y = p->s.y;
+    unsigned found = 0;
+    if (!slrt_box_holds(box, x, y)) return 0;
+    if (y == box->min_y || y == box->max_y) {
+        if (x < box->max_x) found |= 1;
+        if (x > box->min_x) found |= 4;
+    }
+    if (x == box->min_x || x == box->max_x) {
+        if (y < box->max_y) found |= 2;
+        if (y > box->min_y) found |= 8;
+    }
+    return found;
+}
+
+/// Whether a ray is in the sector from u to v, of at most 180 degrees, but not on v.
+static bool slrt_begins_in(const slrt_arm *u, const slrt_arm *v, const slrt_arm *ray) {
+    return (slrt_side(u, ray) > 0 && slrt_side(ray, v) > 0) || slrt_same_ray(u, ray);
+}
+
+/// Where, counter-clockwise, the quadrant begins that counts for an eye on the border of a box: the
+/// part of it that the eye's cell is in. It is the one right of the eye and over it, if the cell
+/// reaches into that, else the next one in the order of sl_runtime_locate.
+static slrt_point slrt_find_quadrant(slrt_polygon *p, int toward[2]) {
+    const slrt_touch touch = slrt_touch_of(p, p->s.eye_cell);
+    const slrt_arm u = slrt_arm_to(p, touch.behind_end), v = slrt_arm_to(p, touch.before_end);
+    slrt_point at = slrt_axis_point(p, 0);
+    int i;
+    for (i = 0; i < 4; i++) {
+        const int quarter = i == 2 ? 3 : i == 3 ? 2 : i;
+        const slrt_point from = slrt_axis_point(p, quarter);
+        const slrt_arm a = slrt_ray_to(&p->s, from);
+        const slrt_arm b = slrt_ray_to(&p->s, slrt_axis_point(p, (quarter + 1) % 4));
+        toward[0] = i & 1 ? -1 : 1;
+        toward[1] = i & 2 ? -1 : 1;
+        if (!touch.any || slrt_begins_in(&u, &v, &a)) return from;
+        at.x = touch.behind_end[0], at.y = touch.behind_end[1];
+        if (slrt_begins_in(&a, &b, &u)) return at;
+    }
+    return at;
+}
+
+/// Whether the ray through p comes before the one through q, counter-clockwise from behind `base`
+/// once around to it.
+static bool slrt_comes_before(const slrt_eye *eye, slrt_point base, slrt_point p, slrt_point q) {
+    const slrt_arm b = slrt_ray_to(eye, base), u = slrt_ray_to(eye, p), v = slrt_ray_to(eye, q);
+    const int b_u = slrt_side(&b, &u), b_v = slrt_side(&b, &v);
+    const int lap_u = b_u > 0 ? 0 : b_u < 0 ? 2 : slrt_same_way(&b, &u) ? 3 : 1;
+    const int lap_v = b_v > 0 ? 0 : b_v < 0 ? 2 : slrt_same_way(&b, &v) ? 3 : 1;
+    return lap_u != lap_v ? lap_u < lap_v : slrt_side(&u, &v) > 0;
+}
+
+/// Hides all directions from one to another one, in parts that end at the axes.
+static void slrt_hide_from_eye(slrt_polygon *p, slrt_envelope_maker *m, slrt_point from,
+                               slrt_point to) {
+    uint32_t i;
+    for (i = 0; i < 5; i++) {
+        const slrt_arm u = slrt_ray_to(&p->s, from), v = slrt_ray_to(&p->s, to);
+        const int x = slrt_arm_sign(&u, 0), y = slrt_arm_sign(&u, 1);
+        const int next = x > 0 && y >= 0 ? 1 : x <= 0 && y > 0 ? 2 : x < 0 ? 3 : 0;
+        const slrt_point axis = slrt_axis_point(p, next);
+        const bool ends = slrt_side(&u, &v) > 0 && slrt_point_turn(&p->s, to, axis) >= 0;
+        slrt_push_run(m, SLRT_AT_EYE + i, from, ends ? to : axis);
+        if (m->run_count > 1) slrt_merge_last(m);
+        if (ends) return;
+        from = axis;
+    }
+}
+
+/// Hides what the eye does not see as sides of boxes, perhaps with walls, part what is around it.
+/// One side alone, or a wall in its direction, is seen edge-on.
+static void slrt_part_at_eye(slrt_polygon *p, slrt_past_boxes *past) {
+    slrt_point rays[6], base, first, last;
+    unsigned sides = 0;
+    uint32_t i, count = 0;
+    for (i = 0; i < past->count; i++)
+        sides |= slrt_sides_at_eye(p, &past->boxes->boxes[past->blockers[i]]);
+    if (!sides) return;
+    for (i = 0; i < 4; i++)
+        if (sides >> i & 1) rays[count++] = slrt_axis_point(p, (int)i);
+    if (!p->fan_is_closed) {
+        rays[count].x = p->fan_right[0], rays[count++].y = p->fan_right[1];
+        rays[count].x = p->fan_left[0], rays[count++].y = p->fan_left[1];
+    }
+    base = slrt_find_quadrant(p, past->maker.toward);
+    first = last = rays[0];
+    for (i = 1; i < count; i++) {
+        if (slrt_comes_before(&p->s, base, rays[i], first)) first = rays[i];
+        if (slrt_comes_before(&p->s, base, last, rays[i])) last = rays[i];
+    }
+    if (slrt_comes_before(&p->s, base, first, last))
+        slrt_hide_from_eye(p, &past->maker, first, last);
+}
+
+/// Makes the envelope of the boxes gathered. False if nothing of them hides anything.
+static bool slrt_make_envelope(slrt_polygon *p, slrt_past_boxes *past, uint32_t *memory) {
+    uint32_t i;
+    slrt_start_envelope(&past->maker, &p->s, past->boxes->boxes, memory,
+                        slrt_arcs_room(past->boxes->count));
+    slrt_part_at_eye(p, past);
+    for (i = 0; i < past->count; i++) slrt_add_box(&past->maker, past->blockers[i]);
+    slrt_finish_envelope(&past->maker);
+    p->broken = p->broken || past->maker.is_full;
+    return past->maker.e.count != 0;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_boxes *boxes,
+                                                              const sl_runtime_view *view,
+                                                              const unsigned char *shut,
+                                                              double range, uint32_t *boxes_scratch,
+                                                              double *points, uint32_t room) {
+    const sl_runtime *rt = boxes->runtime;
+    slrt_past_boxes past;
+    slrt_polygon p;
+    uint32_t count;
+    past.boxes = boxes;
+    past.blockers = boxes_scratch + sl_runtime_scratch_count(rt);
+    past.marks = past.blockers + boxes->count;
+    past.count = 0;
+    if (boxes->count) memset(past.marks, 0, boxes->count * sizeof *past.marks);
+    if (!slrt_start_polygon(&p, rt, view, shut, range, boxes_scratch, points, room)) return 0;
+    p.meet = slrt_gather_boxes;
+    p.job = &past;
+    slrt_find_fan(&p);
+    count = slrt_see_polygon(&p);
+    if (!count || !past.count) return count;
+    slrt_start_polygon(&p, rt, view, shut, range, boxes_scratch, points, room);
+    slrt_find_fan(&p);
+    if (!slrt_make_envelope(&p, &past, past.marks + boxes->count)) return count;
+    p.see_wall = slrt_see_past_boxes;
+    p.job = &past;
+    return slrt_see_polygon(&p);
+}
+
+// --- The visible polygon, and what is seen in mirrors
+
+// The map stays where it is and the eye is reflected. What the eye sees in a mirror is what its
+// image sees straight through the mirror, into the cell before it:
+//
+//       \    eye    /
+//        \         /         The image lies behind the mirror. It looks between two borders, those
+//     ===[ mirror ]===       of the piece of the mirror that is seen: a sector, as in polygon.h,
+//          \     /           about another eye.
+//           image
+//
+// A border is a direction. An axial mirror changes the sign of its x or its y, which is exact. So
+// all signs are right as long as the image is one of doubles. The list of parts is also what waits:
+// each part adds those that are seen in it to the end. Cost: a polygon for each part, and for each
+// wall seen all mirrors.
+
+typedef struct slrt_mirrors_job {
+    sl_runtime_mirror_part *parts;
+    uint32_t room, count; ///< of parts, those that wait included
+    uint32_t missed;      ///< parts for which there is no room
+    uint32_t depth;       ///< the most
+    uint32_t here;        ///< the part that is made
+} slrt_mirrors_job;
+
+static slrt_arm slrt_arm_of(const double *border) {
+    return slrt_make_arm(border[2], border[3], border[0], border[1]);
+}
+
+/// Whether a piece of a cell's boundary is on the line of a mirror. A side on an oblique wall may
+/// be rounded, so the wall is asked.
+static bool slrt_is_on_line(const sl_runtime *rt, uint32_t cell, const slrt_piece *piece,
+                            const double *from, const double *to) {
+    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
+    double a[2], b[2];
+    uint32_t i, wall;
+    memcpy(a, piece->a, sizeof a);
+    memcpy(b, piece->b, sizeof b);
+    for (i = 0; rt->neighbours && rt->walls && i < c.vertex_count; i++) {
+        const unsigned char *end;
+        slrt_read_vertex(rt, &c, slrt_next_corner(&c, i), b);
+        if (!slrt_same_place(b, piece->b)) continue;
+        wall = slrt_u32(rt->neighbours + ((size_t)c.first_vertex + i) * 4) & 0x7fffffffu;
+        if (wall >= rt->wall_count) return false;
+        end = rt->walls + (size_t)wall * 32;
+        a[0] = slrt_f64(end), a[1] = slrt_f64(end + 8);
+        b[0] = slrt_f64(end + 16), b[1] = slrt_f64(end + 24);
+        break;
+    }
+    return !slrt_turn(a, b, from) && !slrt_turn(a, b, to);
+}
+
+/// A number that grows from a to b.
+static double slrt_along(const slrt_piece *piece, const double *at) {
+    const double x = piece->b[0] - piece->a[0], y = piece->b[1] - piece->a[1];
+    if ((x < 0 ? -x : x) >= (y < 0 ? -y : y)) return x > 0 ? at[0] : -at[0];
+    return y > 0 ? at[1] : -at[1];
+}
+
+/// Cuts a piece of a cell's boundary to a mirror's ends. False if nothing of it reflects.
+static bool slrt_cut_to_mirror(const sl_runtime *rt, uint32_t cell, const unsigned char *mirror,
+                               slrt_piece *piece) {
+    double ends[2][2];
+    bool turned;
+    ends[0][0] = slrt_f64(mirror), ends[0][1] = slrt_f64(mirror + 8);
+    ends[1][0] = slrt_f64(mirror + 16), ends[1][1] = slrt_f64(mirror + 24);
+    turned = slrt_along(piece, ends[0]) > slrt_along(piece, ends[1]);
+    if ((turned && slrt_u64(mirror + 32)) || !slrt_is_on_line(rt, cell, piece, ends[0], ends[1]) ||
+        slrt_along(piece, ends[!turned]) <= slrt_along(piece, piece->a) ||
+        slrt_along(piece, ends[turned]) >= slrt_along(piece, piece->b))
+        return false;
+    if (slrt_along(piece, ends[turned]) > slrt_along(piece, piece->a))
+        memcpy(piece->a, ends[turned], sizeof piece->a);
+    if (slrt_along(piece, ends[!turned]) < slrt_along(piece, piece->b))
+        memcpy(piece->b, ends[!turned], sizeof piece->b);
+    return true;
+}
+
+/// Reflects directions and places in a mirror's line: (x, y) becomes
+/// (m[0] x + m[1] y + m[2], m[3] x + m[4] y + m[5]).
+static void slrt_reflection(const unsigned char *mirror, double *m) {
+    const double x = slrt_f64(mirror), y = slrt_f64(mirror + 8);
+    double u[2];
+    u[0] = slrt_f64(mirror + 16) - x;
+    u[1] = slrt_f64(mirror + 24) - y;
+    if (u[0] != 0 && u[1] != 0) slrt_make_unit(u);
+    m[0] = u[0] == 0 ? -1 : u[1] == 0 ? 1 : u[0] * u[0] - u[1] * u[1];
+    m[4] = -m[0];
+    m[1] = m[3] = u[0] != 0 && u[1] != 0 ? 2 * u[0] * u[1] : 0;
+    m[2] = m[1] == 0 ? (u[0] == 0 ? 2 * x : 0) : x - m[0] * x - m[1] * y;
+    m[5] = m[1] == 0 ? (u[1] == 0 ? 2 * y : 0) : y - m[3] * x - m[4] * y;
+}
+
+/// a + b; *rounded is set if that is not exact (Knuth's two-sum).
+static double slrt_sum(double a, double b, bool *rounded) {
+    const double sum = a + b, added = sum - a;
+    if ((a - (sum - added)) + (b - added) != 0) *rounded = true;
+    return sum;
+}
+
+static void slrt_reflect_place(const double *m, const double *at, double *out, bool *rounded) {
+    const double x = at[0], y = at[1];
+    if (m[1] != 0) *rounded = true;
+    out[0] = m[1] == 0 ? slrt_sum(m[0] * x, m[2], rounded) : m[0] * x + m[1] * y + m[2];
+    out[1] = m[1] == 0 ? slrt_sum(m[4] * y, m[5], rounded) : m[3] * x + m[4] * y + m[5];
+}
+
+/// Reflects a border of what is seen. `end`: of the mirror's piece, which it is not beyond, but for
+/// rounding; `turn`: 1 if that is its right end, -1 if its left one.
+static void slrt_reflect_border(const double *m, const slrt_arm *arm, const slrt_arm *end, int turn,
+                                double *border) {
+    slrt_arm image;
+    if (m[1] == 0)
+        image = slrt_make_arm(m[0] * arm->from_x, m[4] * arm->from_y, m[0] * arm->to_x,
+                              m[4] * arm->to_y);
+    else
+        image = slrt_make_arm(0, 0, m[0] * arm->x + m[1] * arm->y, m[3] * arm->x + m[4] * arm->y);
+    if (slrt_side(&image, end) * turn > 0) image = *end;
+    border[0] = image.to_x, border[1] = image.to_y;
+    border[2] = image.from_x, border[3] = image.from_y;
+}
+
+/// The frame in which the map appears behind one more mirror.
+static void slrt_reflect_frame(const double *f, const double *m, double *out) {
+    int i;
+    for (i = 0; i < 6; i += 3) {
+        out[i] = f[i] * m[0] + f[i + 1] * m[3];
+        out[i + 1] = f[i] * m[1] + f[i + 1] * m[4];
+        out[i + 2] = f[i] * m[2] + f[i + 1] * m[5] + f[i + 2];
+    }
+}
+
+/// Limits a piece of a mirror to what is within range. False if that is nothing.
+static bool slrt_limit_to_range(const slrt_polygon *p, slrt_piece *piece) {
+    const slrt_chord c = slrt_chord_of(p, piece->a, piece->b);
+    double a[2], b[2], unit[2];
+    if (!(p->s.range > 0) || (c.a_inside && c.b_inside)) return true;
+    if (!c.a_inside && !c.b_inside && !(c.enter < c.leave && c.enter < 1 && c.leave > 0))
+        return false;
+    memcpy(a, piece->a, sizeof a);
+    memcpy(b, piece->b, sizeof b);
+    if (!c.a_inside) slrt_cross_circle(p, &c, c.enter, a, b, piece->a, unit);
+    if (!c.b_inside) slrt_cross_circle(p, &c, c.leave, a, b, piece->b, unit);
+    return !slrt_same_place(piece->a, piece->b);
+}
+
+/// Adds the part that is seen in a piece of a mirror, from the border `right` to `left` or, for
+/// SLRT_NONE, its ends.
+static void slrt_add_part(const slrt_polygon *p, uint32_t cell, uint32_t mirror,
+                          const slrt_piece *piece, uint32_t right, uint32_t left) {
+    slrt_mirrors_job *job = (slrt_mirrors_job *)p->job;
+    const sl_runtime_mirror_part *from = &job->parts[job->here];
+    slrt_arm u = slrt_arm_to(p, piece->a), v = slrt_arm_to(p, piece->b);
+    const slrt_arm a = right == SLRT_NONE ? u : slrt_border(&p->s, right);
+    const slrt_arm b = left == SLRT_NONE ? v : slrt_border(&p->s, left);
+    double m[6];
+    slrt_arm end;
+    sl_runtime_mirror_part *to;
+    if (slrt_side(&u, &a) > 0) u = a;
+    if (slrt_side(&b, &v) > 0) v = b;
+    if (slrt_side(&u, &v) <= 0) return;
+    if (job->count == job->room) {
+        job->missed++;
+        return;
+    }
+    to = &job->parts[job->count++];
+    memset(to, 0, sizeof *to);
+    slrt_reflection(p->s.rt->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES, m);
+    to->mirror = mirror;
+    to->parent = job->here;
+    to->depth = from->depth + 1;
+    to->rounded = from->rounded;
+    to->cell = cell;
+    slrt_reflect_place(m, from->eye, to->eye, &to->rounded);
+    slrt_reflect_frame(from->frame, m, to->frame);
+    end = slrt_make_arm(to->eye[0], to->eye[1], piece->b[0], piece->b[1]);
+    slrt_reflect_border(m, &v, &end, 1, to->right);
+    end = slrt_make_arm(to->eye[0], to->eye[1], piece->a[0], piece->a[1]);
+    slrt_reflect_border(m, &u, &end, -1, to->left);
+    memcpy(to->at, piece->b, sizeof piece->b);
+    memcpy(to->at + 2, piece->a, sizeof piece->a);
+}
+
+/// Finds the first place on a piece of a cell's boundary, from a on, that is on a mirror, up to
+/// where that mirror ends or an earlier one of the map begins. False for none.
+static bool slrt_next_mirror(slrt_polygon *p, uint32_t cell, const slrt_piece *piece,
+                             slrt_piece *cut, uint32_t *mirror) {
+    const sl_runtime *rt = p->s.rt;
+    bool found = false;
+    uint32_t i;
+    if (p->s.patience < rt->mirror_count) p->broken = true;
+    for (i = 0; i < rt->mirror_count && !p->broken; i++) {
+        slrt_piece on = *piece;
+        if (!slrt_cut_to_mirror(rt, cell, rt->mirror_lines + (size_t)i * SLRT_MIRROR_BYTES, &on) ||
+            (found && slrt_along(piece, on.a) >= slrt_along(piece, cut->a)))
+            continue;
+        if (found && slrt_along(piece, cut->a) < slrt_along(piece, on.b))
+            memcpy(on.b, cut->a, sizeof on.b);
+        *cut = on;
+        *mirror = i;
+        found = true;
+    }
+    p->s.patience -= i;
+    return found;
+}
+
+/// Adds a wall, and what is seen in the mirrors on it.
+static void slrt_see_reflecting(slrt_polygon *p, uint32_t cell, const slrt_piece *piece,
+                                uint32_t right, uint32_t left) {
+    const slrt_mirrors_job *job = (const slrt_mirrors_job *)p->job;
+    const sl_runtime_mirror_part *here = &job->parts[job->here];
+    slrt_piece rest = *piece, cut;
+    uint32_t mirror = 0;
+    slrt_add_wall(p, piece, right, left);
+    if (here->depth == job->depth || piece->directed != SLRT_NONE) return;
+    while (slrt_along(piece, rest.a) < slrt_along(piece, rest.b) &&
+           slrt_next_mirror(p, cell, &rest, &cut, &mirror)) {
+        memcpy(rest.a, cut.b, sizeof rest.a);
+        // Behind a mirror its own side is behind the line of sight, but for rounding.
+        if (!(here->depth && mirror == here->mirror) && slrt_limit_to_range(p, &cut))
+            slrt_add_part(p, cell, mirror, &cut, right, left);
+    }
+}
+
+/// Makes the polygon of a part: from the right end of the mirror's piece, counter-clockwise about
+/// the image, to the left end.
+static uint32_t slrt_see_in_mirror(slrt_polygon *p, const sl_runtime_mirror_part *part) {
+    const slrt_arm right = slrt_arm_of(part->right), left = slrt_arm_of(part->left);
+    slrt_piece mirror;
+    double at[2];
+    memcpy(mirror.a, part->at, sizeof mirror.a);
+    memcpy(mirror.b, part->at + 2, sizeof mirror.b);
+    mirror.directed = SLRT_NONE;
+    p->s.x = part->eye[0];
+    p->s.y = part->eye[1];
+    p->s.cone[0] = right;
+    p->s.cone[1] = left;
+    p->in_sector = true;
+    p->right = SLRT_ARM;
+    p->left = SLRT_ARM + 1;
+    p->fan_is_closed = true; // with one cell
+    p->first_is_short = true;
+    slrt_meet_line(p, &right, &mirror, at);
+    slrt_add_point(p, at, true);
+    slrt_see_fan_cell(p, part->cell);
+    slrt_end_pending(p);
+    slrt_meet_line(p, &left, &mirror, at);
+    slrt_add_point(p, at, true);
+    if (p->s.range > 0) {
+        slrt_end_arc(p);
+        slrt_put(p, at);
+    }
+    return p->broken || p->count < 3 || p->written < 3 ? 0 : p->written;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room) {
+    slrt_mirrors_job job;
+    slrt_polygon p;
+    uint32_t next, all = 0;
+    *part_count = 0;
+    if (!part_room || !slrt_start_polygon(&p, runtime, view, shut, range, scratch, points, room))
+        return 0;
+    memset(&job, 0, sizeof job);
+    job.parts = parts;
+    job.room = part_room;
+    job.count = 1;
+    job.depth = depth;
+    memset(parts, 0, sizeof *parts);
+    parts->eye[0] = p.s.x;
+    parts->eye[1] = p.s.y;
+    parts->frame[0] = parts->frame[4] = 1;
+    parts->cell = p.s.eye_cell;
+    for (next = 0; next < job.count; next++) {
+        const bool fits = all < room;
+        sl_runtime_mirror_part *part = &parts[job.here];
+        const uint32_t waiting = job.count, cell = parts->cell;
+        if (next) {
+            slrt_start_polygon(&p, runtime, view, shut, range, scratch,
+                               fits ? points + 2 * (size_t)all : NULL, fits ? room - all : 0);
+            *part = parts[next];
+        }
+        p.s.eye_cell = cell;
+        p.job = &job;
+        p.see_wall = slrt_see_reflecting;
+        part->first = all;
+        if (next) {
+            part->count = slrt_see_in_mirror(&p, part);
+        } else {
+            slrt_find_fan(&p);
+            part->count = slrt_see_polygon(&p);
+        }
+        all += part->count;
+        if (part->count)
+            job.here++;
+        else
+            job.count = waiting; // what is not seen shows nothing
+    }
+    *part_count = job.missed ? part_room + job.missed : job.here;
+    return all;
+}
+
+/// Box to box: what is seen from anywhere in a box, by a search through portals.
+///
+/// A beam is all lines of sight that start in a part of the box and pass some portals in turn. On
+/// each side a bound holds it: behind the portals, no line of the beam is to the left of the left
+/// bound.
+///
+///            l2 |                The left bound leads from a right end to a later left end, as
+///        l1 |   |                r1 to l2, or from a corner of the box to a left end. A portal
+///     box   |   r2               turns it if its left end lies to the right of it. It stays where
+///           r1                   it was if no such line is a bound for sure.
+///
+/// What is left out is so for sure: a sign that rounding may change counts for sight. And any bound
+/// through these points leaves out no line of sight, so which of them is the best may be rounded.
+
+/// A bound. Its points are `from` and `to`: ends of portals, numbered as borders of sectors, or
+/// corners of boxes. `from` is SLRT_NONE for no bound, as of two points in one place.
+typedef struct slrt_bound {
+    uint32_t from, to;
+    slrt_arm arm; ///< from one to the other
+} slrt_bound;
+
+/// Corners of the box's part that the beams start in, then those of the box: 1 right, 2 top.
+#define SLRT_PART_CORNER (UINT32_MAX - 8)
+#define SLRT_BOX_CORNER  (UINT32_MAX - 4)
+
+enum { SLRT_RIGHT, SLRT_LEFT };
+
+typedef struct slrt_beam {
+    slrt_bound bounds[2];
+} slrt_beam;
+
+/// A cell on the path: its number, how many of the ways out are done, the points of the bounds.
+enum { SLRT_BEAM_CELL, SLRT_BEAM_DONE, SLRT_BEAM_BOUNDS, SLRT_BEAM_STEP = SLRT_BEAM_BOUNDS + 4 };
+
+/// A beam that came into a cell.
+typedef struct slrt_past_beam {
+    uint32_t cell, entry; ///< the directed portal that it came through
+    uint32_t source;      ///< the cell that it started in
+    uint32_t line;        ///< 1 if it is all in one line
+    uint32_t bounds[4];
+} slrt_past_beam;
+
+enum { SLRT_PAST_BEAMS = 256, SLRT_WAYS = 5 };
+
+/// The limit of portals that the beams of a box come to, for each directed portal of the map.
+#ifndef SLRT_BEAM_PATIENCE
+#define SLRT_BEAM_PATIENCE 16
+#endif
+
+typedef struct slrt_beams {
+    const sl_runtime *rt;
+    const unsigned char *shut; ///< NULL for none
+    double range;              ///< 0 for no limit
+    double box[4];             ///< within the bounds of the map
+    uint32_t source;           ///< the cell that the beams start in
+    double part[4];            ///< the part of the box within the bounds of that cell
+    const double *target;      ///< beams beside this box are left out; NULL for none
+    /// For each cell that a beam comes to, and the first. True ends the search.
+    bool (*meet)(struct slrt_beams *b, uint32_t cell, const slrt_beam *beam);
+    void *context;
+    uint64_t patience;
+    uint32_t *path, depth, *on_path; ///< on_path: a bit for each cell
+    slrt_beam beam;                  ///< in the cell on top of the path
+    sl_runtime_cell cell;            ///< that cell
+    uint32_t entry;                  ///< the directed portal to it, or SLRT_NONE
+    slrt_past_beam past[SLRT_PAST_BEAMS];
+} slrt_beams;
+
+// --- boxes and lines
+
+/// The part of a box within the bounds of a cell that it meets.
+static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box[4],
+                         double part[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    double low[2], high[2], at[2];
+    uint32_t i;
+    int k;
+    sl_runtime_get_vertex(rt, cell.first_vertex, &low[0], &low[1]);
+    memcpy(high, low, sizeof high);
+    for (i = 1; i < cell.vertex_count; i++) {
+        sl_runtime_get_vertex(rt, cell.first_vertex + i, &at[0], &at[1]);
+        for (k = 0; k < 2; k++) {
+            if (at[k] < low[k]) low[k] = at[k];
+            if (at[k] > high[k]) high[k] = at[k];
+        }
+    }
+    for (k = 0; k < 2; k++) {
+        part[k] = box[k] > low[k] ? box[k] : low[k];
+        part[2 + k] = box[2 + k] < high[k] ? box[2 + k] : high[k];
+    }
+}
+
+/// The side of a line that a point is on, without the exact sign: 1 left, -1 right, 0 if rounding
+/// may decide.
+static int slrt_surely(const slrt_arm *line, double x, double y) {
+    const double left = line->x * (y - line->from_y), right = line->y * (x - line->from_x);
+    const double product = left - right;
+    const double bound =
+        4e-16 * ((left < 0 ? -left : left) + (right < 0 ? -right : right)) + 1e-300;
+    return (product > bound) - (-product > bound);
+}
+
+/// Whether all of a box is to the left (1) or right (-1) of a line for sure.
+static bool slrt_is_box_beside(const slrt_arm *line, const double box[4], int side) {
+    const bool up = side * line->y > 0, right = side * line->x > 0;
+    return slrt_surely(line, box[up ? 2 : 0], box[right ? 1 : 3]) * side > 0;
+}
+
+static bool slrt_is_beam_beside(const slrt_beam *beam, const double box[4]) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    return (right->from != SLRT_NONE && slrt_is_box_beside(&right->arm, box, -1)) ||
+           (left->from != SLRT_NONE && slrt_is_box_beside(&left->arm, box, 1));
+}
+
+/// Whether a box is out of range of all of the box that looks, for sure.
+static bool slrt_is_out_of_range(const slrt_beams *b, const double box[4]) {
+    double square = 0;
+    int k;
+    if (!(b->range > 0)) return false;
+    for (k = 0; k < 2; k++) {
+        const double over = box[k] - b->box[2 + k], under = b->box[k] - box[2 + k];
+        const double gap = (over > under ? over : under) / b->range;
+        if (gap > 0) square += gap * gap;
+    }
+    return square > 1 + 1e-12;
+}
+
+// --- bounds
+
+static void slrt_point_of(const slrt_beams *b, uint32_t number, double *x, double *y) {
+    if (number >= SLRT_PART_CORNER) {
+        const double *box = number < SLRT_BOX_CORNER ? b->part : b->box;
+        const uint32_t corner = (number - SLRT_PART_CORNER) % 4;
+        *x = box[corner & 1 ? 2 : 0];
+        *y = box[corner & 2 ? 3 : 1];
+    } else {
+        double end[2];
+        slrt_read_end(b->rt, number / 2, (int)(number % 2), end);
+        *x = end[0];
+        *y = end[1];
+    }
+}
+
+static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t to) {
+    slrt_bound bound;
+    double x, y, to_x, to_y;
+    memset(&bound, 0, sizeof bound);
+    bound.from = from;
+    bound.to = to;
+    if (from == SLRT_NONE) return bound;
+    slrt_point_of(b, from, &x, &y);
+    slrt_point_of(b, to, &to_x, &to_y);
+    bound.arm = slrt_make_arm(x, y, to_x, to_y);
+    if (slrt_is_zero(&bound.arm)) bound.from = SLRT_NONE;
+    return bound;
+}
+
+/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
+/// a point in the box.
+static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
+    // By column and row of the point about the box.
+    static const unsigned char corners[3][3][2] = {
+        {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
+    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
+    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    if (column == 1 && row == 1) return SLRT_NONE;
+    return SLRT_PART_CORNER + corners[column][row][side];
+}
+
+/// Turns a bound of a beam to the end of a directed portal on its side, if that leaves more out.
+/// `across` leads from the portal's right end to its left; `last` is the last point of the other
+/// bound, or SLRT_NONE.
+static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t last,
+                            uint32_t directed, const slrt_arm *across, int side) {
+    const int sign = side == SLRT_LEFT ? 1 : -1;
+    const uint32_t end = 2 * directed + (side == SLRT_RIGHT), from = bound->from;
+    const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
+    const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
+    const slrt_arm *arm = &bound->arm;
+    // Points that no line of the beam passes on the bound's side. Those that start in the part do
+    // so by definition, seen from the end.
+    uint32_t pivots[4];
+    int i;
+    if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
+        return;
+    pivots[0] = slrt_tangent(b->part, x, y, side);
+    pivots[1] = from >= SLRT_PART_CORNER && from < SLRT_BOX_CORNER ? SLRT_NONE : from;
+    pivots[2] = last;
+    pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
+    for (i = 0; i < 4; i++) {
+        double from_x, from_y;
+        if (pivots[i] == SLRT_NONE) continue;
+        slrt_point_of(b, pivots[i], &from_x, &from_y);
+        if (bound->to == end &&
+            sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
+            continue;
+        // Only from before the portal does a line to its end bound what is behind it.
+        if (slrt_surely(across, from_x, from_y) <= 0) continue;
+        bound->from = pivots[i];
+        bound->to = end;
+        bound->arm = slrt_make_arm(from_x, from_y, x, y);
+    }
+}
+
+// --- portals
+
+/// Whether a directed portal is on a shut door, or on glass that is dark from all of the box.
+static bool slrt_is_closed(const slrt_beams *b, uint32_t portal) {
+    const sl_runtime *rt = b->rt;
+    uint32_t i;
+    if (!rt->seam_portal_count) return false;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
+        slrt_arm line;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 1 && b->shut && b->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) != 2) continue;
+        line = slrt_make_arm(slrt_f64(seam), slrt_f64(seam + 8), slrt_f64(seam + 16),
+                             slrt_f64(seam + 24));
+        if (slrt_is_box_beside(&line, b->box, 1)) return true;
+    }
+    return false;
+}
+
+/// Whether a point is beyond a side of the box: left, right, bottom, top.
+static bool slrt_is_beyond(const double box[4], const double point[2], int side) {
+    return side & 1 ? point[side / 2] > box[2 + side / 2] : point[side / 2] < box[side / 2];
+}
+
+/// Whether no corner of the part is before a portal: `across` leads from its right end to its left.
+static bool slrt_is_part_on(const slrt_beams *b, const slrt_arm *across) {
+    const slrt_arm to =
+        slrt_make_arm(across->from_x, across->from_y, b->part[across->y > 0 ? 0 : 2],
+                      b->part[across->x > 0 ? 3 : 1]);
+    return slrt_side(across, &to) <= 0;
+}
+
+/// Whether the part is nearer to a portal's right end than to its left.
+static bool slrt_is_part_right(const slrt_beams *b, const slrt_arm *across) {
+    return slrt_size(b->part[0] - across->from_x, b->part[1] - across->from_y) <
+           slrt_size(b->part[0] - across->to_x, b->part[1] - across->to_y);
+}
+
+/// The ways out of the first cell through a directed portal. Lines that cross it within the box are
+/// those of the part in the next cell, which has its own beams. All others leave the box before,
+/// across one of its sides, and stay beyond it. Way 0 is the whole portal, if it is beyond a side
+/// or leads to solid ground; else ways 1 to 4 are what is beyond a side.
+static bool slrt_is_whole(const slrt_beams *b, const sl_runtime_directed_portal *p) {
+    int side;
+    for (side = 0; side < 4; side++)
+        if (slrt_is_beyond(b->box, p->left, side) && slrt_is_beyond(b->box, p->right, side))
+            return true;
+    return sl_runtime_is_solid(b->rt, p->cell);
+}
+
+/// Bounds a beam by the side of the box that it leaves across; false for no such beam. From a part
+/// that is on the portal's line, only that line crosses it.
+static bool slrt_leave_box(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                           uint32_t directed, const slrt_arm *across, uint32_t way,
+                           slrt_beam *beam) {
+    // The ends of the sides, clockwise about the box.
+    static const unsigned char from[4] = {0, 3, 1, 2}, to[4] = {2, 1, 0, 3};
+    const int side = (int)way - 1;
+    bool left = way && slrt_is_beyond(b->box, p->left, side);
+    if (way && left == slrt_is_beyond(b->box, p->right, side)) return false;
+    if (slrt_is_part_on(b, across) && !sl_runtime_is_solid(b->rt, p->cell)) {
+        if (!way) left = slrt_is_part_right(b, across);
+        beam->bounds[0] = slrt_make_bound(b, 2 * directed + left, 2 * directed + !left);
+        beam->bounds[1] = beam->bounds[0];
+    } else if (way) {
+        const uint32_t first = SLRT_BOX_CORNER + (left ? from : to)[side];
+        const uint32_t last = SLRT_BOX_CORNER + (left ? to : from)[side];
+        beam->bounds[left ? SLRT_RIGHT : SLRT_LEFT] = slrt_make_bound(b, first, last);
+    }
+    return true;
+}
+
+static uint32_t slrt_last_point(const slrt_bound *bound) {
+    return bound->from == SLRT_NONE ? SLRT_NONE : bound->to;
+}
+
+/// Whether no line of a beam crosses a portal, for sure: it lies to one side of a bound, or all
+/// lines would cross it the other way. That one end is beside a bound does not tell: lines may come
+/// to the other end from behind.
+static bool slrt_is_portal_beside(const slrt_beam *beam, const slrt_arm *across) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const bool beside_left =
+        left->from != SLRT_NONE && slrt_surely(&left->arm, across->from_x, across->from_y) > 0;
+    const bool beside_right =
+        right->from != SLRT_NONE && slrt_surely(&right->arm, across->to_x, across->to_y) < 0;
+    if (!beside_left && !beside_right) return false;
+    if ((beside_left && slrt_surely(&left->arm, across->to_x, across->to_y) > 0) ||
+        (beside_right && slrt_surely(&right->arm, across->from_x, across->from_y) < 0))
+        return true;
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           slrt_side(&right->arm, &left->arm) > 0 && slrt_side(&right->arm, across) < 0 &&
+           slrt_side(&left->arm, across) < 0;
+}
+
+static bool slrt_is_portal_far(const slrt_beams *b, const slrt_arm *across) {
+    double box[4];
+    box[0] = across->x < 0 ? across->to_x : across->from_x;
+    box[1] = across->y < 0 ? across->to_y : across->from_y;
+    box[2] = across->x < 0 ? across->from_x : across->to_x;
+    box[3] = across->y < 0 ? across->from_y : across->to_y;
+    return slrt_is_out_of_range(b, box);
+}
+
+/// The part of the beam on top of the path that leaves through a directed portal; false for none.
+static bool slrt_pass_portal(const slrt_beams *b, const sl_runtime_directed_portal *p,
+                             uint32_t directed, uint32_t way, slrt_beam *out) {
+    const slrt_arm across = slrt_make_arm(p->right[0], p->right[1], p->left[0], p->left[1]);
+    slrt_bound *right = &out->bounds[SLRT_RIGHT], *left = &out->bounds[SLRT_LEFT];
+    uint32_t right_last, left_last;
+    if (slrt_is_portal_beside(&b->beam, &across)) return false;
+    *out = b->beam;
+    if ((b->range > 0 && slrt_is_portal_far(b, &across)) || slrt_is_closed(b, p->portal) ||
+        (b->depth == 1 && !slrt_leave_box(b, p, directed, &across, way, out)))
+        return false;
+    right_last = slrt_last_point(right);
+    left_last = slrt_last_point(left);
+    slrt_turn_bound(b, right, left_last, directed, &across, SLRT_RIGHT);
+    slrt_turn_bound(b, left, right_last, directed, &across, SLRT_LEFT);
+    return !b->target || !slrt_is_beam_beside(out, b->target);
+}
+
+// --- the search
+
+/// Whether a beam is all in one line.
+static bool slrt_is_one_line(const slrt_beam *beam) {
+    const slrt_bound *right = &beam->bounds[SLRT_RIGHT], *left = &beam->bounds[SLRT_LEFT];
+    const slrt_arm to =
+        slrt_make_arm(right->arm.from_x, right->arm.from_y, left->arm.to_x, left->arm.to_y);
+    return right->from != SLRT_NONE && left->from != SLRT_NONE &&
+           !slrt_side(&right->arm, &left->arm) && !slrt_side(&right->arm, &to) &&
+           slrt_same_way(&right->arm, &left->arm);
+}
+
+static int slrt_turn_of(const slrt_arm *line, const double point[2]) {
+    const slrt_arm to = slrt_make_arm(line->from_x, line->from_y, point[0], point[1]);
+    return slrt_side(line, &to);
+}
+
+/// Whether a line is that of a past beam, and touches the portal through which that came.
+static bool slrt_is_past_line(const slrt_beams *b, const slrt_past_beam *past,
+                              const slrt_arm *line) {
+    const slrt_bound was = slrt_make_bound(b, past->bounds[0], past->bounds[1]);
+    const double from[2] = {line->from_x, line->from_y};
+    double right[2], left[2];
+    slrt_read_end(b->rt, past->entry, 1, right);
+    slrt_read_end(b->rt, past->entry, 0, left);
+    return !slrt_side(&was.arm, line) && !slrt_turn_of(&was.arm, from) &&
+           slrt_same_way(&was.arm, line) && slrt_turn_of(line, right) <= 0 &&
+           slrt_turn_of(line, left) >= 0;
+}
+
+/// Whether a beam that came to a cell before had all lines of this one, and bounds that hold for
+/// them. If not, this one takes its place. (It is not enough that the other one has shown all that
+/// this one does of the cell: behind the next portal it may show less.)
+static bool slrt_is_past(slrt_beams *b, uint32_t cell, uint32_t entry, const slrt_beam *beam) {
+    const bool line = slrt_is_one_line(beam);
+    slrt_past_beam now, *past = &b->past[(line ? cell : entry) % SLRT_PAST_BEAMS];
+    int side;
+    now.cell = cell;
+    now.entry = entry;
+    now.source = b->source;
+    now.line = line;
+    for (side = 0; side < 2; side++) {
+        now.bounds[2 * side] = beam->bounds[side].from;
+        now.bounds[2 * side + 1] = beam->bounds[side].to;
+    }
+    if (line && past->line && past->cell == cell && past->source == b->source &&
+        slrt_is_past_line(b, past, &beam->bounds[SLRT_RIGHT].arm))
+        return true;
+    if (!memcmp(past, &now, sizeof now)) return true;
+    *past = now;
+    return false;
+}
+
+/// Puts a cell on top of the path.
+static void slrt_come_to(slrt_beams *b, uint32_t cell, uint32_t entry, const slrt_beam *beam) {
+    uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)b->depth++;
+    int side;
+    top[SLRT_BEAM_CELL] = cell;
+    top[SLRT_BEAM_DONE] = 0;
+    for (side = 0; side < 2; side++) {
+        top[SLRT_BEAM_BOUNDS + 2 * side] = beam->bounds[side].from;
+        top[SLRT_BEAM_BOUNDS + 2 * side + 1] = beam->bounds[side].to;
+    }
+    b->on_path[cell / 32] |= UINT32_C(1) << cell % 32;
+    b->cell = sl_runtime_get_cell(b->rt, cell);
+    b->entry = entry;
+    b->beam = *beam;
+}
+
+static void slrt_leave_top(slrt_beams *b) {
+    const uint32_t cell = b->path[SLRT_BEAM_STEP * (size_t)--b->depth];
+    b->on_path[cell / 32] &= ~(UINT32_C(1) << cell % 32);
+}
+
+/// How many ways there are out of the cell on top.
+static uint32_t slrt_ways(const slrt_beams *b) {
+    return b->cell.directed_count * (b->depth == 1 ? SLRT_WAYS : 1);
+}
+
+/// Goes back to a cell with ways that are not done.
+static void slrt_go_back(slrt_beams *b) {
+    const uint32_t *top;
+    do {
+        slrt_leave_top(b);
+        if (!b->depth) return;
+        top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
+        b->cell = sl_runtime_get_cell(b->rt, top[SLRT_BEAM_CELL]);
+    } while (top[SLRT_BEAM_DONE] == slrt_ways(b));
+    b->beam.bounds[0] = slrt_make_bound(b, top[SLRT_BEAM_BOUNDS], top[SLRT_BEAM_BOUNDS + 1]);
+    b->beam.bounds[1] = slrt_make_bound(b, top[SLRT_BEAM_BOUNDS + 2], top[SLRT_BEAM_BOUNDS + 3]);
+    b->entry = SLRT_NONE;
+    if (b->depth == 1) return;
+    top -= SLRT_BEAM_STEP;
+    b->entry = sl_runtime_get_cell(b->rt, top[SLRT_BEAM_CELL]).first_directed +
+               (top[SLRT_BEAM_DONE] - 1) / (b->depth == 2 ? SLRT_WAYS : 1);
+}
+
+/// Follows the next way out of the cell on top. True if `meet` ends the search.
+static bool slrt_go_on(slrt_beams *b) {
+    uint32_t *done = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1) + SLRT_BEAM_DONE;
+    const uint32_t ways = b->depth == 1 ? SLRT_WAYS : 1, way = *done % ways;
+    const uint32_t directed = b->cell.first_directed + (*done)++ / ways;
+    const sl_runtime_directed_portal p = sl_runtime_get_directed_portal(b->rt, directed);
+    slrt_beam beam;
+    if (b->depth == 1 && !way) {
+        if (!slrt_is_whole(b, &p)) return false;
+        *done += SLRT_WAYS - 1;
+    }
+    // A line passes a convex cell once.
+    if (b->on_path[p.cell / 32] >> p.cell % 32 & 1 ||
+        !slrt_pass_portal(b, &p, directed, way, &beam) || slrt_is_past(b, p.cell, directed, &beam))
+        return false;
+    slrt_come_to(b, p.cell, directed, &beam);
+    return b->meet(b, p.cell, &beam);
+}
+
+/// Sends beams from the part of the box that is in a cell. Returns true if `meet` ended the search,
+/// or it took too long.
+static bool slrt_send_beams(slrt_beams *b, uint32_t source) {
+    slrt_beam beam;
+    bool ended;
+    memset(&beam, 0, sizeof beam);
+    beam.bounds[0].from = beam.bounds[1].from = SLRT_NONE;
+    b->source = source;
+    b->depth = 0;
+    slrt_part_of(b->rt, source, b->box, b->part);
+    slrt_come_to(b, source, SLRT_NONE, &beam);
+    ended = b->meet(b, source, &beam);
+    while (b->depth && !ended) {
+        const uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
+        if (top[SLRT_BEAM_DONE] == slrt_ways(b))
+            slrt_go_back(b);
+        else if (b->patience--)
+            ended = slrt_go_on(b);
+        else
+            ended = true;
+    }
+    while (b->depth) slrt_leave_top(b);
+    return ended;
+}
+
+// --- Whole servers: which players may see which things
+
+/// The part of a box, with a margin around it, within the bounds of the map. False for none.
+static bool slrt_box_in_map(const sl_runtime *rt, const sl_runtime_box *of, double margin,
+                            double box[4]) {
+    const double low_x = of->min_x - margin, low_y = of->min_y - margin;
+    const double high_x = of->max_x + margin, high_y = of->max_y + margin;
+    box[0] = low_x > rt->min_x ? low_x : rt->min_x;
+    box[1] = low_y > rt->min_y ? low_y : rt->min_y;
+    box[2] = high_x < rt->max_x ? high_x : rt->max_x;
+    box[3] = high_y < rt->max_y ? high_y : rt->max_y;
+    return low_x <= high_x && low_y <= high_y && box[0] <= box[2] && box[1] <= box[3];
+}
+
+// --- from all of a box
+
+/// A search from the cells of a box.
+typedef struct slrt_origin {
+    slrt_beams beams;
+    uint32_t sources[32], count; ///< the last cells that it came from: a cell may be visited again
+} slrt_origin;
+
+static bool slrt_look_from_cell(void *context, uint32_t cell) {
+    slrt_origin *o = (slrt_origin *)context;
+    enum { MOST = sizeof o->sources / sizeof *o->sources };
+    uint32_t i;
+    for (i = 0; i < MOST && i < o->count; i++)
+        if (o->sources[i] == cell) return true;
+    if (sl_runtime_is_solid(o->beams.rt, cell) || !slrt_meets_box(o->beams.rt, cell, o->beams.box))
+        return true;
+    o->sources[o->count++ % MOST] = cell;
+    return !slrt_send_beams(&o->beams, cell);
+}
+
+/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
+                              double range, uint32_t *scratch) {
+    memset(&o->beams, 0, sizeof o->beams);
+    o->beams.rt = rt;
+    o->beams.shut = shut;
+    o->beams.range = slrt_range(rt, range);
+    o->beams.path = scratch;
+    o->beams.on_path = scratch + SLRT_BEAM_STEP * (size_t)rt->cell_count;
+    memset(o->beams.on_path, 0, ((size_t)rt->cell_count + 31) / 32 * sizeof *scratch);
+}
+
+/// Looks from all of a box. True if `meet` ended the search, or it took too long.
+static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double margin) {
+    if (!slrt_box_in_map(o->beams.rt, box, margin, o->beams.box)) return false;
+    memset(o->beams.past, 0xff, sizeof o->beams.past);
+    o->beams.patience = SLRT_BEAM_PATIENCE * ((uint64_t)o->beams.rt->directed_count + 1024);
+    o->count = 0;
+    return !slrt_visit_near(o->beams.rt, o->beams.box, slrt_look_from_cell, o);
+}
+
+// --- one box
+
+static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
+    double part[4];
+    if (!slrt_meets_box(b->rt, cell, b->target)) return false;
+    slrt_part_of(b->rt, cell, b->target, part);
+    return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
+}
+
+static sl_runtime_box slrt_square(double x, double y, double radius) {
+    sl_runtime_box box;
+    box.min_x = x - radius;
+    box.min_y = y - radius;
+    box.max_x = x + radius;
+    box.max_y = y + radius;
+    box.blocks = false;
+    return box;
+}
+
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch) {
+    const sl_runtime_box from = slrt_square(x0, y0, radius0), to = slrt_square(x1, y1, radius1);
+    slrt_origin o;
+    double target[4];
+    if (!slrt_box_in_map(runtime, &to, 0, target)) return false;
+    slrt_start_origin(&o, runtime, shut, range, scratch);
+    o.beams.target = target;
+    o.beams.meet = slrt_meet_target;
+    return slrt_look_from_box(&o, &from, 0);
+}
+
+// --- many things
+
+// Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
+// a thing that touches the cell, and the cell's next entry.
+
+enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+
+typedef struct slrt_relevant {
+    slrt_origin origin;
+    const sl_runtime_box *things;
+    uint32_t *first, *entries, count;
+    size_t room;
+    uint32_t thing;        ///< is being placed,
+    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
+    double box[4];         ///< within the bounds of the map
+    unsigned char *bits;
+    size_t pairs;
+} slrt_relevant;
+
+static bool slrt_place_thing(void *context, uint32_t cell) {
+    slrt_relevant *t = (slrt_relevant *)context;
+    uint32_t *first = t->first + cell;
+    if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
+        !slrt_meets_box(t->origin.beams.rt, cell, t->box))
+        return true;
+    if (t->skip) {
+        t->skip--;
+        return true;
+    }
+    if (t->count == t->room) return false;
+    t->entries[2 * (size_t)t->count] = t->thing;
+    t->entries[2 * (size_t)t->count + 1] = *first;
+    *first = t->count++;
+    return true;
+}
+
+static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
+    slrt_relevant *t = (slrt_relevant *)b->context;
+    uint32_t at = t->first[cell];
+    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+        const uint32_t thing = t->entries[2 * (size_t)at];
+        double box[4], part[4];
+        if (t->bits[thing / 8] >> thing % 8 & 1) continue;
+        slrt_box_in_map(b->rt, &t->things[thing], 0, box);
+        slrt_part_of(b->rt, cell, box, part);
+        if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
+        t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
+        t->pairs++;
+    }
+    return false;
+}
+
+/// Places things until there is no room. Those that are left have their turn after these.
+static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
+    const sl_runtime *rt = t->origin.beams.rt;
+    memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
+    t->count = 0;
+    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
+        const uint32_t before = t->count;
+        t->skip = t->placed;
+        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
+            slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            continue;
+        t->placed += t->count - before;
+        return;
+    }
+}
+
+/// Takes each thing in the map for relevant.
+static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
+    double box[4];
+    uint32_t i;
+    for (i = 0; i < thing_count; i++) {
+        if (t->bits[i / 8] >> i % 8 & 1 ||
+            !slrt_box_in_map(t->origin.beams.rt, &t->things[i], 0, box))
+            continue;
+        t->bits[i / 8] |= (unsigned char)(1 << i % 8);
+        t->pairs++;
+    }
+}
+
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
+    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
+           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+}
+
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits) {
+    const size_t stride = ((size_t)thing_count + 7) / 8;
+    slrt_relevant t;
+    uint32_t i;
+    memset(bits, 0, stride * player_count);
+    memset(&t, 0, sizeof t);
+    slrt_start_origin(&t.origin, runtime, shut, range, relevant_scratch);
+    t.origin.beams.meet = slrt_meet_things;
+    t.origin.beams.context = &t;
+    t.things = things;
+    t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
+    t.entries = t.first + runtime->cell_count;
+    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    while (t.thing < thing_count) {
+        slrt_place_things(&t, thing_count);
+        for (i = 0; i < player_count; i++) {
+            t.bits = bits + stride * i;
+            if (slrt_look_from_box(&t.origin, &players[i], margin)) slrt_meet_all(&t, thing_count);
+        }
+    }
+    return t.pairs;
 }
 
 #ifdef __cplusplus

@@ -124,11 +124,21 @@ static uint32_t ask_sees_near(const bench *b, uint32_t i) {
                            b->scratch);
 }
 
-/// A step of a hundredth of the map, as that of a thing that moves.
+/// A step of a 400th of the map, as that of a thing that moves.
 static uint32_t ask_can_walk(const bench *b, uint32_t i) {
-    const double step = (b->runtime.max_x - b->runtime.min_x) / 100;
+    const double step = (b->runtime.max_x - b->runtime.min_x) / 400;
     return sl_runtime_can_walk(&b->runtime, b->x[i], b->y[i], b->x[i] + step * cos(b->angle[i]),
                                b->y[i] + step * sin(b->angle[i]), NULL);
+}
+
+/// The same step by a disc of half its length, which slides.
+static uint32_t ask_walk(const bench *b, uint32_t i) {
+    const double step = (b->runtime.max_x - b->runtime.min_x) / 400;
+    const sl_runtime_walker walker = {step / 2, NULL, NULL, SL_RUNTIME_NO_BOX};
+    double x, y;
+    return sl_runtime_walk(&b->runtime, &walker, b->x[i], b->y[i],
+                           b->x[i] + step * cos(b->angle[i]), b->y[i] + step * sin(b->angle[i]),
+                           b->scratch, &x, &y);
 }
 
 /// Those of a thing that is a thousandth of the map wide.
@@ -248,6 +258,7 @@ static void print_table(const bench *b, const char *name) {
         {"one place sees another", ask_sees, LOOKS, b->size},
         {"one place sees one in a cell in view", ask_sees_near, LOOKS, b->size},
         {"a step is free", ask_can_walk, LOOKS, b->size},
+        {"a disc walks", ask_walk, LOOKS, b->size},
         {"the cells of a box", ask_box_cells, LOOKS, b->size},
         {"visible polygon all round", ask_polygon, LOOKS, b->size},
         {"visible polygon in a cone of 60", ask_polygon_60, LOOKS, b->size},

@@ -111,7 +111,7 @@ static void answers_are_the_headers(void **state) {
         assert_int_equal(sl_level_door_is_open(o->level, door), open);
         o->shut[0] = !open;
         assert_int_equal(sl_level_sees(o->level, 2, 4, 10, 4), open);
-        assert_int_equal(sl_level_can_walk(o->level, 2, 4, 10, 4), open);
+        assert_int_equal(sl_level_can_walk(o->level, 2, 4, 10, 4, -1), open);
         const int32_t near_cell = sl_level_locate(o->level, 2, 4);
         const int32_t far_cell = sl_level_locate(o->level, 10, 4);
         assert_int_equal(sl_level_can_see(o->level, near_cell, far_cell),
@@ -125,6 +125,40 @@ static void answers_are_the_headers(void **state) {
         sl_level_set_door(o->level, door, 1);
     }
     assert_true(areas[0] < areas[1]);
+}
+
+/// In pixels: 10 a unit, with y down from the upper left corner.
+static void coordinates_are_chosen(void **state) {
+    opened *o = *state;
+    int32_t count, other;
+    double start[3], bounds[4];
+    const double *found = sl_level_visible_polygon(o->level, 2, 3, 30, 60, 2.5, &count);
+    double *polygon = malloc(2 * (size_t)count * sizeof *polygon);
+    memcpy(polygon, found, 2 * (size_t)count * sizeof *polygon);
+    assert_int_equal(sl_level_set_box_count(o->level, 1), 1);
+    sl_level_use_coordinates(o->level, 0, 8, 16, 1);
+    sl_level_bounds(o->level, bounds);
+    const double pixels[4] = {0, 0, 192, 128};
+    assert_memory_equal(bounds, pixels, sizeof pixels);
+    assert_int_equal(sl_level_start(o->level, 0, start), 1);
+    assert_true(start[0] == 32 && start[1] == 64 && start[2] == -90);
+    const double *turned = sl_level_visible_polygon(o->level, 32, 80, -30, 60, 40, &other);
+    assert_int_equal(other, count);
+    for (int32_t i = 0; i < count; i++) {
+        assert_float_equal(turned[2 * i], 16 * polygon[2 * i], 1e-9);
+        assert_float_equal(turned[2 * i + 1], 16 * (8 - polygon[2 * i + 1]), 1e-9);
+    }
+    free(polygon);
+    const double *door = sl_level_door_segments(o->level, 0, &count);
+    assert_int_equal(count, 1);
+    assert_true(door[0] == 96 && door[1] == 80 && door[2] == 96 && door[3] == 48);
+    sl_level_move_box(o->level, 0, 48, 48, 64, 80, 1); // between both points
+    assert_int_equal(sl_level_sees(o->level, 16, 64, 80, 64), 0);
+    assert_int_equal(sl_level_sees(o->level, 16, 112, 80, 112), 1);
+    assert_int_equal(sl_level_can_walk(o->level, 16, 64, 80, 64, -1), 0);
+    assert_int_equal(sl_level_boxes_seen(o->level, 16, 64, 0, 360, 0, &count)[0], 1);
+    assert_int_equal(sl_level_boxes_seen(o->level, 16, 64, 180, 90, 0, &count)[0], 0);
+    assert_true(sl_level_locate(o->level, 16, 64) >= 0 && sl_level_locate(o->level, 16, -1) < 0);
 }
 
 static void boxes_outgrow_their_lists(void **state) {
@@ -142,6 +176,9 @@ static void boxes_outgrow_their_lists(void **state) {
         assert_int_equal(seen[0], 1);
         assert_int_equal(seen[1], 0);
         assert_int_equal(seen[2], 1);
+        assert_int_equal(sl_level_sees(o->level, 1, 4, 4.7, 4), 0);
+        assert_int_equal(sl_level_can_walk(o->level, 1, 4, 4.7, 4, -1), 0);
+        assert_int_equal(sl_level_can_walk(o->level, 1, 4, 4.7, 4, 0), 1);
     }
     sl_level_move_box(o->level, 0, 3, 7, 4, 8, 1);
     assert_int_equal(sl_level_boxes_seen(o->level, 1, 4, 0, 360, 0, &count)[1], 1);
@@ -181,6 +218,7 @@ int main(void) {
         cmocka_unit_test(faults_are_told),
         cmocka_unit_test_setup_teardown(numbers_of_nothing_answer_nothing, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(answers_are_the_headers, open_rooms, close_rooms),
+        cmocka_unit_test_setup_teardown(coordinates_are_chosen, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(boxes_outgrow_their_lists, open_rooms, close_rooms),
         cmocka_unit_test(a_box_in_all_cells),
     };

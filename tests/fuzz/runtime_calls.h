@@ -125,6 +125,22 @@ static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, doub
     free(points);
 }
 
+/// Parts come after their parents, and share out the points.
+static void check_mirror_parts(const sl_runtime *r, const sl_runtime_view *view, double range,
+                               const buffers *b) {
+    enum { PARTS = 8 };
+    sl_runtime_mirror_part parts[PARTS];
+    double few[8];
+    uint32_t count, all = 0;
+    const uint32_t points = sl_runtime_visible_polygon_mirrored(r, view, NULL, range, 3, b->scratch,
+                                                                parts, PARTS, &count, few, 4);
+    for (uint32_t i = 0; i < count && count <= PARTS; all += parts[i++].count)
+        FUZZ_CHECK(parts[i].first == all && parts[i].count >= 3 && parts[i].depth <= 3 &&
+                   (parts[i].depth ? parts[i].parent < i : i == 0));
+    FUZZ_CHECK(count > PARTS || all == points);
+    for (uint32_t k = 0; k < 2 * points && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
+}
+
 /// Both ends of a line of sight and of a step are in cells, whatever the walls of the file are.
 static void check_points(const sl_runtime *r, double x, double y, sl_random *random,
                          const buffers *b) {
@@ -147,6 +163,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     check_look(r, &round, b);
     check_polygon(r, &round, 0, b);
     check_polygon(r, &round, odd_real(random), b);
+    check_mirror_parts(r, &round, odd_real(random), b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
     check_points(r, x, y, random, b);
     sl_runtime_view cone = round;
@@ -158,6 +175,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     }
     check_look(r, &cone, b);
     check_polygon(r, &cone, sl_random_unit(random) * (r->max_x - r->min_x), b);
+    check_mirror_parts(r, &cone, 0, b);
 }
 
 /// A corner, somewhere within the bounds, or the middle of a portal.
@@ -273,6 +291,7 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
     const sl_runtime *r = boxes->runtime;
     uint32_t *scratch = room(sl_runtime_boxes_scratch_count(boxes) * sizeof *scratch);
     unsigned char *seen = room(boxes->count);
+    double few[8];
     for (int i = 0; i < 2; i++) {
         const double x = r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
                      y = r->min_y + sl_random_unit(random) * (r->max_y - r->min_y);
@@ -289,8 +308,15 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
         FUZZ_CHECK(cells <= r->cell_count);
         for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
         const double x1 = i ? odd_real(random) : x + range / 8, y1 = y - range / 8;
+        count = sl_runtime_visible_polygon_past_boxes(boxes, &view, shut, range, scratch, few, 4);
+        FUZZ_CHECK(count == 0 || count >= 3);
+        for (uint32_t k = 0; k < 2 * count && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
         sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
         sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
+        const sl_runtime_walker walker = {i ? odd_real(random) : range / 16, shut, boxes, 0};
+        double to_x, to_y;
+        const bool can = sl_runtime_can_walk_wide(r, &walker, x, y, x1, y1, scratch);
+        FUZZ_CHECK(sl_runtime_walk(r, &walker, x, y, x1, y1, scratch, &to_x, &to_y) || !can);
     }
     free(scratch);
     free(seen);
@@ -316,6 +342,30 @@ static void check_boxes(const sl_runtime *r, const unsigned char *shut, sl_rando
     free(memory);
 }
 
+/// Who may see whom: as many pairs as there are bits.
+static void check_relevant(const sl_runtime *r, const unsigned char *shut, sl_random *random,
+                           const buffers *b) {
+    enum { PLAYERS = 3, THINGS = 9 };
+    sl_runtime_box players[PLAYERS], things[THINGS];
+    const uint32_t count = (uint32_t)sl_random_below(random, THINGS + 1);
+    const double margin = sl_random_below(random, 4) ? 0 : odd_real(random);
+    const double range = sl_random_below(random, 2) ? 0 : odd_real(random);
+    for (int i = 0; i < PLAYERS; i++) players[i] = some_box(r, random);
+    for (int i = 0; i < THINGS; i++) things[i] = some_box(r, random);
+    uint32_t *scratch = room(sl_runtime_relevant_count(r, count) * sizeof *scratch);
+    unsigned char *bits = room(PLAYERS * (((size_t)count + 7) / 8));
+    size_t pairs = sl_runtime_relevant(r, players, PLAYERS, margin, things, count, shut, range,
+                                       scratch, bits);
+    for (uint32_t i = 0; i < PLAYERS; i++)
+        for (uint32_t k = 0; k < count; k++)
+            pairs -= bits[i * ((count + 7) / 8) + k / 8] >> k % 8 & 1;
+    FUZZ_CHECK(pairs == 0);
+    free(scratch);
+    free(bits);
+    sl_runtime_sees_within(r, players[0].min_x, players[0].min_y, margin, things[0].min_x,
+                           things[0].min_y, 1, shut, range, b->scratch);
+}
+
 /// Calls them all. `rounds`: how thoroughly eyes are placed.
 static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     const buffers b = {.bits = room((r->cell_count + 7) / 8),
@@ -337,6 +387,7 @@ static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     for (uint32_t i = 0; shut && i < r->door_count; i++) shut[i] = i % 3 != 0;
     check_views(r, shut, &b);
     if (rounds || !sl_random_below(random, 4)) check_boxes(r, shut, random, &b);
+    if (rounds || !sl_random_below(random, 4)) check_relevant(r, shut, random, &b);
     free(shut);
     free(b.bits);
     free(b.seen);

@@ -166,8 +166,10 @@ static void all_things(void **state) {
                  "path q 1 1 1e-200 3 5e149 1e150\npath q 4 -0\ndoor d 6 0 6 9 shut\n"
                  "start -0 1e-300 -1e300\n");
     f.baked.map.source.transform = (sl_transform){{3, -4e149}, 1e-150, true};
+    f.baked.map.mirrors[1].segment.a.x = f.baked.map.paths[1].points[0].y = 1e-200; // not of a text
     free(f.bytes);
     f.bytes = baked_bytes(context, &f.baked, &f.size);
+    f.baked.map.mirrors[1].segment.a.x = f.baked.map.paths[1].points[0].y = 0;
     baked_file_open(&f);
     assert_true(f.runtime.transform.origin_y == -4e149 && f.runtime.transform.scale == 1e-150);
     assert_true(f.runtime.transform.origin_x == 3 && f.runtime.transform.y_down);

@@ -431,12 +431,12 @@ static void along_glass_the_rows_hide_nothing(void **state) {
     const sl_runtime_box box = {8.5, 5, 9, 6, false};
     sl_runtime_box list[1];
     sl_runtime_boxes boxes;
-    uint32_t memory[128], scratch[128], cells[16];
+    uint32_t memory[128], scratch[512], cells[16];
     unsigned char seen;
     assert_true(sl_runtime_boxes_count(r, 1, 8) <= 128 && r->cell_count <= 16);
     sl_runtime_boxes_start(&boxes, r, list, 1, 8, memory);
     assert_true(sl_runtime_boxes_move(&boxes, 0, &box));
-    assert_true(sl_runtime_boxes_scratch_count(&boxes) <= 128);
+    assert_true(sl_runtime_boxes_scratch_count(&boxes) <= 512);
     assert_false(sl_runtime_can_see(r, own, behind));
     const uint32_t count = sl_runtime_look(r, &view, scratch, cells, 16);
     bool found = false;

@@ -75,6 +75,35 @@ static void every_reader_says_how_y_goes(void **state) {
     the_wall_comes_back(sli_map_read_dxf, &options, DXF, (sl_transform){{0, 0}, 1000, false});
 }
 
+/// The walls of a text are about a box of its file.
+static void the_square_comes_back(reader *read, const char *text, sl_box expected) {
+    const sl_import_options usual = sl_import_options_default();
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    assert_ok(context, read(context, "f", text, strlen(text), &usual, &map));
+    const sl_runtime_transform transform = of(map.source.transform);
+    const sl_box box = sl_map_bounds(&map);
+    double corners[] = {box.min.x, box.max.y, box.max.x, box.min.y};
+    sl_runtime_from_map(&transform, corners, 2);
+    assert_true(corners[0] == expected.min.x && corners[1] == expected.min.y);
+    assert_true(corners[2] == expected.max.x && corners[3] == expected.max.y);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void squares_come_back(void **state) {
+    (void)state;
+    the_square_comes_back(sli_map_read_image, "P2\n3 4\n1\n1 1 1\n1 0 1\n1 1 1\n1 1 1\n",
+                          (sl_box){{1, 1}, {2, 2}});
+    // One open square of a level. Where a level alone stands in its world does not count.
+    the_square_comes_back(
+        sli_map_read_ldtk,
+        "{\"levels\": [{\"identifier\": \"A\", \"worldX\": 16, \"worldY\": 32, \"pxWid\": 24, "
+        "\"pxHei\": 16, \"layerInstances\": [{\"__identifier\": \"I\", \"__type\": \"IntGrid\", "
+        "\"__cWid\": 3, \"__cHei\": 2, \"__gridSize\": 8, \"intGridCsv\": [1, 0, 1, 1, 1, 1]}]}]}",
+        (sl_box){{8, 0}, {16, 8}});
+}
+
 /// A file that says nothing has y up, and a plan has rows from the top.
 static void whole_files_have_one(void **state) {
     (void)state;
@@ -138,9 +167,8 @@ static void whole_numbers_are_exact(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_reader_says_how_y_goes),
-        cmocka_unit_test(whole_files_have_one),
-        cmocka_unit_test(a_file_keeps_it),
+        cmocka_unit_test(every_reader_says_how_y_goes), cmocka_unit_test(squares_come_back),
+        cmocka_unit_test(whole_files_have_one),         cmocka_unit_test(a_file_keeps_it),
         cmocka_unit_test(whole_numbers_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

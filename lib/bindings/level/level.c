@@ -12,6 +12,7 @@
 
 struct sl_level {
     sl_runtime runtime;
+    sl_runtime_transform transform;
     unsigned char *bytes;
     unsigned char *shut; ///< by door
     char **names;        ///< by door
@@ -89,6 +90,7 @@ static sl_level *open_own(unsigned char *bytes, size_t size) {
         sl_level_close(level);
         return fail(sl_runtime_status_text(status));
     }
+    level->transform.scale = 1;
     level->scratch = room_for(sl_runtime_scratch_count(&level->runtime), sizeof *level->scratch);
     level->cells = room_for(level->runtime.cell_count, sizeof *level->cells);
     if (level->scratch && level->cells && copy_doors(level)) return level;
@@ -133,6 +135,33 @@ const char *sl_level_error(void) {
     return last_error;
 }
 
+// --- coordinates
+
+int32_t sl_level_use_file_coordinates(sl_level *level) {
+    sl_runtime_transform of_file;
+    if (!sl_runtime_map_transform(&level->runtime, &of_file)) return 0;
+    level->transform = of_file;
+    return 1;
+}
+
+void sl_level_use_coordinates(sl_level *level, double origin_x, double origin_y, double scale,
+                              int32_t y_down) {
+    level->transform = (sl_runtime_transform){origin_x, origin_y, scale, y_down != 0};
+}
+
+/// A heading, there or in the map.
+static double turned(const sl_level *level, double heading) {
+    return level->transform.y_down ? -heading : heading;
+}
+
+/// Turns the ends of a box, min x, min y, max x, max y, around where y points the other way.
+static void order_box(const sl_level *level, double box[4]) {
+    if (!level->transform.y_down) return;
+    const double low = box[3];
+    box[3] = box[1];
+    box[1] = low;
+}
+
 // --- the map
 
 int32_t sl_level_cell_count(const sl_level *level) {
@@ -145,6 +174,8 @@ void sl_level_bounds(const sl_level *level, double bounds[4]) {
     bounds[1] = rt->min_y;
     bounds[2] = rt->max_x;
     bounds[3] = rt->max_y;
+    sl_runtime_from_map(&level->transform, bounds, 2);
+    order_box(level, bounds);
 }
 
 /// Room for so many numbers in the level's answer; NULL if memory is short.
@@ -170,6 +201,7 @@ const double *sl_level_cell_corners(sl_level *level, int32_t cell, int32_t *coun
     for (uint32_t i = 0; i < at.vertex_count; i++)
         sl_runtime_get_vertex(&level->runtime, at.first_vertex + i, &points[2 * i],
                               &points[2 * i + 1]);
+    sl_runtime_from_map(&level->transform, points, at.vertex_count);
     *count = (int32_t)at.vertex_count;
     return points;
 }
@@ -187,7 +219,8 @@ int32_t sl_level_start(const sl_level *level, int32_t number, double start[3]) {
     if (number < 0 || !sl_runtime_start(&level->runtime, (uint32_t)number, &found)) return 0;
     start[0] = found.x;
     start[1] = found.y;
-    start[2] = found.heading;
+    start[2] = turned(level, found.heading);
+    sl_runtime_from_map(&level->transform, start, 1);
     return 1;
 }
 
@@ -227,6 +260,7 @@ const double *sl_level_door_segments(sl_level *level, int32_t door, int32_t *cou
     if (!points) return NULL;
     // A segment is four doubles, in the order of the answer.
     sl_runtime_door_segments(&level->runtime, (uint32_t)door, (sl_runtime_segment *)points, found);
+    sl_runtime_from_map(&level->transform, points, 2 * found);
     *count = (int32_t)found;
     return points;
 }
@@ -234,7 +268,9 @@ const double *sl_level_door_segments(sl_level *level, int32_t door, int32_t *cou
 // --- questions
 
 int32_t sl_level_locate(const sl_level *level, double x, double y) {
-    const uint32_t cell = sl_runtime_locate(&level->runtime, x, y);
+    double at[2] = {x, y};
+    sl_runtime_to_map(&level->transform, at, 1);
+    const uint32_t cell = sl_runtime_locate(&level->runtime, at[0], at[1]);
     return cell == SL_RUNTIME_NO_CELL ? -1 : (int32_t)cell;
 }
 
@@ -244,46 +280,70 @@ int32_t sl_level_can_see(const sl_level *level, int32_t from, int32_t to) {
 }
 
 int32_t sl_level_sees(sl_level *level, double x0, double y0, double x1, double y1) {
-    return sl_runtime_sees(&level->runtime, x0, y0, x1, y1, level->shut, 0, level->scratch);
+    double ends[4] = {x0, y0, x1, y1};
+    sl_runtime_to_map(&level->transform, ends, 2);
+    return level->box_scratch
+               ? sl_runtime_sees_past_boxes(&level->boxes, ends[0], ends[1], ends[2], ends[3],
+                                            level->shut, 0, level->box_scratch)
+               : sl_runtime_sees(&level->runtime, ends[0], ends[1], ends[2], ends[3], level->shut,
+                                 0, level->scratch);
 }
 
-int32_t sl_level_can_walk(sl_level *level, double x0, double y0, double x1, double y1) {
-    return sl_runtime_can_walk(&level->runtime, x0, y0, x1, y1, level->shut);
+int32_t sl_level_can_walk(sl_level *level, double x0, double y0, double x1, double y1,
+                          int32_t own) {
+    double ends[4] = {x0, y0, x1, y1};
+    sl_runtime_to_map(&level->transform, ends, 2);
+    return level->box_scratch
+               ? sl_runtime_can_walk_past_boxes(&level->boxes, ends[0], ends[1], ends[2], ends[3],
+                                                level->shut,
+                                                own < 0 ? SL_RUNTIME_NO_BOX : (uint32_t)own)
+               : sl_runtime_can_walk(&level->runtime, ends[0], ends[1], ends[2], ends[3],
+                                     level->shut);
 }
 
-static sl_runtime_view view_of(double x, double y, double heading, double fov) {
-    const double degree = 3.14159265358979323846 / 180;
-    if (!(fov < 180)) return sl_runtime_view_all_round(x, y);
-    return sl_runtime_view_toward(x, y, cos(heading * degree), sin(heading * degree),
-                                  tan(fov / 2 * degree));
+/// An eye with its view, in the map, and its range there.
+typedef struct eye {
+    sl_runtime_view view;
+    double range;
+} eye;
+
+static eye eye_of(const sl_level *level, double x, double y, double heading, double fov,
+                  double range) {
+    const double degree = 3.14159265358979323846 / 180, angle = turned(level, heading) * degree;
+    double at[2] = {x, y};
+    sl_runtime_to_map(&level->transform, at, 1);
+    return (eye){fov < 180 ? sl_runtime_view_toward(at[0], at[1], cos(angle), sin(angle),
+                                                    tan(fov / 2 * degree))
+                           : sl_runtime_view_all_round(at[0], at[1]),
+                 range / level->transform.scale};
 }
 
 const int32_t *sl_level_look(sl_level *level, double x, double y, double heading, double fov,
                              double range, int32_t *count) {
-    const sl_runtime_view view = view_of(x, y, heading, fov);
+    const eye e = eye_of(level, x, y, heading, fov, range);
     uint32_t *cells = (uint32_t *)level->cells;
     const uint32_t room = level->runtime.cell_count;
     *count =
         (int32_t)(level->box_scratch
-                      ? sl_runtime_look_past_boxes(&level->boxes, &view, level->shut, range,
+                      ? sl_runtime_look_past_boxes(&level->boxes, &e.view, level->shut, e.range,
                                                    level->box_scratch, level->seen, cells, room)
-                      : sl_runtime_look_past(&level->runtime, &view, level->shut, range,
+                      : sl_runtime_look_past(&level->runtime, &e.view, level->shut, e.range,
                                              level->scratch, cells, room));
     return level->cells;
 }
 
 const double *sl_level_visible_polygon(sl_level *level, double x, double y, double heading,
                                        double fov, double range, int32_t *count) {
-    const sl_runtime_view view = view_of(x, y, heading, fov);
+    const eye e = eye_of(level, x, y, heading, fov, range);
     uint32_t found = 0;
     *count = 0;
-    for (int round = 0; round < 2; round++) {
-        double *points = level->points;
-        found = sl_runtime_visible_polygon(&level->runtime, &view, level->shut, range,
-                                           level->scratch, points, level->room / 2);
-        if (found <= level->room / 2) break;
-        if (!answer(level, 2 * (size_t)found)) return NULL;
+    for (bool fits = false; !fits;) {
+        found = sl_runtime_visible_polygon(&level->runtime, &e.view, level->shut, e.range,
+                                           level->scratch, level->points, level->room / 2);
+        fits = found <= level->room / 2;
+        if (!fits && !answer(level, 2 * (size_t)found)) return NULL;
     }
+    sl_runtime_from_map(&level->transform, level->points, found);
     *count = (int32_t)found;
     return level->points;
 }
@@ -336,8 +396,11 @@ static bool grow_boxes(sl_level *level) {
 
 void sl_level_move_box(sl_level *level, int32_t box, double min_x, double min_y, double max_x,
                        double max_y, int32_t blocks) {
-    const sl_runtime_box to = {min_x, min_y, max_x, max_y, blocks != 0};
     if (box < 0 || (uint32_t)box >= level->boxes.count) return;
+    double ends[4] = {min_x, min_y, max_x, max_y};
+    sl_runtime_to_map(&level->transform, ends, 2);
+    order_box(level, ends);
+    const sl_runtime_box to = {ends[0], ends[1], ends[2], ends[3], blocks != 0};
     // Without more memory the box counts as seen by every eye, which misses nothing.
     while (!sl_runtime_boxes_move(&level->boxes, (uint32_t)box, &to) && grow_boxes(level)) {
     }
@@ -345,10 +408,10 @@ void sl_level_move_box(sl_level *level, int32_t box, double min_x, double min_y,
 
 const unsigned char *sl_level_boxes_seen(sl_level *level, double x, double y, double heading,
                                          double fov, double range, int32_t *count) {
-    const sl_runtime_view view = view_of(x, y, heading, fov);
+    const eye e = eye_of(level, x, y, heading, fov, range);
     *count = (int32_t)level->boxes.count;
     if (!level->box_scratch) return NULL;
-    sl_runtime_boxes_seen(&level->boxes, &view, level->shut, range, level->box_scratch,
+    sl_runtime_boxes_seen(&level->boxes, &e.view, level->shut, e.range, level->box_scratch,
                           level->seen);
     return level->seen;
 }

@@ -45,6 +45,15 @@ function sightline.open(name) return wrap(c.sl_level_open_file(name)) end
 -- The same from a string of bytes, such as love.filesystem.read gives.
 function sightline.open_bytes(bytes) return wrap(c.sl_level_open(bytes, #bytes)) end
 
+-- Chooses the coordinates of all places, lengths and headings: those of the file that was baked, such
+-- as pixels of a Tiled map with y down. False if the baked file does not have them.
+function level:use_file_coordinates() return c.sl_level_use_file_coordinates(self.handle) == 1 end
+
+-- Or any others: the place in the map that is 0, 0 there, and units there in a unit of the map.
+function level:use_coordinates(origin_x, origin_y, scale, y_down)
+    c.sl_level_use_coordinates(self.handle, origin_x, origin_y, scale, y_down and 1 or 0)
+end
+
 function level:cell_count() return c.sl_level_cell_count(self.handle) end
 
 function level:bounds()
@@ -105,8 +114,9 @@ end
 
 function level:sees(x0, y0, x1, y1) return c.sl_level_sees(self.handle, x0, y0, x1, y1) == 1 end
 
-function level:can_walk(x0, y0, x1, y1)
-    return c.sl_level_can_walk(self.handle, x0, y0, x1, y1) == 1
+-- Box `own` does not stop it: that of who walks. It may be left out.
+function level:can_walk(x0, y0, x1, y1, own)
+    return c.sl_level_can_walk(self.handle, x0, y0, x1, y1, own or -1) == 1
 end
 
 -- Of what an eye sees: all round, or from `heading` with a field of view `fov`, in degrees; within

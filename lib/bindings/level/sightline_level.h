@@ -42,6 +42,19 @@ SL_LEVEL_API const char *sl_level_error(void);
 /// Frees a level; NULL is fine.
 SL_LEVEL_API void sl_level_close(sl_level *level);
 
+// --- coordinates: those of the map, with y up, until one of these calls chooses others. Then all
+// places, boxes, lengths and headings that the level takes and gives are in them.
+
+/// Chooses those of the file that was baked: pixels of a Tiled map with y down, say. 0 if the baked
+/// file does not have it, as those before 2.0; nothing is then changed.
+SL_LEVEL_API int32_t sl_level_use_file_coordinates(sl_level *level);
+/// Chooses any others: `origin_x`, `origin_y` is the place in the map that is 0, 0 there, `scale`
+/// how many units there a unit of the map is (more than 0). With `y_down` headings are clockwise
+/// from +x; polygons still go counter-clockwise as they are seen. Exact for whole numbers if the
+/// scale is a power of 2; else places are rounded.
+SL_LEVEL_API void sl_level_use_coordinates(sl_level *level, double origin_x, double origin_y,
+                                           double scale, int32_t y_down);
+
 // --- the map
 
 SL_LEVEL_API int32_t sl_level_cell_count(const sl_level *level);
@@ -80,8 +93,10 @@ SL_LEVEL_API int32_t sl_level_locate(const sl_level *level, double x, double y);
 SL_LEVEL_API int32_t sl_level_can_see(const sl_level *level, int32_t from, int32_t to);
 /// 1 if an eye at a point sees another point.
 SL_LEVEL_API int32_t sl_level_sees(sl_level *level, double x0, double y0, double x1, double y1);
-/// 1 if one may walk straight from one point to another.
-SL_LEVEL_API int32_t sl_level_can_walk(sl_level *level, double x0, double y0, double x1, double y1);
+/// 1 if one may walk straight from one point to another. Box `own` does not stop it: that of who
+/// walks, or -1.
+SL_LEVEL_API int32_t sl_level_can_walk(sl_level *level, double x0, double y0, double x1, double y1,
+                                       int32_t own);
 /// The cells that an eye sees, `*count` of them. `heading` and `fov` are in degrees,
 /// counter-clockwise from +x; a field of view of 180 or more is all round. `range` above 0 limits
 /// how far it sees; 0 stands for the map's own range.

@@ -433,7 +433,8 @@ SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, do
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
-// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+// bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
+// sl_runtime_visible_polygon_mirrored goes on behind them, and needs no rows.
 
 /// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
 /// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
@@ -489,6 +490,46 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
+/// mirror: a polygon.
+typedef struct sl_runtime_mirror_part {
+    uint32_t mirror; ///< that it is seen in; none for depth 0, what is seen directly
+    uint32_t parent; ///< the part in which the mirror is seen
+    uint32_t depth;  ///< reflections
+    bool rounded;    ///< the image of the eye is rounded
+    double eye[2];   ///< the image of the eye, about which the points go counter-clockwise
+    double frame[6]; ///< where the map seems to be, straight on: a place (x, y) of it at
+                     ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
+    uint32_t first, count; ///< its points are points[first .. first + count)
+    uint32_t cell;         ///< this and the rest is for the function only
+    double right[4], left[4], at[4];
+} sl_runtime_mirror_part;
+
+/// As sl_runtime_visible_polygon, and what is seen in mirrors by up to `depth` reflections. Returns
+/// the number of points of all parts together, and puts the first `room` of them into `points`. The
+/// parts, of which parts[0] is what is seen directly, come each after its parent; *part_count is
+/// their number. If that is more than part_room, parts are missing, and so are those that are seen
+/// in them: ask again with more room. (A part is not empty. So there are none if nothing is seen.)
+///
+/// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
+/// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
+/// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
+/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
+/// each other show the same. An eye on a mirror sees nothing in it.
+///
+/// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
+/// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
+/// those of drawings and games, it always is. If not, and behind oblique mirrors, `rounded` is set.
+/// A part is then exact for an eye and borders that each reflection moves by a few units in the
+/// last place of the largest coordinates. What a range cuts off a mirror is rounded.
+///
+/// 1 part, that seen directly, in a file without mirrors and in one before 2.0, which has not where
+/// they are. Time: a polygon for each part, and for each wall seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room);
 
 // Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
 // without them, and no bake is made when they move. The header keeps, for each cell, a list of the
@@ -572,6 +613,25 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
                                                    uint32_t *boxes_scratch, unsigned char *seen,
                                                    uint32_t *cells, uint32_t room);
 
+/// As sl_runtime_visible_polygon, past boxes that block: their sides are walls, from outside and
+/// for an eye in the box from within. With `boxes_scratch` as for sl_runtime_boxes_seen.
+///
+/// It is decided exactly which sides are seen and in what order (if no coordinate but 0 is 1e70
+/// times smaller than another one). A point where a side crosses an oblique wall is rounded. A box
+/// that is a point hides nothing. Boxes may touch walls and each other, and overlap. An eye on a
+/// side sees one side of it, as on a wall: what is right of the eye and over it, if its cell is
+/// there, else left and over, right and under, left and under. At a corner it sees the part around
+/// it that has this one. All this is as sl_query_region of the library says, but in files with
+/// oblique walls that takes another side of a box that the eye is on.
+///
+/// Time: that of sl_runtime_visible_polygon and of the boxes in the cells that are seen. If some of
+/// these block, twice that, n log n for n such boxes, and what of their sides is seen.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_boxes *boxes,
+                                                              const sl_runtime_view *view,
+                                                              const unsigned char *shut,
+                                                              double range, uint32_t *boxes_scratch,
+                                                              double *points, uint32_t room);
+
 /// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
 /// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
 /// It passes a flat box where it crosses that between its ends, and never one that is a point. An
@@ -592,6 +652,76 @@ SL_RUNTIME_API bool sl_runtime_sees_past_boxes(const sl_runtime_boxes *boxes, do
 SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes, double x0,
                                                    double y0, double x1, double y1,
                                                    const unsigned char *shut, uint32_t except);
+
+/// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
+typedef struct sl_runtime_walker {
+    double radius;                 ///< 0 or less for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
+    uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
+} sl_runtime_walker;
+
+/// Whether a disc may move straight from one point to another. `scratch`, of
+/// sl_runtime_scratch_count, may hold anything.
+///
+/// Conservative: no point of the way, ends included, is nearer than the radius to anything that
+/// stops the disc, or to the map's border. It may say no if something is nearer than the radius
+/// plus 6e-14 of the map's largest coordinates, x plus y, and the radius. With radius 0 it is
+/// exact, as sl_runtime_can_walk and sl_runtime_can_walk_past_boxes. False for a loose file and one
+/// without walls. Time: the sides of the cells within reach of the way, and the boxes in them.
+SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
+                                             const sl_runtime_walker *walker, double x0, double y0,
+                                             double x1, double y1, uint32_t *scratch);
+
+/// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
+/// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+///
+/// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
+/// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
+/// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
+/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
+                                    double x0, double y0, double x1, double y1, uint32_t *scratch,
+                                    double *x, double *y);
+
+// Servers: what each player may see before it hears of the next tick.
+
+/// The size of `relevant_scratch` for sl_runtime_relevant, in uint32_t.
+SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count);
+
+/// Box to box, for many: finds which things each player may see. Player p may see thing t if
+/// bits[p * ((thing_count + 7) / 8) + t / 8] >> t % 8 & 1. Returns the number of such pairs. `bits`
+/// has a row for each player. `shut` and `range` are as for sl_runtime_look_past, but the distance
+/// between two places counts. Boxes do not hide each other.
+///
+/// `margin` is how far a player may come before the next answer. Its box grows by that to each
+/// side, through walls too: all of it looks but what is in solid ground or outside the map.
+///
+/// Conservative: no pair is missed of which one point of the grown box sees one point of the thing
+/// by sl_runtime_sees, with closed sight. It needs no rows, so it is that in any file but a loose
+/// one. Few pairs are added: on the maps of the tests at most 10 % more than the exact answer from
+/// box to box. More are added near the end of the range. A player's box takes everything if its
+/// lines of sight come to 16 times as many portals as the map has, which real maps do not cause.
+///
+/// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
+/// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
+/// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
+/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
+                                          uint32_t player_count, double margin,
+                                          const sl_runtime_box *things, uint32_t thing_count,
+                                          const unsigned char *shut, double range,
+                                          uint32_t *relevant_scratch, unsigned char *bits);
+
+/// The same for two squares: whether some place within `radius0` of (x0, y0) along each axis may
+/// see some place within `radius1` of (x1, y1). `scratch` is as for sl_runtime_look. Time: the
+/// portals between them, and to clear a bit for each cell.
+SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0, double y0,
+                                           double radius0, double x1, double y1, double radius1,
+                                           const unsigned char *shut, double range,
+                                           uint32_t *scratch);
 
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.

@@ -34,17 +34,27 @@ typedef struct slrt_polygon {
     double arc[2], arc_end[2];
     bool pending;           ///< the end of the last piece is not added yet
     slrt_piece piece;       ///< that piece
-    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE
+    uint32_t piece_left;    ///< the border where it ends, or SLRT_NONE for
+    double piece_end[2];    ///< this place
     slrt_piece first_piece; ///< that starts at the first point
     bool first_is_short;    ///< it is shorter than a step of doubles
     bool inside;            ///< the eye lies within its cell
     uint32_t fan_first;     ///< the cell where the way around the eye starts
     bool fan_is_closed;     ///< it leads back to that cell
     bool gap;               ///< the eye lies on a wall, which hides some directions
-    bool in_sector;         ///< only what is between these borders is looked at
-    uint32_t right, left;   ///< borders of the sector
+    double fan_right[2];    ///< if it is not closed: where walls end it, and may be one wall
+    double fan_left[2];
+    bool in_sector;       ///< only what is between these borders is looked at
+    uint32_t right, left; ///< borders of the sector
     bool second_lap, started, done;
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
+    uint32_t fan_cell;         ///< its cell
+    /// For cells that are entered, and in place of adding a wall; NULL for none. By these a program
+    /// that does not ask for boxes is built without what is only for them.
+    void (*meet)(struct slrt_polygon *p, uint32_t cell);
+    void (*see_wall)(struct slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
+                     uint32_t left);
+    void *job; ///< theirs
 } slrt_polygon;
 
 static void slrt_read_vertex(const sl_runtime *rt, const sl_runtime_cell *cell, uint32_t corner,

@@ -30,6 +30,16 @@ static bool slrt_place_eye(slrt_search *s, const sl_runtime *rt, double x, doubl
 /// Where the line from the eye to a point leads.
 typedef enum slrt_finding { SLRT_STOPS, SLRT_ARRIVES, SLRT_TOUCHES } slrt_finding;
 
+static uint32_t slrt_cell_across(const sl_runtime *rt, uint32_t directed) {
+    return slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+}
+
+/// The sign of a turn from a directed portal to a point: 1 for the side that its cell is on.
+static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, double x, double y) {
+    const unsigned char *left = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    return slrt_side_of_line(left + 16, left, x, y);
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -61,12 +71,10 @@ static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t
     uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
     for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
         const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
-        const uint32_t wall = slrt_u32(at + 4);
-        const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
         slrt_arm p, q;
         int right, left;
-        out->right = wall > INT32_MAX ? ends + 16 : ends;
-        out->left = wall > INT32_MAX ? ends : ends + 16;
+        out->right = slrt_passage_end(rt, i, 0);
+        out->left = slrt_passage_end(rt, i, 1);
         p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
         q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
         right = slrt_side(way, &p);
@@ -92,7 +100,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
         return out;
     }
     portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
-    out.cell = slrt_u32(portal + 4);
+    out.cell = slrt_cell_across(s->rt, directed);
     out.is_blocked = slrt_is_blocked(s, directed);
     out.right = portal + 24;
     out.left = portal + 8;
@@ -157,14 +165,13 @@ static bool slrt_overlap(double a, double b, double c, double d) {
 
 /// Whether the way from the eye to a point meets a directed portal, ends included.
 static bool slrt_way_meets(const slrt_search *s, const slrt_arm *way, uint32_t directed) {
-    const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
     const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const int right = slrt_side(way, &p), left = slrt_side(way, &q);
     if (right * left > 0) return false;
     if (!right && !left)
         return slrt_overlap(s->x, way->to_x, p.to_x, q.to_x) &&
                slrt_overlap(s->y, way->to_y, p.to_y, q.to_y);
-    return slrt_side(&p, &q) * slrt_side_of_line(ends + 16, ends, way->to_x, way->to_y) <= 0;
+    return slrt_side(&p, &q) * slrt_side_of_portal_line(s->rt, directed, way->to_x, way->to_y) <= 0;
 }
 
 /// Of so many cells, a list is faster than marks, which have to be cleared first.
@@ -202,7 +209,7 @@ static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
         for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_u32(s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES + 4);
+            const uint32_t to = slrt_cell_across(s->rt, i);
             if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
                 slrt_is_listed(s, to) || slrt_is_blocked(s, i))
                 continue;

@@ -121,11 +121,10 @@ static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double b
     const unsigned char *before = stop - SLRT_VERTEX_BYTES;
     if (slrt_is_beside_box(rt, &cell, box)) return false;
     for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
-        bool outside = true;
-        int k;
-        for (k = 0; k < 4 && outside; k++)
-            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
-        if (outside) return false;
+        // The corner of the box that is farthest to the left of the side.
+        const double x = box[slrt_f64(corner + 8) > slrt_f64(before + 8) ? 0 : 2];
+        const double y = box[slrt_f64(corner) > slrt_f64(before) ? 3 : 1];
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
     }
     return true;
 }

@@ -1,9 +1,5 @@
 /// Boxes: what is asked.
 
-SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes) {
-    return sl_runtime_scratch_count(boxes->runtime) + 2 * (size_t)boxes->count;
-}
-
 /// Twice the distance from the eye to a box's middle, squared.
 static double slrt_away(const slrt_search *s, uint32_t box) {
     const sl_runtime_box *at = &s->boxes->boxes[box];

@@ -32,7 +32,7 @@ static void slrt_see_row(slrt_search *s) {
 /// Takes the next directed portal of the cell on top of the path. Each of the eye's cells is the
 /// start of a search: none leads there.
 static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
-    const uint32_t to = slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
+    const uint32_t to = slrt_cell_across(s->rt, directed);
     slrt_sector sector;
     if (s->marks[to] & SLRT_OWN) return;
     sector.right = top[2];

@@ -41,6 +41,25 @@ static uint32_t slrt_next_way(const sl_runtime *rt, uint32_t cell, uint32_t from
     return rt->passage_count;
 }
 
+/// The right (0) or left (1) end of a passage as its cell crosses it: two numbers of the file.
+static const unsigned char *slrt_passage_end(const sl_runtime *rt, uint32_t passage, int left) {
+    const uint32_t wall = slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 4);
+    const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
+    return (wall > INT32_MAX) == (left != 0) ? ends
+                                             : ends + 16; // the cell is at its right, or left
+}
+
+static void slrt_read_passage(const sl_runtime *rt, uint32_t passage, double *right, double *left) {
+    const unsigned char *ends[2];
+    int i;
+    ends[0] = slrt_passage_end(rt, passage, 0);
+    ends[1] = slrt_passage_end(rt, passage, 1);
+    for (i = 0; i < 2; i++) {
+        right[i] = slrt_f64(ends[0] + 8 * i);
+        left[i] = slrt_f64(ends[1] + 8 * i);
+    }
+}
+
 /// Whether steps pass a wall beside a cell.
 static bool slrt_has_way(const sl_runtime *rt, uint32_t cell) {
     return slrt_next_way(rt, cell, slrt_first_passage(rt, cell)) < rt->passage_count;
@@ -72,17 +91,11 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
     uint32_t i = slrt_first_passage(runtime, cell), count = 0;
     for (; i < runtime->passage_count; i++, count++) {
         const unsigned char *at = runtime->passages + (size_t)i * SLRT_PASSAGE_BYTES;
-        const uint32_t wall = slrt_u32(at + 4);
-        const unsigned char *ends = runtime->walls + (size_t)(wall & INT32_MAX) * 32;
-        const int right = wall > INT32_MAX ? 16 : 0; // of the cell at the wall's left: end a
         if (slrt_u32(at) != cell) break;
         if (count >= room) continue;
         passages[count].cell = slrt_u32(at + 8);
         passages[count].stops = slrt_u32(at + 12);
-        passages[count].right[0] = slrt_f64(ends + right);
-        passages[count].right[1] = slrt_f64(ends + right + 8);
-        passages[count].left[0] = slrt_f64(ends + 16 - right);
-        passages[count].left[1] = slrt_f64(ends + 24 - right);
+        slrt_read_passage(runtime, i, passages[count].right, passages[count].left);
     }
     return count;
 }

@@ -36,12 +36,11 @@ SL_RUNTIME_API sl_runtime_name sl_runtime_door_name(const sl_runtime *runtime, u
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_find_door(const sl_runtime *runtime, const char *name) {
-    size_t length = 0;
-    uint32_t door;
-    while (name[length]) length++;
+    uint32_t door, i;
     for (door = 0; door < runtime->door_count; door++) {
         const sl_runtime_name own = sl_runtime_door_name(runtime, door);
-        if (own.length == length && memcmp(own.text, name, length) == 0) return door;
+        for (i = 0; i < own.length && name[i] && name[i] == own.text[i];) i++;
+        if (i == own.length && !name[i]) return door;
     }
     return SL_RUNTIME_NO_DOOR;
 }

@@ -58,7 +58,7 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
                            ? SLRT_TOUCHES
                            : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
-            next = slrt_u32(s->rt->directed + (size_t)piece.directed * SLRT_DIRECTED_BYTES + 4);
+            next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
             }
             if (k < count) continue;

@@ -1,0 +1,242 @@
+/// The runtime header against brute force in 128-bit floats: random eyes and targets in eight maps,
+/// with doors open and shut, glass and boxes that block.
+///
+/// A target is seen if the segment from the eye crosses no wall, no mirror, no shut door, no dark
+/// glass and no box that blocks. All of these are asked, one by one, with numbers of 113 bits.
+/// Random points are on no line through two ends of walls, so nothing is touched; where a number is
+/// too small to have a sure sign, the test says so and fails.
+///
+///     test_runtime_brute           a few eyes
+///     test_runtime_brute --all     1,000 eyes and 200 targets in each map
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "unit/runtime_maps.h"
+
+#ifndef __SIZEOF_FLOAT128__
+int main(void) {
+    puts("skipped: this compiler has no 128-bit floats");
+    return 0;
+}
+#else
+
+__extension__ typedef __float128 wide;
+
+enum { TARGETS = 200, BOXES = 12, MOST_POINTS = 4096 };
+
+static int eyes = 25;
+
+/// Two coordinates, and what keeps an eye from a target.
+typedef struct place {
+    double x, y;
+} place;
+
+typedef struct scene {
+    sl_context *context;
+    baked_file file;
+    unsigned char *shut;
+    uint32_t *scratch, *boxes_scratch, *cells;
+    sl_runtime_box list[BOXES];
+    sl_runtime_boxes boxes;
+    uint32_t *memory;
+    double *points;
+    long asked, seen;
+} scene;
+
+// --- brute force
+
+static int sign(wide number) {
+    const wide sure = 1e-24; // of numbers up to 10^4: 113 bits leave 10^-30 of them
+    if (number > sure) return 1;
+    if (number < -sure) return -1;
+    fail_msg("a sign is not sure: choose other random places");
+    return 0;
+}
+
+/// On which side of the line from a to b a point is.
+static int side(sl_point a, sl_point b, place p) {
+    return sign(((wide)b.x - a.x) * ((wide)p.y - a.y) - ((wide)b.y - a.y) * ((wide)p.x - a.x));
+}
+
+static bool crosses(sl_segment s, place p, place q) {
+    const sl_point from = {p.x, p.y}, to = {q.x, q.y};
+    return side(s.a, s.b, p) != side(s.a, s.b, q) &&
+           side(from, to, (place){s.a.x, s.a.y}) != side(from, to, (place){s.b.x, s.b.y});
+}
+
+static bool is_in(const sl_runtime_box *box, place p) {
+    return box->min_x < p.x && p.x < box->max_x && box->min_y < p.y && p.y < box->max_y;
+}
+
+/// Whether the segment passes the inside of a box, unless it never leaves it.
+static bool is_hidden_by(const sl_runtime_box *box, place p, place q) {
+    const sl_point corners[4] = {{box->min_x, box->min_y},
+                                 {box->max_x, box->min_y},
+                                 {box->max_x, box->max_y},
+                                 {box->min_x, box->max_y}};
+    if (!box->blocks || (is_in(box, p) && is_in(box, q))) return false;
+    if (is_in(box, p) || is_in(box, q)) return true;
+    for (int i = 0; i < 4; i++)
+        if (crosses((sl_segment){corners[i], corners[(i + 1) % 4]}, p, q)) return true;
+    return false;
+}
+
+/// What a map's walls, mirrors, doors and glass hide.
+static bool passes_map(const scene *s, place p, place q) {
+    const sl_map *map = &s->file.baked.map;
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (crosses((sl_segment){map->walls[i].a, map->walls[i].b}, p, q)) return false;
+    for (size_t i = 0; i < map->mirror_count; i++)
+        if (crosses(map->mirrors[i].segment, p, q)) return false;
+    for (size_t i = 0; i < map->door_count; i++)
+        if (s->shut[i] && crosses(map->doors[i].segment, p, q)) return false;
+    for (size_t i = 0; i < map->oneway_count; i++) {
+        const sl_segment glass = map->oneways[i].segment;
+        if (crosses(glass, p, q) && side(glass.a, glass.b, p) > 0) return false;
+    }
+    return true;
+}
+
+static bool passes_boxes(const scene *s, place p, place q) {
+    for (int i = 0; i < BOXES; i++)
+        if (is_hidden_by(&s->list[i], p, q)) return false;
+    return true;
+}
+
+/// Whether a point is in a polygon, by the edges that a ray to its right crosses; -1 where it is
+/// nearer to an edge than corners are rounded.
+static int is_in_polygon(const double *points, uint32_t count, place q) {
+    bool inside = false;
+    for (uint32_t i = 0, k = count - 1; i < count; k = i++) {
+        const wide ax = (wide)points[2 * k] - q.x, ay = (wide)points[2 * k + 1] - q.y;
+        const wide bx = (wide)points[2 * i] - q.x, by = (wide)points[2 * i + 1] - q.y;
+        const wide turn = ax * by - ay * bx, length = (bx - ax) * (bx - ax) + (by - ay) * (by - ay);
+        if (turn * turn <= 1e-18 * length) return -1;
+        if ((ay > 0) != (by > 0) && (turn > 0) == (by > ay)) inside = !inside;
+    }
+    return inside;
+}
+
+// --- the questions
+
+static place random_place(sl_random *random, const sl_runtime *rt) {
+    return (place){rt->min_x + (rt->max_x - rt->min_x) * sl_random_unit(random),
+                   rt->min_y + (rt->max_y - rt->min_y) * sl_random_unit(random)};
+}
+
+static void move_boxes(scene *s, sl_random *random) {
+    const sl_runtime *rt = &s->file.runtime;
+    const double size = (rt->max_x - rt->min_x) / 12;
+    for (uint32_t i = 0; i < BOXES; i++) {
+        const place at = random_place(random, rt);
+        const sl_runtime_box box = {at.x, at.y, at.x + size * sl_random_unit(random),
+                                    at.y + size * sl_random_unit(random), i % 4 != 0};
+        assert_true(sl_runtime_boxes_move(&s->boxes, i, &box));
+    }
+}
+
+/// Asks an eye for its polygon, with boxes or without.
+static uint32_t polygon_of(scene *s, place eye) {
+    const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
+    const uint32_t count = sl_runtime_visible_polygon(&s->file.runtime, &view, s->shut, 0,
+                                                      s->scratch, s->points, MOST_POINTS);
+    assert_true(count > 2 && count <= MOST_POINTS);
+    return count;
+}
+
+static bool lists(const uint32_t *cells, uint32_t count, uint32_t cell) {
+    for (uint32_t i = 0; i < count; i++)
+        if (cells[i] == cell) return true;
+    return false;
+}
+
+static void ask(scene *s, sl_random *random, place eye) {
+    const sl_runtime *rt = &s->file.runtime;
+    const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
+    const uint32_t points = polygon_of(s, eye);
+    const uint32_t cells =
+        sl_runtime_look_past(rt, &view, s->shut, 0, s->scratch, s->cells, rt->cell_count);
+    for (int i = 0; i < TARGETS; i++) {
+        const place q = random_place(random, rt);
+        const bool truth = passes_map(s, eye, q), past = truth && passes_boxes(s, eye, q);
+        const bool sees = sl_runtime_sees(rt, eye.x, eye.y, q.x, q.y, s->shut, 0, s->scratch);
+        const bool sees_past = sl_runtime_sees_past_boxes(&s->boxes, eye.x, eye.y, q.x, q.y,
+                                                          s->shut, 0, s->boxes_scratch);
+        const int inside = is_in_polygon(s->points, points, q);
+        s->asked++;
+        s->seen += truth;
+        if (sees != truth || sees_past != past || (inside >= 0 && inside != truth))
+            fail_msg("%s: from %.17g %.17g to %.17g %.17g: brute force %d, sees %d, polygon %d; "
+                     "past boxes %d, sees %d",
+                     s->file.name, eye.x, eye.y, q.x, q.y, truth, sees, inside, past, sees_past);
+        if (!truth) continue;
+        assert_true(lists(s->cells, cells, sl_runtime_locate(rt, q.x, q.y)));
+        assert_true(
+            sl_runtime_sees_within(rt, eye.x, eye.y, 0.01, q.x, q.y, 0.01, s->shut, 0, s->scratch));
+    }
+}
+
+// --- the maps
+
+static void start(scene *s) {
+    const sl_runtime *rt = &s->file.runtime;
+    const uint32_t pairs = 64 * BOXES;
+    s->shut = calloc(rt->door_count + 1, 1);
+    s->scratch = malloc(sl_runtime_scratch_count(rt) * sizeof *s->scratch);
+    s->cells = malloc(rt->cell_count * sizeof *s->cells);
+    s->points = malloc(2 * MOST_POINTS * sizeof *s->points);
+    s->memory = malloc(sl_runtime_boxes_count(rt, BOXES, pairs) * sizeof *s->memory);
+    sl_runtime_boxes_start(&s->boxes, rt, s->list, BOXES, pairs, s->memory);
+    s->boxes_scratch = malloc(sl_runtime_boxes_scratch_count(&s->boxes) * sizeof(uint32_t));
+}
+
+static void stop(scene *s) {
+    free(s->shut);
+    free(s->scratch);
+    free(s->cells);
+    free(s->points);
+    free(s->memory);
+    free(s->boxes_scratch);
+    baked_file_destroy(s->context, &s->file);
+    sl_context_destroy(s->context);
+}
+
+static void ask_map(const char *name, double degrees) {
+    scene s = {.context = testing_context(NULL)};
+    char path[1024];
+    snprintf(path, sizeof path, "%s/maps/%s.map", SIGHTLINE_SOURCE_DIR, name);
+    s.file = degrees != 0 ? baked_file_turned(s.context, name, degrees, 0)
+                          : baked_file_of(s.context, path);
+    start(&s);
+    sl_random random = {11};
+    for (int done = 0; done < eyes;) {
+        const place eye = random_place(&random, &s.file.runtime);
+        const uint32_t cell = sl_runtime_locate(&s.file.runtime, eye.x, eye.y);
+        if (sl_runtime_is_solid(&s.file.runtime, cell)) continue;
+        for (uint32_t i = 0; i < s.file.runtime.door_count; i++)
+            s.shut[i] = sl_random_below(&random, 2);
+        move_boxes(&s, &random);
+        ask(&s, &random, eye);
+        done++;
+    }
+    print_message("%s, turned by %g: %ld questions, %ld seen\n", name, degrees, s.asked, s.seen);
+    assert_true(s.seen > s.asked / 500);
+    stop(&s);
+}
+
+static void brute_force_agrees(void **state) {
+    (void)state;
+    ask_map("office", 0);
+    ask_map("effects/doors", 0);
+    ask_map("effects/mirrors", 0);
+    ask_map("effects/oneway", 0);
+    ask_map("oblique/chapel", 0);
+    ask_map("office", 17.3);
+    ask_map("gallery", 17.3);
+    ask_map("courtyard", 17.3);
+}
+
+int main(int argc, char **argv) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(brute_force_agrees)};
+    if (argc == 2 && strcmp(argv[1], "--all") == 0) eyes = 1000;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+#endif

@@ -1,0 +1,273 @@
+// Which things each player may see: by the oracle no pair is missed, and few are added. On the maps
+// no pair is missed of which two points see each other.
+//   test_runtime_relevant [MAPS]    so many random maps of each kind instead of 30
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "oracle/two_boxes.h"
+
+enum { SIZE = 12, WALLS = 14, DOORS = 3, PLAYERS = 6, THINGS = 10, MOST = 64 };
+
+static uint64_t maps = 30;
+
+typedef struct trial {
+    sl_context *context;
+    sl_random random;
+    baked_file file;
+    sl_segment walls[MOST]; ///< with shut doors
+    size_t wall_count;
+    unsigned char *shut;
+    sl_runtime_box players[PLAYERS], things[THINGS];
+    double margin, range;
+    unsigned char bits[PLAYERS * ((THINGS + 7) / 8)];
+    size_t said, seen, within; ///< pairs
+} trial;
+
+static double below(trial *t, uint64_t bound) {
+    return (double)sl_random_below(&t->random, bound);
+}
+
+static sl_runtime_box random_box(trial *t) {
+    const sl_runtime *r = &t->file.runtime;
+    const double unit = (r->max_x - r->min_x) / SIZE, most = sl_random_below(&t->random, 3) ? 2 : 5;
+    const double x = floor(r->min_x + (below(t, SIZE + 3) - 1) * unit);
+    const double y = floor(r->min_y + (below(t, SIZE + 3) - 1) * unit);
+    return (sl_runtime_box){x, y, x + floor(below(t, (uint64_t)most + 1) * unit / 2),
+                            y + floor(below(t, (uint64_t)most + 1) * unit / 2), false};
+}
+
+static void place_boxes(trial *t) {
+    for (size_t i = 0; i < PLAYERS; i++) t->players[i] = random_box(t);
+    for (size_t i = 0; i < THINGS; i++) t->things[i] = random_box(t);
+    t->margin = below(t, 2);
+}
+
+static bool says(const trial *t, size_t player, size_t thing) {
+    return t->bits[player * ((THINGS + 7) / 8) + thing / 8] >> thing % 8 & 1;
+}
+
+static void ask(trial *t) {
+    const sl_runtime *r = &t->file.runtime;
+    uint32_t *scratch = malloc(sl_runtime_relevant_count(r, THINGS) * sizeof *scratch);
+    size_t count = 0;
+    assert_non_null(scratch);
+    const size_t pairs = sl_runtime_relevant(r, t->players, PLAYERS, t->margin, t->things, THINGS,
+                                             t->shut, t->range, scratch, t->bits);
+    for (size_t i = 0; i < PLAYERS; i++)
+        for (size_t k = 0; k < THINGS; k++) count += says(t, i, k);
+    assert_int_equal(count, pairs);
+    free(scratch);
+}
+
+// --- against the oracle
+
+/// The part of a box in the map. False for none.
+static bool in_map(const sl_runtime *r, const sl_runtime_box *box, double margin, sl_box *out) {
+    *out = (sl_box){{fmax(box->min_x - margin, r->min_x), fmax(box->min_y - margin, r->min_y)},
+                    {fmin(box->max_x + margin, r->max_x), fmin(box->max_y + margin, r->max_y)}};
+    return out->min.x <= out->max.x && out->min.y <= out->max.y;
+}
+
+static void print_pair(const trial *t, const sl_box *from, const sl_box *to) {
+    for (size_t i = 0; i < t->wall_count; i++)
+        print_message("wall %.17g %.17g %.17g %.17g\n", t->walls[i].a.x, t->walls[i].a.y,
+                      t->walls[i].b.x, t->walls[i].b.y);
+    print_message("%.17g,%.17g %.17g,%.17g to %.17g,%.17g %.17g,%.17g\n", from->min.x, from->min.y,
+                  from->max.x, from->max.y, to->min.x, to->min.y, to->max.x, to->max.y);
+}
+
+/// The same pair alone, if both boxes are squares.
+static bool within(trial *t, const sl_runtime_box *from, const sl_runtime_box *to) {
+    const sl_runtime *r = &t->file.runtime;
+    const double a = (from->max_x - from->min_x) / 2, b = (to->max_x - to->min_x) / 2;
+    uint32_t *scratch = malloc(sl_runtime_scratch_count(r) * sizeof *scratch);
+    assert_non_null(scratch);
+    const bool sees =
+        sl_runtime_sees_within(r, from->min_x + a, from->min_y + a, a + t->margin, to->min_x + b,
+                               to->min_y + b, b, t->shut, t->range, scratch);
+    free(scratch);
+    return sees;
+}
+
+static bool is_square(const sl_runtime_box *box) {
+    return box->max_x - box->min_x == box->max_y - box->min_y;
+}
+
+static void compare_with_oracle(trial *t) {
+    const sl_box bounds = t->file.baked.space.bounds;
+    ask(t);
+    for (size_t i = 0; i < PLAYERS; i++)
+        for (size_t k = 0; k < THINGS; k++) {
+            sl_box from, to;
+            const bool here = in_map(&t->file.runtime, &t->players[i], t->margin, &from) &&
+                              in_map(&t->file.runtime, &t->things[k], 0, &to);
+            const bool sees = here && two_boxes_see(t->walls, t->wall_count, bounds, from, to);
+            t->said += says(t, i, k);
+            t->seen += sees;
+            if (sees && !says(t, i, k)) {
+                print_pair(t, &from, &to);
+                fail_msg("player %zu does not see thing %zu", i, k);
+            }
+            assert_true(here || !says(t, i, k));
+            if (!is_square(&t->players[i]) || !is_square(&t->things[k])) continue;
+            const bool alone = within(t, &t->players[i], &t->things[k]);
+            t->within += alone;
+            assert_true(alone || !sees);
+            assert_true(!alone || says(t, i, k));
+        }
+}
+
+static void take_walls(trial *t) {
+    const sl_map *map = &t->file.baked.map;
+    t->wall_count = 0;
+    for (size_t i = 0; i < map->wall_count; i++)
+        t->walls[t->wall_count++] = (sl_segment){map->walls[i].a, map->walls[i].b};
+    for (size_t i = 0; i < map->door_count; i++)
+        if (t->shut[i]) t->walls[t->wall_count++] = map->doors[i].segment;
+    assert_true(t->wall_count <= MOST);
+}
+
+/// Turns a map by an angle with a whole tangent, so that coordinates stay integers.
+static void turn(sl_map *map, double c, double s) {
+    for (size_t i = 0; i < 2 * map->wall_count; i++) {
+        sl_point *p = i % 2 ? &map->walls[i / 2].a : &map->walls[i / 2].b;
+        *p = (sl_point){c * p->x - s * p->y, s * p->x + c * p->y};
+    }
+    for (size_t i = 0; i < 2 * map->door_count; i++) {
+        sl_segment *d = &map->doors[i / 2].segment;
+        sl_point *p = i % 2 ? &d->a : &d->b;
+        *p = (sl_point){c * p->x - s * p->y, s * p->x + c * p->y};
+    }
+}
+
+static void check_random_maps(double c, double s) {
+    unsigned char shut[DOORS];
+    trial t = {.context = testing_context(NULL), .random = {5}, .shut = shut};
+    for (uint64_t i = 0; i < maps; i++) {
+        t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
+        grid_rooms(t.context, &t.random, SIZE, WALLS, DOORS, &t.file.baked.map);
+        turn(&t.file.baked.map, c, s);
+        assert_ok(t.context, sl_map_clean(t.context, &t.file.baked.map, NULL, NULL));
+        baked_file_make(t.context, &t.file, false);
+        for (size_t k = 0; k < DOORS; k++) t.shut[k] = (unsigned char)sl_random_below(&t.random, 2);
+        take_walls(&t);
+        place_boxes(&t);
+        compare_with_oracle(&t);
+        baked_file_destroy(t.context, &t.file);
+    }
+    print_message("%zu pairs, the oracle has %zu (%.1f %% more); %zu squares alone\n", t.said,
+                  t.seen, 100 * ((double)t.said / (double)t.seen - 1), t.within);
+    assert_true((double)t.said <= 1.1 * (double)t.seen);
+    sl_context_destroy(t.context);
+}
+
+static void test_axial_maps(void **state) {
+    (void)state;
+    check_random_maps(1, 0);
+}
+
+static void test_turned_maps(void **state) {
+    (void)state;
+    check_random_maps(10, 3);
+    check_random_maps(4, 3);
+    check_random_maps(1, 1);
+}
+
+// --- against points that see each other
+
+/// A place in a box: often on a side or a corner.
+static sl_point place_in(trial *t, const sl_runtime_box *box, double margin) {
+    const double low[2] = {box->min_x - margin, box->min_y - margin};
+    const double high[2] = {box->max_x + margin, box->max_y + margin};
+    double at[2];
+    for (int k = 0; k < 2; k++) {
+        const uint64_t where = sl_random_below(&t->random, 4);
+        at[k] = where == 0   ? low[k]
+                : where == 1 ? high[k]
+                             : low[k] + sl_random_unit(&t->random) * (high[k] - low[k]);
+        at[k] = fmin(at[k], high[k]);
+    }
+    return (sl_point){at[0], at[1]};
+}
+
+/// Somewhere, or with corners on corners and lines of the map.
+static sl_runtime_box box_near(trial *t) {
+    const sl_space *s = &t->file.baked.space;
+    const sl_runtime *r = &t->file.runtime;
+    const double size = (r->max_x - r->min_x) / 10 * sl_random_unit(&t->random);
+    const sl_point v = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+    const sl_point w = s->vertices[sl_random_below(&t->random, s->vertex_count)];
+    const double x = r->min_x + sl_random_unit(&t->random) * (r->max_x - r->min_x);
+    const double y = r->min_y + sl_random_unit(&t->random) * (r->max_y - r->min_y);
+    switch (sl_random_below(&t->random, 5)) {
+    case 0:
+        return (sl_runtime_box){v.x, v.y, v.x, v.y, false};
+    case 1:
+        return (sl_runtime_box){v.x - size, w.y, v.x, w.y + size, false};
+    case 2:
+        return (sl_runtime_box){v.x, w.y - size / 2, v.x + size, w.y + size / 2, false};
+    default:
+        return (sl_runtime_box){x, y, x + size, y + size, false};
+    }
+}
+
+static void check_points(trial *t, uint32_t *scratch) {
+    const sl_runtime *r = &t->file.runtime;
+    for (size_t i = 0; i < PLAYERS; i++)
+        for (size_t k = 0; k < THINGS; k++)
+            for (int tries = 0; tries < 40 && !says(t, i, k); tries++) {
+                const sl_point p = place_in(t, &t->players[i], t->margin);
+                const sl_point q = place_in(t, &t->things[k], 0);
+                if (sl_runtime_sees(r, p.x, p.y, q.x, q.y, t->shut, t->range, scratch))
+                    fail_msg("%s: player %zu at %.17g,%.17g does not see thing %zu at %.17g,%.17g",
+                             t->file.name, i, p.x, p.y, k, q.x, q.y);
+            }
+}
+
+static void check_map(const baked_file *f) {
+    trial t = {.context = NULL, .random = {9}, .file = *f};
+    const sl_runtime *r = &f->runtime;
+    uint32_t *scratch = malloc(sl_runtime_scratch_count(r) * sizeof *scratch);
+    t.shut = calloc(r->door_count + 1, 1);
+    assert_true(scratch && t.shut);
+    for (int round = 0; round < 12; round++) {
+        for (uint32_t i = 0; i < r->door_count; i++)
+            t.shut[i] = (unsigned char)sl_random_below(&t.random, 2);
+        for (size_t i = 0; i < PLAYERS; i++) t.players[i] = box_near(&t);
+        for (size_t i = 0; i < THINGS; i++) t.things[i] = box_near(&t);
+        t.margin = round % 3 ? 0 : (r->max_x - r->min_x) / 40;
+        t.range = round % 4 ? 0 : (r->max_x - r->min_x) / 3;
+        ask(&t);
+        check_points(&t, scratch);
+    }
+    free(t.shut);
+    free(scratch);
+}
+
+static void test_points_of_all_maps(void **state) {
+    (void)state;
+    baked_file_each(check_map);
+}
+
+static void test_points_far_away(void **state) {
+    (void)state;
+    static const double offsets[] = {0, 1e9, 1e-6};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
+        baked_file f = baked_file_turned(context, "office", 17.3, offsets[i]);
+        check_map(&f);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) maps = strtoull(argv[1], NULL, 10);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_axial_maps),
+        cmocka_unit_test(test_turned_maps),
+        cmocka_unit_test(test_points_of_all_maps),
+        cmocka_unit_test(test_points_far_away),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
