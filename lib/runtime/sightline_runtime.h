@@ -72,6 +72,14 @@ typedef struct sl_runtime_transform {
 /// The number of a box that does not exist.
 #define SL_RUNTIME_NO_BOX UINT32_MAX
 
+/// What a wall stops, as bits. Light is sight.
+enum {
+    SL_RUNTIME_STOPS_SIGHT = 1,
+    SL_RUNTIME_STOPS_STEPS = 2,
+    SL_RUNTIME_STOPS_SOUND = 4,
+    SL_RUNTIME_STOPS_ALL = 7
+};
+
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
@@ -90,6 +98,7 @@ typedef struct sl_runtime {
     uint32_t view_cell_count;   ///< 0 for a bake without view cells
     uint32_t view_node_count;   ///< the rows of view cells and of groups of them
     uint32_t door_count;        ///< doors are numbered in the order of the map
+    uint32_t channel;           ///< what the file is for: SL_RUNTIME_STOPS_SIGHT, if not told else
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
@@ -98,6 +107,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    const unsigned char *stops, *passages; ///< NULL where all walls stop all
+    uint32_t passage_count;
     bool has_glass; ///< one-way glass, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
@@ -388,13 +399,34 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
 
+// Windows, fences, curtains: walls that stop only some of sight, steps and sound. A file is for one
+// of the three, mostly for sight. A wall that does not stop this is a portal, and one that does is
+// a wall, which others may pass from cell to cell: a passage.
+
+/// What the walls on a portal stop, as bits of SL_RUNTIME_STOPS_SIGHT ...; 0 for most.
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal);
+
+/// A wall of a cell that does not stop all, with its ends as one crosses it.
+typedef struct sl_runtime_passage {
+    uint32_t cell;  ///< behind it
+    uint32_t stops; ///< bits of SL_RUNTIME_STOPS_SIGHT ..., `channel` of the file among them
+    double left[2], right[2];
+} sl_runtime_passage;
+
+/// Finds the passages of a cell. Returns their number, and puts the first `room` of them into
+/// `passages`. With these and with directed portals, a search for ways knows all neighbours of a
+/// cell. Time: the passages of the cell.
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room);
+
 /// Whether one may walk straight from one point to another: no point of the way, ends included, is
-/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
-/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
-/// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
-/// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
-/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
+/// on a wall that stops steps, a mirror, one-way glass or a shut door, in solid ground or outside
+/// the map. `shut` is as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both
+/// ways. Sight may touch walls, so a step that is only seen could end in a wall and leave it on its
+/// other side. Who is put exactly on a wall cannot leave it: put him beside it. False for a file
+/// that has no walls. Time: the portals of the cells along the step. A step that touches ends of
+/// portals also takes the sides of these cells; in more than 32 cells, or on the map's border, all
+/// walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -795,7 +827,8 @@ enum {
     SLRT_START_BYTES = 24,
     SLRT_OBJECT_BYTES = 40,
     SLRT_PATH_BYTES = 16,
-    SLRT_MIRROR_BYTES = 40
+    SLRT_MIRROR_BYTES = 40,
+    SLRT_PASSAGE_BYTES = 16
 };
 
 enum slrt_tag {
@@ -832,6 +865,9 @@ enum slrt_tag {
     SLRT_PATH,
     SLRT_PAPO,
     SLRT_MIRR,
+    SLRT_STOP, ///< with CHAN and PASS: what walls stop that do not stop all
+    SLRT_CHAN,
+    SLRT_PASS,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -917,6 +953,9 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"PATH", SLRT_PATH_BYTES},
                           {"PAPO", SLRT_VERTEX_BYTES},
                           {"MIRR", SLRT_MIRROR_BYTES},
+                          {"STOP", 4},
+                          {"CHAN", 4},
+                          {"PASS", SLRT_PASSAGE_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -1335,6 +1374,37 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
 }
 
+// --- What is checked of the walls that do not stop all when a file is opened
+
+static bool slrt_passage_is_sound(const sl_runtime *rt, const unsigned char *at) {
+    const uint32_t stops = slrt_u32(at + 12);
+    return slrt_u32(at) < rt->cell_count && slrt_u32(at + 8) < rt->cell_count &&
+           (slrt_u32(at + 4) & INT32_MAX) < rt->wall_count && stops && stops < SL_RUNTIME_STOPS_ALL;
+}
+
+/// Passages go by cell, so that they can be searched.
+static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    rt->stops = found[SLRT_STOP].items;
+    rt->passages = found[SLRT_PASS].items;
+    rt->passage_count = 0;
+    rt->channel = SL_RUNTIME_STOPS_SIGHT;
+    if (found[SLRT_CHAN].items) {
+        rt->channel = found[SLRT_CHAN].count == 1 ? slrt_u32(found[SLRT_CHAN].items) : 0;
+        if (!rt->channel || rt->channel > SL_RUNTIME_STOPS_ALL) return false;
+    }
+    if (rt->stops && found[SLRT_STOP].count != rt->seam_count) return false;
+    if (!rt->passages) return true;
+    if (!rt->walls || found[SLRT_PASS].count > UINT32_MAX) return false;
+    rt->passage_count = (uint32_t)found[SLRT_PASS].count;
+    for (i = 0; i < rt->passage_count; i++) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (!slrt_passage_is_sound(rt, at)) return false;
+        if (i && slrt_u32(at) < slrt_u32(at - SLRT_PASSAGE_BYTES)) return false;
+    }
+    return true;
+}
+
 /// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
 /// words between blanks, comments after '#'. SL_RUNTIME_WITHOUT_OLD_FILES leaves this part out.
 
@@ -1676,6 +1746,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    if (!slrt_take_stops(&rt, found)) return SL_RUNTIME_SPACE;
     status = slrt_take_map(&rt, found);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
@@ -2658,6 +2729,108 @@ SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
     return false;
 }
 
+// --- Portals on seams, and what walls stop that do not stop all
+
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
+    uint32_t low = 0, high = rt->seam_portal_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// What a seam stops; 0 for most.
+static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
+    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) & SL_RUNTIME_STOPS_ALL : 0;
+}
+
+/// The first passage of a cell, or where it would be.
+static uint32_t slrt_first_passage(const sl_runtime *rt, uint32_t cell) {
+    uint32_t low = 0, high = rt->passage_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->passages + (size_t)middle * SLRT_PASSAGE_BYTES) < cell)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// The next passage of a cell that steps take, from a number on; passage_count for none.
+static uint32_t slrt_next_way(const sl_runtime *rt, uint32_t cell, uint32_t from) {
+    for (; from < rt->passage_count; from++) {
+        const unsigned char *at = rt->passages + (size_t)from * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at) != cell) break;
+        if (!(slrt_u32(at + 12) & SL_RUNTIME_STOPS_STEPS)) return from;
+    }
+    return rt->passage_count;
+}
+
+/// The right (0) or left (1) end of a passage as its cell crosses it: two numbers of the file.
+static const unsigned char *slrt_passage_end(const sl_runtime *rt, uint32_t passage, int left) {
+    const uint32_t wall = slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 4);
+    const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
+    return (wall > INT32_MAX) == (left != 0) ? ends
+                                             : ends + 16; // the cell is at its right, or left
+}
+
+static void slrt_read_passage(const sl_runtime *rt, uint32_t passage, double *right, double *left) {
+    const unsigned char *ends[2];
+    int i;
+    ends[0] = slrt_passage_end(rt, passage, 0);
+    ends[1] = slrt_passage_end(rt, passage, 1);
+    for (i = 0; i < 2; i++) {
+        right[i] = slrt_f64(ends[0] + 8 * i);
+        left[i] = slrt_f64(ends[1] + 8 * i);
+    }
+}
+
+/// Whether steps pass a wall beside a cell.
+static bool slrt_has_way(const sl_runtime *rt, uint32_t cell) {
+    return slrt_next_way(rt, cell, slrt_first_passage(rt, cell)) < rt->passage_count;
+}
+
+/// Whether a wall stops steps. Time: the passages.
+static bool slrt_wall_stops_steps(const sl_runtime *rt, uint32_t wall) {
+    uint32_t i;
+    for (i = 0; i < rt->passage_count; i++) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at + 4) == wall) return (slrt_u32(at + 12) & SL_RUNTIME_STOPS_STEPS) != 0;
+    }
+    return true;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal) {
+    uint32_t i, stops = 0;
+    if (!runtime->stops) return 0;
+    for (i = slrt_first_seam(runtime, portal); i < runtime->seam_portal_count; i++) {
+        const unsigned char *on = runtime->seam_portals + (size_t)i * 12;
+        if (slrt_u32(on) != portal) break;
+        stops |= slrt_seam_stops(runtime, slrt_u32(on + 4));
+    }
+    return stops;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room) {
+    uint32_t i = slrt_first_passage(runtime, cell), count = 0;
+    for (; i < runtime->passage_count; i++, count++) {
+        const unsigned char *at = runtime->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at) != cell) break;
+        if (count >= room) continue;
+        passages[count].cell = slrt_u32(at + 8);
+        passages[count].stops = slrt_u32(at + 12);
+        slrt_read_passage(runtime, i, passages[count].right, passages[count].left);
+    }
+    return count;
+}
+
 // --- Eye-to-cell: sectors of directions, and how a portal narrows them
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
@@ -2730,7 +2903,7 @@ typedef struct slrt_search {
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
-    bool on_foot; ///< glass is a wall from both sides
+    bool on_foot; ///< glass is a wall from both sides, and steps count in place of sight
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
@@ -2839,19 +3012,6 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
                   : slrt_run_along(s, &right, &left, sector);
 }
 
-/// The first entry of a portal among the portals on seams, or where it would be.
-static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
-    uint32_t low = 0, high = rt->seam_portal_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
 /// right to the left. For an eye on its line, the eye's cell decides.
 static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
@@ -2866,7 +3026,8 @@ static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
     return false;
 }
 
-/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+/// Whether a directed portal is on a shut door or dark glass, and so a wall; on foot, also on a
+/// wall that stops steps alone.
 static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
     const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
@@ -2878,6 +3039,8 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
         if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
+        if (s->on_foot && slrt_seam_stops(rt, slrt_u32(on + 4)) & SL_RUNTIME_STOPS_STEPS)
+            return true;
     }
     return false;
 }
@@ -3646,6 +3809,56 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
     return SLRT_NONE;
 }
 
+/// A way out of a cell: the cell that it leads to, and its ends as crossed.
+typedef struct slrt_exit {
+    uint32_t cell; ///< SLRT_NONE for no way out
+    bool is_blocked;
+    const unsigned char *right, *left;
+} slrt_exit;
+
+/// As slrt_way_out, for walls that steps pass.
+static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             slrt_exit *out, bool *touches) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        slrt_arm p, q;
+        int right, left;
+        out->right = slrt_passage_end(rt, i, 0);
+        out->left = slrt_passage_end(rt, i, 1);
+        p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
+        q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
+        right = slrt_side(way, &p);
+        left = slrt_side(way, &q);
+        if (right > 0 || left < 0) continue;
+        if (left && right) out->cell = slrt_u32(at + 8);
+        if (left && right) return;
+        *touches = true;
+    }
+}
+
+/// The way by which a line leaves a cell.
+static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                              bool *touches) {
+    const uint32_t directed = slrt_way_out(s, way, cell, touches);
+    const unsigned char *portal;
+    slrt_exit out;
+    out.cell = SLRT_NONE;
+    out.is_blocked = false;
+    if (directed == SLRT_NONE) {
+        if (s->on_foot && s->rt->passage_count && !*touches)
+            slrt_passage_out(s, way, cell, &out, touches);
+        return out;
+    }
+    portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    out.cell = slrt_cell_across(s->rt, directed);
+    out.is_blocked = slrt_is_blocked(s, directed);
+    out.right = portal + 24;
+    out.left = portal + 8;
+    return out;
+}
+
 /// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
 /// to, or a box, stops it.
 static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
@@ -3653,16 +3866,17 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
     for (; steps; steps--) {
         bool touches;
-        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        const slrt_exit out = slrt_exit_of(s, way, cell, &touches);
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
-        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
+        place = out.cell == SLRT_NONE
+                    ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                    : slrt_side_of_line(out.right, out.left, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
-        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_cell_across(s->rt, out);
+        if (out.cell == SLRT_NONE || out.is_blocked) return SLRT_STOPS;
+        cell = out.cell;
     }
     return SLRT_TOUCHES;
 }
@@ -4164,7 +4378,8 @@ enum { SLRT_STEP_CELLS = 32 };
 /// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
 /// are found through portals that it touches, up to its first wall: the cells about a point are
 /// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
-/// on the map's border, which may be wall in part, and for many cells.
+/// on the map's border, which may be wall in part, beside walls that steps pass, and for many
+/// cells.
 static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
                                        const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
@@ -4183,7 +4398,9 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+                return slrt_is_on_border(s->rt, &piece) || slrt_has_way(s->rt, cells[i])
+                           ? SLRT_TOUCHES
+                           : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
             next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
@@ -4202,11 +4419,13 @@ static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const 
     const sl_runtime *rt = s->rt;
     uint32_t i;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32) && slrt_wall_stops_steps(rt, i))
+            return false;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + (size_t)i * 40;
         const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
+             slrt_seam_stops(rt, i) & SL_RUNTIME_STOPS_STEPS) &&
             slrt_touches(from, to, seam))
             return false;
     }
@@ -5062,6 +5281,48 @@ static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
     }
 }
 
+/// Notes that a disc may get to the cell behind a way out of a cell.
+static void slrt_reach_across(slrt_disc *d, const double *a, const double *b, uint32_t to) {
+    if (slrt_is_near(d, a, b, d->radius + 4 * d->slack) && !slrt_is_listed(&d->p.s, to))
+        slrt_list(&d->p.s, to);
+}
+
+/// The next wall along a piece of a cell's boundary that steps pass, from a place on: passage_count
+/// for none. A piece is one wall, or axial.
+static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double *from,
+                              const slrt_piece *piece, slrt_piece *gap) {
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell)), found = rt->passage_count;
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        slrt_piece at;
+        slrt_read_passage(rt, i, at.a, at.b);
+        if (rt->neighbours ? !slrt_same_place(at.a, piece->a) || !slrt_same_place(at.b, piece->b)
+                           : !slrt_is_on(from, piece->b, at.a) || !slrt_is_on(from, piece->b, at.b))
+            continue;
+        if (found < rt->passage_count && !slrt_is_on(from, gap->a, at.a)) continue;
+        found = i;
+        *gap = at;
+    }
+    return found;
+}
+
+/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
+    const sl_runtime *rt = d->p.s.rt;
+    double from[2] = {piece->a[0], piece->a[1]};
+    uint32_t left = rt->passage_count;
+    for (; left; left--) {
+        slrt_piece gap;
+        const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
+        if (passage == rt->passage_count) break;
+        if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
+        slrt_reach_across(d, gap.a, gap.b,
+                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        from[0] = gap.b[0], from[1] = gap.b[1];
+        if (slrt_same_place(from, piece->b)) return;
+    }
+    slrt_stop_at(d, from, piece->b);
+}
+
 /// Goes through the cells within reach of the disc's way, and has what is there stop it.
 static void slrt_stop_within(slrt_disc *d) {
     slrt_search *s = &d->p.s;
@@ -5073,12 +5334,12 @@ static void slrt_stop_within(slrt_disc *d) {
         slrt_stop_at_boxes(d, s->path[at]);
         slrt_walk_around(&d->p, &w, s->path[at], 1);
         while (slrt_walk_next(&d->p, &w, &piece)) {
-            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+            if (piece.directed == SLRT_NONE)
+                slrt_stop_at_walls(d, s->path[at], &piece);
+            else if (slrt_is_blocked(s, piece.directed))
                 slrt_stop_at(d, piece.a, piece.b);
-            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
-                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
-                if (!slrt_is_listed(s, to)) slrt_list(s, to);
-            }
+            else
+                slrt_reach_across(d, piece.a, piece.b, slrt_cell_across(s->rt, piece.directed));
         }
     }
 }
