@@ -708,7 +708,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint3
 /// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
 /// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
 /// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
-/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+/// bytes for each cell. Large things, in far more than eight cells each, take more than one round.
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
                                           uint32_t player_count, double margin,
                                           const sl_runtime_box *things, uint32_t thing_count,
@@ -1094,9 +1094,6 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 /// The index that locates points: a tree if all walls are axial, else a grid. Files of version 1
 /// with oblique walls have a tree along oblique lines. It is ignored, and all cells are tested.
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
-    rt->root = 0;
-    rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
@@ -1231,8 +1228,6 @@ static bool slrt_stands_for_cells(const sl_runtime *rt) {
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
     int tag;
-    rt->view_cell_count = rt->view_node_count = 0;
-    rt->views = rt->view_parents = rt->view_offsets = rt->view_bytes = NULL;
     if (!found[SLRT_VCIN].items) return true;
     for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
         if (!found[tag].items) return false;
@@ -1295,12 +1290,9 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
-    rt->seam_count = 0;
-    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    rt->door_count = 0;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + i * 40;
         const uint32_t number = slrt_u32(seam + 36);
@@ -1613,7 +1605,6 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
     const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    rt->range = 0;
     rt->door_count = 0;
     rt->text = section->items ? section->items : (const unsigned char *)"";
     rt->text_bytes = (size_t)section->count;
@@ -1730,18 +1721,11 @@ static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
 
 /// What the map holds beside walls. Files before 2.0 have it as text alone.
 static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
-    const bool old = !found[SLRT_MAPI].items;
-    memset(&rt->transform, 0, sizeof rt->transform);
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
-    rt->text = NULL;
-    rt->text_bytes = 0;
+    if (!found[SLRT_MAPI].items)
 #ifdef SL_RUNTIME_WITHOUT_OLD_FILES
-    if (old) return SL_RUNTIME_OLD;
+        return SL_RUNTIME_OLD;
 #else
-    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
-    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
-    rt->mirror_lines = NULL;
-    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+        return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 #endif
     return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 }
@@ -1755,6 +1739,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     sl_runtime_status status = slrt_check_header(file, size);
     if (status != SL_RUNTIME_OK) return status;
     memset(found, 0, sizeof found);
+    memset(&rt, 0, sizeof rt);
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
@@ -1797,7 +1782,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_TEXT:
         return "damaged: a door, a start or another thing of the map";
     case SL_RUNTIME_OLD:
-        return "of a version before 2.0, which this program leaves out: bake the map again";
+        return "made before 2.0, and this program leaves that out: bake the map again";
     }
     return "unknown status";
 }
@@ -5237,6 +5222,13 @@ static double slrt_away_from(const double *point, const double *a, const double 
 static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
     const double square = limit * limit;
     double away[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        const double *low = d->from[i] < d->to[i] ? d->from : d->to;
+        const double *high = d->from[i] < d->to[i] ? d->to : d->from;
+        if (low[i] - a[i] >= limit && low[i] - b[i] >= limit) return false;
+        if (a[i] - high[i] >= limit && b[i] - high[i] >= limit) return false;
+    }
     return !(slrt_away_from(d->from, a, b, away) >= square &&
              slrt_away_from(d->to, a, b, away) >= square &&
              slrt_away_from(a, d->from, d->to, away) >= square &&
@@ -6692,14 +6684,14 @@ static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t t
     return bound;
 }
 
-/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
-/// a point in the box.
-static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
-    // By column and row of the point about the box.
+/// The corner of the part from which a line to a point has all of the part on its left or right.
+/// SLRT_NONE for a point in the part.
+static uint32_t slrt_tangent(const double part[4], double x, double y, int side) {
+    // By column and row of the point about the part.
     static const unsigned char corners[3][3][2] = {
         {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
-    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
-    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    const int column = x < part[0] ? 0 : x > part[2] ? 2 : 1;
+    const int row = y < part[1] ? 0 : y > part[3] ? 2 : 1;
     if (column == 1 && row == 1) return SLRT_NONE;
     return SLRT_PART_CORNER + corners[column][row][side];
 }
@@ -6714,8 +6706,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
     const slrt_arm *arm = &bound->arm;
-    // Points that no line of the beam passes on the bound's side. Those that start in the part do
-    // so by definition, seen from the end.
+    // All lines of the beam have these points on the other side, or start where the first one says.
     uint32_t pivots[4];
     int i;
     if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
@@ -6728,7 +6719,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end &&
+        if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.
@@ -7037,7 +7028,7 @@ static bool slrt_look_from_cell(void *context, uint32_t cell) {
     return !slrt_send_beams(&o->beams, cell);
 }
 
-/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+/// Prepares searches. `scratch` has six numbers and a bit for each cell.
 static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
                               double range, uint32_t *scratch) {
     memset(&o->beams, 0, sizeof o->beams);
@@ -7094,18 +7085,16 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry.
-
-enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
+// each cell, and eight entries for each thing.
 
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
     uint32_t *first, *entries, count;
     size_t room;
-    uint32_t thing;        ///< is being placed,
-    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
-    double box[4];         ///< within the bounds of the map
+    uint32_t thing; ///< is being placed
+    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
@@ -7116,10 +7105,6 @@ static bool slrt_place_thing(void *context, uint32_t cell) {
     if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
         !slrt_meets_box(t->origin.beams.rt, cell, t->box))
         return true;
-    if (t->skip) {
-        t->skip--;
-        return true;
-    }
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
     t->entries[2 * (size_t)t->count + 1] = *first;
@@ -7143,20 +7128,16 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
     return false;
 }
 
-/// Places things until there is no room. Those that are left have their turn after these.
+/// Places things until there is no room. The last one and those that are left have their turn after
+/// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
-        const uint32_t before = t->count;
-        t->skip = t->placed;
-        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
-            slrt_visit_near(rt, t->box, slrt_place_thing, t))
-            continue;
-        t->placed += t->count - before;
-        return;
-    }
+    for (; t->thing < thing_count; t->thing++)
+        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
+            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            return;
 }
 
 /// Takes each thing in the map for relevant.
@@ -7173,8 +7154,8 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
-    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
-           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+    return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
+           16 * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -7193,7 +7174,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    t.room = runtime->cell_count + 8 * (size_t)thing_count;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {

@@ -354,8 +354,8 @@ static void check_relevant(const sl_runtime *r, const unsigned char *shut, sl_ra
     for (int i = 0; i < THINGS; i++) things[i] = some_box(r, random);
     uint32_t *scratch = room(sl_runtime_relevant_count(r, count) * sizeof *scratch);
     unsigned char *bits = room(PLAYERS * (((size_t)count + 7) / 8));
-    size_t pairs = sl_runtime_relevant(r, players, PLAYERS, margin, things, count, shut, range,
-                                       scratch, bits);
+    size_t pairs =
+        sl_runtime_relevant(r, players, PLAYERS, margin, things, count, shut, range, scratch, bits);
     for (uint32_t i = 0; i < PLAYERS; i++)
         for (uint32_t k = 0; k < count; k++)
             pairs -= bits[i * ((count + 7) / 8) + k / 8] >> k % 8 & 1;

@@ -46,6 +46,13 @@ static double slrt_away_from(const double *point, const double *a, const double 
 static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
     const double square = limit * limit;
     double away[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        const double *low = d->from[i] < d->to[i] ? d->from : d->to;
+        const double *high = d->from[i] < d->to[i] ? d->to : d->from;
+        if (low[i] - a[i] >= limit && low[i] - b[i] >= limit) return false;
+        if (a[i] - high[i] >= limit && b[i] - high[i] >= limit) return false;
+    }
     return !(slrt_away_from(d->from, a, b, away) >= square &&
              slrt_away_from(d->to, a, b, away) >= square &&
              slrt_away_from(a, d->from, d->to, away) >= square &&
