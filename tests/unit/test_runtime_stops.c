@@ -62,12 +62,42 @@ static void end_file(sl_context *context, baked_file *f) {
     free(f->bytes);
 }
 
+static double point_distance(sl_point p, sl_segment s) {
+    const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+    double at = ((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy);
+    at = at > 0 ? at < 1 ? at : 1 : 0; // NaN too
+    return hypot(p.x - s.a.x - at * dx, p.y - s.a.y - at * dy);
+}
+
+/// Of two segments; 0 where they meet.
+static double distance(sl_segment s, sl_segment t) {
+    if (blockers_meet(s, t)) return 0;
+    return fmin(fmin(point_distance(s.a, t), point_distance(s.b, t)),
+                fmin(point_distance(t.a, s), point_distance(t.b, s)));
+}
+
+/// Discs whose way is clearly free, or clearly too near to a wall or to the border.
+static void try_disc(const baked_file *f, const segments *walls, sl_segment way, double radius,
+                     uint32_t *scratch) {
+    const sl_box b = f->baked.space.bounds;
+    const sl_runtime_walker walker = {.radius = radius, .own_box = SL_RUNTIME_NO_BOX};
+    double least = fmin(fmin(fmin(way.a.x, way.b.x) - b.min.x, b.max.x - fmax(way.a.x, way.b.x)),
+                        fmin(fmin(way.a.y, way.b.y) - b.min.y, b.max.y - fmax(way.a.y, way.b.y)));
+    for (size_t i = 0; i < walls->count; i++) least = fmin(least, distance(way, walls->items[i]));
+    const bool walks =
+        sl_runtime_can_walk_wide(&f->runtime, &walker, way.a.x, way.a.y, way.b.x, way.b.y, scratch);
+    if (fabs(least - radius) > 1e-9 && walks != (least > radius))
+        fail_msg("disc of %g from %.17g %.17g to %.17g %.17g: %d, distance %g", radius, way.a.x,
+                 way.a.y, way.b.x, way.b.y, walks, least);
+}
+
 /// Steps between points of the grid and others against segments that meet no wall.
-static size_t try_steps(sl_context *context, const baked_file *f, const segments *walls,
-                        uint64_t seed, int tries) {
+static size_t try_steps(const baked_file *f, const segments *walls, uint64_t seed, int tries) {
     const sl_box b = f->baked.space.bounds;
     blockers *wall = blockers_create(walls->items, walls->count);
     sl_random random = {seed};
+    uint32_t *scratch = calloc(sl_runtime_scratch_count(&f->runtime), sizeof *scratch);
+    assert_non_null(scratch);
     size_t walked = 0;
     for (int i = 0; i < tries; i++) {
         sl_point ends[2];
@@ -90,9 +120,10 @@ static size_t try_steps(sl_context *context, const baked_file *f, const segments
                      (unsigned long long)seed, ends[0].x, ends[0].y, ends[1].x, ends[1].y, said,
                      back, is);
         walked += is;
+        try_disc(f, walls, (sl_segment){ends[0], ends[1]}, 0.05 * (double)(1 + i % 20), scratch);
     }
     blockers_destroy(wall);
-    (void)context;
+    free(scratch);
     return walked;
 }
 
@@ -144,7 +175,7 @@ static void test_axial(void **state) {
             if (stops[i] & SL_STOPS_STEPS && !testing_same_point(at.a, at.b))
                 add(context, &walls, at);
         }
-        walked += try_steps(context, &f, &walls, seed, 400);
+        walked += try_steps(&f, &walls, seed, 400);
         assert_same_stops(&f);
         passages += f.baked.space.passage_count;
         sl_free(context, walls.items);
@@ -175,7 +206,7 @@ static void test_oblique(void **state) {
         limit_walls(context, seed, &map, stops);
         bake_file(context, &map, channels[seed / 2 % 3], &f);
         list_walls(context, &f.baked, &walls);
-        walked += try_steps(context, &f, &walls, seed, 300);
+        walked += try_steps(&f, &walls, seed, 300);
         assert_same_stops(&f);
         passages += f.baked.space.passage_count;
         sl_free(context, walls.items);
