@@ -72,6 +72,14 @@ typedef struct sl_runtime_transform {
 /// The number of a box that does not exist.
 #define SL_RUNTIME_NO_BOX UINT32_MAX
 
+/// What a wall stops, as bits. Light is sight.
+enum {
+    SL_RUNTIME_STOPS_SIGHT = 1,
+    SL_RUNTIME_STOPS_STEPS = 2,
+    SL_RUNTIME_STOPS_SOUND = 4,
+    SL_RUNTIME_STOPS_ALL = 7
+};
+
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
@@ -90,6 +98,7 @@ typedef struct sl_runtime {
     uint32_t view_cell_count;   ///< 0 for a bake without view cells
     uint32_t view_node_count;   ///< the rows of view cells and of groups of them
     uint32_t door_count;        ///< doors are numbered in the order of the map
+    uint32_t channel;           ///< what the file is for: SL_RUNTIME_STOPS_SIGHT, if not told else
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
@@ -98,6 +107,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    const unsigned char *stops, *passages; ///< NULL where all walls stop all
+    uint32_t passage_count;
     bool has_glass; ///< one-way glass, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
@@ -388,20 +399,42 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
 
+// Windows, fences, curtains: walls that stop only some of sight, steps and sound. A file is for one
+// of the three, mostly for sight. A wall that does not stop this is a portal, and one that does is
+// a wall, which others may pass from cell to cell: a passage.
+
+/// What the walls on a portal stop, as bits of SL_RUNTIME_STOPS_SIGHT ...; 0 for most.
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal);
+
+/// A wall of a cell that does not stop all, with its ends as one crosses it.
+typedef struct sl_runtime_passage {
+    uint32_t cell;  ///< behind it
+    uint32_t stops; ///< bits of SL_RUNTIME_STOPS_SIGHT ..., `channel` of the file among them
+    double left[2], right[2];
+} sl_runtime_passage;
+
+/// Finds the passages of a cell. Returns their number, and puts the first `room` of them into
+/// `passages`. With these and with directed portals, a search for ways knows all neighbours of a
+/// cell. Time: the passages of the cell.
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room);
+
 /// Whether one may walk straight from one point to another: no point of the way, ends included, is
-/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
-/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
-/// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
-/// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
-/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
+/// on a wall that stops steps, a mirror, one-way glass or a shut door, in solid ground or outside
+/// the map. `shut` is as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both
+/// ways. Sight may touch walls, so a step that is only seen could end in a wall and leave it on its
+/// other side. Who is put exactly on a wall cannot leave it: put him beside it. False for a file
+/// that has no walls. Time: the portals of the cells along the step. A step that touches ends of
+/// portals also takes the sides of these cells; in more than 32 cells, or on the map's border, all
+/// walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
-// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+// bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
+// sl_runtime_visible_polygon_mirrored goes on behind them, and needs no rows.
 
 /// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
 /// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
@@ -457,6 +490,46 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
+/// mirror: a polygon.
+typedef struct sl_runtime_mirror_part {
+    uint32_t mirror; ///< that it is seen in; none for depth 0, what is seen directly
+    uint32_t parent; ///< the part in which the mirror is seen
+    uint32_t depth;  ///< reflections
+    bool rounded;    ///< the image of the eye is rounded
+    double eye[2];   ///< the image of the eye, about which the points go counter-clockwise
+    double frame[6]; ///< where the map seems to be, straight on: a place (x, y) of it at
+                     ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
+    uint32_t first, count; ///< its points are points[first .. first + count)
+    uint32_t cell;         ///< this and the rest is for the function only
+    double right[4], left[4], at[4];
+} sl_runtime_mirror_part;
+
+/// As sl_runtime_visible_polygon, and what is seen in mirrors by up to `depth` reflections. Returns
+/// the number of points of all parts together, and puts the first `room` of them into `points`. The
+/// parts, of which parts[0] is what is seen directly, come each after its parent; *part_count is
+/// their number. If that is more than part_room, parts are missing, and so are those that are seen
+/// in them: ask again with more room. (A part is not empty. So there are none if nothing is seen.)
+///
+/// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
+/// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
+/// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
+/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
+/// each other show the same. An eye on a mirror sees nothing in it.
+///
+/// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
+/// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
+/// those of drawings and games, it always is. If not, and behind oblique mirrors, `rounded` is set.
+/// A part is then exact for an eye and borders that each reflection moves by a few units in the
+/// last place of the largest coordinates. What a range cuts off a mirror is rounded.
+///
+/// 1 part, that seen directly, in a file without mirrors and in one before 2.0, which has not where
+/// they are. Time: a polygon for each part, and for each wall seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room);
 
 // Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
 // without them, and no bake is made when they move. The header keeps, for each cell, a list of the
@@ -754,7 +827,8 @@ enum {
     SLRT_START_BYTES = 24,
     SLRT_OBJECT_BYTES = 40,
     SLRT_PATH_BYTES = 16,
-    SLRT_MIRROR_BYTES = 40
+    SLRT_MIRROR_BYTES = 40,
+    SLRT_PASSAGE_BYTES = 16
 };
 
 enum slrt_tag {
@@ -791,6 +865,9 @@ enum slrt_tag {
     SLRT_PATH,
     SLRT_PAPO,
     SLRT_MIRR,
+    SLRT_STOP, ///< with CHAN and PASS: what walls stop that do not stop all
+    SLRT_CHAN,
+    SLRT_PASS,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -876,6 +953,9 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"PATH", SLRT_PATH_BYTES},
                           {"PAPO", SLRT_VERTEX_BYTES},
                           {"MIRR", SLRT_MIRROR_BYTES},
+                          {"STOP", 4},
+                          {"CHAN", 4},
+                          {"PASS", SLRT_PASSAGE_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -1014,9 +1094,6 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 /// The index that locates points: a tree if all walls are axial, else a grid. Files of version 1
 /// with oblique walls have a tree along oblique lines. It is ignored, and all cells are tested.
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
-    rt->root = 0;
-    rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
@@ -1151,8 +1228,6 @@ static bool slrt_stands_for_cells(const sl_runtime *rt) {
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
     int tag;
-    rt->view_cell_count = rt->view_node_count = 0;
-    rt->views = rt->view_parents = rt->view_offsets = rt->view_bytes = NULL;
     if (!found[SLRT_VCIN].items) return true;
     for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
         if (!found[tag].items) return false;
@@ -1215,12 +1290,9 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
-    rt->seam_count = 0;
-    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    rt->door_count = 0;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + i * 40;
         const uint32_t number = slrt_u32(seam + 36);
@@ -1300,6 +1372,37 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
     rows = slrt_mirrored(rt);
     return slrt_rows_are_sound(&rows, found[SLRT_MIRB].count, false) &&
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
+}
+
+// --- What is checked of the walls that do not stop all when a file is opened
+
+static bool slrt_passage_is_sound(const sl_runtime *rt, const unsigned char *at) {
+    const uint32_t stops = slrt_u32(at + 12);
+    return slrt_u32(at) < rt->cell_count && slrt_u32(at + 8) < rt->cell_count &&
+           (slrt_u32(at + 4) & INT32_MAX) < rt->wall_count && stops && stops < SL_RUNTIME_STOPS_ALL;
+}
+
+/// Passages go by cell, so that they can be searched.
+static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    rt->stops = found[SLRT_STOP].items;
+    rt->passages = found[SLRT_PASS].items;
+    rt->passage_count = 0;
+    rt->channel = SL_RUNTIME_STOPS_SIGHT;
+    if (found[SLRT_CHAN].items) {
+        rt->channel = found[SLRT_CHAN].count == 1 ? slrt_u32(found[SLRT_CHAN].items) : 0;
+        if (!rt->channel || rt->channel > SL_RUNTIME_STOPS_ALL) return false;
+    }
+    if (rt->stops && found[SLRT_STOP].count != rt->seam_count) return false;
+    if (!rt->passages) return true;
+    if (!rt->walls || found[SLRT_PASS].count > UINT32_MAX) return false;
+    rt->passage_count = (uint32_t)found[SLRT_PASS].count;
+    for (i = 0; i < rt->passage_count; i++) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (!slrt_passage_is_sound(rt, at)) return false;
+        if (i && slrt_u32(at) < slrt_u32(at - SLRT_PASSAGE_BYTES)) return false;
+    }
+    return true;
 }
 
 /// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
@@ -1502,7 +1605,6 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
     const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    rt->range = 0;
     rt->door_count = 0;
     rt->text = section->items ? section->items : (const unsigned char *)"";
     rt->text_bytes = (size_t)section->count;
@@ -1619,18 +1721,11 @@ static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
 
 /// What the map holds beside walls. Files before 2.0 have it as text alone.
 static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
-    const bool old = !found[SLRT_MAPI].items;
-    memset(&rt->transform, 0, sizeof rt->transform);
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
-    rt->text = NULL;
-    rt->text_bytes = 0;
+    if (!found[SLRT_MAPI].items)
 #ifdef SL_RUNTIME_WITHOUT_OLD_FILES
-    if (old) return SL_RUNTIME_OLD;
+        return SL_RUNTIME_OLD;
 #else
-    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
-    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
-    rt->mirror_lines = NULL;
-    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+        return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 #endif
     return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 }
@@ -1644,12 +1739,14 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     sl_runtime_status status = slrt_check_header(file, size);
     if (status != SL_RUNTIME_OK) return status;
     memset(found, 0, sizeof found);
+    memset(&rt, 0, sizeof rt);
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    if (!slrt_take_stops(&rt, found)) return SL_RUNTIME_SPACE;
     status = slrt_take_map(&rt, found);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
@@ -1685,7 +1782,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_TEXT:
         return "damaged: a door, a start or another thing of the map";
     case SL_RUNTIME_OLD:
-        return "of a version before 2.0, which this program leaves out: bake the map again";
+        return "made before 2.0, and this program leaves that out: bake the map again";
     }
     return "unknown status";
 }
@@ -2632,6 +2729,108 @@ SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
     return false;
 }
 
+// --- Portals on seams, and what walls stop that do not stop all
+
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
+    uint32_t low = 0, high = rt->seam_portal_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// What a seam stops; 0 for most.
+static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
+    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) & SL_RUNTIME_STOPS_ALL : 0;
+}
+
+/// The first passage of a cell, or where it would be.
+static uint32_t slrt_first_passage(const sl_runtime *rt, uint32_t cell) {
+    uint32_t low = 0, high = rt->passage_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->passages + (size_t)middle * SLRT_PASSAGE_BYTES) < cell)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// The next passage of a cell that steps take, from a number on; passage_count for none.
+static uint32_t slrt_next_way(const sl_runtime *rt, uint32_t cell, uint32_t from) {
+    for (; from < rt->passage_count; from++) {
+        const unsigned char *at = rt->passages + (size_t)from * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at) != cell) break;
+        if (!(slrt_u32(at + 12) & SL_RUNTIME_STOPS_STEPS)) return from;
+    }
+    return rt->passage_count;
+}
+
+/// The right (0) or left (1) end of a passage as its cell crosses it: two numbers of the file.
+static const unsigned char *slrt_passage_end(const sl_runtime *rt, uint32_t passage, int left) {
+    const uint32_t wall = slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 4);
+    const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
+    return (wall > INT32_MAX) == (left != 0) ? ends
+                                             : ends + 16; // the cell is at its right, or left
+}
+
+static void slrt_read_passage(const sl_runtime *rt, uint32_t passage, double *right, double *left) {
+    const unsigned char *ends[2];
+    int i;
+    ends[0] = slrt_passage_end(rt, passage, 0);
+    ends[1] = slrt_passage_end(rt, passage, 1);
+    for (i = 0; i < 2; i++) {
+        right[i] = slrt_f64(ends[0] + 8 * i);
+        left[i] = slrt_f64(ends[1] + 8 * i);
+    }
+}
+
+/// Whether steps pass a wall beside a cell.
+static bool slrt_has_way(const sl_runtime *rt, uint32_t cell) {
+    return slrt_next_way(rt, cell, slrt_first_passage(rt, cell)) < rt->passage_count;
+}
+
+/// Whether a wall stops steps. Time: the passages.
+static bool slrt_wall_stops_steps(const sl_runtime *rt, uint32_t wall) {
+    uint32_t i;
+    for (i = 0; i < rt->passage_count; i++) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at + 4) == wall) return (slrt_u32(at + 12) & SL_RUNTIME_STOPS_STEPS) != 0;
+    }
+    return true;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal) {
+    uint32_t i, stops = 0;
+    if (!runtime->stops) return 0;
+    for (i = slrt_first_seam(runtime, portal); i < runtime->seam_portal_count; i++) {
+        const unsigned char *on = runtime->seam_portals + (size_t)i * 12;
+        if (slrt_u32(on) != portal) break;
+        stops |= slrt_seam_stops(runtime, slrt_u32(on + 4));
+    }
+    return stops;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room) {
+    uint32_t i = slrt_first_passage(runtime, cell), count = 0;
+    for (; i < runtime->passage_count; i++, count++) {
+        const unsigned char *at = runtime->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at) != cell) break;
+        if (count >= room) continue;
+        passages[count].cell = slrt_u32(at + 8);
+        passages[count].stops = slrt_u32(at + 12);
+        slrt_read_passage(runtime, i, passages[count].right, passages[count].left);
+    }
+    return count;
+}
+
 // --- Eye-to-cell: sectors of directions, and how a portal narrows them
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
@@ -2704,7 +2903,7 @@ typedef struct slrt_search {
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
-    bool on_foot; ///< glass is a wall from both sides
+    bool on_foot; ///< glass is a wall from both sides, and steps count in place of sight
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
@@ -2813,19 +3012,6 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
                   : slrt_run_along(s, &right, &left, sector);
 }
 
-/// The first entry of a portal among the portals on seams, or where it would be.
-static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
-    uint32_t low = 0, high = rt->seam_portal_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
 /// right to the left. For an eye on its line, the eye's cell decides.
 static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
@@ -2840,7 +3026,8 @@ static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
     return false;
 }
 
-/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+/// Whether a directed portal is on a shut door or dark glass, and so a wall; on foot, also on a
+/// wall that stops steps alone.
 static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
     const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
@@ -2852,6 +3039,8 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
         if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
+        if (s->on_foot && slrt_seam_stops(rt, slrt_u32(on + 4)) & SL_RUNTIME_STOPS_STEPS)
+            return true;
     }
     return false;
 }
@@ -3620,6 +3809,56 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
     return SLRT_NONE;
 }
 
+/// A way out of a cell: the cell that it leads to, and its ends as crossed.
+typedef struct slrt_exit {
+    uint32_t cell; ///< SLRT_NONE for no way out
+    bool is_blocked;
+    const unsigned char *right, *left;
+} slrt_exit;
+
+/// As slrt_way_out, for walls that steps pass.
+static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             slrt_exit *out, bool *touches) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        slrt_arm p, q;
+        int right, left;
+        out->right = slrt_passage_end(rt, i, 0);
+        out->left = slrt_passage_end(rt, i, 1);
+        p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
+        q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
+        right = slrt_side(way, &p);
+        left = slrt_side(way, &q);
+        if (right > 0 || left < 0) continue;
+        if (left && right) out->cell = slrt_u32(at + 8);
+        if (left && right) return;
+        *touches = true;
+    }
+}
+
+/// The way by which a line leaves a cell.
+static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                              bool *touches) {
+    const uint32_t directed = slrt_way_out(s, way, cell, touches);
+    const unsigned char *portal;
+    slrt_exit out;
+    out.cell = SLRT_NONE;
+    out.is_blocked = false;
+    if (directed == SLRT_NONE) {
+        if (s->on_foot && s->rt->passage_count && !*touches)
+            slrt_passage_out(s, way, cell, &out, touches);
+        return out;
+    }
+    portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    out.cell = slrt_cell_across(s->rt, directed);
+    out.is_blocked = slrt_is_blocked(s, directed);
+    out.right = portal + 24;
+    out.left = portal + 8;
+    return out;
+}
+
 /// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
 /// to, or a box, stops it.
 static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
@@ -3627,16 +3866,17 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
     for (; steps; steps--) {
         bool touches;
-        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        const slrt_exit out = slrt_exit_of(s, way, cell, &touches);
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
-        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
+        place = out.cell == SLRT_NONE
+                    ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                    : slrt_side_of_line(out.right, out.left, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
-        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_cell_across(s->rt, out);
+        if (out.cell == SLRT_NONE || out.is_blocked) return SLRT_STOPS;
+        cell = out.cell;
     }
     return SLRT_TOUCHES;
 }
@@ -4138,7 +4378,8 @@ enum { SLRT_STEP_CELLS = 32 };
 /// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
 /// are found through portals that it touches, up to its first wall: the cells about a point are
 /// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
-/// on the map's border, which may be wall in part, and for many cells.
+/// on the map's border, which may be wall in part, beside walls that steps pass, and for many
+/// cells.
 static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
                                        const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
@@ -4157,7 +4398,9 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+                return slrt_is_on_border(s->rt, &piece) || slrt_has_way(s->rt, cells[i])
+                           ? SLRT_TOUCHES
+                           : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
             next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
@@ -4176,11 +4419,13 @@ static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const 
     const sl_runtime *rt = s->rt;
     uint32_t i;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32) && slrt_wall_stops_steps(rt, i))
+            return false;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + (size_t)i * 40;
         const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
+             slrt_seam_stops(rt, i) & SL_RUNTIME_STOPS_STEPS) &&
             slrt_touches(from, to, seam))
             return false;
     }
@@ -4977,6 +5222,13 @@ static double slrt_away_from(const double *point, const double *a, const double 
 static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
     const double square = limit * limit;
     double away[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        const double *low = d->from[i] < d->to[i] ? d->from : d->to;
+        const double *high = d->from[i] < d->to[i] ? d->to : d->from;
+        if (low[i] - a[i] >= limit && low[i] - b[i] >= limit) return false;
+        if (a[i] - high[i] >= limit && b[i] - high[i] >= limit) return false;
+    }
     return !(slrt_away_from(d->from, a, b, away) >= square &&
              slrt_away_from(d->to, a, b, away) >= square &&
              slrt_away_from(a, d->from, d->to, away) >= square &&
@@ -5029,6 +5281,48 @@ static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
     }
 }
 
+/// Notes that a disc may get to the cell behind a way out of a cell.
+static void slrt_reach_across(slrt_disc *d, const double *a, const double *b, uint32_t to) {
+    if (slrt_is_near(d, a, b, d->radius + 4 * d->slack) && !slrt_is_listed(&d->p.s, to))
+        slrt_list(&d->p.s, to);
+}
+
+/// The next wall along a piece of a cell's boundary that steps pass, from a place on: passage_count
+/// for none. A piece is one wall, or axial.
+static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double *from,
+                              const slrt_piece *piece, slrt_piece *gap) {
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell)), found = rt->passage_count;
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        slrt_piece at;
+        slrt_read_passage(rt, i, at.a, at.b);
+        if (rt->neighbours ? !slrt_same_place(at.a, piece->a) || !slrt_same_place(at.b, piece->b)
+                           : !slrt_is_on(from, piece->b, at.a) || !slrt_is_on(from, piece->b, at.b))
+            continue;
+        if (found < rt->passage_count && !slrt_is_on(from, gap->a, at.a)) continue;
+        found = i;
+        *gap = at;
+    }
+    return found;
+}
+
+/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
+    const sl_runtime *rt = d->p.s.rt;
+    double from[2] = {piece->a[0], piece->a[1]};
+    uint32_t left = rt->passage_count;
+    for (; left; left--) {
+        slrt_piece gap;
+        const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
+        if (passage == rt->passage_count) break;
+        if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
+        slrt_reach_across(d, gap.a, gap.b,
+                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        from[0] = gap.b[0], from[1] = gap.b[1];
+        if (slrt_same_place(from, piece->b)) return;
+    }
+    slrt_stop_at(d, from, piece->b);
+}
+
 /// Goes through the cells within reach of the disc's way, and has what is there stop it.
 static void slrt_stop_within(slrt_disc *d) {
     slrt_search *s = &d->p.s;
@@ -5040,12 +5334,12 @@ static void slrt_stop_within(slrt_disc *d) {
         slrt_stop_at_boxes(d, s->path[at]);
         slrt_walk_around(&d->p, &w, s->path[at], 1);
         while (slrt_walk_next(&d->p, &w, &piece)) {
-            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+            if (piece.directed == SLRT_NONE)
+                slrt_stop_at_walls(d, s->path[at], &piece);
+            else if (slrt_is_blocked(s, piece.directed))
                 slrt_stop_at(d, piece.a, piece.b);
-            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
-                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
-                if (!slrt_is_listed(s, to)) slrt_list(s, to);
-            }
+            else
+                slrt_reach_across(d, piece.a, piece.b, slrt_cell_across(s->rt, piece.directed));
         }
     }
 }
@@ -5930,6 +6224,309 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_b
     return slrt_see_polygon(&p);
 }
 
+// --- The visible polygon, and what is seen in mirrors
+
+// The map stays where it is and the eye is reflected. What the eye sees in a mirror is what its
+// image sees straight through the mirror, into the cell before it:
+//
+//       \    eye    /
+//        \         /         The image lies behind the mirror. It looks between two borders, those
+//     ===[ mirror ]===       of the piece of the mirror that is seen: a sector, as in polygon.h,
+//          \     /           about another eye.
+//           image
+//
+// A border is a direction. An axial mirror changes the sign of its x or its y, which is exact. So
+// all signs are right as long as the image is one of doubles. The list of parts is also what waits:
+// each part adds those that are seen in it to the end. Cost: a polygon for each part, and for each
+// wall seen all mirrors.
+
+typedef struct slrt_mirrors_job {
+    sl_runtime_mirror_part *parts;
+    uint32_t room, count; ///< of parts, those that wait included
+    uint32_t missed;      ///< parts for which there is no room
+    uint32_t depth;       ///< the most
+    uint32_t here;        ///< the part that is made
+} slrt_mirrors_job;
+
+static slrt_arm slrt_arm_of(const double *border) {
+    return slrt_make_arm(border[2], border[3], border[0], border[1]);
+}
+
+/// Whether a piece of a cell's boundary is on the line of a mirror. A side on an oblique wall may
+/// be rounded, so the wall is asked.
+static bool slrt_is_on_line(const sl_runtime *rt, uint32_t cell, const slrt_piece *piece,
+                            const double *from, const double *to) {
+    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
+    double a[2], b[2];
+    uint32_t i, wall;
+    memcpy(a, piece->a, sizeof a);
+    memcpy(b, piece->b, sizeof b);
+    for (i = 0; rt->neighbours && rt->walls && i < c.vertex_count; i++) {
+        const unsigned char *end;
+        slrt_read_vertex(rt, &c, slrt_next_corner(&c, i), b);
+        if (!slrt_same_place(b, piece->b)) continue;
+        wall = slrt_u32(rt->neighbours + ((size_t)c.first_vertex + i) * 4) & 0x7fffffffu;
+        if (wall >= rt->wall_count) return false;
+        end = rt->walls + (size_t)wall * 32;
+        a[0] = slrt_f64(end), a[1] = slrt_f64(end + 8);
+        b[0] = slrt_f64(end + 16), b[1] = slrt_f64(end + 24);
+        break;
+    }
+    return !slrt_turn(a, b, from) && !slrt_turn(a, b, to);
+}
+
+/// A number that grows from a to b.
+static double slrt_along(const slrt_piece *piece, const double *at) {
+    const double x = piece->b[0] - piece->a[0], y = piece->b[1] - piece->a[1];
+    if ((x < 0 ? -x : x) >= (y < 0 ? -y : y)) return x > 0 ? at[0] : -at[0];
+    return y > 0 ? at[1] : -at[1];
+}
+
+/// Cuts a piece of a cell's boundary to a mirror's ends. False if nothing of it reflects.
+static bool slrt_cut_to_mirror(const sl_runtime *rt, uint32_t cell, const unsigned char *mirror,
+                               slrt_piece *piece) {
+    double ends[2][2];
+    bool turned;
+    ends[0][0] = slrt_f64(mirror), ends[0][1] = slrt_f64(mirror + 8);
+    ends[1][0] = slrt_f64(mirror + 16), ends[1][1] = slrt_f64(mirror + 24);
+    turned = slrt_along(piece, ends[0]) > slrt_along(piece, ends[1]);
+    if ((turned && slrt_u64(mirror + 32)) || !slrt_is_on_line(rt, cell, piece, ends[0], ends[1]) ||
+        slrt_along(piece, ends[!turned]) <= slrt_along(piece, piece->a) ||
+        slrt_along(piece, ends[turned]) >= slrt_along(piece, piece->b))
+        return false;
+    if (slrt_along(piece, ends[turned]) > slrt_along(piece, piece->a))
+        memcpy(piece->a, ends[turned], sizeof piece->a);
+    if (slrt_along(piece, ends[!turned]) < slrt_along(piece, piece->b))
+        memcpy(piece->b, ends[!turned], sizeof piece->b);
+    return true;
+}
+
+/// Reflects directions and places in a mirror's line: (x, y) becomes
+/// (m[0] x + m[1] y + m[2], m[3] x + m[4] y + m[5]).
+static void slrt_reflection(const unsigned char *mirror, double *m) {
+    const double x = slrt_f64(mirror), y = slrt_f64(mirror + 8);
+    double u[2];
+    u[0] = slrt_f64(mirror + 16) - x;
+    u[1] = slrt_f64(mirror + 24) - y;
+    if (u[0] != 0 && u[1] != 0) slrt_make_unit(u);
+    m[0] = u[0] == 0 ? -1 : u[1] == 0 ? 1 : u[0] * u[0] - u[1] * u[1];
+    m[4] = -m[0];
+    m[1] = m[3] = u[0] != 0 && u[1] != 0 ? 2 * u[0] * u[1] : 0;
+    m[2] = m[1] == 0 ? (u[0] == 0 ? 2 * x : 0) : x - m[0] * x - m[1] * y;
+    m[5] = m[1] == 0 ? (u[1] == 0 ? 2 * y : 0) : y - m[3] * x - m[4] * y;
+}
+
+/// a + b; *rounded is set if that is not exact (Knuth's two-sum).
+static double slrt_sum(double a, double b, bool *rounded) {
+    const double sum = a + b, added = sum - a;
+    if ((a - (sum - added)) + (b - added) != 0) *rounded = true;
+    return sum;
+}
+
+static void slrt_reflect_place(const double *m, const double *at, double *out, bool *rounded) {
+    const double x = at[0], y = at[1];
+    if (m[1] != 0) *rounded = true;
+    out[0] = m[1] == 0 ? slrt_sum(m[0] * x, m[2], rounded) : m[0] * x + m[1] * y + m[2];
+    out[1] = m[1] == 0 ? slrt_sum(m[4] * y, m[5], rounded) : m[3] * x + m[4] * y + m[5];
+}
+
+/// Reflects a border of what is seen. `end`: of the mirror's piece, which it is not beyond, but for
+/// rounding; `turn`: 1 if that is its right end, -1 if its left one.
+static void slrt_reflect_border(const double *m, const slrt_arm *arm, const slrt_arm *end, int turn,
+                                double *border) {
+    slrt_arm image;
+    if (m[1] == 0)
+        image = slrt_make_arm(m[0] * arm->from_x, m[4] * arm->from_y, m[0] * arm->to_x,
+                              m[4] * arm->to_y);
+    else
+        image = slrt_make_arm(0, 0, m[0] * arm->x + m[1] * arm->y, m[3] * arm->x + m[4] * arm->y);
+    if (slrt_side(&image, end) * turn > 0) image = *end;
+    border[0] = image.to_x, border[1] = image.to_y;
+    border[2] = image.from_x, border[3] = image.from_y;
+}
+
+/// The frame in which the map appears behind one more mirror.
+static void slrt_reflect_frame(const double *f, const double *m, double *out) {
+    int i;
+    for (i = 0; i < 6; i += 3) {
+        out[i] = f[i] * m[0] + f[i + 1] * m[3];
+        out[i + 1] = f[i] * m[1] + f[i + 1] * m[4];
+        out[i + 2] = f[i] * m[2] + f[i + 1] * m[5] + f[i + 2];
+    }
+}
+
+/// Limits a piece of a mirror to what is within range. False if that is nothing.
+static bool slrt_limit_to_range(const slrt_polygon *p, slrt_piece *piece) {
+    const slrt_chord c = slrt_chord_of(p, piece->a, piece->b);
+    double a[2], b[2], unit[2];
+    if (!(p->s.range > 0) || (c.a_inside && c.b_inside)) return true;
+    if (!c.a_inside && !c.b_inside && !(c.enter < c.leave && c.enter < 1 && c.leave > 0))
+        return false;
+    memcpy(a, piece->a, sizeof a);
+    memcpy(b, piece->b, sizeof b);
+    if (!c.a_inside) slrt_cross_circle(p, &c, c.enter, a, b, piece->a, unit);
+    if (!c.b_inside) slrt_cross_circle(p, &c, c.leave, a, b, piece->b, unit);
+    return !slrt_same_place(piece->a, piece->b);
+}
+
+/// Adds the part that is seen in a piece of a mirror, from the border `right` to `left` or, for
+/// SLRT_NONE, its ends.
+static void slrt_add_part(const slrt_polygon *p, uint32_t cell, uint32_t mirror,
+                          const slrt_piece *piece, uint32_t right, uint32_t left) {
+    slrt_mirrors_job *job = (slrt_mirrors_job *)p->job;
+    const sl_runtime_mirror_part *from = &job->parts[job->here];
+    slrt_arm u = slrt_arm_to(p, piece->a), v = slrt_arm_to(p, piece->b);
+    const slrt_arm a = right == SLRT_NONE ? u : slrt_border(&p->s, right);
+    const slrt_arm b = left == SLRT_NONE ? v : slrt_border(&p->s, left);
+    double m[6];
+    slrt_arm end;
+    sl_runtime_mirror_part *to;
+    if (slrt_side(&u, &a) > 0) u = a;
+    if (slrt_side(&b, &v) > 0) v = b;
+    if (slrt_side(&u, &v) <= 0) return;
+    if (job->count == job->room) {
+        job->missed++;
+        return;
+    }
+    to = &job->parts[job->count++];
+    memset(to, 0, sizeof *to);
+    slrt_reflection(p->s.rt->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES, m);
+    to->mirror = mirror;
+    to->parent = job->here;
+    to->depth = from->depth + 1;
+    to->rounded = from->rounded;
+    to->cell = cell;
+    slrt_reflect_place(m, from->eye, to->eye, &to->rounded);
+    slrt_reflect_frame(from->frame, m, to->frame);
+    end = slrt_make_arm(to->eye[0], to->eye[1], piece->b[0], piece->b[1]);
+    slrt_reflect_border(m, &v, &end, 1, to->right);
+    end = slrt_make_arm(to->eye[0], to->eye[1], piece->a[0], piece->a[1]);
+    slrt_reflect_border(m, &u, &end, -1, to->left);
+    memcpy(to->at, piece->b, sizeof piece->b);
+    memcpy(to->at + 2, piece->a, sizeof piece->a);
+}
+
+/// Finds the first place on a piece of a cell's boundary, from a on, that is on a mirror, up to
+/// where that mirror ends or an earlier one of the map begins. False for none.
+static bool slrt_next_mirror(slrt_polygon *p, uint32_t cell, const slrt_piece *piece,
+                             slrt_piece *cut, uint32_t *mirror) {
+    const sl_runtime *rt = p->s.rt;
+    bool found = false;
+    uint32_t i;
+    if (p->s.patience < rt->mirror_count) p->broken = true;
+    for (i = 0; i < rt->mirror_count && !p->broken; i++) {
+        slrt_piece on = *piece;
+        if (!slrt_cut_to_mirror(rt, cell, rt->mirror_lines + (size_t)i * SLRT_MIRROR_BYTES, &on) ||
+            (found && slrt_along(piece, on.a) >= slrt_along(piece, cut->a)))
+            continue;
+        if (found && slrt_along(piece, cut->a) < slrt_along(piece, on.b))
+            memcpy(on.b, cut->a, sizeof on.b);
+        *cut = on;
+        *mirror = i;
+        found = true;
+    }
+    p->s.patience -= i;
+    return found;
+}
+
+/// Adds a wall, and what is seen in the mirrors on it.
+static void slrt_see_reflecting(slrt_polygon *p, uint32_t cell, const slrt_piece *piece,
+                                uint32_t right, uint32_t left) {
+    const slrt_mirrors_job *job = (const slrt_mirrors_job *)p->job;
+    const sl_runtime_mirror_part *here = &job->parts[job->here];
+    slrt_piece rest = *piece, cut;
+    uint32_t mirror = 0;
+    slrt_add_wall(p, piece, right, left);
+    if (here->depth == job->depth || piece->directed != SLRT_NONE) return;
+    while (slrt_along(piece, rest.a) < slrt_along(piece, rest.b) &&
+           slrt_next_mirror(p, cell, &rest, &cut, &mirror)) {
+        memcpy(rest.a, cut.b, sizeof rest.a);
+        // Behind a mirror its own side is behind the line of sight, but for rounding.
+        if (!(here->depth && mirror == here->mirror) && slrt_limit_to_range(p, &cut))
+            slrt_add_part(p, cell, mirror, &cut, right, left);
+    }
+}
+
+/// Makes the polygon of a part: from the right end of the mirror's piece, counter-clockwise about
+/// the image, to the left end.
+static uint32_t slrt_see_in_mirror(slrt_polygon *p, const sl_runtime_mirror_part *part) {
+    const slrt_arm right = slrt_arm_of(part->right), left = slrt_arm_of(part->left);
+    slrt_piece mirror;
+    double at[2];
+    memcpy(mirror.a, part->at, sizeof mirror.a);
+    memcpy(mirror.b, part->at + 2, sizeof mirror.b);
+    mirror.directed = SLRT_NONE;
+    p->s.x = part->eye[0];
+    p->s.y = part->eye[1];
+    p->s.cone[0] = right;
+    p->s.cone[1] = left;
+    p->in_sector = true;
+    p->right = SLRT_ARM;
+    p->left = SLRT_ARM + 1;
+    p->fan_is_closed = true; // with one cell
+    p->first_is_short = true;
+    slrt_meet_line(p, &right, &mirror, at);
+    slrt_add_point(p, at, true);
+    slrt_see_fan_cell(p, part->cell);
+    slrt_end_pending(p);
+    slrt_meet_line(p, &left, &mirror, at);
+    slrt_add_point(p, at, true);
+    if (p->s.range > 0) {
+        slrt_end_arc(p);
+        slrt_put(p, at);
+    }
+    return p->broken || p->count < 3 || p->written < 3 ? 0 : p->written;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room) {
+    slrt_mirrors_job job;
+    slrt_polygon p;
+    uint32_t next, all = 0;
+    *part_count = 0;
+    if (!part_room || !slrt_start_polygon(&p, runtime, view, shut, range, scratch, points, room))
+        return 0;
+    memset(&job, 0, sizeof job);
+    job.parts = parts;
+    job.room = part_room;
+    job.count = 1;
+    job.depth = depth;
+    memset(parts, 0, sizeof *parts);
+    parts->eye[0] = p.s.x;
+    parts->eye[1] = p.s.y;
+    parts->frame[0] = parts->frame[4] = 1;
+    parts->cell = p.s.eye_cell;
+    for (next = 0; next < job.count; next++) {
+        const bool fits = all < room;
+        sl_runtime_mirror_part *part = &parts[job.here];
+        const uint32_t waiting = job.count, cell = parts->cell;
+        if (next) {
+            slrt_start_polygon(&p, runtime, view, shut, range, scratch,
+                               fits ? points + 2 * (size_t)all : NULL, fits ? room - all : 0);
+            *part = parts[next];
+        }
+        p.s.eye_cell = cell;
+        p.job = &job;
+        p.see_wall = slrt_see_reflecting;
+        part->first = all;
+        if (next) {
+            part->count = slrt_see_in_mirror(&p, part);
+        } else {
+            slrt_find_fan(&p);
+            part->count = slrt_see_polygon(&p);
+        }
+        all += part->count;
+        if (part->count)
+            job.here++;
+        else
+            job.count = waiting; // what is not seen shows nothing
+    }
+    *part_count = job.missed ? part_room + job.missed : job.here;
+    return all;
+}
+
 /// Box to box: what is seen from anywhere in a box, by a search through portals.
 ///
 /// A beam is all lines of sight that start in a part of the box and pass some portals in turn. On
@@ -6122,7 +6719,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end &&
+        if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.

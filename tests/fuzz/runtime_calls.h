@@ -42,6 +42,9 @@ static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
         count -= sees;
     }
     FUZZ_CHECK(count == 0);
+    sl_runtime_passage passage;
+    if (sl_runtime_passages(r, cell, &passage, 1)) FUZZ_CHECK(passage.cell < r->cell_count);
+    FUZZ_CHECK(sl_runtime_portal_stops(r, cell) <= SL_RUNTIME_STOPS_ALL); // a number like another
     run = sl_runtime_mirrored_row(r, cell);
     while (sl_runtime_next(&run)) FUZZ_CHECK(run.first < run.end && run.end <= r->cell_count);
     const uint32_t seen = sl_runtime_seen_from_mirrored(r, &cell, 1, NULL, b->bits);
@@ -122,6 +125,22 @@ static void check_polygon(const sl_runtime *r, const sl_runtime_view *view, doub
     free(points);
 }
 
+/// Parts come after their parents, and share out the points.
+static void check_mirror_parts(const sl_runtime *r, const sl_runtime_view *view, double range,
+                               const buffers *b) {
+    enum { PARTS = 8 };
+    sl_runtime_mirror_part parts[PARTS];
+    double few[8];
+    uint32_t count, all = 0;
+    const uint32_t points = sl_runtime_visible_polygon_mirrored(r, view, NULL, range, 3, b->scratch,
+                                                                parts, PARTS, &count, few, 4);
+    for (uint32_t i = 0; i < count && count <= PARTS; all += parts[i++].count)
+        FUZZ_CHECK(parts[i].first == all && parts[i].count >= 3 && parts[i].depth <= 3 &&
+                   (parts[i].depth ? parts[i].parent < i : i == 0));
+    FUZZ_CHECK(count > PARTS || all == points);
+    for (uint32_t k = 0; k < 2 * points && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
+}
+
 /// Both ends of a line of sight and of a step are in cells, whatever the walls of the file are.
 static void check_points(const sl_runtime *r, double x, double y, sl_random *random,
                          const buffers *b) {
@@ -144,6 +163,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     check_look(r, &round, b);
     check_polygon(r, &round, 0, b);
     check_polygon(r, &round, odd_real(random), b);
+    check_mirror_parts(r, &round, odd_real(random), b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
     check_points(r, x, y, random, b);
     sl_runtime_view cone = round;
@@ -155,6 +175,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     }
     check_look(r, &cone, b);
     check_polygon(r, &cone, sl_random_unit(random) * (r->max_x - r->min_x), b);
+    check_mirror_parts(r, &cone, 0, b);
 }
 
 /// A corner, somewhere within the bounds, or the middle of a portal.
@@ -270,6 +291,7 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
     const sl_runtime *r = boxes->runtime;
     uint32_t *scratch = room(sl_runtime_boxes_scratch_count(boxes) * sizeof *scratch);
     unsigned char *seen = room(boxes->count);
+    double few[8];
     for (int i = 0; i < 2; i++) {
         const double x = r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
                      y = r->min_y + sl_random_unit(random) * (r->max_y - r->min_y);
@@ -286,6 +308,9 @@ static void ask_boxes(const sl_runtime_boxes *boxes, const unsigned char *shut, 
         FUZZ_CHECK(cells <= r->cell_count);
         for (uint32_t k = 0; k < cells; k++) FUZZ_CHECK(b->cells[k] < r->cell_count);
         const double x1 = i ? odd_real(random) : x + range / 8, y1 = y - range / 8;
+        count = sl_runtime_visible_polygon_past_boxes(boxes, &view, shut, range, scratch, few, 4);
+        FUZZ_CHECK(count == 0 || count >= 3);
+        for (uint32_t k = 0; k < 2 * count && k < 8; k++) FUZZ_CHECK(isfinite(few[k]));
         sl_runtime_sees_past_boxes(boxes, x, y, x1, y1, shut, range, scratch);
         sl_runtime_can_walk_past_boxes(boxes, x, y, x1, y1, shut, (uint32_t)i);
         const sl_runtime_walker walker = {i ? odd_real(random) : range / 16, shut, boxes, 0};

@@ -253,7 +253,7 @@ SL_API void sl_stops_write(uint32_t stops, char text[SL_STOPS_TEXT]);
 SL_API bool sl_stops_read(const char *text, size_t length, uint32_t *out);
 /// What a space of the map lets its walls stop (sl_map.channel), never 0.
 static inline uint32_t sl_map_channel(const sl_map *map) {
-    return map->channel ? map->channel : SL_STOPS_SIGHT;
+    return map->channel ? map->channel : (uint32_t)SL_STOPS_SIGHT;
 }
 
 /// Adds a door. As sl_map_add_wall.

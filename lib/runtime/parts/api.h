@@ -72,6 +72,14 @@ typedef struct sl_runtime_transform {
 /// The number of a box that does not exist.
 #define SL_RUNTIME_NO_BOX UINT32_MAX
 
+/// What a wall stops, as bits. Light is sight.
+enum {
+    SL_RUNTIME_STOPS_SIGHT = 1,
+    SL_RUNTIME_STOPS_STEPS = 2,
+    SL_RUNTIME_STOPS_SOUND = 4,
+    SL_RUNTIME_STOPS_ALL = 7
+};
+
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
@@ -90,6 +98,7 @@ typedef struct sl_runtime {
     uint32_t view_cell_count;   ///< 0 for a bake without view cells
     uint32_t view_node_count;   ///< the rows of view cells and of groups of them
     uint32_t door_count;        ///< doors are numbered in the order of the map
+    uint32_t channel;           ///< what the file is for: SL_RUNTIME_STOPS_SIGHT, if not told else
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
@@ -98,6 +107,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    const unsigned char *stops, *passages; ///< NULL where all walls stop all
+    uint32_t passage_count;
     bool has_glass; ///< one-way glass, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
@@ -388,20 +399,42 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
 
+// Windows, fences, curtains: walls that stop only some of sight, steps and sound. A file is for one
+// of the three, mostly for sight. A wall that does not stop this is a portal, and one that does is
+// a wall, which others may pass from cell to cell: a passage.
+
+/// What the walls on a portal stop, as bits of SL_RUNTIME_STOPS_SIGHT ...; 0 for most.
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal);
+
+/// A wall of a cell that does not stop all, with its ends as one crosses it.
+typedef struct sl_runtime_passage {
+    uint32_t cell;  ///< behind it
+    uint32_t stops; ///< bits of SL_RUNTIME_STOPS_SIGHT ..., `channel` of the file among them
+    double left[2], right[2];
+} sl_runtime_passage;
+
+/// Finds the passages of a cell. Returns their number, and puts the first `room` of them into
+/// `passages`. With these and with directed portals, a search for ways knows all neighbours of a
+/// cell. Time: the passages of the cell.
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room);
+
 /// Whether one may walk straight from one point to another: no point of the way, ends included, is
-/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
-/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
-/// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
-/// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
-/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
+/// on a wall that stops steps, a mirror, one-way glass or a shut door, in solid ground or outside
+/// the map. `shut` is as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both
+/// ways. Sight may touch walls, so a step that is only seen could end in a wall and leave it on its
+/// other side. Who is put exactly on a wall cannot leave it: put him beside it. False for a file
+/// that has no walls. Time: the portals of the cells along the step. A step that touches ends of
+/// portals also takes the sides of these cells; in more than 32 cells, or on the map's border, all
+/// walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
 // Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
-// bake followed (`bake --mirror-depth`, by default 1). The visible polygon ends at mirrors.
+// bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
+// sl_runtime_visible_polygon_mirrored goes on behind them, and needs no rows.
 
 /// Iterates over the cells that are seen by mirror from a cell, as sl_runtime_row. A cell may see
 /// itself. Empty unless `mirrors` is SL_RUNTIME_MIRRORS_BAKED.
@@ -457,6 +490,46 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
+/// mirror: a polygon.
+typedef struct sl_runtime_mirror_part {
+    uint32_t mirror; ///< that it is seen in; none for depth 0, what is seen directly
+    uint32_t parent; ///< the part in which the mirror is seen
+    uint32_t depth;  ///< reflections
+    bool rounded;    ///< the image of the eye is rounded
+    double eye[2];   ///< the image of the eye, about which the points go counter-clockwise
+    double frame[6]; ///< where the map seems to be, straight on: a place (x, y) of it at
+                     ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
+    uint32_t first, count; ///< its points are points[first .. first + count)
+    uint32_t cell;         ///< this and the rest is for the function only
+    double right[4], left[4], at[4];
+} sl_runtime_mirror_part;
+
+/// As sl_runtime_visible_polygon, and what is seen in mirrors by up to `depth` reflections. Returns
+/// the number of points of all parts together, and puts the first `room` of them into `points`. The
+/// parts, of which parts[0] is what is seen directly, come each after its parent; *part_count is
+/// their number. If that is more than part_room, parts are missing, and so are those that are seen
+/// in them: ask again with more room. (A part is not empty. So there are none if nothing is seen.)
+///
+/// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
+/// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
+/// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
+/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
+/// each other show the same. An eye on a mirror sees nothing in it.
+///
+/// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
+/// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
+/// those of drawings and games, it always is. If not, and behind oblique mirrors, `rounded` is set.
+/// A part is then exact for an eye and borders that each reflection moves by a few units in the
+/// last place of the largest coordinates. What a range cuts off a mirror is rounded.
+///
+/// 1 part, that seen directly, in a file without mirrors and in one before 2.0, which has not where
+/// they are. Time: a polygon for each part, and for each wall seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
+    const sl_runtime *runtime, const sl_runtime_view *view, const unsigned char *shut, double range,
+    uint32_t depth, uint32_t *scratch, sl_runtime_mirror_part *parts, uint32_t part_room,
+    uint32_t *part_count, double *points, uint32_t room);
 
 // Boxes move: things that are drawn, and things that hide what is behind them. The level is baked
 // without them, and no bake is made when they move. The header keeps, for each cell, a list of the

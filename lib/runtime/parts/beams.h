@@ -190,7 +190,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end &&
+        if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.
