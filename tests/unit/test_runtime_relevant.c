@@ -287,6 +287,7 @@ static const struct {
     {rooms, {0, 0, 1, 1, false}, {11, 7, 12, 8, false}, 0, false, true},
     {rooms, {0, 0, 1, 1, false}, {11, 7.34, 12, 8, false}, 0, false, false},
     {rooms, {4.5, 4.5, 5.5, 5.5, false}, {7, 4.5, 8, 5.5, false}, 0, false, false}, // in the pillar
+    {rooms, {4.5, 4.5, 5.5, 5.5, false}, {5, 5, 5.5, 5.5, false}, 0, false, false},
     {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 5.5, 5.5, false}, 0, false, false},
     {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 6, 5.5, false}, 0, false, true}, // its side
     {glass, {2, 2, 3, 3, false}, {12, 2, 13, 3, false}, 0, false, false},
