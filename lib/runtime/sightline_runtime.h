@@ -72,6 +72,14 @@ typedef struct sl_runtime_transform {
 /// The number of a box that does not exist.
 #define SL_RUNTIME_NO_BOX UINT32_MAX
 
+/// What a wall stops, as bits. Light is sight.
+enum {
+    SL_RUNTIME_STOPS_SIGHT = 1,
+    SL_RUNTIME_STOPS_STEPS = 2,
+    SL_RUNTIME_STOPS_SOUND = 4,
+    SL_RUNTIME_STOPS_ALL = 7
+};
+
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
@@ -90,6 +98,7 @@ typedef struct sl_runtime {
     uint32_t view_cell_count;   ///< 0 for a bake without view cells
     uint32_t view_node_count;   ///< the rows of view cells and of groups of them
     uint32_t door_count;        ///< doors are numbered in the order of the map
+    uint32_t channel;           ///< what the file is for: SL_RUNTIME_STOPS_SIGHT, if not told else
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
@@ -98,6 +107,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    const unsigned char *stops, *passages; ///< NULL where all walls stop all
+    uint32_t passage_count;
     bool has_glass; ///< one-way glass, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
@@ -388,13 +399,34 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
 
+// Windows, fences, curtains: walls that stop only some of sight, steps and sound. A file is for one
+// of the three, mostly for sight. A wall that does not stop this is a portal, and one that does is
+// a wall, which others may pass from cell to cell: a passage.
+
+/// What the walls on a portal stop, as bits of SL_RUNTIME_STOPS_SIGHT ...; 0 for most.
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal);
+
+/// A wall of a cell that does not stop all, with its ends as one crosses it.
+typedef struct sl_runtime_passage {
+    uint32_t cell;  ///< behind it
+    uint32_t stops; ///< bits of SL_RUNTIME_STOPS_SIGHT ..., `channel` of the file among them
+    double left[2], right[2];
+} sl_runtime_passage;
+
+/// Finds the passages of a cell. Returns their number, and puts the first `room` of them into
+/// `passages`. With these and with directed portals, a search for ways knows all neighbours of a
+/// cell. Time: the passages of the cell.
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room);
+
 /// Whether one may walk straight from one point to another: no point of the way, ends included, is
-/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
-/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
-/// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
-/// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
-/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
+/// on a wall that stops steps, a mirror, one-way glass or a shut door, in solid ground or outside
+/// the map. `shut` is as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both
+/// ways. Sight may touch walls, so a step that is only seen could end in a wall and leave it on its
+/// other side. Who is put exactly on a wall cannot leave it: put him beside it. False for a file
+/// that has no walls. Time: the portals of the cells along the step. A step that touches ends of
+/// portals also takes the sides of these cells; in more than 32 cells, or on the map's border, all
+/// walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -677,7 +709,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint3
 /// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
 /// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
 /// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
-/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+/// bytes for each cell. Large things, in far more than eight cells each, take more than one round.
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
                                           uint32_t player_count, double margin,
                                           const sl_runtime_box *things, uint32_t thing_count,
@@ -796,7 +828,8 @@ enum {
     SLRT_START_BYTES = 24,
     SLRT_OBJECT_BYTES = 40,
     SLRT_PATH_BYTES = 16,
-    SLRT_MIRROR_BYTES = 40
+    SLRT_MIRROR_BYTES = 40,
+    SLRT_PASSAGE_BYTES = 16
 };
 
 enum slrt_tag {
@@ -833,6 +866,9 @@ enum slrt_tag {
     SLRT_PATH,
     SLRT_PAPO,
     SLRT_MIRR,
+    SLRT_STOP, ///< with CHAN and PASS: what walls stop that do not stop all
+    SLRT_CHAN,
+    SLRT_PASS,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -918,6 +954,9 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"PATH", SLRT_PATH_BYTES},
                           {"PAPO", SLRT_VERTEX_BYTES},
                           {"MIRR", SLRT_MIRROR_BYTES},
+                          {"STOP", 4},
+                          {"CHAN", 4},
+                          {"PASS", SLRT_PASSAGE_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -1056,9 +1095,6 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 /// The index that locates points: a tree if all walls are axial, else a grid. Files of version 1
 /// with oblique walls have a tree along oblique lines. It is ignored, and all cells are tested.
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
-    rt->root = 0;
-    rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
@@ -1193,8 +1229,6 @@ static bool slrt_stands_for_cells(const sl_runtime *rt) {
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
     int tag;
-    rt->view_cell_count = rt->view_node_count = 0;
-    rt->views = rt->view_parents = rt->view_offsets = rt->view_bytes = NULL;
     if (!found[SLRT_VCIN].items) return true;
     for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
         if (!found[tag].items) return false;
@@ -1257,12 +1291,9 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
-    rt->seam_count = 0;
-    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    rt->door_count = 0;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + i * 40;
         const uint32_t number = slrt_u32(seam + 36);
@@ -1342,6 +1373,37 @@ static bool slrt_take_mirrors(sl_runtime *rt, const slrt_section *found) {
     rows = slrt_mirrored(rt);
     return slrt_rows_are_sound(&rows, found[SLRT_MIRB].count, false) &&
            slrt_door_rows_are_sound(&rows, &found[SLRT_MDOO], &found[SLRT_MDOB]);
+}
+
+// --- What is checked of the walls that do not stop all when a file is opened
+
+static bool slrt_passage_is_sound(const sl_runtime *rt, const unsigned char *at) {
+    const uint32_t stops = slrt_u32(at + 12);
+    return slrt_u32(at) < rt->cell_count && slrt_u32(at + 8) < rt->cell_count &&
+           (slrt_u32(at + 4) & INT32_MAX) < rt->wall_count && stops && stops < SL_RUNTIME_STOPS_ALL;
+}
+
+/// Passages go by cell, so that they can be searched.
+static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
+    uint32_t i;
+    rt->stops = found[SLRT_STOP].items;
+    rt->passages = found[SLRT_PASS].items;
+    rt->passage_count = 0;
+    rt->channel = SL_RUNTIME_STOPS_SIGHT;
+    if (found[SLRT_CHAN].items) {
+        rt->channel = found[SLRT_CHAN].count == 1 ? slrt_u32(found[SLRT_CHAN].items) : 0;
+        if (!rt->channel || rt->channel > SL_RUNTIME_STOPS_ALL) return false;
+    }
+    if (rt->stops && found[SLRT_STOP].count != rt->seam_count) return false;
+    if (!rt->passages) return true;
+    if (!rt->walls || found[SLRT_PASS].count > UINT32_MAX) return false;
+    rt->passage_count = (uint32_t)found[SLRT_PASS].count;
+    for (i = 0; i < rt->passage_count; i++) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (!slrt_passage_is_sound(rt, at)) return false;
+        if (i && slrt_u32(at) < slrt_u32(at - SLRT_PASSAGE_BYTES)) return false;
+    }
+    return true;
 }
 
 /// The map text of files before 2.0, which have doors and starts nowhere else: statements in lines,
@@ -1544,7 +1606,6 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
     const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    rt->range = 0;
     rt->door_count = 0;
     rt->text = section->items ? section->items : (const unsigned char *)"";
     rt->text_bytes = (size_t)section->count;
@@ -1661,18 +1722,11 @@ static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
 
 /// What the map holds beside walls. Files before 2.0 have it as text alone.
 static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
-    const bool old = !found[SLRT_MAPI].items;
-    memset(&rt->transform, 0, sizeof rt->transform);
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
-    rt->text = NULL;
-    rt->text_bytes = 0;
+    if (!found[SLRT_MAPI].items)
 #ifdef SL_RUNTIME_WITHOUT_OLD_FILES
-    if (old) return SL_RUNTIME_OLD;
+        return SL_RUNTIME_OLD;
 #else
-    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
-    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
-    rt->mirror_lines = NULL;
-    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+        return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 #endif
     return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 }
@@ -1686,12 +1740,14 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     sl_runtime_status status = slrt_check_header(file, size);
     if (status != SL_RUNTIME_OK) return status;
     memset(found, 0, sizeof found);
+    memset(&rt, 0, sizeof rt);
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    if (!slrt_take_stops(&rt, found)) return SL_RUNTIME_SPACE;
     status = slrt_take_map(&rt, found);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
@@ -1727,7 +1783,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_TEXT:
         return "damaged: a door, a start or another thing of the map";
     case SL_RUNTIME_OLD:
-        return "of a version before 2.0, which this program leaves out: bake the map again";
+        return "made before 2.0, and this program leaves that out: bake the map again";
     }
     return "unknown status";
 }
@@ -2674,6 +2730,108 @@ SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
     return false;
 }
 
+// --- Portals on seams, and what walls stop that do not stop all
+
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
+    uint32_t low = 0, high = rt->seam_portal_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// What a seam stops; 0 for most.
+static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
+    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) & SL_RUNTIME_STOPS_ALL : 0;
+}
+
+/// The first passage of a cell, or where it would be.
+static uint32_t slrt_first_passage(const sl_runtime *rt, uint32_t cell) {
+    uint32_t low = 0, high = rt->passage_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->passages + (size_t)middle * SLRT_PASSAGE_BYTES) < cell)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// The next passage of a cell that steps take, from a number on; passage_count for none.
+static uint32_t slrt_next_way(const sl_runtime *rt, uint32_t cell, uint32_t from) {
+    for (; from < rt->passage_count; from++) {
+        const unsigned char *at = rt->passages + (size_t)from * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at) != cell) break;
+        if (!(slrt_u32(at + 12) & SL_RUNTIME_STOPS_STEPS)) return from;
+    }
+    return rt->passage_count;
+}
+
+/// The right (0) or left (1) end of a passage as its cell crosses it: two numbers of the file.
+static const unsigned char *slrt_passage_end(const sl_runtime *rt, uint32_t passage, int left) {
+    const uint32_t wall = slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 4);
+    const unsigned char *ends = rt->walls + (size_t)(wall & INT32_MAX) * 32;
+    return (wall > INT32_MAX) == (left != 0) ? ends
+                                             : ends + 16; // the cell is at its right, or left
+}
+
+static void slrt_read_passage(const sl_runtime *rt, uint32_t passage, double *right, double *left) {
+    const unsigned char *ends[2];
+    int i;
+    ends[0] = slrt_passage_end(rt, passage, 0);
+    ends[1] = slrt_passage_end(rt, passage, 1);
+    for (i = 0; i < 2; i++) {
+        right[i] = slrt_f64(ends[0] + 8 * i);
+        left[i] = slrt_f64(ends[1] + 8 * i);
+    }
+}
+
+/// Whether steps pass a wall beside a cell.
+static bool slrt_has_way(const sl_runtime *rt, uint32_t cell) {
+    return slrt_next_way(rt, cell, slrt_first_passage(rt, cell)) < rt->passage_count;
+}
+
+/// Whether a wall stops steps. Time: the passages.
+static bool slrt_wall_stops_steps(const sl_runtime *rt, uint32_t wall) {
+    uint32_t i;
+    for (i = 0; i < rt->passage_count; i++) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at + 4) == wall) return (slrt_u32(at + 12) & SL_RUNTIME_STOPS_STEPS) != 0;
+    }
+    return true;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal) {
+    uint32_t i, stops = 0;
+    if (!runtime->stops) return 0;
+    for (i = slrt_first_seam(runtime, portal); i < runtime->seam_portal_count; i++) {
+        const unsigned char *on = runtime->seam_portals + (size_t)i * 12;
+        if (slrt_u32(on) != portal) break;
+        stops |= slrt_seam_stops(runtime, slrt_u32(on + 4));
+    }
+    return stops;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room) {
+    uint32_t i = slrt_first_passage(runtime, cell), count = 0;
+    for (; i < runtime->passage_count; i++, count++) {
+        const unsigned char *at = runtime->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        if (slrt_u32(at) != cell) break;
+        if (count >= room) continue;
+        passages[count].cell = slrt_u32(at + 8);
+        passages[count].stops = slrt_u32(at + 12);
+        slrt_read_passage(runtime, i, passages[count].right, passages[count].left);
+    }
+    return count;
+}
+
 // --- Eye-to-cell: sectors of directions, and how a portal narrows them
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
@@ -2746,7 +2904,7 @@ typedef struct slrt_search {
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
-    bool on_foot; ///< glass is a wall from both sides
+    bool on_foot; ///< glass is a wall from both sides, and steps count in place of sight
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
@@ -2855,19 +3013,6 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
                   : slrt_run_along(s, &right, &left, sector);
 }
 
-/// The first entry of a portal among the portals on seams, or where it would be.
-static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
-    uint32_t low = 0, high = rt->seam_portal_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
 /// right to the left. For an eye on its line, the eye's cell decides.
 static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
@@ -2882,7 +3027,8 @@ static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
     return false;
 }
 
-/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+/// Whether a directed portal is on a shut door or dark glass, and so a wall; on foot, also on a
+/// wall that stops steps alone.
 static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
     const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
@@ -2894,6 +3040,8 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
         if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
+        if (s->on_foot && slrt_seam_stops(rt, slrt_u32(on + 4)) & SL_RUNTIME_STOPS_STEPS)
+            return true;
     }
     return false;
 }
@@ -3662,6 +3810,56 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
     return SLRT_NONE;
 }
 
+/// A way out of a cell: the cell that it leads to, and its ends as crossed.
+typedef struct slrt_exit {
+    uint32_t cell; ///< SLRT_NONE for no way out
+    bool is_blocked;
+    const unsigned char *right, *left;
+} slrt_exit;
+
+/// As slrt_way_out, for walls that steps pass.
+static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             slrt_exit *out, bool *touches) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        slrt_arm p, q;
+        int right, left;
+        out->right = slrt_passage_end(rt, i, 0);
+        out->left = slrt_passage_end(rt, i, 1);
+        p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
+        q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
+        right = slrt_side(way, &p);
+        left = slrt_side(way, &q);
+        if (right > 0 || left < 0) continue;
+        if (left && right) out->cell = slrt_u32(at + 8);
+        if (left && right) return;
+        *touches = true;
+    }
+}
+
+/// The way by which a line leaves a cell.
+static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                              bool *touches) {
+    const uint32_t directed = slrt_way_out(s, way, cell, touches);
+    const unsigned char *portal;
+    slrt_exit out;
+    out.cell = SLRT_NONE;
+    out.is_blocked = false;
+    if (directed == SLRT_NONE) {
+        if (s->on_foot && s->rt->passage_count && !*touches)
+            slrt_passage_out(s, way, cell, &out, touches);
+        return out;
+    }
+    portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    out.cell = slrt_cell_across(s->rt, directed);
+    out.is_blocked = slrt_is_blocked(s, directed);
+    out.right = portal + 24;
+    out.left = portal + 8;
+    return out;
+}
+
 /// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
 /// to, or a box, stops it.
 static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
@@ -3669,16 +3867,17 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
     for (; steps; steps--) {
         bool touches;
-        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        const slrt_exit out = slrt_exit_of(s, way, cell, &touches);
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
-        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
+        place = out.cell == SLRT_NONE
+                    ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                    : slrt_side_of_line(out.right, out.left, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
-        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_cell_across(s->rt, out);
+        if (out.cell == SLRT_NONE || out.is_blocked) return SLRT_STOPS;
+        cell = out.cell;
     }
     return SLRT_TOUCHES;
 }
@@ -4180,7 +4379,8 @@ enum { SLRT_STEP_CELLS = 32 };
 /// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
 /// are found through portals that it touches, up to its first wall: the cells about a point are
 /// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
-/// on the map's border, which may be wall in part, and for many cells.
+/// on the map's border, which may be wall in part, beside walls that steps pass, and for many
+/// cells.
 static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
                                        const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
@@ -4199,7 +4399,9 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+                return slrt_is_on_border(s->rt, &piece) || slrt_has_way(s->rt, cells[i])
+                           ? SLRT_TOUCHES
+                           : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
             next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
@@ -4218,11 +4420,13 @@ static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const 
     const sl_runtime *rt = s->rt;
     uint32_t i;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32) && slrt_wall_stops_steps(rt, i))
+            return false;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + (size_t)i * 40;
         const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
+             slrt_seam_stops(rt, i) & SL_RUNTIME_STOPS_STEPS) &&
             slrt_touches(from, to, seam))
             return false;
     }
@@ -5019,6 +5223,13 @@ static double slrt_away_from(const double *point, const double *a, const double 
 static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
     const double square = limit * limit;
     double away[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        const double *low = d->from[i] < d->to[i] ? d->from : d->to;
+        const double *high = d->from[i] < d->to[i] ? d->to : d->from;
+        if (low[i] - a[i] >= limit && low[i] - b[i] >= limit) return false;
+        if (a[i] - high[i] >= limit && b[i] - high[i] >= limit) return false;
+    }
     return !(slrt_away_from(d->from, a, b, away) >= square &&
              slrt_away_from(d->to, a, b, away) >= square &&
              slrt_away_from(a, d->from, d->to, away) >= square &&
@@ -5071,6 +5282,48 @@ static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
     }
 }
 
+/// Notes that a disc may get to the cell behind a way out of a cell.
+static void slrt_reach_across(slrt_disc *d, const double *a, const double *b, uint32_t to) {
+    if (slrt_is_near(d, a, b, d->radius + 4 * d->slack) && !slrt_is_listed(&d->p.s, to))
+        slrt_list(&d->p.s, to);
+}
+
+/// The next wall along a piece of a cell's boundary that steps pass, from a place on: passage_count
+/// for none. A piece is one wall, or axial.
+static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double *from,
+                              const slrt_piece *piece, slrt_piece *gap) {
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell)), found = rt->passage_count;
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        slrt_piece at;
+        slrt_read_passage(rt, i, at.a, at.b);
+        if (rt->neighbours ? !slrt_same_place(at.a, piece->a) || !slrt_same_place(at.b, piece->b)
+                           : !slrt_is_on(from, piece->b, at.a) || !slrt_is_on(from, piece->b, at.b))
+            continue;
+        if (found < rt->passage_count && !slrt_is_on(from, gap->a, at.a)) continue;
+        found = i;
+        *gap = at;
+    }
+    return found;
+}
+
+/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
+    const sl_runtime *rt = d->p.s.rt;
+    double from[2] = {piece->a[0], piece->a[1]};
+    uint32_t left = rt->passage_count;
+    for (; left; left--) {
+        slrt_piece gap;
+        const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
+        if (passage == rt->passage_count) break;
+        if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
+        slrt_reach_across(d, gap.a, gap.b,
+                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        from[0] = gap.b[0], from[1] = gap.b[1];
+        if (slrt_same_place(from, piece->b)) return;
+    }
+    slrt_stop_at(d, from, piece->b);
+}
+
 /// Goes through the cells within reach of the disc's way, and has what is there stop it.
 static void slrt_stop_within(slrt_disc *d) {
     slrt_search *s = &d->p.s;
@@ -5082,12 +5335,12 @@ static void slrt_stop_within(slrt_disc *d) {
         slrt_stop_at_boxes(d, s->path[at]);
         slrt_walk_around(&d->p, &w, s->path[at], 1);
         while (slrt_walk_next(&d->p, &w, &piece)) {
-            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+            if (piece.directed == SLRT_NONE)
+                slrt_stop_at_walls(d, s->path[at], &piece);
+            else if (slrt_is_blocked(s, piece.directed))
                 slrt_stop_at(d, piece.a, piece.b);
-            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
-                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
-                if (!slrt_is_listed(s, to)) slrt_list(s, to);
-            }
+            else
+                slrt_reach_across(d, piece.a, piece.b, slrt_cell_across(s->rt, piece.directed));
         }
     }
 }
@@ -6451,14 +6704,14 @@ static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t t
     return bound;
 }
 
-/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
-/// a point in the box.
-static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
-    // By column and row of the point about the box.
+/// The corner of the part from which a line to a point has all of the part on its left or right.
+/// SLRT_NONE for a point in the part.
+static uint32_t slrt_tangent(const double part[4], double x, double y, int side) {
+    // By column and row of the point about the part.
     static const unsigned char corners[3][3][2] = {
         {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
-    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
-    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    const int column = x < part[0] ? 0 : x > part[2] ? 2 : 1;
+    const int row = y < part[1] ? 0 : y > part[3] ? 2 : 1;
     if (column == 1 && row == 1) return SLRT_NONE;
     return SLRT_PART_CORNER + corners[column][row][side];
 }
@@ -6473,8 +6726,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
     const slrt_arm *arm = &bound->arm;
-    // Points that no line of the beam passes on the bound's side. Those that start in the part do
-    // so by definition, seen from the end.
+    // All lines of the beam have these points on the other side, or start where the first one says.
     uint32_t pivots[4];
     int i;
     if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
@@ -6487,7 +6739,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end &&
+        if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.
@@ -6796,7 +7048,7 @@ static bool slrt_look_from_cell(void *context, uint32_t cell) {
     return !slrt_send_beams(&o->beams, cell);
 }
 
-/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+/// Prepares searches. `scratch` has six numbers and a bit for each cell.
 static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
                               double range, uint32_t *scratch) {
     memset(&o->beams, 0, sizeof o->beams);
@@ -6853,18 +7105,16 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry.
-
-enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
+// each cell, and eight entries for each thing.
 
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
     uint32_t *first, *entries, count;
     size_t room;
-    uint32_t thing;        ///< is being placed,
-    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
-    double box[4];         ///< within the bounds of the map
+    uint32_t thing; ///< is being placed
+    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
@@ -6875,10 +7125,6 @@ static bool slrt_place_thing(void *context, uint32_t cell) {
     if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
         !slrt_meets_box(t->origin.beams.rt, cell, t->box))
         return true;
-    if (t->skip) {
-        t->skip--;
-        return true;
-    }
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
     t->entries[2 * (size_t)t->count + 1] = *first;
@@ -6902,20 +7148,16 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
     return false;
 }
 
-/// Places things until there is no room. Those that are left have their turn after these.
+/// Places things until there is no room. The last one and those that are left have their turn after
+/// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
-        const uint32_t before = t->count;
-        t->skip = t->placed;
-        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
-            slrt_visit_near(rt, t->box, slrt_place_thing, t))
-            continue;
-        t->placed += t->count - before;
-        return;
-    }
+    for (; t->thing < thing_count; t->thing++)
+        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
+            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            return;
 }
 
 /// Takes each thing in the map for relevant.
@@ -6932,8 +7174,8 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
-    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
-           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+    return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
+           16 * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -6952,7 +7194,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    t.room = runtime->cell_count + 8 * (size_t)thing_count;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {

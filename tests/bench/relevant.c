@@ -17,7 +17,14 @@
 
 #include <math.h>
 
-enum { PLAYERS = 64, THINGS = 1000, STRIDE = (THINGS + 7) / 8, ROUNDS = 15, RAYS = 2000, ROOM = 64 };
+enum {
+    PLAYERS = 64,
+    THINGS = 1000,
+    STRIDE = (THINGS + 7) / 8,
+    ROUNDS = 15,
+    RAYS = 2000,
+    ROOM = 64
+};
 
 static const double half = 0.3, margin = 0.4;
 
@@ -79,8 +86,7 @@ static void ask_rows(const bench *b, unsigned char *bits) {
         const sl_point low = place(&b->players[i], margin, 0, 0);
         const sl_point high = place(&b->players[i], margin, 1, 1);
         uint32_t from[ROOM];
-        const uint32_t count =
-            sl_runtime_box_cells(r, low.x, low.y, high.x, high.y, from, ROOM);
+        const uint32_t count = sl_runtime_box_cells(r, low.x, low.y, high.x, high.y, from, ROOM);
         if (count > ROOM) bench_fail("a player is in too many cells");
         sl_runtime_seen_from(r, from, count, NULL, b->cell_bits);
         for (size_t k = 0; k < THINGS; k++)

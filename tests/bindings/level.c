@@ -161,6 +161,27 @@ static void coordinates_are_chosen(void **state) {
     assert_true(sl_level_locate(o->level, 16, 64) >= 0 && sl_level_locate(o->level, 16, -1) < 0);
 }
 
+static void discs_walk_and_servers_ask(void **state) {
+    const opened *o = *state;
+    const double player[4] = {1.5, 3.5, 2.5, 4.5};
+    const double things[12] = {3, 3, 3.5, 3.5, 9, 3.5, 10, 4.5, 9, 7.3, 9.5, 7.8};
+    double at[2];
+    for (int32_t open = 0; open < 2; open++) {
+        sl_level_set_door(o->level, 0, open);
+        assert_int_equal(sl_level_walk(o->level, 2, 4, 10, 4, 0.5, -1, at), open);
+        assert_float_equal(at[0], open ? 10 : 5.5, 1e-6);
+        assert_float_equal(at[1], 4, 1e-6);
+        const unsigned char *bits = sl_level_relevant(o->level, player, 1, 0.25, things, 3);
+        assert_int_equal(bits[0], open ? 3 : 1); // the third is in a corner behind the wall
+    }
+    sl_level_use_coordinates(o->level, 0, 8, 16, 1);
+    assert_int_equal(sl_level_walk(o->level, 32, 64, 160, 64, 8, -1, at), 1);
+    assert_true(at[0] == 160 && at[1] == 64);
+    const double pixels[8] = {24, 56, 40, 72, 144, 56, 160, 72};
+    assert_int_equal(sl_level_relevant(o->level, pixels, 1, 4, pixels + 4, 1)[0], 1);
+    assert_non_null(sl_level_relevant(o->level, pixels, 0, 4, pixels, -1));
+}
+
 static void boxes_outgrow_their_lists(void **state) {
     enum { BOXES = 3 };
     opened *o = *state;
@@ -219,6 +240,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(numbers_of_nothing_answer_nothing, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(answers_are_the_headers, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(coordinates_are_chosen, open_rooms, close_rooms),
+        cmocka_unit_test_setup_teardown(discs_walk_and_servers_ask, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(boxes_outgrow_their_lists, open_rooms, close_rooms),
         cmocka_unit_test(a_box_in_all_cells),
     };

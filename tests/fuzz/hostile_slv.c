@@ -75,8 +75,15 @@ static void make_originals(void) {
               false);
     bake_text("walls 0 0 9 0 9 4 0 4 0 0\nwall 4 0 5 1\ndoor a 5 1 4 4 shut\ndoor b 7 0 7 4 open\n",
               true, false);
-    bake_text("walls 0 0 9 0 9 4 0 4 0 0\noneway 4 4 4 0\nmirror 0 0 0 4\nseam 6 0 6 4\n", false,
-              false);
+    bake_text("walls 0 0 9 0 9 4 0 4 0 0\noneway 4 4 4 0\nmirror 0 0 0 4\nseam 6 0 6 4\n"
+              "object crate 1 1 2 2\npath way 1 1 2 2\npath back 2 2\n",
+              false, false);
+    bake_text("walls 0 0 9 0 9 4 0 4 0 0\nwall 4 0 4 2 stops sight\nwall 4 1 4 4 stops sound\n"
+              "wall 6 1 6 4 stops steps\nsolid 1 1 2 1 2 2 1 2 stops steps\n",
+              false, false);
+    bake_text(
+        "walls 0 0 9 0 9 4 0 4 0 0\nwall 4 0 5 4 stops sight,sound\nwall 6 1 5 4 stops steps\n",
+        true, false);
 }
 
 // --- changes

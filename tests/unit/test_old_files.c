@@ -129,6 +129,12 @@ static void a_door_among_oblique_walls(void **state) {
         assert_int_equal(seen, !shut);
         assert_int_equal(sl_runtime_can_see_past(r, here, there, &shut), !shut);
     }
+    // Discs go by cells, which are not exact here.
+    const sl_runtime_walker walker = {0.1, NULL, NULL, SL_RUNTIME_NO_BOX};
+    double x, y;
+    assert_false(sl_runtime_can_walk_wide(r, &walker, 3, 4, 3.1, 4, scratch));
+    assert_false(sl_runtime_walk(r, &walker, 3, 4, 3.1, 4, scratch, &x, &y));
+    assert_true(x == 3 && y == 4);
     baked_file_destroy(context, &f);
     sl_context_destroy(context);
 }

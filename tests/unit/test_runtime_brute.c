@@ -1,5 +1,5 @@
 /// The runtime header against brute force in 128-bit floats: random eyes and targets in eight maps,
-/// with doors open and shut, glass and boxes that block.
+/// with doors open and shut, glass, boxes that block, and one reflection in mirrors.
 ///
 /// A target is seen if the segment from the eye crosses no wall, no mirror, no shut door, no dark
 /// glass and no box that blocks. All of these are asked, one by one, with numbers of 113 bits.
@@ -20,13 +20,12 @@ int main(void) {
 
 __extension__ typedef __float128 wide;
 
-enum { TARGETS = 200, BOXES = 12, MOST_POINTS = 4096 };
+enum { TARGETS = 200, BOXES = 12, MOST_POINTS = 4096, MOST_PARTS = 512 };
 
 static int eyes = 25;
 
-/// Two coordinates, and what keeps an eye from a target.
 typedef struct place {
-    double x, y;
+    wide x, y;
 } place;
 
 typedef struct scene {
@@ -37,8 +36,10 @@ typedef struct scene {
     sl_runtime_box list[BOXES];
     sl_runtime_boxes boxes;
     uint32_t *memory;
-    double *points;
-    long asked, seen;
+    double *points, *past_boxes, *mirrored;
+    sl_runtime_mirror_part parts[MOST_PARTS];
+    uint32_t part_count;
+    long asked, seen, seen_past, by_mirror;
 } scene;
 
 // --- brute force
@@ -52,14 +53,17 @@ static int sign(wide number) {
 }
 
 /// On which side of the line from a to b a point is.
-static int side(sl_point a, sl_point b, place p) {
-    return sign(((wide)b.x - a.x) * ((wide)p.y - a.y) - ((wide)b.y - a.y) * ((wide)p.x - a.x));
+static int side(place a, place b, place p) {
+    return sign((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+}
+
+static place at(sl_point p) {
+    return (place){p.x, p.y};
 }
 
 static bool crosses(sl_segment s, place p, place q) {
-    const sl_point from = {p.x, p.y}, to = {q.x, q.y};
-    return side(s.a, s.b, p) != side(s.a, s.b, q) &&
-           side(from, to, (place){s.a.x, s.a.y}) != side(from, to, (place){s.b.x, s.b.y});
+    const place a = at(s.a), b = at(s.b);
+    return side(a, b, p) != side(a, b, q) && side(p, q, a) != side(p, q, b);
 }
 
 static bool is_in(const sl_runtime_box *box, place p) {
@@ -90,7 +94,7 @@ static bool passes_map(const scene *s, place p, place q) {
         if (s->shut[i] && crosses(map->doors[i].segment, p, q)) return false;
     for (size_t i = 0; i < map->oneway_count; i++) {
         const sl_segment glass = map->oneways[i].segment;
-        if (crosses(glass, p, q) && side(glass.a, glass.b, p) > 0) return false;
+        if (crosses(glass, p, q) && side(at(glass.a), at(glass.b), p) > 0) return false;
     }
     return true;
 }
@@ -99,6 +103,25 @@ static bool passes_boxes(const scene *s, place p, place q) {
     for (int i = 0; i < BOXES; i++)
         if (is_hidden_by(&s->list[i], p, q)) return false;
     return true;
+}
+
+/// Whether an eye sees a target in a mirror, with one reflection: the image of the eye sees it
+/// through the mirror, and nothing hides the two parts of the line.
+static bool passes_mirror(const scene *s, const sl_glass *mirror, place p, place q) {
+    const place a = at(mirror->segment.a), b = at(mirror->segment.b);
+    const wide x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
+    const wide off = (x * (p.y - a.y) - y * (p.x - a.x)) / square;
+    const place image = {p.x + 2 * y * off, p.y - 2 * x * off};
+    if (side(a, b, p) != side(a, b, q) || (mirror->one_sided && side(a, b, p) < 0)) return false;
+    if (side(image, q, a) == side(image, q, b)) return false;
+    const wide from = x * (image.y - a.y) - y * (image.x - a.x);
+    const wide to = x * (q.y - a.y) - y * (q.x - a.x), share = from / (from - to);
+    const place hit = {image.x + share * (q.x - image.x), image.y + share * (q.y - image.y)};
+    // The mirror itself, and a wall under it, do not count: up to a little before it.
+    const wide little = 1e-13;
+    const place from_eye = {hit.x + little * (p.x - hit.x), hit.y + little * (p.y - hit.y)};
+    const place to_target = {hit.x + little * (q.x - hit.x), hit.y + little * (q.y - hit.y)};
+    return passes_map(s, p, from_eye) && passes_map(s, to_target, q);
 }
 
 /// Whether a point is in a polygon, by the edges that a ray to its right crosses; -1 where it is
@@ -117,29 +140,23 @@ static int is_in_polygon(const double *points, uint32_t count, place q) {
 
 // --- the questions
 
+/// A random place, of doubles.
 static place random_place(sl_random *random, const sl_runtime *rt) {
-    return (place){rt->min_x + (rt->max_x - rt->min_x) * sl_random_unit(random),
-                   rt->min_y + (rt->max_y - rt->min_y) * sl_random_unit(random)};
+    const double x = rt->min_x + (rt->max_x - rt->min_x) * sl_random_unit(random);
+    const double y = rt->min_y + (rt->max_y - rt->min_y) * sl_random_unit(random);
+    return (place){x, y};
 }
 
 static void move_boxes(scene *s, sl_random *random) {
     const sl_runtime *rt = &s->file.runtime;
     const double size = (rt->max_x - rt->min_x) / 12;
     for (uint32_t i = 0; i < BOXES; i++) {
-        const place at = random_place(random, rt);
-        const sl_runtime_box box = {at.x, at.y, at.x + size * sl_random_unit(random),
-                                    at.y + size * sl_random_unit(random), i % 4 != 0};
+        const place corner = random_place(random, rt);
+        const double x = (double)corner.x, y = (double)corner.y;
+        const sl_runtime_box box = {x, y, x + size * sl_random_unit(random),
+                                    y + size * sl_random_unit(random), i % 4 != 0};
         assert_true(sl_runtime_boxes_move(&s->boxes, i, &box));
     }
-}
-
-/// Asks an eye for its polygon, with boxes or without.
-static uint32_t polygon_of(scene *s, place eye) {
-    const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
-    const uint32_t count = sl_runtime_visible_polygon(&s->file.runtime, &view, s->shut, 0,
-                                                      s->scratch, s->points, MOST_POINTS);
-    assert_true(count > 2 && count <= MOST_POINTS);
-    return count;
 }
 
 static bool lists(const uint32_t *cells, uint32_t count, uint32_t cell) {
@@ -148,29 +165,82 @@ static bool lists(const uint32_t *cells, uint32_t count, uint32_t cell) {
     return false;
 }
 
+/// What an eye is asked for once.
+typedef struct answer {
+    double x, y;
+    uint32_t cells, points, past_boxes;
+} answer;
+
+static answer ask_eye(scene *s, place eye) {
+    const sl_runtime *rt = &s->file.runtime;
+    answer a = {.x = (double)eye.x, .y = (double)eye.y};
+    const sl_runtime_view view = sl_runtime_view_all_round(a.x, a.y);
+    a.cells = sl_runtime_look_past(rt, &view, s->shut, 0, s->scratch, s->cells, rt->cell_count);
+    a.points =
+        sl_runtime_visible_polygon(rt, &view, s->shut, 0, s->scratch, s->points, MOST_POINTS);
+    a.past_boxes = sl_runtime_visible_polygon_past_boxes(
+        &s->boxes, &view, s->shut, 0, s->boxes_scratch, s->past_boxes, MOST_POINTS);
+    const uint32_t all =
+        sl_runtime_visible_polygon_mirrored(rt, &view, s->shut, 0, 1, s->scratch, s->parts,
+                                            MOST_PARTS, &s->part_count, s->mirrored, MOST_POINTS);
+    assert_true(a.points > 2 && a.points <= MOST_POINTS && a.past_boxes <= MOST_POINTS);
+    assert_true(all <= MOST_POINTS && s->part_count <= MOST_PARTS);
+    return a;
+}
+
+/// Whether a target is in what a mirror shows, or what is seen directly (UINT32_MAX); -1 for near
+/// the border.
+static int shows(const scene *s, uint32_t mirror, place q) {
+    int found = 0;
+    for (uint32_t i = 0; i < s->part_count; i++) {
+        const sl_runtime_mirror_part *part = &s->parts[i];
+        if (part->depth == 0 ? mirror != UINT32_MAX : part->mirror != mirror) continue;
+        const int in = is_in_polygon(s->mirrored + 2 * (size_t)part->first, part->count, q);
+        if (in < 0) return -1;
+        found |= in;
+    }
+    return found;
+}
+
+static void ask_mirrors(scene *s, const answer *a, place eye, place q) {
+    const sl_map *map = &s->file.baked.map;
+    for (uint32_t i = 0; i < map->mirror_count; i++) {
+        const bool truth = passes_mirror(s, &map->mirrors[i], eye, q);
+        const int found = shows(s, i, q);
+        s->by_mirror += truth;
+        if (found >= 0 && found != truth)
+            fail_msg("%s: from %.17g %.17g to %.17g %.17g by mirror %u: brute force %d, polygon %d",
+                     s->file.name, a->x, a->y, (double)q.x, (double)q.y, (unsigned)i, truth, found);
+    }
+}
+
 static void ask(scene *s, sl_random *random, place eye) {
     const sl_runtime *rt = &s->file.runtime;
-    const sl_runtime_view view = sl_runtime_view_all_round(eye.x, eye.y);
-    const uint32_t points = polygon_of(s, eye);
-    const uint32_t cells =
-        sl_runtime_look_past(rt, &view, s->shut, 0, s->scratch, s->cells, rt->cell_count);
+    const answer a = ask_eye(s, eye);
     for (int i = 0; i < TARGETS; i++) {
         const place q = random_place(random, rt);
+        const double x = (double)q.x, y = (double)q.y;
         const bool truth = passes_map(s, eye, q), past = truth && passes_boxes(s, eye, q);
-        const bool sees = sl_runtime_sees(rt, eye.x, eye.y, q.x, q.y, s->shut, 0, s->scratch);
-        const bool sees_past = sl_runtime_sees_past_boxes(&s->boxes, eye.x, eye.y, q.x, q.y,
-                                                          s->shut, 0, s->boxes_scratch);
-        const int inside = is_in_polygon(s->points, points, q);
+        const bool sees = sl_runtime_sees(rt, a.x, a.y, x, y, s->shut, 0, s->scratch);
+        const bool sees_past =
+            sl_runtime_sees_past_boxes(&s->boxes, a.x, a.y, x, y, s->shut, 0, s->boxes_scratch);
+        const int inside = is_in_polygon(s->points, a.points, q);
+        const int direct = shows(s, UINT32_MAX, q);
+        const int inside_past = is_in_polygon(s->past_boxes, a.past_boxes, q);
         s->asked++;
         s->seen += truth;
-        if (sees != truth || sees_past != past || (inside >= 0 && inside != truth))
-            fail_msg("%s: from %.17g %.17g to %.17g %.17g: brute force %d, sees %d, polygon %d; "
-                     "past boxes %d, sees %d",
-                     s->file.name, eye.x, eye.y, q.x, q.y, truth, sees, inside, past, sees_past);
+        s->seen_past += past;
+        if (sees != truth || sees_past != past || (inside >= 0 && inside != truth) ||
+            (direct >= 0 && direct != truth) || (inside_past >= 0 && inside_past != past))
+            fail_msg(
+                "%s: from %.17g %.17g to %.17g %.17g: brute force %d, sees %d, polygon %d, %d; "
+                "past boxes %d, sees %d, polygon %d",
+                s->file.name, a.x, a.y, x, y, truth, sees, inside, direct, past, sees_past,
+                inside_past);
+        ask_mirrors(s, &a, eye, q);
         if (!truth) continue;
-        assert_true(lists(s->cells, cells, sl_runtime_locate(rt, q.x, q.y)));
-        assert_true(
-            sl_runtime_sees_within(rt, eye.x, eye.y, 0.01, q.x, q.y, 0.01, s->shut, 0, s->scratch));
+        assert_true(lists(s->cells, a.cells, sl_runtime_locate(rt, x, y)));
+        assert_true(sl_runtime_sees_within(rt, a.x, a.y, 0.01, x, y, 0.01, s->shut, 0, s->scratch));
     }
 }
 
@@ -183,6 +253,8 @@ static void start(scene *s) {
     s->scratch = malloc(sl_runtime_scratch_count(rt) * sizeof *s->scratch);
     s->cells = malloc(rt->cell_count * sizeof *s->cells);
     s->points = malloc(2 * MOST_POINTS * sizeof *s->points);
+    s->past_boxes = malloc(2 * MOST_POINTS * sizeof *s->past_boxes);
+    s->mirrored = malloc(2 * MOST_POINTS * sizeof *s->mirrored);
     s->memory = malloc(sl_runtime_boxes_count(rt, BOXES, pairs) * sizeof *s->memory);
     sl_runtime_boxes_start(&s->boxes, rt, s->list, BOXES, pairs, s->memory);
     s->boxes_scratch = malloc(sl_runtime_boxes_scratch_count(&s->boxes) * sizeof(uint32_t));
@@ -193,6 +265,8 @@ static void stop(scene *s) {
     free(s->scratch);
     free(s->cells);
     free(s->points);
+    free(s->past_boxes);
+    free(s->mirrored);
     free(s->memory);
     free(s->boxes_scratch);
     baked_file_destroy(s->context, &s->file);
@@ -209,7 +283,7 @@ static void ask_map(const char *name, double degrees) {
     sl_random random = {11};
     for (int done = 0; done < eyes;) {
         const place eye = random_place(&random, &s.file.runtime);
-        const uint32_t cell = sl_runtime_locate(&s.file.runtime, eye.x, eye.y);
+        const uint32_t cell = sl_runtime_locate(&s.file.runtime, (double)eye.x, (double)eye.y);
         if (sl_runtime_is_solid(&s.file.runtime, cell)) continue;
         for (uint32_t i = 0; i < s.file.runtime.door_count; i++)
             s.shut[i] = sl_random_below(&random, 2);
@@ -217,7 +291,8 @@ static void ask_map(const char *name, double degrees) {
         ask(&s, &random, eye);
         done++;
     }
-    print_message("%s, turned by %g: %ld questions, %ld seen\n", name, degrees, s.asked, s.seen);
+    print_message("%s, turned by %g: %ld questions, %ld seen, %ld past boxes, %ld by mirrors\n",
+                  name, degrees, s.asked, s.seen, s.seen_past, s.by_mirror);
     assert_true(s.seen > s.asked / 500);
     stop(&s);
 }

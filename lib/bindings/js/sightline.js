@@ -3,7 +3,6 @@
  *
  * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
  * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
- * sightline.d.ts has the types.
  */
 import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, transformOf, viewOf } from './arguments.js'
 import { SightlineError, bytesOf, compile, direction, textAt } from './host.js'
@@ -12,7 +11,8 @@ export { SightlineError }
 
 const PAGE = 65536
 const MIRRORS = ['none', 'baked', 'not baked']
-const OLD = 11 // the status of a file before 2.0, as of sightline_runtime.h
+// The status of a file before 2.0 (SL_RUNTIME_OLD).
+const OLD = 11
 
 /** An eye's x, y and view. One object may hold all; there `dx` and `dy` may stand for the heading. */
 function eyeOf(x, y, options, ...known) {
@@ -44,23 +44,21 @@ export class Level {
   /**
    * Opens a baked file, which is checked wholly. Places and headings, given and taken, are in the
    * coordinates of `transform`.
+   *
+   * @param {ArrayBuffer | Uint8Array} bytes
+   * @param {{transform?: 'file' | object}} [options]
+   * @returns {Promise<Level>}
    */
   static async open(bytes, options) {
     const file = bytesOf(bytes)
     const { transform } = optionsOf(options, 'transform')
     const module = await compile('level', new URL('./level.wasm', import.meta.url))
     const make = async (data) => new Level((await WebAssembly.instantiate(module, {})).exports, data, transform)
-    try {
-      return await make(file)
-    } catch (error) {
+    return make(file).catch(async (error) => {
       if (error.status !== OLD) throw error
-    }
-    const scene = (await (await import('./bake.js')).load()).open(file)
-    try {
-      return await make(scene.slv())
-    } finally {
-      scene.close()
-    }
+      const scene = (await (await import('./bake.js')).load()).open(file)
+      return make(scene.slv()).finally(() => scene.close())
+    })
   }
 
   /** Use Level.open(). */
@@ -181,7 +179,12 @@ export class Level {
     return Object.freeze(this.#doors.map((door, i) => Object.freeze({ ...door, open: !shut[i] })))
   }
 
-  /** Opens or shuts all doors of a name. */
+  /**
+   * Opens or shuts all doors of a name.
+   *
+   * @param {string} name
+   * @param {boolean} open
+   */
   setDoor(name, open) {
     this.#open
     textOf('name', name)
@@ -232,6 +235,10 @@ export class Level {
    * Of two cells: whether something in b can be seen from somewhere in a. Of two points: whether an
    * eye at a sees b. With the doors as they stand. `mirrors`: or by mirror; of two points the answer
    * is then whether a may see b.
+   *
+   * @param {number | {x: number, y: number} | [number, number]} a
+   * @param {number | {x: number, y: number} | [number, number]} b
+   * @param {{mirrors?: boolean}} [options]
    */
   canSee(a, b, options) {
     const core = this.#open
@@ -269,6 +276,9 @@ export class Level {
    * Whether one may walk straight from one point to another: no point of the way, ends included, is
    * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. Who is put
    * exactly on a wall cannot leave it.
+   *
+   * @param {{x: number, y: number} | [number, number]} from
+   * @param {{x: number, y: number} | [number, number]} to
    */
   canWalk(from, to) {
     this.#open
@@ -315,6 +325,10 @@ export class Level {
    * The cells that an eye sees; its own first, if it looks into it. `heading` and `fov` are in degrees.
    * `mirrors`: after the `direct` cells that it sees directly, those that are seen by mirror alone.
    * No cell is missed there, but some may be added.
+   *
+   * @param {number | object} x or one object with all: { x, y, dx, dy, fov, range, mirrors }
+   * @param {number} [y]
+   * @param {{heading?: number, fov?: number, range?: number, mirrors?: boolean}} [options]
    */
   look(x, y, options) {
     const core = this.#open
@@ -328,7 +342,13 @@ export class Level {
     return this.#listed(core.look(this.#shut, range, this.#scratch, this.#list) >>> 0)
   }
 
-  /** The polygon that an eye sees: x, y, x, y ... counter-clockwise as it is seen, also with y down. */
+  /**
+   * The polygon that an eye sees: x, y, x, y ... counter-clockwise as it is seen, also with y down.
+   *
+   * @param {number | object} x as for look()
+   * @param {number} [y]
+   * @param {{heading?: number, fov?: number, range?: number}} [options]
+   */
   visiblePolygon(x, y, options) {
     const core = this.#open
     const [left, up, given] = eyeOf(x, y, options, 'heading', 'fov', 'range')
@@ -349,6 +369,9 @@ export class Level {
   /**
    * The cells seen from anywhere in some cells, with the doors as they stand: what to wake up.
    * `mirrors`: or by mirror.
+   *
+   * @param {ArrayLike<number>} cells
+   * @param {{mirrors?: boolean}} [options]
    */
   seenFrom(cells, options) {
     const core = this.#open

@@ -17,9 +17,10 @@ struct sl_level {
     unsigned char *shut; ///< by door
     char **names;        ///< by door
     uint32_t *scratch;
-    int32_t *cells; ///< room for all
-    double *points; ///< an answer, which grows
-    uint32_t room;  ///< of `points`, in numbers
+    int32_t *cells;          ///< room for all
+    double *points;          ///< an answer, which grows
+    uint32_t room;           ///< of `points`, in numbers
+    unsigned char *relevant; ///< an answer
     sl_runtime_boxes boxes;
     uint32_t *box_scratch; ///< NULL without boxes
     unsigned char *seen;   ///< by box
@@ -59,6 +60,7 @@ void sl_level_close(sl_level *level) {
     free(level->scratch);
     free(level->cells);
     free(level->points);
+    free(level->relevant);
     free(level);
 }
 
@@ -301,6 +303,52 @@ int32_t sl_level_can_walk(sl_level *level, double x0, double y0, double x1, doub
                                      level->shut);
 }
 
+int32_t sl_level_walk(sl_level *level, double x0, double y0, double x1, double y1, double radius,
+                      int32_t own, double at[2]) {
+    double ends[4] = {x0, y0, x1, y1};
+    const sl_runtime_walker walker = {radius / level->transform.scale, level->shut,
+                                      level->box_scratch ? &level->boxes : NULL,
+                                      own < 0 ? SL_RUNTIME_NO_BOX : (uint32_t)own};
+    sl_runtime_to_map(&level->transform, ends, 2);
+    const bool comes = sl_runtime_walk(&level->runtime, &walker, ends[0], ends[1], ends[2], ends[3],
+                                       level->scratch, &at[0], &at[1]);
+    sl_runtime_from_map(&level->transform, at, 1);
+    return comes;
+}
+
+/// Boxes of a list of numbers, in the map; NULL if memory is short.
+static sl_runtime_box *boxes_of(const sl_level *level, const double *numbers, int32_t count) {
+    sl_runtime_box *boxes = room_for(count > 0 ? (size_t)count : 0, sizeof *boxes);
+    for (int32_t i = 0; boxes && i < count; i++) {
+        double ends[4];
+        memcpy(ends, numbers + 4 * (size_t)i, sizeof ends);
+        sl_runtime_to_map(&level->transform, ends, 2);
+        order_box(level, ends);
+        boxes[i] = (sl_runtime_box){ends[0], ends[1], ends[2], ends[3], false};
+    }
+    return boxes;
+}
+
+const unsigned char *sl_level_relevant(sl_level *level, const double *players, int32_t player_count,
+                                       double margin, const double *things, int32_t thing_count) {
+    const uint32_t lookers = player_count > 0 ? (uint32_t)player_count : 0;
+    const uint32_t seen = thing_count > 0 ? (uint32_t)thing_count : 0;
+    sl_runtime_box *from = boxes_of(level, players, player_count);
+    sl_runtime_box *to = boxes_of(level, things, thing_count);
+    uint32_t *scratch = room_for(sl_runtime_relevant_count(&level->runtime, seen), sizeof *scratch);
+    unsigned char *bits = room_for(lookers, ((size_t)seen + 7) / 8);
+    const bool fits = from && to && scratch && bits;
+    if (fits)
+        sl_runtime_relevant(&level->runtime, from, lookers, margin / level->transform.scale, to,
+                            seen, level->shut, 0, scratch, bits);
+    free(from);
+    free(to);
+    free(scratch);
+    free(level->relevant);
+    if (!fits) free(bits);
+    return level->relevant = fits ? bits : NULL;
+}
+
 /// An eye with its view, in the map, and its range there.
 typedef struct eye {
     sl_runtime_view view;
@@ -338,8 +386,12 @@ const double *sl_level_visible_polygon(sl_level *level, double x, double y, doub
     uint32_t found = 0;
     *count = 0;
     for (bool fits = false; !fits;) {
-        found = sl_runtime_visible_polygon(&level->runtime, &e.view, level->shut, e.range,
-                                           level->scratch, level->points, level->room / 2);
+        found = level->box_scratch
+                    ? sl_runtime_visible_polygon_past_boxes(&level->boxes, &e.view, level->shut,
+                                                            e.range, level->box_scratch,
+                                                            level->points, level->room / 2)
+                    : sl_runtime_visible_polygon(&level->runtime, &e.view, level->shut, e.range,
+                                                 level->scratch, level->points, level->room / 2);
         fits = found <= level->room / 2;
         if (!fits && !answer(level, 2 * (size_t)found)) return NULL;
     }

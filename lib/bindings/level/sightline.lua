@@ -119,6 +119,13 @@ function level:can_walk(x0, y0, x1, y1, own)
     return c.sl_level_can_walk(self.handle, x0, y0, x1, y1, own or -1) == 1
 end
 
+-- Where a disc comes to on its way to a point, sliding along what stops it: x, y, and whether it is there.
+function level:walk(x0, y0, x1, y1, radius, own)
+    local at = ffi.new("double[2]")
+    local comes = c.sl_level_walk(self.handle, x0, y0, x1, y1, radius or 0, own or -1, at)
+    return at[0], at[1], comes == 1
+end
+
 -- Of what an eye sees: all round, or from `heading` with a field of view `fov`, in degrees; within
 -- `range`. All but x and y may be left out.
 function level:look(x, y, heading, fov, range)

@@ -10,8 +10,8 @@
 ///
 /// One level is for one thread at a time; different levels are independent. An answer that is a
 /// pointer stays until the next call with the same level. No call fails but sl_level_open,
-/// sl_level_open_file and sl_level_set_box_count; a number that names no cell, door, start or box
-/// gives the answer for nothing (-1, 0, NULL).
+/// sl_level_open_file, sl_level_set_box_count and, if memory is short, those that give NULL; a
+/// number that names no cell, door, start or box gives the answer for nothing (-1, 0, NULL).
 #ifndef SIGHTLINE_LEVEL_H
 #define SIGHTLINE_LEVEL_H
 
@@ -97,6 +97,17 @@ SL_LEVEL_API int32_t sl_level_sees(sl_level *level, double x0, double y0, double
 /// walks, or -1.
 SL_LEVEL_API int32_t sl_level_can_walk(sl_level *level, double x0, double y0, double x1, double y1,
                                        int32_t own);
+/// Moves a disc toward a point, sliding along what stops it, and puts where it comes to into `at`.
+/// 1 if it comes to that point. `own` is as for sl_level_can_walk.
+SL_LEVEL_API int32_t sl_level_walk(sl_level *level, double x0, double y0, double x1, double y1,
+                                   double radius, int32_t own, double at[2]);
+/// For servers: which things each player may see, past doors but not boxes. Players and things are
+/// boxes: min x, min y, max x, max y of each. A player may see from all around its box within
+/// `margin`. Player p may see thing t if answer[p * row + t / 8] >> t % 8 & 1, with a row of
+/// (thing_count + 7) / 8 bytes. No pair is missed. NULL if memory is short.
+SL_LEVEL_API const unsigned char *sl_level_relevant(sl_level *level, const double *players,
+                                                    int32_t player_count, double margin,
+                                                    const double *things, int32_t thing_count);
 /// The cells that an eye sees, `*count` of them. `heading` and `fov` are in degrees,
 /// counter-clockwise from +x; a field of view of 180 or more is all round. `range` above 0 limits
 /// how far it sees; 0 stands for the map's own range.

@@ -72,6 +72,14 @@ typedef struct sl_runtime_transform {
 /// The number of a box that does not exist.
 #define SL_RUNTIME_NO_BOX UINT32_MAX
 
+/// What a wall stops, as bits. Light is sight.
+enum {
+    SL_RUNTIME_STOPS_SIGHT = 1,
+    SL_RUNTIME_STOPS_STEPS = 2,
+    SL_RUNTIME_STOPS_SOUND = 4,
+    SL_RUNTIME_STOPS_ALL = 7
+};
+
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
@@ -90,6 +98,7 @@ typedef struct sl_runtime {
     uint32_t view_cell_count;   ///< 0 for a bake without view cells
     uint32_t view_node_count;   ///< the rows of view cells and of groups of them
     uint32_t door_count;        ///< doors are numbered in the order of the map
+    uint32_t channel;           ///< what the file is for: SL_RUNTIME_STOPS_SIGHT, if not told else
     const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
@@ -98,6 +107,8 @@ typedef struct sl_runtime {
     const unsigned char *mirror_door_offsets, *mirror_door_bytes;
     const unsigned char *seams, *seam_portals; ///< NULL for none
     uint32_t seam_count, seam_portal_count;
+    const unsigned char *stops, *passages; ///< NULL where all walls stop all
+    uint32_t passage_count;
     bool has_glass; ///< one-way glass, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
@@ -388,13 +399,34 @@ SL_RUNTIME_API bool sl_runtime_sees(const sl_runtime *runtime, double x0, double
                                     double y1, const unsigned char *shut, double range,
                                     uint32_t *scratch);
 
+// Windows, fences, curtains: walls that stop only some of sight, steps and sound. A file is for one
+// of the three, mostly for sight. A wall that does not stop this is a portal, and one that does is
+// a wall, which others may pass from cell to cell: a passage.
+
+/// What the walls on a portal stop, as bits of SL_RUNTIME_STOPS_SIGHT ...; 0 for most.
+SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint32_t portal);
+
+/// A wall of a cell that does not stop all, with its ends as one crosses it.
+typedef struct sl_runtime_passage {
+    uint32_t cell;  ///< behind it
+    uint32_t stops; ///< bits of SL_RUNTIME_STOPS_SIGHT ..., `channel` of the file among them
+    double left[2], right[2];
+} sl_runtime_passage;
+
+/// Finds the passages of a cell. Returns their number, and puts the first `room` of them into
+/// `passages`. With these and with directed portals, a search for ways knows all neighbours of a
+/// cell. Time: the passages of the cell.
+SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
+                                            sl_runtime_passage *passages, uint32_t room);
+
 /// Whether one may walk straight from one point to another: no point of the way, ends included, is
-/// on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. `shut` is
-/// as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both ways. Sight may touch
-/// walls, so a step that is only seen could end in a wall and leave it on its other side. Who is
-/// put exactly on a wall cannot leave it: put him beside it. False for a file that has no walls.
-/// Time: the portals of the cells along the step. A step that touches ends of portals also takes
-/// the sides of these cells; in more than 32 cells, or on the map's border, all walls and doors.
+/// on a wall that stops steps, a mirror, one-way glass or a shut door, in solid ground or outside
+/// the map. `shut` is as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both
+/// ways. Sight may touch walls, so a step that is only seen could end in a wall and leave it on its
+/// other side. Who is put exactly on a wall cannot leave it: put him beside it. False for a file
+/// that has no walls. Time: the portals of the cells along the step. A step that touches ends of
+/// portals also takes the sides of these cells; in more than 32 cells, or on the map's border, all
+/// walls and doors.
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
@@ -677,7 +709,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint3
 /// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
 /// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
 /// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
-/// bytes for each cell. Things in more than eight cells each on average take more than one round.
+/// bytes for each cell. Large things, in far more than eight cells each, take more than one round.
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
                                           uint32_t player_count, double margin,
                                           const sl_runtime_box *things, uint32_t thing_count,

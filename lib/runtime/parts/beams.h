@@ -155,14 +155,14 @@ static slrt_bound slrt_make_bound(const slrt_beams *b, uint32_t from, uint32_t t
     return bound;
 }
 
-/// The corner of a box at which a line to a point has all of it on its left or right. SLRT_NONE for
-/// a point in the box.
-static uint32_t slrt_tangent(const double box[4], double x, double y, int side) {
-    // By column and row of the point about the box.
+/// The corner of the part from which a line to a point has all of the part on its left or right.
+/// SLRT_NONE for a point in the part.
+static uint32_t slrt_tangent(const double part[4], double x, double y, int side) {
+    // By column and row of the point about the part.
     static const unsigned char corners[3][3][2] = {
         {{1, 2}, {0, 2}, {0, 3}}, {{1, 0}, {0, 0}, {2, 3}}, {{3, 0}, {3, 1}, {2, 1}}};
-    const int column = x < box[0] ? 0 : x > box[2] ? 2 : 1;
-    const int row = y < box[1] ? 0 : y > box[3] ? 2 : 1;
+    const int column = x < part[0] ? 0 : x > part[2] ? 2 : 1;
+    const int row = y < part[1] ? 0 : y > part[3] ? 2 : 1;
     if (column == 1 && row == 1) return SLRT_NONE;
     return SLRT_PART_CORNER + corners[column][row][side];
 }
@@ -177,8 +177,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     const double x = side == SLRT_LEFT ? across->to_x : across->from_x;
     const double y = side == SLRT_LEFT ? across->to_y : across->from_y;
     const slrt_arm *arm = &bound->arm;
-    // Points that no line of the beam passes on the bound's side. Those that start in the part do
-    // so by definition, seen from the end.
+    // All lines of the beam have these points on the other side, or start where the first one says.
     uint32_t pivots[4];
     int i;
     if (from != SLRT_NONE && sign * (arm->x * (y - arm->from_y) - arm->y * (x - arm->from_x)) >= 0)
@@ -191,7 +190,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
         double from_x, from_y;
         if (pivots[i] == SLRT_NONE) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
-        if (bound->to == end &&
+        if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
             continue;
         // Only from before the portal does a line to its end bound what is behind it.

@@ -46,6 +46,13 @@ static double slrt_away_from(const double *point, const double *a, const double 
 static bool slrt_is_near(const slrt_disc *d, const double *a, const double *b, double limit) {
     const double square = limit * limit;
     double away[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        const double *low = d->from[i] < d->to[i] ? d->from : d->to;
+        const double *high = d->from[i] < d->to[i] ? d->to : d->from;
+        if (low[i] - a[i] >= limit && low[i] - b[i] >= limit) return false;
+        if (a[i] - high[i] >= limit && b[i] - high[i] >= limit) return false;
+    }
     return !(slrt_away_from(d->from, a, b, away) >= square &&
              slrt_away_from(d->to, a, b, away) >= square &&
              slrt_away_from(a, d->from, d->to, away) >= square &&
@@ -98,6 +105,48 @@ static void slrt_stop_at_boxes(slrt_disc *d, uint32_t cell) {
     }
 }
 
+/// Notes that a disc may get to the cell behind a way out of a cell.
+static void slrt_reach_across(slrt_disc *d, const double *a, const double *b, uint32_t to) {
+    if (slrt_is_near(d, a, b, d->radius + 4 * d->slack) && !slrt_is_listed(&d->p.s, to))
+        slrt_list(&d->p.s, to);
+}
+
+/// The next wall along a piece of a cell's boundary that steps pass, from a place on: passage_count
+/// for none. A piece is one wall, or axial.
+static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double *from,
+                              const slrt_piece *piece, slrt_piece *gap) {
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell)), found = rt->passage_count;
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        slrt_piece at;
+        slrt_read_passage(rt, i, at.a, at.b);
+        if (rt->neighbours ? !slrt_same_place(at.a, piece->a) || !slrt_same_place(at.b, piece->b)
+                           : !slrt_is_on(from, piece->b, at.a) || !slrt_is_on(from, piece->b, at.b))
+            continue;
+        if (found < rt->passage_count && !slrt_is_on(from, gap->a, at.a)) continue;
+        found = i;
+        *gap = at;
+    }
+    return found;
+}
+
+/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
+    const sl_runtime *rt = d->p.s.rt;
+    double from[2] = {piece->a[0], piece->a[1]};
+    uint32_t left = rt->passage_count;
+    for (; left; left--) {
+        slrt_piece gap;
+        const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
+        if (passage == rt->passage_count) break;
+        if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
+        slrt_reach_across(d, gap.a, gap.b,
+                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        from[0] = gap.b[0], from[1] = gap.b[1];
+        if (slrt_same_place(from, piece->b)) return;
+    }
+    slrt_stop_at(d, from, piece->b);
+}
+
 /// Goes through the cells within reach of the disc's way, and has what is there stop it.
 static void slrt_stop_within(slrt_disc *d) {
     slrt_search *s = &d->p.s;
@@ -109,12 +158,12 @@ static void slrt_stop_within(slrt_disc *d) {
         slrt_stop_at_boxes(d, s->path[at]);
         slrt_walk_around(&d->p, &w, s->path[at], 1);
         while (slrt_walk_next(&d->p, &w, &piece)) {
-            if (piece.directed == SLRT_NONE || slrt_is_blocked(s, piece.directed)) {
+            if (piece.directed == SLRT_NONE)
+                slrt_stop_at_walls(d, s->path[at], &piece);
+            else if (slrt_is_blocked(s, piece.directed))
                 slrt_stop_at(d, piece.a, piece.b);
-            } else if (slrt_is_near(d, piece.a, piece.b, d->radius + 4 * d->slack)) {
-                const uint32_t to = slrt_cell_across(s->rt, piece.directed);
-                if (!slrt_is_listed(s, to)) slrt_list(s, to);
-            }
+            else
+                slrt_reach_across(d, piece.a, piece.b, slrt_cell_across(s->rt, piece.directed));
         }
     }
 }

@@ -57,6 +57,56 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
     return SLRT_NONE;
 }
 
+/// A way out of a cell: the cell that it leads to, and its ends as crossed.
+typedef struct slrt_exit {
+    uint32_t cell; ///< SLRT_NONE for no way out
+    bool is_blocked;
+    const unsigned char *right, *left;
+} slrt_exit;
+
+/// As slrt_way_out, for walls that steps pass.
+static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                             slrt_exit *out, bool *touches) {
+    const sl_runtime *rt = s->rt;
+    uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
+    for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
+        const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
+        slrt_arm p, q;
+        int right, left;
+        out->right = slrt_passage_end(rt, i, 0);
+        out->left = slrt_passage_end(rt, i, 1);
+        p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
+        q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
+        right = slrt_side(way, &p);
+        left = slrt_side(way, &q);
+        if (right > 0 || left < 0) continue;
+        if (left && right) out->cell = slrt_u32(at + 8);
+        if (left && right) return;
+        *touches = true;
+    }
+}
+
+/// The way by which a line leaves a cell.
+static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_t cell,
+                              bool *touches) {
+    const uint32_t directed = slrt_way_out(s, way, cell, touches);
+    const unsigned char *portal;
+    slrt_exit out;
+    out.cell = SLRT_NONE;
+    out.is_blocked = false;
+    if (directed == SLRT_NONE) {
+        if (s->on_foot && s->rt->passage_count && !*touches)
+            slrt_passage_out(s, way, cell, &out, touches);
+        return out;
+    }
+    portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
+    out.cell = slrt_cell_across(s->rt, directed);
+    out.is_blocked = slrt_is_blocked(s, directed);
+    out.right = portal + 24;
+    out.left = portal + 8;
+    return out;
+}
+
 /// Follows a line as long as it passes between ends of portals. A wall or a shut door that it comes
 /// to, or a box, stops it.
 static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
@@ -64,16 +114,17 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
     if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
     for (; steps; steps--) {
         bool touches;
-        const uint32_t out = slrt_way_out(s, way, cell, &touches);
+        const slrt_exit out = slrt_exit_of(s, way, cell, &touches);
         int place;
         if (s->stops && s->stops(s, way, cell)) return SLRT_STOPS;
         if (touches) return SLRT_TOUCHES;
-        place = out == SLRT_NONE ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
-                                 : slrt_side_of_portal_line(s->rt, out, way->to_x, way->to_y);
+        place = out.cell == SLRT_NONE
+                    ? slrt_place_in(s->rt, cell, way->to_x, way->to_y)
+                    : slrt_side_of_line(out.right, out.left, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
-        if (out == SLRT_NONE || slrt_is_blocked(s, out)) return SLRT_STOPS;
-        cell = slrt_cell_across(s->rt, out);
+        if (out.cell == SLRT_NONE || out.is_blocked) return SLRT_STOPS;
+        cell = out.cell;
     }
     return SLRT_TOUCHES;
 }

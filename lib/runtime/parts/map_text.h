@@ -198,7 +198,6 @@ static bool slrt_read_start(slrt_text line, sl_runtime_viewpoint *out) {
 static bool slrt_take_text(sl_runtime *rt, const slrt_section *section) {
     const uint32_t seam_doors = rt->door_count;
     slrt_text text, line;
-    rt->range = 0;
     rt->door_count = 0;
     rt->text = section->items ? section->items : (const unsigned char *)"";
     rt->text_bytes = (size_t)section->count;

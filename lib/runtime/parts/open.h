@@ -7,12 +7,14 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     sl_runtime_status status = slrt_check_header(file, size);
     if (status != SL_RUNTIME_OK) return status;
     memset(found, 0, sizeof found);
+    memset(&rt, 0, sizeof rt);
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found) || !slrt_take_walls(&rt, found)) return SL_RUNTIME_SPACE;
+    if (!slrt_take_stops(&rt, found)) return SL_RUNTIME_SPACE;
     status = slrt_take_map(&rt, found);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
@@ -48,7 +50,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_TEXT:
         return "damaged: a door, a start or another thing of the map";
     case SL_RUNTIME_OLD:
-        return "of a version before 2.0, which this program leaves out: bake the map again";
+        return "made before 2.0, and this program leaves that out: bake the map again";
     }
     return "unknown status";
 }

@@ -71,18 +71,11 @@ static bool slrt_take_things(sl_runtime *rt, const slrt_section *found) {
 
 /// What the map holds beside walls. Files before 2.0 have it as text alone.
 static sl_runtime_status slrt_take_map(sl_runtime *rt, const slrt_section *found) {
-    const bool old = !found[SLRT_MAPI].items;
-    memset(&rt->transform, 0, sizeof rt->transform);
-    rt->mirrors = SL_RUNTIME_NO_MIRRORS;
-    rt->text = NULL;
-    rt->text_bytes = 0;
+    if (!found[SLRT_MAPI].items)
 #ifdef SL_RUNTIME_WITHOUT_OLD_FILES
-    if (old) return SL_RUNTIME_OLD;
+        return SL_RUNTIME_OLD;
 #else
-    rt->start_count = rt->object_count = rt->path_count = rt->mirror_count = 0;
-    rt->names = rt->doors = rt->starts = rt->objects = rt->paths = rt->path_points = NULL;
-    rt->mirror_lines = NULL;
-    if (old) return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
+        return slrt_take_text(rt, &found[SLRT_MAPT]) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 #endif
     return slrt_take_things(rt, found) ? SL_RUNTIME_OK : SL_RUNTIME_TEXT;
 }

@@ -105,8 +105,6 @@ static bool slrt_stands_for_cells(const sl_runtime *rt) {
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
     int tag;
-    rt->view_cell_count = rt->view_node_count = 0;
-    rt->views = rt->view_parents = rt->view_offsets = rt->view_bytes = NULL;
     if (!found[SLRT_VCIN].items) return true;
     for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
         if (!found[tag].items) return false;
@@ -169,12 +167,9 @@ static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     uint32_t before = 0;
     rt->seams = found[SLRT_SEAM].items;
     rt->seam_portals = found[SLRT_SEPO].items;
-    rt->seam_count = 0;
-    rt->has_glass = false;
     if (found[SLRT_SEAM].count > UINT32_MAX) return false;
     if (rt->seams) rt->seam_count = (uint32_t)found[SLRT_SEAM].count;
     if (count > UINT32_MAX || (count && !rt->seams)) return false;
-    rt->door_count = 0;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + i * 40;
         const uint32_t number = slrt_u32(seam + 36);

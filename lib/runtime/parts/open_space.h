@@ -107,9 +107,6 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
 /// The index that locates points: a tree if all walls are axial, else a grid. Files of version 1
 /// with oblique walls have a tree along oblique lines. It is ignored, and all cells are tested.
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
-    rt->root = 0;
-    rt->node_count = rt->grid_columns = rt->grid_rows = 0;
-    rt->nodes = rt->grid_offsets = rt->grid_cells = rt->neighbours = NULL;
     rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);

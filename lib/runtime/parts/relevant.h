@@ -32,7 +32,7 @@ static bool slrt_look_from_cell(void *context, uint32_t cell) {
     return !slrt_send_beams(&o->beams, cell);
 }
 
-/// `scratch` has six numbers and a bit for each cell; the bits are 0, and stay so.
+/// Prepares searches. `scratch` has six numbers and a bit for each cell.
 static void slrt_start_origin(slrt_origin *o, const sl_runtime *rt, const unsigned char *shut,
                               double range, uint32_t *scratch) {
     memset(&o->beams, 0, sizeof o->beams);
@@ -89,18 +89,16 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry.
-
-enum { SLRT_THING_NUMBERS = 16 }; ///< room for eight entries
+// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
+// each cell, and eight entries for each thing.
 
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
     uint32_t *first, *entries, count;
     size_t room;
-    uint32_t thing;        ///< is being placed,
-    uint32_t placed, skip; ///< but for cells in which it was before; so many are left to skip
-    double box[4];         ///< within the bounds of the map
+    uint32_t thing; ///< is being placed
+    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
@@ -111,10 +109,6 @@ static bool slrt_place_thing(void *context, uint32_t cell) {
     if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
         !slrt_meets_box(t->origin.beams.rt, cell, t->box))
         return true;
-    if (t->skip) {
-        t->skip--;
-        return true;
-    }
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
     t->entries[2 * (size_t)t->count + 1] = *first;
@@ -138,20 +132,16 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
     return false;
 }
 
-/// Places things until there is no room. Those that are left have their turn after these.
+/// Places things until there is no room. The last one and those that are left have their turn after
+/// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++, t->placed = 0) {
-        const uint32_t before = t->count;
-        t->skip = t->placed;
-        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) ||
-            slrt_visit_near(rt, t->box, slrt_place_thing, t))
-            continue;
-        t->placed += t->count - before;
-        return;
-    }
+    for (; t->thing < thing_count; t->thing++)
+        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
+            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
+            return;
 }
 
 /// Takes each thing in the map for relevant.
@@ -168,8 +158,8 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
-    return sl_runtime_scratch_count(runtime) + runtime->cell_count +
-           SLRT_THING_NUMBERS * ((size_t)thing_count + 8);
+    return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
+           16 * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -188,7 +178,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = SLRT_THING_NUMBERS / 2 * ((size_t)thing_count + 8);
+    t.room = runtime->cell_count + 8 * (size_t)thing_count;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {

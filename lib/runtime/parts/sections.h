@@ -12,7 +12,8 @@ enum {
     SLRT_START_BYTES = 24,
     SLRT_OBJECT_BYTES = 40,
     SLRT_PATH_BYTES = 16,
-    SLRT_MIRROR_BYTES = 40
+    SLRT_MIRROR_BYTES = 40,
+    SLRT_PASSAGE_BYTES = 16
 };
 
 enum slrt_tag {
@@ -49,6 +50,9 @@ enum slrt_tag {
     SLRT_PATH,
     SLRT_PAPO,
     SLRT_MIRR,
+    SLRT_STOP, ///< with CHAN and PASS: what walls stop that do not stop all
+    SLRT_CHAN,
+    SLRT_PASS,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -134,6 +138,9 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"PATH", SLRT_PATH_BYTES},
                           {"PAPO", SLRT_VERTEX_BYTES},
                           {"MIRR", SLRT_MIRROR_BYTES},
+                          {"STOP", 4},
+                          {"CHAN", 4},
+                          {"PASS", SLRT_PASSAGE_BYTES},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);

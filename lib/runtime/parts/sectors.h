@@ -70,7 +70,7 @@ typedef struct slrt_search {
     uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
-    bool on_foot; ///< glass is a wall from both sides
+    bool on_foot; ///< glass is a wall from both sides, and steps count in place of sight
     uint32_t *cells, room, count;
     uint64_t patience;
     /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
@@ -179,19 +179,6 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
                   : slrt_run_along(s, &right, &left, sector);
 }
 
-/// The first entry of a portal among the portals on seams, or where it would be.
-static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
-    uint32_t low = 0, high = rt->seam_portal_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
 /// right to the left. For an eye on its line, the eye's cell decides.
 static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
@@ -206,7 +193,8 @@ static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
     return false;
 }
 
-/// Whether a directed portal is on a shut door or dark glass, and so a wall.
+/// Whether a directed portal is on a shut door or dark glass, and so a wall; on foot, also on a
+/// wall that stops steps alone.
 static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
     const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
@@ -218,6 +206,8 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
         if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
+        if (s->on_foot && slrt_seam_stops(rt, slrt_u32(on + 4)) & SL_RUNTIME_STOPS_STEPS)
+            return true;
     }
     return false;
 }

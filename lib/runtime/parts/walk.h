@@ -34,7 +34,8 @@ enum { SLRT_STEP_CELLS = 32 };
 /// Whether a step that touches portals' ends or sides of cells is free. All cells that it touches
 /// are found through portals that it touches, up to its first wall: the cells about a point are
 /// joined by portals that end there, but for walls that do. SLRT_TOUCHES where that is not known:
-/// on the map's border, which may be wall in part, and for many cells.
+/// on the map's border, which may be wall in part, beside walls that steps pass, and for many
+/// cells.
 static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way,
                                        const double *from, const double *to) {
     uint32_t cells[SLRT_STEP_CELLS], count = 1, i, k;
@@ -53,7 +54,9 @@ static slrt_finding slrt_step_by_cells(const slrt_search *s, const slrt_arm *way
             uint32_t next;
             if (!slrt_meets(from, to, piece.a, piece.b)) continue;
             if (piece.directed == SLRT_NONE)
-                return slrt_is_on_border(s->rt, &piece) ? SLRT_TOUCHES : SLRT_STOPS;
+                return slrt_is_on_border(s->rt, &piece) || slrt_has_way(s->rt, cells[i])
+                           ? SLRT_TOUCHES
+                           : SLRT_STOPS;
             if (slrt_is_blocked(s, piece.directed)) return SLRT_STOPS;
             next = slrt_cell_across(s->rt, piece.directed);
             for (k = 0; k < count && cells[k] != next; k++) {
@@ -72,11 +75,13 @@ static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const 
     const sl_runtime *rt = s->rt;
     uint32_t i;
     for (i = 0; i < rt->wall_count; i++)
-        if (slrt_touches(from, to, rt->walls + (size_t)i * 32)) return false;
+        if (slrt_touches(from, to, rt->walls + (size_t)i * 32) && slrt_wall_stops_steps(rt, i))
+            return false;
     for (i = 0; i < rt->seam_count; i++) {
         const unsigned char *seam = rt->seams + (size_t)i * 40;
         const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)])) &&
+        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
+             slrt_seam_stops(rt, i) & SL_RUNTIME_STOPS_STEPS) &&
             slrt_touches(from, to, seam))
             return false;
     }
