@@ -35,7 +35,7 @@ typedef struct entry {
     char text[TEXT_MAX];
 } entry;
 
-#define ENTRIES 26
+#define ENTRIES 28
 
 typedef struct key {
     entry entries[ENTRIES];
@@ -196,6 +196,16 @@ static void swatch_oneway(cairo_t *cairo, const sl_scene *scene, const sli_pens 
     sli_mark_oneway(cairo, &scene->palette, pens, a, b);
 }
 
+static void swatch_open_wall(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
+                             sl_box box) {
+    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box), false);
+}
+
+static void swatch_passage(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
+                           sl_box box) {
+    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box), true);
+}
+
 static void swatch_object(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
     sli_pen_object(cairo, &scene->palette, pens);
@@ -283,7 +293,23 @@ static void add_cells(key *k, const sl_scene *scene) {
     if (scene->solid) add(k, swatch_solid, "solid ground");
 }
 
+/// Walls that do not stop all, as the space has them.
+static void add_partial_walls(key *k, const sl_map *map) {
+    char stops[SL_STOPS_TEXT], text[TEXT_MAX];
+    bool open = false, walls = false;
+    for (size_t i = 0; i < map->seam_count; i++) {
+        if (!map->seams[i].stops) continue;
+        *(map->seams[i].stops & sl_map_channel(map) ? &walls : &open) = true;
+    }
+    sl_stops_write(sl_map_channel(map), stops);
+    snprintf(text, sizeof text, "wall that does not stop %s", stops);
+    if (open) add(k, swatch_open_wall, text);
+    snprintf(text, sizeof text, "wall that stops %s, but not all", stops);
+    if (walls) add(k, swatch_passage, text);
+}
+
 static void add_effects(key *k, const sl_map *map) {
+    add_partial_walls(k, map);
     if (map->door_count) add(k, swatch_door, "door, shut and open");
     if (map->mirror_count) add(k, swatch_mirror, "mirror");
     if (map->oneway_count) add(k, swatch_oneway, "one-way glass");

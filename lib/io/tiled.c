@@ -326,18 +326,30 @@ static sl_status read_marks(sli_tiled_reader *reader) {
     return SL_OK;
 }
 
-/// What walls of an object or a layer stop, by its property `stops`; else *stops stays.
+/// What walls of an object or a layer stop, by its property `stops`, a text; else
+/// *stops stays.
 static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
     sli_tiled_properties at = sli_tiled_properties_of(thing);
     const char *name;
     for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
-        const char *text;
-        if (!name || strcmp(name, "stops") != 0) continue;
-        SL_TRY(sli_json_text(&value, &text));
+        const char *text = json_string_value(value.value);
+        if (!text || !name || strcmp(name, "stops") != 0) continue;
         if (!sl_stops_read(text, strlen(text), stops))
             return sli_json_fail(&value, "stops: expected sight, steps, sound or several joined by "
                                          "commas");
     }
+    return SL_OK;
+}
+
+/// Tiles are joined over all layers, and stop all.
+static sl_status note_stops_of_tiles(const sli_tiled_reader *reader, const sli_json *layer) {
+    const char *name = sli_json_text_of(layer, "name");
+    uint32_t stops = 0;
+    SL_TRY(read_stops(layer, &stops));
+    if (stops && !reader->guess)
+        sl_note(reader->context,
+                "%s: layer %s: the property 'stops' is for objects; tiles stop all",
+                layer->file->name, sli_show((sli_word){name, strlen(name)}).text);
     return SL_OK;
 }
 
@@ -403,9 +415,10 @@ static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
         SL_TRY(find_place(reader, &layer, outer, &own));
         if (strcmp(type, "group") == 0)
             SL_TRY(read_layers(reader, &layer, &own));
-        else if (own.word != SLI_TILED_OPEN && strcmp(type, "tilelayer") == 0)
+        else if (own.word != SLI_TILED_OPEN && strcmp(type, "tilelayer") == 0) {
+            SL_TRY(note_stops_of_tiles(reader, &layer));
             SL_TRY(sli_tiled_read_tile_layer(reader, &layer, &own));
-        else if (strcmp(type, "objectgroup") == 0 && !reader->guess)
+        } else if (strcmp(type, "objectgroup") == 0 && !reader->guess)
             SL_TRY(read_objects(reader, &layer, &own));
         if (strcmp(type, "group") != 0 && !reader->guess)
             reader->other_layers +=
