@@ -65,7 +65,8 @@ static void check_mirrored(const sl_runtime *r, const sl_runtime_view *view, uin
         FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]] == (i < direct));
 }
 
-/// Whether a row of a cell that the eye stands in has a cell.
+/// Whether a row of a cell that the eye stands in has a cell, or one of a cell at glass in its
+/// line.
 static bool is_in_rows(const sl_runtime *r, const sl_runtime_view *view, uint32_t cell,
                        const buffers *b) {
     slrt_search s;
@@ -74,7 +75,8 @@ static bool is_in_rows(const sl_runtime *r, const sl_runtime_view *view, uint32_
     slrt_follow(&s, NULL);
     for (uint32_t i = 0; i < s.own_count; i++)
         if (sl_runtime_can_see(r, s.path[i], cell)) return true;
-    return false;
+    if (r->has_glass) slrt_allow_rows_in_line(&s);
+    return s.marks[cell] & SLRT_IN_ROW;
 }
 
 static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
