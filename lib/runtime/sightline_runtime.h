@@ -579,8 +579,8 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
-/// The size of `boxes_scratch` for the calls below, in uint32_t. It is more than the scratch memory
-/// of the calls without boxes.
+/// The size of `boxes_scratch` for the calls below, in uint32_t: the scratch memory of the calls
+/// without boxes, and 370 bytes for each box.
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
 
 /// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
@@ -3580,7 +3580,7 @@ typedef struct slrt_polygon {
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
     uint32_t fan_cell;         ///< its cell
     /// For cells that are entered, and in place of adding a wall; NULL for none. By these a program
-    /// that does not ask for boxes is built without what is only for them.
+    /// that asks for no boxes and mirrors is built without what is only for them.
     void (*meet)(struct slrt_polygon *p, uint32_t cell);
     void (*see_wall)(struct slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
                      uint32_t left);

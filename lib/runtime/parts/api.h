@@ -579,8 +579,8 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
-/// The size of `boxes_scratch` for the calls below, in uint32_t. It is more than the scratch memory
-/// of the calls without boxes.
+/// The size of `boxes_scratch` for the calls below, in uint32_t: the scratch memory of the calls
+/// without boxes, and 370 bytes for each box.
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
 
 /// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
