@@ -71,15 +71,16 @@ typedef struct sli_slv_part_effects {
 /// its walls as segments. Files of meshes alone have BEYO, what is beyond the cells' sides, and
 /// GRIO and GRIC, the offsets and cells of the grid's buckets; their NODE is empty. SEAM has the
 /// seams and SEPO the portals on them (only if there are any); PVSO and PVSB are the offsets and
-/// bytes of the visible sets, DBTO and DBTB those of the doubtful pairs (only if there are any),
-/// MIRO and MIRB those of what is seen by mirror, DORO and DORB the offsets and bytes of the sets
-/// of doors, MDOO and MDOB those of pairs seen by mirror (each only if there are any), TREO and
-/// TREN the offsets and nodes of the stab trees (only if asked for; a node that names a mirror of
-/// the map, SL_STAB_MIRROR, is refused as no tree by readers that do not know of these); MAPT is
-/// what the map holds beside its walls, as map text. Beside PART there are DONE, a bit for each
-/// unit of the work that is done, in words of 64, and the offsets and bytes of the pairs found by
-/// them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has no PVSO and PVSB. What the work
-/// took (tests, nodes ...) is in no file: it would depend on the way.
+/// bytes of the visible sets, PVSP beside them as sli_pvs_parts, DBTO and DBTB those of the
+/// doubtful pairs (only if there are any), MIRO and MIRB those of what is seen by mirror, DORO and
+/// DORB the offsets and bytes of the sets of doors, MDOO and MDOB those of pairs seen by mirror
+/// (each only if there are any), TREO and TREN the offsets and nodes of the stab trees (only if
+/// asked for; a node that names a mirror of the map, SL_STAB_MIRROR, is refused as no tree by
+/// readers that do not know of these); MAPT is what the map holds beside its walls, as map text.
+/// Beside PART there are DONE, a bit for each unit of the work that is done, in words of 64, and
+/// the offsets and bytes of the pairs found by them: FNDO and FNDB, doubtful ones in FNRO and FNRB.
+/// A shard has no PVSO and PVSB. What the work took (tests, nodes ...) is in no file: it would
+/// depend on the way.
 ///
 /// View cells (only with sightline viewcells --slv): VCIN has one sli_slv_views, VCEL the view cell
 /// of each cell (32 bits, all set for none), VCPA the parent of each node (likewise), VCRO and VCRB

@@ -581,6 +581,23 @@ static sl_status load_by_views(const reader *r) {
     return sl_view_rows_expand(r->context, &out->views, &out->visibility.pvs, &pairs);
 }
 
+/// What the file tells of the rows, for the runtime header, is so.
+static sl_status check_parts(const reader *r) {
+    const sl_pvs *pvs = &r->out->visibility.pvs;
+    uint64_t *told = NULL, count;
+    SL_TRY(load(r, "PVSP", sizeof *told, true, &told, &count));
+    if (!told) return SL_OK;
+    uint64_t *parts = sl_alloc_array(r->context, pvs->cell_count, sizeof *parts);
+    if (parts) sli_pvs_parts(pvs, parts);
+    const bool same = parts && count == pvs->cell_count &&
+                      memcmp(told, parts, pvs->cell_count * sizeof *told) == 0;
+    sl_status status = parts ? SL_OK : SL_NO_MEMORY;
+    if (parts && !same) status = fail_file(r, "damaged: section PVSP is not of the visible sets");
+    sl_free(r->context, parts);
+    sl_free(r->context, told);
+    return status;
+}
+
 /// The visible sets, which a shard has none of.
 static sl_status load_seen(const reader *r) {
     sl_visibility *visibility = &r->out->visibility;
@@ -593,6 +610,7 @@ static sl_status load_seen(const reader *r) {
     SL_TRY(load_pvs(r, "PVSO", "PVSB", r->out->views.view_cell_count > 0, &visibility->pvs));
     if (!visibility->pvs.cell_count) SL_TRY(load_by_views(r));
     SL_TRY(check_rows(r, &visibility->pvs));
+    SL_TRY(check_parts(r));
     SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
     if (sli_pvs_pairs(&visibility->pvs) != visibility->account.pairs ||
         sli_pvs_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)

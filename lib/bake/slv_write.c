@@ -2,6 +2,7 @@
 #include "base/base.h"
 #include "base/file_system.h"
 #include "base/size.h"
+#include "cell_to_cell/pvs_rows.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 
@@ -23,6 +24,7 @@ typedef struct plan {
     sli_slv_passage *passages;
     sl_map map; ///< of which the text is; its seams are the plan's
     char *map_text;
+    uint64_t *parts; ///< of the visible sets; NULL where the file has none
     sli_slv_things things;
     sli_slv_views views;
     sli_slv_part part;
@@ -98,6 +100,16 @@ static sl_status list_stops(sl_context *context, const sl_baked *baked, plan *p)
     if (any) return SL_OK;
     sl_free(context, p->stops);
     p->stops = NULL;
+    return SL_OK;
+}
+
+/// The parts of the cells that each visible set reaches into, if the file has visible sets.
+static sl_status list_parts(sl_context *context, const sl_baked *baked, plan *p) {
+    const sl_pvs *pvs = &baked->visibility.pvs;
+    if (sl_baked_is_shard(baked) || baked->by_views) return SL_OK;
+    p->parts = sl_alloc_array(context, pvs->cell_count, sizeof *p->parts);
+    if (!p->parts) return SL_NO_MEMORY;
+    sli_pvs_parts(pvs, p->parts);
     return SL_OK;
 }
 
@@ -212,8 +224,10 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
         add_section(p, "PASS", p->passages, sizeof *p->passages,
                     2 * (uint64_t)space->passage_count);
     if (p->channel != SL_STOPS_SIGHT) add_section(p, "CHAN", &p->channel, sizeof p->channel, 1);
-    if (!sl_baked_is_shard(baked) && !baked->by_views)
+    if (p->parts) {
         add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
+        add_section(p, "PVSP", p->parts, sizeof *p->parts, space->cell_count);
+    }
     if (baked->visibility.account.doubtful_pairs)
         add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);
     add_effects(p, &baked->visibility);
@@ -335,6 +349,7 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     size_t map_bytes = 0;
     SL_TRY(copy_walls(context, &baked->space, p));
     SL_TRY(list_stops(context, baked, p));
+    SL_TRY(list_parts(context, baked, p));
     SL_TRY(sli_slv_list_passages(context, &baked->space, &p->passages));
     SL_TRY(print_map(context, &baked->map, p, &map_bytes));
     SL_TRY(sli_slv_things_make(context, &baked->map, &p->things));
@@ -358,6 +373,7 @@ static void destroy_plan(sl_context *context, plan *p) {
     for (uint32_t i = 0; i < p->header.section_count; i++) sl_free(context, p->copies[i]);
     sl_free(context, p->walls);
     sl_free(context, p->stops);
+    sl_free(context, p->parts);
     sl_free(context, p->passages);
     sl_free(context, p->map.seams);
     sli_slv_things_destroy(context, &p->things);

@@ -61,6 +61,17 @@ uint64_t sli_pvs_pairs(const sl_pvs *pvs) {
     return pairs;
 }
 
+void sli_pvs_parts(const sl_pvs *pvs, uint64_t *out) {
+    unsigned shift = 0;
+    while (pvs->cell_count && (pvs->cell_count - 1) >> shift > 63) shift++;
+    for (uint32_t cell = 0; cell < pvs->cell_count; cell++) {
+        out[cell] = 0;
+        for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
+            out[cell] |= (UINT64_C(2) << ((run.end - 1) >> shift)) - // 2^64 is 0
+                         (UINT64_C(1) << (run.first >> shift));
+    }
+}
+
 static bool row_is_sound(const sl_pvs *pvs, uint32_t cell) {
     const uint8_t *next = pvs->bytes + pvs->offsets[cell];
     const uint8_t *stop = pvs->bytes + pvs->offsets[cell + 1];

@@ -52,6 +52,10 @@ sl_status sli_visibility_finish(sl_context *context, const sl_pvs *sure, const s
 
 uint64_t sli_pvs_pairs(const sl_pvs *pvs); ///< of all rows
 
+/// The parts of the cells that each row reaches into, as bits. A part has 2^s cells, with the least
+/// s for which there are at most 64 parts. `out` has room for as many as there are cells.
+void sli_pvs_parts(const sl_pvs *pvs, uint64_t *out);
+
 /// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.
 sl_status sli_pvs_check(sl_context *context, const sl_pvs *pvs);
 

@@ -129,6 +129,13 @@ class Slv:
         require(at <= len(self.cells), "a row goes past the last cell")
         return cells
 
+    def told_parts(self):
+        """For each row the numbers of the parts of the cells that PVSP says it reaches into, and the size of a part."""
+        size = 1
+        while (len(self.cells) - 1) // size >= 64:
+            size *= 2
+        return [{k for k in range(64) if item["parts"] >> k & 1} for item in self.items("PVSP")], size
+
     def door_rows(self, offsets_tag, bytes_tag):
         """For each row {cell: [doors, ...]}."""
         raw = self.raw_rows(offsets_tag, bytes_tag)

@@ -37,6 +37,7 @@ class SlvFormat(sandbox.ProgramTest):
         self.check_places(slv, polygons, vertices)
         self.check_export(name, slv, polygons, rows)
         self.check_things(slv)
+        self.check_parts(slv, rows)
         return slv
 
     def check_export(self, name, slv, polygons, rows):
@@ -50,6 +51,12 @@ class SlvFormat(sandbox.ProgramTest):
         self.assertEqual([[list(p) for p in polygon] for polygon in polygons],
                          [cell["polygon"] for cell in export["cells"]])
         self.assertEqual(rows, export["pvs"])
+
+    def check_parts(self, slv, rows):
+        self.assertEqual("PVSP" in slv.table, "PVSO" in slv.table)
+        if "PVSP" in slv.table:
+            told, size = slv.told_parts()
+            self.assertEqual(told, [{cell // size for cell in row} for row in rows])
 
     def check_things(self, slv):
         """The sections of the map hold what the map text does."""

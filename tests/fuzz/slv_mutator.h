@@ -258,6 +258,16 @@ static void recount_pairs(parts *all) {
     memcpy(p->bytes, &info, sizeof info);
 }
 
+/// What is told of the rows, likewise.
+static void tell_parts_again(parts *all) {
+    part *told = find_part(all, "PVSP"), *offsets = find_part(all, "PVSO");
+    if (!told || !count_pairs(all, "PVSO", "PVSB") || told->size != offsets->size - 8) return;
+    const sl_pvs pvs = {.cell_count = (uint32_t)(told->size / 8),
+                        .offsets = offsets->bytes,
+                        .bytes = (uint8_t *)find_part(all, "PVSB")->bytes};
+    sli_pvs_parts(&pvs, told->bytes);
+}
+
 static void mutate_parts(parts *all, sl_random *random) {
     if (!all->count) return;
     part *chosen = &all->part[sl_random_below(random, all->count)];
@@ -285,6 +295,7 @@ static void mutate_parts(parts *all, sl_random *random) {
         mutate_bytes(chosen);
     }
     if (sl_random_below(random, 8)) recount_pairs(all);
+    if (sl_random_below(random, 8)) tell_parts_again(all);
 }
 
 /// The file that the parts make; where they make none, what was there, mutated blindly.

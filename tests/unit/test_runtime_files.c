@@ -5,6 +5,7 @@
 #include "runtime_maps.h"
 #include "slv_file.h"
 
+#include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
 
 #include <fcntl.h>
@@ -143,6 +144,8 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"PVSB", 1, 1, "\0", SL_RUNTIME_ROW},       // a run of none
         {"PVSB", 1, 1, "\177", SL_RUNTIME_ROW},     // more than there are
         {"PVSB", 0, 2, "\200\200", SL_RUNTIME_ROW}, // a number that does not end
+        {"PVSP", 0, 1, "\0", SL_RUNTIME_ROW},
+        {"PVSP", 7, 1, "\1", SL_RUNTIME_ROW},
     };
     check_lies(rooms, lies, sizeof lies / sizeof *lies);
 }
@@ -278,11 +281,11 @@ static void a_table_that_lies_is_refused(void **state) {
     static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT",
                                        "PORT", "EXIT", "PVSO", "PVSB"};
     static const char *const grid[] = {"BEYO", "GRIO", "GRIC"};
-    static const char *const things[] = {"STRT", "OBJE", "MIRR"};
+    static const char *const things[] = {"STRT", "OBJE", "MIRR", "PVSP"};
     check_table(rooms, tags, 8, SL_RUNTIME_SECTION);
     check_table(oblique, grid, 3, SL_RUNTIME_SPACE);
     check_table("walls 0 0 9 0 9 9 0 9 0 0\nstart 1 1 0\nobject box 1 1 2 2\nmirror 6 2 6 5\n",
-                things, 3, SL_RUNTIME_OK);
+                things, 4, SL_RUNTIME_OK);
 }
 
 /// A file of a tree is no file of a mesh, and the other way round it is a loose one.
@@ -397,7 +400,7 @@ static sl_runtime_status open_before_a_gap(const char *bytes, size_t size) {
 static void an_empty_section_at_the_end_is_not_read(void **state) {
     (void)state;
     static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT", "PVSO",
-                                       "PVSB", "VCIN", "VCEL", "VCPA", "VCRO", "VCRB"};
+                                       "PVSB", "PVSP", "VCIN", "VCEL", "VCPA", "VCRO", "VCRB"};
     sl_context *context = testing_context(NULL);
     baked_file f = baked_file_of_text(context, rooms);
     const uint32_t count = f.runtime.cell_count;
@@ -449,6 +452,78 @@ static void an_empty_section_at_the_end_is_not_read(void **state) {
     sl_context_destroy(context);
 }
 
+/// Rows of any cells, and what is told of them.
+typedef struct told_rows {
+    sl_pvs pvs;
+    uint64_t *offsets, *parts; ///< as in the file
+    sl_runtime runtime;
+} told_rows;
+
+static void make_rows(sl_context *context, sl_random *random, uint32_t cells, told_rows *t) {
+    sli_row_bytes *rows = calloc(cells, sizeof *rows);
+    sl_bits *set = calloc(sl_bits_words(cells), sizeof *set);
+    *t = (told_rows){.offsets = malloc((cells + 1) * sizeof *t->offsets),
+                     .parts = malloc(cells * sizeof *t->parts)};
+    assert_true(rows && set && t->offsets && t->parts);
+    for (uint32_t i = 0; i < cells; i++) {
+        memset(set, 0, sl_bits_words(cells) * sizeof *set);
+        if (i % 5) sl_bits_add(set, i);
+        for (uint64_t runs = i % 5; runs; runs--) {
+            const uint64_t first = sl_random_below(random, cells);
+            const uint64_t most = sl_random_below(random, 3) ? 3 : cells;
+            for (uint64_t k = sl_random_below(random, most); k + 1; k--)
+                if (first + k < cells) sl_bits_add(set, (uint32_t)(first + k));
+        }
+        assert_ok(context, sli_row_append(context, &rows[i], set, cells));
+    }
+    assert_ok(context, sli_pvs_join(context, rows, cells, &t->pvs));
+    sli_pvs_parts(&t->pvs, t->parts);
+    memcpy(t->offsets, t->pvs.offsets, (cells + 1) * sizeof *t->offsets);
+    sli_slv_order("PVSO", 8, t->offsets, cells + 1);
+    sli_slv_order("PVSP", 8, t->parts, cells);
+    free(set);
+    t->runtime.cell_count = cells;
+    t->runtime.row_offsets = (unsigned char *)t->offsets;
+    t->runtime.row_bytes = t->pvs.bytes;
+    const slrt_section section = {(unsigned char *)t->parts, cells};
+    assert_true(slrt_take_parts(&t->runtime, &section));
+}
+
+/// Numbers of cells at which parts become longer: rows say the same of a pair with and without what
+/// is told of them, and each bit of that is checked.
+static void what_is_told_of_rows_changes_no_answer(void **state) {
+    (void)state;
+    static const uint32_t counts[] = {1, 2, 63, 64, 65, 128, 129, 200, 1025};
+    sl_context *context = testing_context(NULL);
+    sl_random random = {11};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        const uint32_t n = counts[i];
+        told_rows t;
+        make_rows(context, &random, n, &t);
+        sl_runtime *r = &t.runtime;
+        const slrt_section few = {r->row_parts, n - 1};
+        assert_false(
+            slrt_take_parts(&(sl_runtime){.cell_count = n, .row_offsets = r->row_offsets}, &few));
+        for (uint32_t a = 0; a < n; a++)
+            for (uint32_t b = 0; b < n; b++)
+                assert_int_equal(sl_runtime_can_see(r, a, b), sl_pvs_sees(&t.pvs, a, b));
+        assert_false(sl_runtime_can_see(r, n - 1, n) || sl_runtime_can_see(r, n, n - 1) ||
+                     sl_runtime_can_see(r, n - 1, SL_RUNTIME_NO_CELL) ||
+                     sl_runtime_can_see(r, SL_RUNTIME_NO_CELL, n - 1));
+        const uint64_t bytes = t.pvs.offsets[n];
+        assert_true(slrt_rows_are_sound(r, bytes, true));
+        for (int bit = 0; bit < 64; bit++) {
+            t.parts[n / 2] ^= UINT64_C(1) << bit;
+            assert_false(slrt_rows_are_sound(r, bytes, true));
+            t.parts[n / 2] ^= UINT64_C(1) << bit;
+        }
+        free(t.offsets);
+        free(t.parts);
+        sl_pvs_destroy(context, &t.pvs);
+    }
+    sl_context_destroy(context);
+}
+
 /// Bounds of almost no size about an eye, with corners far outside.
 static void no_polygon_has_a_point_that_is_no_number(void **state) {
     (void)state;
@@ -485,6 +560,7 @@ int main(void) {
         cmocka_unit_test(unknown_sections_are_passed_over),
         cmocka_unit_test(a_search_without_end_is_given_up),
         cmocka_unit_test(an_empty_section_at_the_end_is_not_read),
+        cmocka_unit_test(what_is_told_of_rows_changes_no_answer),
         cmocka_unit_test(no_polygon_has_a_point_that_is_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -83,6 +83,8 @@ static void a_lie_under_a_seal_is_refused(void **state) {
          "cell 0 has portals out of"},
         {"PVSB", 0, 2, "\1\1", "visible set 0 lacks its own cell"},
         {"PVSB", 0, 1, "\3", "visible set 0 is damaged"},
+        {"PVSP", 0, 1, "\0", "PVSP is not of the visible sets"},
+        {"PVSP", 7, 1, "\1", "PVSP is not of the visible sets"},
         {"TREN", offsetof(sl_stab_node, parent), sizeof one, &one, "stab tree 0 is no tree"},
         {"SEAM", offsetof(sl_seam, number), sizeof one, &one, "seam 0 is of nothing"},
         {"SEAM", offsetof(sl_seam, at), sizeof far, &far, "seam 0 leaves the bounds"},

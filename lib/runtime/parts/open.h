@@ -18,6 +18,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     status = slrt_take_map(&rt, found);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_take_doors(&rt, found) || !slrt_take_mirrors(&rt, found)) return SL_RUNTIME_ROW;
+    if (!slrt_take_parts(&rt, &found[SLRT_PVSP])) return SL_RUNTIME_ROW;
     if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
         return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;

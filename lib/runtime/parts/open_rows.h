@@ -28,13 +28,19 @@ static bool slrt_pass_number(const unsigned char **next, const unsigned char *st
     return false;
 }
 
+/// The parts of the cells that a run reaches into, as bits.
+static uint64_t slrt_parts_of(const sl_runtime *rt, uint64_t first, uint64_t end) {
+    return (UINT64_C(2) << ((end - 1) >> rt->part_shift)) -
+           (UINT64_C(1) << (first >> rt->part_shift));
+}
+
 /// A row: runs of cells, ascending, with gaps between them. The row of a cell has the cell itself.
-/// A row may be empty.
+/// A row may be empty. It reaches into the parts that are told of it.
 static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell, bool of_cell) {
     const unsigned char *next = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8);
     const unsigned char *stop = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8 + 8);
     const bool empty = next == stop;
-    uint64_t end = 0;
+    uint64_t end = 0, parts = 0;
     bool has_own = false;
     while (next < stop) {
         const unsigned char *at = next;
@@ -47,8 +53,10 @@ static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell, bool of_cell)
         first = end + skip;
         end = first + length;
         if (end > rt->cell_count) return false;
+        if (rt->row_parts) parts |= slrt_parts_of(rt, first, end);
         has_own = has_own || (cell >= first && cell < end);
     }
+    if (rt->row_parts && parts != slrt_u64(rt->row_parts + (size_t)cell * 8)) return false;
     return has_own || empty || !of_cell;
 }
 
@@ -66,11 +74,20 @@ static bool slrt_rows_are_sound(const sl_runtime *rt, uint64_t byte_count, bool 
     return true;
 }
 
+/// Which parts of the cells each row reaches into, if the file tells. There are 64 parts at most.
+static bool slrt_take_parts(sl_runtime *rt, const slrt_section *parts) {
+    if (!parts->items || !rt->row_offsets) return true;
+    rt->row_parts = parts->items;
+    while ((rt->cell_count - 1) >> rt->part_shift > 63) rt->part_shift++;
+    return parts->count == rt->cell_count;
+}
+
 /// The rows of view cells, to be read like rows of cells.
 static sl_runtime slrt_view_rows(const sl_runtime *rt) {
     sl_runtime rows = *rt;
     rows.row_offsets = rt->view_offsets;
     rows.row_bytes = rt->view_bytes;
+    rows.row_parts = NULL;
     return rows;
 }
 
@@ -230,6 +247,7 @@ static sl_runtime slrt_mirrored(const sl_runtime *rt) {
     sl_runtime rows = *rt;
     rows.row_offsets = rt->mirror_offsets;
     rows.row_bytes = rt->mirror_bytes;
+    rows.row_parts = NULL;
     rows.door_offsets = rt->mirror_door_offsets;
     rows.door_bytes = rt->mirror_door_bytes;
     return rows;

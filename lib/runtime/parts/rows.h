@@ -23,8 +23,18 @@ SL_RUNTIME_API bool sl_runtime_next(sl_runtime_run *run) {
     return true;
 }
 
+/// Whether the row of a cell reaches into the part of the cells that another one is in. Most rows
+/// do not, and are not read.
+static bool slrt_may_see(const sl_runtime *rt, uint32_t from, uint32_t to) {
+    if (!rt->row_parts) return true;
+    return from < rt->cell_count && to < rt->cell_count &&
+           (slrt_u64(rt->row_parts + (size_t)from * 8) >> (to >> rt->part_shift) & 1) != 0;
+}
+
 SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to) {
-    sl_runtime_run run = sl_runtime_row(runtime, from);
+    sl_runtime_run run;
+    if (!slrt_may_see(runtime, from, to)) return false;
+    run = sl_runtime_row(runtime, from);
     while (sl_runtime_next(&run))
         if (to < run.end) return to >= run.first;
     return false;

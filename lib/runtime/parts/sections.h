@@ -53,6 +53,7 @@ enum slrt_tag {
     SLRT_STOP, ///< with CHAN and PASS: what walls stop that do not stop all
     SLRT_CHAN,
     SLRT_PASS,
+    SLRT_PVSP,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -141,6 +142,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"STOP", 4},
                           {"CHAN", 4},
                           {"PASS", SLRT_PASSAGE_BYTES},
+                          {"PVSP", 8},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
