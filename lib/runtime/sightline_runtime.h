@@ -503,6 +503,7 @@ typedef struct sl_runtime_mirror_part {
                      ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
     uint32_t first, count; ///< its points are points[first .. first + count)
     uint32_t cell;         ///< this and the rest is for the function only
+    bool joins;
     double right[4], left[4], at[4];
 } sl_runtime_mirror_part;
 
@@ -515,8 +516,8 @@ typedef struct sl_runtime_mirror_part {
 /// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
 /// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
 /// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
-/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
-/// each other show the same. An eye on a mirror sees nothing in it.
+/// the left end. Where mirrors lie on each other, the first one of the map counts. An eye on a
+/// mirror sees nothing in it.
 ///
 /// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
 /// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
@@ -578,8 +579,8 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
-/// The size of `boxes_scratch` for the calls below, in uint32_t. It is more than the scratch memory
-/// of the calls without boxes.
+/// The size of `boxes_scratch` for the calls below, in uint32_t: the scratch memory of the calls
+/// without boxes, and 370 bytes for each box.
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
 
 /// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
@@ -3579,7 +3580,7 @@ typedef struct slrt_polygon {
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
     uint32_t fan_cell;         ///< its cell
     /// For cells that are entered, and in place of adding a wall; NULL for none. By these a program
-    /// that does not ask for boxes is built without what is only for them.
+    /// that asks for no boxes and mirrors is built without what is only for them.
     void (*meet)(struct slrt_polygon *p, uint32_t cell);
     void (*see_wall)(struct slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
                      uint32_t left);
@@ -6246,6 +6247,8 @@ typedef struct slrt_mirrors_job {
     uint32_t missed;      ///< parts for which there is no room
     uint32_t depth;       ///< the most
     uint32_t here;        ///< the part that is made
+    bool added;           ///< some part is added that is seen in that one,
+    slrt_arm last;        ///< and the last of these ends there
 } slrt_mirrors_job;
 
 static slrt_arm slrt_arm_of(const double *border) {
@@ -6330,19 +6333,15 @@ static void slrt_reflect_place(const double *m, const double *at, double *out, b
     out[1] = m[1] == 0 ? slrt_sum(m[4] * y, m[5], rounded) : m[3] * x + m[4] * y + m[5];
 }
 
-/// Reflects a border of what is seen. `end`: of the mirror's piece, which it is not beyond, but for
-/// rounding; `turn`: 1 if that is its right end, -1 if its left one.
-static void slrt_reflect_border(const double *m, const slrt_arm *arm, const slrt_arm *end, int turn,
-                                double *border) {
-    slrt_arm image;
-    if (m[1] == 0)
-        image = slrt_make_arm(m[0] * arm->from_x, m[4] * arm->from_y, m[0] * arm->to_x,
-                              m[4] * arm->to_y);
-    else
-        image = slrt_make_arm(0, 0, m[0] * arm->x + m[1] * arm->y, m[3] * arm->x + m[4] * arm->y);
-    if (slrt_side(&image, end) * turn > 0) image = *end;
-    border[0] = image.to_x, border[1] = image.to_y;
-    border[2] = image.from_x, border[3] = image.from_y;
+static void slrt_reflect_border(const double *m, const slrt_arm *arm, double *border) {
+    if (m[1] == 0) {
+        border[0] = m[0] * arm->to_x, border[1] = m[4] * arm->to_y;
+        border[2] = m[0] * arm->from_x, border[3] = m[4] * arm->from_y;
+    } else {
+        border[0] = m[0] * arm->x + m[1] * arm->y;
+        border[1] = m[3] * arm->x + m[4] * arm->y;
+        border[2] = border[3] = 0;
+    }
 }
 
 /// The frame in which the map appears behind one more mirror.
@@ -6379,7 +6378,6 @@ static void slrt_add_part(const slrt_polygon *p, uint32_t cell, uint32_t mirror,
     const slrt_arm a = right == SLRT_NONE ? u : slrt_border(&p->s, right);
     const slrt_arm b = left == SLRT_NONE ? v : slrt_border(&p->s, left);
     double m[6];
-    slrt_arm end;
     sl_runtime_mirror_part *to;
     if (slrt_side(&u, &a) > 0) u = a;
     if (slrt_side(&b, &v) > 0) v = b;
@@ -6388,8 +6386,12 @@ static void slrt_add_part(const slrt_polygon *p, uint32_t cell, uint32_t mirror,
         job->missed++;
         return;
     }
-    to = &job->parts[job->count++];
+    to = &job->parts[job->count];
     memset(to, 0, sizeof *to);
+    to->joins = job->added && to[-1].mirror == mirror && slrt_same_ray(&job->last, &u);
+    job->added = true;
+    job->last = v;
+    job->count++;
     slrt_reflection(p->s.rt->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES, m);
     to->mirror = mirror;
     to->parent = job->here;
@@ -6398,10 +6400,8 @@ static void slrt_add_part(const slrt_polygon *p, uint32_t cell, uint32_t mirror,
     to->cell = cell;
     slrt_reflect_place(m, from->eye, to->eye, &to->rounded);
     slrt_reflect_frame(from->frame, m, to->frame);
-    end = slrt_make_arm(to->eye[0], to->eye[1], piece->b[0], piece->b[1]);
-    slrt_reflect_border(m, &v, &end, 1, to->right);
-    end = slrt_make_arm(to->eye[0], to->eye[1], piece->a[0], piece->a[1]);
-    slrt_reflect_border(m, &u, &end, -1, to->left);
+    slrt_reflect_border(m, &v, to->right);
+    slrt_reflect_border(m, &u, to->left);
     memcpy(to->at, piece->b, sizeof piece->b);
     memcpy(to->at + 2, piece->a, sizeof piece->a);
 }
@@ -6447,35 +6447,70 @@ static void slrt_see_reflecting(slrt_polygon *p, uint32_t cell, const slrt_piece
     }
 }
 
-/// Makes the polygon of a part: from the right end of the mirror's piece, counter-clockwise about
-/// the image, to the left end.
-static uint32_t slrt_see_in_mirror(slrt_polygon *p, const sl_runtime_mirror_part *part) {
-    const slrt_arm right = slrt_arm_of(part->right), left = slrt_arm_of(part->left);
+/// Adds the point where a border meets a piece of a mirror.
+static void slrt_add_on_mirror(slrt_polygon *p, const double *border, const double *ends,
+                               double *at) {
+    const slrt_arm ray = slrt_arm_of(border);
     slrt_piece mirror;
+    memcpy(mirror.a, ends, sizeof mirror.a);
+    memcpy(mirror.b, ends + 2, sizeof mirror.b);
+    slrt_meet_line(p, &ray, &mirror, at);
+    slrt_add_point(p, at, true);
+}
+
+/// Makes the polygon of a part, and of those behind it in the list that join it: from the right end
+/// of the mirror, which is that of the last one, counter-clockwise about the image.
+static uint32_t slrt_see_in_mirror(slrt_polygon *p, const sl_runtime_mirror_part *part,
+                                   const sl_runtime_mirror_part *joined, uint32_t count) {
+    const sl_runtime_mirror_part *rightmost = count ? &joined[count - 1] : part;
     double at[2];
-    memcpy(mirror.a, part->at, sizeof mirror.a);
-    memcpy(mirror.b, part->at + 2, sizeof mirror.b);
-    mirror.directed = SLRT_NONE;
     p->s.x = part->eye[0];
     p->s.y = part->eye[1];
-    p->s.cone[0] = right;
-    p->s.cone[1] = left;
     p->in_sector = true;
-    p->right = SLRT_ARM;
-    p->left = SLRT_ARM + 1;
-    p->fan_is_closed = true; // with one cell
     p->first_is_short = true;
-    slrt_meet_line(p, &right, &mirror, at);
-    slrt_add_point(p, at, true);
-    slrt_see_fan_cell(p, part->cell);
+    p->started = true; // all that faces the image is on one lap
+    slrt_add_on_mirror(p, rightmost->right, rightmost->at, at);
+    for (;;) {
+        const sl_runtime_mirror_part *one = count ? &joined[count - 1] : part;
+        const uint32_t slot = 2 * (count % 2); // the end of the last piece is not computed yet
+        p->right = SLRT_ARM + slot;
+        p->left = SLRT_ARM + slot + 1;
+        p->s.cone[slot] = slrt_arm_of(one->right);
+        p->s.cone[slot + 1] = slrt_arm_of(one->left);
+        slrt_see_fan_cell(p, one->cell);
+        if (!count--) break;
+    }
     slrt_end_pending(p);
-    slrt_meet_line(p, &left, &mirror, at);
-    slrt_add_point(p, at, true);
+    slrt_add_on_mirror(p, part->left, part->at, at);
     if (p->s.range > 0) {
         slrt_end_arc(p);
         slrt_put(p, at);
     }
     return p->broken || p->count < 3 || p->written < 3 ? 0 : p->written;
+}
+
+/// Makes the polygon of the next part that waits. Returns how many of the list it took.
+static uint32_t slrt_make_part(slrt_polygon *p, slrt_mirrors_job *job, uint32_t next) {
+    sl_runtime_mirror_part *part = &job->parts[job->here];
+    const uint32_t waiting = job->count;
+    uint32_t taken = 1;
+    p->job = job;
+    p->see_wall = slrt_see_reflecting;
+    job->added = false;
+    *part = job->parts[next];
+    if (next) {
+        for (; next + taken < waiting && job->parts[next + taken].joins; taken++)
+            part->rounded = part->rounded || job->parts[next + taken].rounded;
+        part->count = slrt_see_in_mirror(p, part, &job->parts[next] + 1, taken - 1);
+    } else {
+        slrt_find_fan(p);
+        part->count = slrt_see_polygon(p);
+    }
+    if (part->count)
+        job->here++;
+    else
+        job->count = waiting; // what is not seen shows nothing
+    return taken;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
@@ -6497,31 +6532,16 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
     parts->eye[0] = p.s.x;
     parts->eye[1] = p.s.y;
     parts->frame[0] = parts->frame[4] = 1;
-    parts->cell = p.s.eye_cell;
-    for (next = 0; next < job.count; next++) {
-        const bool fits = all < room;
-        sl_runtime_mirror_part *part = &parts[job.here];
-        const uint32_t waiting = job.count, cell = parts->cell;
-        if (next) {
-            slrt_start_polygon(&p, runtime, view, shut, range, scratch,
-                               fits ? points + 2 * (size_t)all : NULL, fits ? room - all : 0);
-            *part = parts[next];
+    for (next = 0; next < job.count;) {
+        const uint32_t here = job.here;
+        next += slrt_make_part(&p, &job, next);
+        if (job.here > here) {
+            parts[here].first = all;
+            all += parts[here].count;
         }
-        p.s.eye_cell = cell;
-        p.job = &job;
-        p.see_wall = slrt_see_reflecting;
-        part->first = all;
-        if (next) {
-            part->count = slrt_see_in_mirror(&p, part);
-        } else {
-            slrt_find_fan(&p);
-            part->count = slrt_see_polygon(&p);
-        }
-        all += part->count;
-        if (part->count)
-            job.here++;
-        else
-            job.count = waiting; // what is not seen shows nothing
+        slrt_start_polygon(&p, runtime, view, shut, range, scratch,
+                           all < room ? points + 2 * (size_t)all : NULL,
+                           all < room ? room - all : 0);
     }
     *part_count = job.missed ? part_room + job.missed : job.here;
     return all;

@@ -243,7 +243,7 @@ sl_status sl_view_rows_cost(sl_context *context, const sl_view_scene *scene, con
 typedef struct exact {
     const sl_view_scene *scene;
     const sl_view_tree *tree;
-    sl_map map; ///< walls and starts of the scene's, and seams
+    sl_map map; ///< walls and starts of the scene's, and borders of view cells as seams
     sl_space space;
     sl_visibility visibility;
     uint32_t *leaves, *homes; ///< by cell of `space`: where it lies
@@ -252,6 +252,15 @@ typedef struct exact {
 static sl_status make_map(sl_context *context, const sl_map *map, exact *e) {
     sl_status status = sl_map_add_walls(context, &e->map, map->walls, map->wall_count);
     e->map.ground_guessed = map->ground_guessed;
+    e->map.channel = map->channel;
+    for (size_t i = 0; i < map->seam_count && status == SL_OK; i++) {
+        const sl_glass *wall = &map->seams[i];
+        if (!wall->stops) continue;
+        status = sl_map_add_seam(context, &e->map, wall->segment, 0);
+        if (status != SL_OK) break;
+        e->map.seams[e->map.seam_count - 1].stops = wall->stops;
+        e->map.seams[e->map.seam_count - 1].ground = wall->ground;
+    }
     for (size_t i = 0; i < map->start_count && status == SL_OK; i++)
         status = sl_map_add_start(context, &e->map, map->starts[i].at, map->starts[i].heading, 0);
     SL_TRY(status);

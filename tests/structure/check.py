@@ -74,7 +74,7 @@ def sources(root, folders, endings):
 
 def library_sources(root, folders, endings):
     """Without examples: programs of their own, which include what their users do and print."""
-    return (path for path in sources(root, folders, endings) if path.parent.name != "examples")
+    return (path for path in sources(root, folders, endings) if "examples" not in path.parts)
 
 
 def header_folder(name):

@@ -174,7 +174,7 @@ static void look_in_scenes(trial *t, uint64_t count, bool turned, double move) {
 static void as_the_library_and_the_sweep_say(void **state) {
     (void)state;
     static trial t;
-    look_in_scenes(&t, 300, false, 0);
+    look_in_scenes(&t, 120, false, 0);
     assert_true(t.hidden > t.asked / 2 && t.at_border > t.asked / 20 && t.cut > t.asked / 20);
 }
 
@@ -191,11 +191,69 @@ static void far_from_the_origin(void **state) {
     look_in_scenes(&t, 30, true, 1e6);
 }
 
+/// Crowds: some in a corner of the room, some all over it, overlapping or as thin as walls.
+static sl_box box_of_crowd(sl_random *random, uint64_t kind) {
+    const sl_point at = {64 * sl_random_unit(random), 64 * sl_random_unit(random)};
+    const double wide = kind % 2 ? 16 : 1, high = kind % 3 ? wide : 0;
+    const sl_point min = kind % 5 ? at : (sl_point){floor(at.x), floor(at.y)};
+    return (sl_box){min, {min.x + wide * sl_random_unit(random), min.y + high}};
+}
+
+static void past_crowds(void **state) {
+    (void)state;
+    enum { CROWD = 256 };
+    static sl_moving_box crowd[CROWD];
+    static sl_runtime_box list[CROWD];
+    static sl_point points[ROOM];
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "wall 0 0 64 0\nwall 64 0 64 64\nwall 64 64 0 64\n"
+                                               "wall 0 64 0 0\nwall 32 0 32 20\n");
+    sl_random random = {31};
+    sl_region region = {0};
+    for (uint64_t kind = 0; kind < 30; kind++) {
+        const uint32_t count = 1 + (uint32_t)sl_random_below(&random, CROWD);
+        sl_runtime_boxes boxes;
+        sl_query *query;
+        uint32_t *memory = malloc(sl_runtime_boxes_count(&f.runtime, count, PAIRS) * 4);
+        sl_runtime_boxes_start(&boxes, &f.runtime, list, count, PAIRS, memory);
+        uint32_t *scratch = malloc(sl_runtime_boxes_scratch_count(&boxes) * 4);
+        for (uint32_t i = 0; i < count; i++) {
+            const sl_box b = box_of_crowd(&random, kind);
+            const sl_runtime_box box = {b.min.x, b.min.y, b.max.x, b.max.y, true};
+            crowd[i] = (sl_moving_box){b, true};
+            assert_true(sl_runtime_boxes_move(&boxes, i, &box));
+        }
+        assert_ok(context, sl_query_over(context, &f.baked.space, &f.baked.map, NULL, &query));
+        assert_ok(context, sl_query_set_boxes(context, query, crowd, count));
+        for (int i = 0; i < 8; i++) {
+            const sl_view view = sl_view_all_round(
+                (sl_point){64 * sl_random_unit(&random), 64 * sl_random_unit(&random)});
+            const sl_runtime_view same = sl_runtime_view_all_round(view.eye.x, view.eye.y);
+            const uint32_t found = sl_runtime_visible_polygon_past_boxes(
+                &boxes, &same, NULL, 0, scratch, &points[0].x, ROOM);
+            assert_ok(context, sl_query_region(context, query, &view, &region));
+            assert_true(found >= 3 && found <= ROOM);
+            const double area = polygon_area(view.eye, points, found);
+            if (fabs(area - sl_region_area(&region)) > 1e-9)
+                fail_msg("crowd %d, eye %.17g %.17g: area %.17g, not %.17g", (int)kind, view.eye.x,
+                         view.eye.y, area, sl_region_area(&region));
+            assert_true(polygon_farthest(points, found, region.points, region.count) < 1e-10);
+        }
+        sl_query_destroy(context, query);
+        free(scratch);
+        free(memory);
+    }
+    sl_region_destroy(context, &region);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_the_library_and_the_sweep_say),
         cmocka_unit_test(among_turned_walls),
         cmocka_unit_test(far_from_the_origin),
+        cmocka_unit_test(past_crowds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

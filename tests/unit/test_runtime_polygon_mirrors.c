@@ -14,7 +14,7 @@
 
 #include <math.h>
 
-enum { MAPS = 96, EYES = 6, PARTS = 4096, ROOM = 1 << 16, CHAINS = 1 << 9 };
+enum { MAPS = 320, EYES = 6, PARTS = 4096, ROOM = 1 << 16, CHAINS = 1 << 9 };
 
 typedef struct trial {
     sl_context *context;
@@ -233,6 +233,30 @@ static void as_the_library_says_of_turned_mirrors(void **state) {
     sl_context_destroy(t.context);
 }
 
+/// What cells before a mirror show side by side is one part. A wall that hides some parts it.
+static void cells_join(void **state) {
+    (void)state;
+    static trial t;
+    static const char *const walls[] = {"wall 2 4 2 3\n", "wall 1.5 1 1.5 1.5\n"};
+    for (uint32_t i = 0; i < 2; i++) {
+        char text[256];
+        snprintf(text, sizeof text,
+                 "wall 0 0 4 0\nwall 4 0 4 4\nwall 4 4 0 4\nwall 0 4 0 0\n"
+                 "mirror 1 0 3 0\n%s",
+                 walls[i]);
+        t.context = testing_context(NULL);
+        t.f = baked_file_of_text(t.context, text);
+        t.scratch = malloc(sl_runtime_scratch_count(&t.f.runtime) * sizeof *t.scratch);
+        t.depth = 1;
+        const sl_view all = sl_view_all_round((sl_point){1, 2.25});
+        look(&t, &all);
+        assert_true(t.f.runtime.cell_count > 1);
+        assert_int_equal(t.part_count, 2 + i);
+        end(&t);
+        sl_context_destroy(t.context);
+    }
+}
+
 /// The same parts for any room, and no more written than there is room for.
 static void any_room_will_do(void **state) {
     (void)state;
@@ -267,6 +291,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_brute_force_says),
         cmocka_unit_test(as_the_library_says_of_turned_mirrors),
+        cmocka_unit_test(cells_join),
         cmocka_unit_test(any_room_will_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,14 +1,14 @@
 // Which things each player may see: by the oracle no pair is missed, and few are added. On the maps
 // no pair is missed of which two points see each other.
-//   test_runtime_relevant [MAPS]    so many random maps of each kind instead of 30
+//   test_runtime_relevant [MAPS]    so many random maps of each kind instead of 100
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "oracle/two_boxes.h"
 
-enum { SIZE = 12, WALLS = 14, DOORS = 3, PLAYERS = 6, THINGS = 10, MOST = 64 };
+enum { SIZE = 12, WALLS = 14, DOORS = 3, PLAYERS = 6, THINGS = 10, MOST = 128 };
 
-static uint64_t maps = 30;
+static uint64_t maps = 100;
 
 typedef struct trial {
     sl_context *context;
@@ -145,7 +145,7 @@ static void check_random_maps(double c, double s) {
     trial t = {.context = testing_context(NULL), .random = {5}, .shut = shut};
     for (uint64_t i = 0; i < maps; i++) {
         t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
-        grid_rooms(t.context, &t.random, SIZE, WALLS, DOORS, &t.file.baked.map);
+        grid_rooms(t.context, &t.random, SIZE, i % 2 ? WALLS : 2 * WALLS, DOORS, &t.file.baked.map);
         turn(&t.file.baked.map, c, s);
         assert_ok(t.context, sl_map_clean(t.context, &t.file.baked.map, NULL, NULL));
         baked_file_make(t.context, &t.file, false);
@@ -261,13 +261,94 @@ static void test_points_far_away(void **state) {
     sl_context_destroy(context);
 }
 
+// --- answers that are known
+
+/// Two rooms with a door between them, a pillar in the first.
+static const char rooms[] = "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
+                            "door d 10 4 10 6\nsolid 4 4 6 4 6 6 4 6\n";
+/// One sees through the glass from the right.
+static const char glass[] = "walls 0 0 20 0 20 10 0 10 0 0\noneway 10 0 10 10\n";
+/// Only along y = 0 one sees past all walls, which end there from below, above and below.
+static const char comb[] = "walls 0 -5 20 -5 20 5 0 5 0 -5\nwall 5 -5 5 0\nwall 8 0 8 5\n"
+                           "wall 11 -5 11 0\n";
+
+static const struct {
+    const char *map;
+    sl_runtime_box from, to;
+    double range;
+    bool shut, sees;
+} known[] = {
+    {rooms, {8, 4.5, 9, 5.5, false}, {12, 4.5, 13, 5.5, false}, 0, false, true},
+    {rooms, {8, 4.5, 9, 5.5, false}, {12, 4.5, 13, 5.5, false}, 0, true, false},
+    {rooms, {9, 4.5, 10, 5.5, false}, {12, 4.5, 13, 5.5, false}, 0, true, true}, // on the door
+    {rooms, {1, 1, 2, 2, false}, {5, 1, 6, 2, false}, 3, false, true},
+    {rooms, {1, 1, 2, 2, false}, {5, 1, 6, 2, false}, 2.99, false, false},
+    {rooms, {0, 0, 1, 1, false}, {11, 8.5, 12, 9.5, false}, 0, false, false},
+    {rooms, {0, 0, 1, 1, false}, {11, 7, 12, 8, false}, 0, false, true},
+    {rooms, {0, 0, 1, 1, false}, {11, 7.34, 12, 8, false}, 0, false, false},
+    {rooms, {4.5, 4.5, 5.5, 5.5, false}, {7, 4.5, 8, 5.5, false}, 0, false, false}, // in the pillar
+    {rooms, {4.5, 4.5, 5.5, 5.5, false}, {5, 5, 5.5, 5.5, false}, 0, false, false},
+    {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 5.5, 5.5, false}, 0, false, false},
+    {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 6, 5.5, false}, 0, false, true}, // its side
+    {glass, {2, 2, 3, 3, false}, {12, 2, 13, 3, false}, 0, false, false},
+    {glass, {12, 2, 13, 3, false}, {2, 2, 3, 3, false}, 0, false, true},
+    {glass, {9, 2, 11, 3, false}, {12, 2, 13, 3, false}, 0, false, true},
+    {comb, {1, 0, 1, 0, false}, {15, 0, 15, 0, false}, 0, false, true},
+    {comb, {15, -1, 16, 1, false}, {1, -1, 2, 1, false}, 0, false, true},
+    {comb, {1, 0, 3, 0, false}, {12, 0, 13, 1, false}, 0, false, true},
+    {comb, {1, 0, 3, 0, false}, {12, 0.1, 13, 1, false}, 0, false, false},
+    {comb, {1, 0, 3, 0, false}, {12, -1, 13, -0.5, false}, 0, false, false},
+    {comb, {1, -2, 3, 0, false}, {12, -1, 13, -0.5, false}, 0, false, false},
+};
+
+static void test_known_answers(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        baked_file f = baked_file_of_text(context, known[i].map);
+        trial t = {.file = f, .range = known[i].range};
+        unsigned char shut = known[i].shut;
+        for (size_t k = 0; k < PLAYERS; k++) t.players[k] = known[i].from;
+        for (size_t k = 0; k < THINGS; k++) t.things[k] = known[i].to;
+        t.shut = &shut;
+        ask(&t);
+        if (says(&t, PLAYERS - 1, THINGS - 1) != known[i].sees)
+            fail_msg("known answer %zu: sees is %d", i, !known[i].sees);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
+/// More large things than there is room for at a time.
+static void test_large_things(void **state) {
+    (void)state;
+    enum { MANY = 40 };
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of(context, SIGHTLINE_SOURCE_DIR "/maps/office.map");
+    const sl_runtime *r = &f.runtime;
+    const sl_runtime_box all = {r->min_x - 1, r->min_y, r->max_x, r->max_y, false};
+    const sl_runtime_box nowhere = {NAN, 0, 1, 1, false}, turned = {1, 1, 0, 0, false};
+    const sl_runtime_box players[4] = {{53, 20, 53, 20, false}, all, nowhere, turned};
+    sl_runtime_box things[MANY];
+    unsigned char bits[4 * MANY / 8];
+    uint32_t *scratch = malloc(sl_runtime_relevant_count(r, MANY) * sizeof *scratch);
+    assert_non_null(scratch);
+    for (int i = 0; i < MANY; i++) things[i] = i == 7 ? nowhere : all;
+    assert_int_equal(sl_runtime_relevant(r, players, 4, 0, things, MANY, NULL, 0, scratch, bits),
+                     2 * (MANY - 1));
+    for (int i = 0; i < 4 * MANY; i++)
+        assert_int_equal(bits[i / 8] >> i % 8 & 1, i < 2 * MANY && i % MANY != 7);
+    free(scratch);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) maps = strtoull(argv[1], NULL, 10);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axial_maps),
-        cmocka_unit_test(test_turned_maps),
-        cmocka_unit_test(test_points_of_all_maps),
-        cmocka_unit_test(test_points_far_away),
+        cmocka_unit_test(test_axial_maps),         cmocka_unit_test(test_turned_maps),
+        cmocka_unit_test(test_points_of_all_maps), cmocka_unit_test(test_points_far_away),
+        cmocka_unit_test(test_known_answers),      cmocka_unit_test(test_large_things),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

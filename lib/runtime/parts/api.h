@@ -503,6 +503,7 @@ typedef struct sl_runtime_mirror_part {
                      ///< (frame[0] x + frame[1] y + frame[2], frame[3] x + frame[4] y + frame[5])
     uint32_t first, count; ///< its points are points[first .. first + count)
     uint32_t cell;         ///< this and the rest is for the function only
+    bool joins;
     double right[4], left[4], at[4];
 } sl_runtime_mirror_part;
 
@@ -515,8 +516,8 @@ typedef struct sl_runtime_mirror_part {
 /// A part is given where it is in the map: it lies before its mirror, and the eye's image behind
 /// that sees it. To draw what the mirror shows, draw the part moved by its frame. The points of a
 /// part with a mirror begin at the right end of the piece of the mirror that is seen, and end at
-/// the left end. A mirror gives a part for each cell before it, side by side; mirrors that lie on
-/// each other show the same. An eye on a mirror sees nothing in it.
+/// the left end. Where mirrors lie on each other, the first one of the map counts. An eye on a
+/// mirror sees nothing in it.
 ///
 /// Sightlines are within range with their reflections. Behind axial mirrors it is exact which walls
 /// are seen, as long as the image of the eye is one of doubles: with coordinates of few bits, as
@@ -578,8 +579,8 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
-/// The size of `boxes_scratch` for the calls below, in uint32_t. It is more than the scratch memory
-/// of the calls without boxes.
+/// The size of `boxes_scratch` for the calls below, in uint32_t: the scratch memory of the calls
+/// without boxes, and 370 bytes for each box.
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
 
 /// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,

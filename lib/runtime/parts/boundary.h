@@ -50,7 +50,7 @@ typedef struct slrt_polygon {
     uint32_t fan_at, fan_last; ///< the number of the piece of the fan, and of the last one seen
     uint32_t fan_cell;         ///< its cell
     /// For cells that are entered, and in place of adding a wall; NULL for none. By these a program
-    /// that does not ask for boxes is built without what is only for them.
+    /// that asks for no boxes and mirrors is built without what is only for them.
     void (*meet)(struct slrt_polygon *p, uint32_t cell);
     void (*see_wall)(struct slrt_polygon *p, uint32_t cell, const slrt_piece *piece, uint32_t right,
                      uint32_t left);
