@@ -172,6 +172,11 @@ static sl_status parse_map_of_baked(sl_context *context, const char *path, const
     return status;
 }
 
+sl_status input_take_lines(sl_context *context, sl_map *map) {
+    map->channel = SL_STOPS_ALL;
+    return sl_map_settle_stops(context, map, NULL);
+}
+
 sl_status input_parse_either(sl_context *context, const char *path, const sl_bytes *bytes,
                              const input_options *input, sl_map *map) {
     sl_context_set_limits(context, &input->limits);

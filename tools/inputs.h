@@ -44,6 +44,9 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
 /// SL_BAD_ARGUMENT where one of these options is given together with a baked file.
 sl_status input_refuse_options(sl_context *context, const char *path, const input_options *input);
 
+/// Makes all walls of a map stop all, where its lines count and not what they stop.
+sl_status input_take_lines(sl_context *context, sl_map *map);
+
 /// Reads a map file, or the map that a baked file was made from.
 sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
                             sl_map *map);

@@ -224,6 +224,7 @@ sl_status lines_read(sl_context *context, const char *path, const input_options 
     const sl_status status = parse_lines(context, path, &bytes, input, map);
     sl_free(context, bytes.data);
     SL_TRY(status);
+    SL_TRY(input_take_lines(context, map));
     size_t count = 0; // lines without length are none
     for (size_t i = 0; i < map->wall_count; i++)
         if (map->walls[i].a.x != map->walls[i].b.x || map->walls[i].a.y != map->walls[i].b.y)

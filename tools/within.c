@@ -51,7 +51,8 @@ sl_status within_read(sl_context *context, const within_plan *plan, const input_
     input_options own = *input;
     if (plan->layers) own.import.layers = plan->layers;
     SL_TRY(input_read_either(context, plan->path, &own, outlines));
-    const sl_status status = note_open(context, plan, outlines);
+    sl_status status = input_take_lines(context, outlines);
+    if (status == SL_OK) status = note_open(context, plan, outlines);
     if (status != SL_OK) sl_map_destroy(context, outlines);
     return status;
 }

@@ -245,6 +245,11 @@ static void add_seen(key *k, const sl_scene *scene) {
     sl_text_count(scene->seen, "", seen);
     sl_text_count(scene->population, "cell", of);
     snprintf(text, sizeof text, "sees %s of %s, %s of the area", seen, of, share);
+    if (scene->seen_beyond) {
+        sl_text_count(scene->seen_beyond, scene->outside ? "inside cell" : "outside cell", of);
+        const size_t length = strlen(text);
+        snprintf(text + length, sizeof text - length, ", and %s", of);
+    }
     add(k, swatch_seen, text);
     if (!scene->doubtful) return;
     sl_text_count(scene->doubtful, "cell", of);

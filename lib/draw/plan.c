@@ -106,7 +106,10 @@ static void paint_seen(maker *m, sl_scene *scene) {
             const unsigned tone =
                 m->paint[cell] >= SLI_PAINT_FLOOR ? m->paint[cell] - SLI_PAINT_FLOOR : 0;
             m->paint[cell] = (uint8_t)(SLI_PAINT_SEEN + tone);
-            scene->seen++;
+            if (sli_scene_shows(scene, cell))
+                scene->seen++;
+            else
+                scene->seen_beyond++;
         }
     }
     const double whole = m->area_before[m->baked->space.cell_count];

@@ -67,6 +67,7 @@ struct sl_scene {
     bool shows_seen;          ///< and what it sees is painted
     bool heat;                ///< or each cell's share of the area is
     uint32_t seen, doubtful;  ///< cells, of the population
+    uint32_t seen_beyond;     ///< other cells that are seen, through windows
     double seen_share;        ///< of the population's area
     double least, most, mean; ///< of all shares, where heat
     sli_stroke *strokes;      ///< deepest first

@@ -18,7 +18,8 @@ import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = pathlib.Path(__file__).with_name("abi.txt")
-LIBRARIES = ["sightline", "sightline_analysis", "sightline_io", "sightline_study", "sightline_draw", "sightline_glpk"]
+LIBRARIES = ["sightline", "sightline_analysis", "sightline_io", "sightline_study", "sightline_draw", "sightline_glpk",
+             "sightline_level"]
 SKIPPED = 77
 
 

@@ -54,7 +54,8 @@ static inline baked_file baked_file_of(sl_context *context, const char *path) {
     return f;
 }
 
-/// The walls of a map of maps/, turned and moved away from the origin.
+/// The walls of a map of maps/, those that do not stop all too, turned and moved away from the
+/// origin.
 static inline baked_file baked_file_turned(sl_context *context, const char *name, double degrees,
                                            double offset) {
     char path[1024];
@@ -65,6 +66,10 @@ static inline baked_file baked_file_turned(sl_context *context, const char *name
     map_files_read(context, path, map);
     for (size_t i = 0; i < 2 * map->wall_count; i++) {
         sl_point *p = i % 2 ? &map->walls[i / 2].a : &map->walls[i / 2].b;
+        *p = (sl_point){offset + cosine * p->x - sine * p->y, offset + sine * p->x + cosine * p->y};
+    }
+    for (size_t i = 0; i < 2 * map->seam_count; i++) {
+        sl_point *p = i % 2 ? &map->seams[i / 2].segment.a : &map->seams[i / 2].segment.b;
         *p = (sl_point){offset + cosine * p->x - sine * p->y, offset + sine * p->x + cosine * p->y};
     }
     map->start_count = 0;

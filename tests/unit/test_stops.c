@@ -413,6 +413,40 @@ static void damaged_sections_are_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Any allocation of the way from text to a file and back may fail, and nothing is lost.
+static void memory_may_be_lacking(void **state) {
+    (void)state;
+    static const char text[] = "sightline 1\n" HOUSE "wall 1 8 3 9 stops sound\nstart 5 5 0\n";
+    bool done = false;
+    for (long fail_at = 1; !done; fail_at++) {
+        testing_memory memory = {.fail_at = fail_at, .once = fail_at % 2};
+        sl_context *context =
+            sl_context_create(&(sl_hooks){.user = &memory, .resize = testing_resize});
+        if (!context) continue;
+        sl_map map = {0}, copy = {0};
+        sl_baked baked = {0}, again = {0};
+        sl_bytes bytes = {0};
+        sl_bake_options options = sl_bake_options_default();
+        options.see.threads = 1;
+        sl_status status = sl_map_parse(context, "t", text, sizeof text - 1, NULL, &map);
+        map.channel = SL_STOPS_STEPS;
+        if (status == SL_OK) status = sl_bake(context, &map, &options, &baked, NULL);
+        if (status == SL_OK) status = sl_baked_print(context, &baked, &bytes);
+        if (status == SL_OK) status = sl_baked_parse(context, "t", bytes.data, bytes.size, &again);
+        if (status == SL_OK) status = sl_baked_copy_map(context, &again, &copy);
+        if (status == SL_OK) status = sl_map_settle_stops(context, &copy, NULL);
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        sl_free(context, bytes.data);
+        sl_map_destroy(context, &map);
+        sl_map_destroy(context, &copy);
+        sl_baked_destroy(context, &baked);
+        sl_baked_destroy(context, &again);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        done = status == SL_OK && memory.calls < fail_at;
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_are_read_and_written),
@@ -425,6 +459,7 @@ int main(void) {
         cmocka_unit_test(water_is_seen_over),
         cmocka_unit_test(files_keep_them),
         cmocka_unit_test(damaged_sections_are_refused),
+        cmocka_unit_test(memory_may_be_lacking),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
