@@ -23,6 +23,7 @@ static const struct {
     {"PASS", "4444"},
     {"TREN", "444"},
     {"VCIN", "44"},
+    {"NODG", "44"},
     {"PART", "4444"},
     {"PAEF", "4444"},
     {"DOOR", "444"},

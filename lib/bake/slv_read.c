@@ -306,6 +306,27 @@ static sl_status loosen(const reader *r) {
     return sli_cell_grid_make(r->context, s);
 }
 
+/// Whether the file's grid over the tree, if there is one, is what is made of the tree.
+static sl_status check_tree_grid(const reader *r) {
+    sli_tree_grid own = {0};
+    sli_slv_section size, starts;
+    bool has_size, has_starts;
+    SL_TRY(find_section(r, "NODG", 8, &size, &has_size));
+    SL_TRY(find_section(r, "NODS", sizeof *own.starts, &starts, &has_starts));
+    if ((!has_size && !has_starts) || r->out->space.neighbour) return SL_OK;
+    SL_TRY(sli_tree_grid_make(r->context, &r->out->space, &own));
+    const uint64_t buckets = (uint64_t)own.columns * own.rows;
+    sli_slv_order("NODS", sizeof *own.starts, own.starts, buckets);
+    uint32_t told[2] = {own.columns, own.rows};
+    sli_slv_order("NODG", sizeof told, told, 1);
+    const bool same =
+        has_size && has_starts && size.count == 1 && starts.count == buckets &&
+        memcmp(r->bytes + size.offset, told, sizeof told) == 0 &&
+        memcmp(r->bytes + starts.offset, own.starts, buckets * sizeof *own.starts) == 0;
+    sl_free(r->context, own.starts);
+    return same ? SL_OK : fail_file(r, "damaged: sections NODG and NODS are not of the tree");
+}
+
 static sl_status load_space(const reader *r) {
     sl_space *s = &r->out->space;
     SL_TRY(load_counted(r, "NODE", sizeof *s->nodes, &s->nodes, &s->node_count));
@@ -324,6 +345,7 @@ static sl_status load_space(const reader *r) {
     if (is_mesh && !s->neighbour) return fail_file(r, "damaged: section BEYO is missing");
     if (s->neighbour) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
     SL_TRY(in_file(r, sl_space_check(r->context, s)));
+    SL_TRY(check_tree_grid(r));
     sli_ground_of_cells(s);
     return SL_OK;
 }

@@ -5,6 +5,7 @@
 #include "cell_to_cell/pvs_rows.h"
 #include "map/scan.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +25,8 @@ typedef struct plan {
     sli_slv_passage *passages;
     sl_map map; ///< of which the text is; its seams are the plan's
     char *map_text;
-    uint64_t *parts; ///< of the visible sets; NULL where the file has none
+    sli_tree_grid grid; ///< over the tree of the space, if it has one
+    uint64_t *parts;    ///< of the visible sets; NULL where the file has none
     sli_slv_things things;
     sli_slv_views views;
     sli_slv_part part;
@@ -208,6 +210,11 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
     add_section(p, "PORT", space->portals, sizeof *space->portals, space->portal_count);
     add_section(p, "EXIT", space->directed, sizeof *space->directed, space->directed_count);
     add_section(p, "WALL", p->walls, sizeof *p->walls, space->wall_count);
+    if (p->grid.starts) {
+        const uint64_t buckets = (uint64_t)p->grid.columns * p->grid.rows;
+        add_section(p, "NODG", &p->grid, 8, 1); // columns, rows
+        add_section(p, "NODS", p->grid.starts, sizeof *p->grid.starts, buckets);
+    }
     if (space->neighbour) {
         const sl_cell_grid *g = &space->grid;
         add_section(p, "BEYO", space->neighbour, sizeof *space->neighbour, space->vertex_count);
@@ -350,6 +357,7 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     SL_TRY(copy_walls(context, &baked->space, p));
     SL_TRY(list_stops(context, baked, p));
     SL_TRY(list_parts(context, baked, p));
+    if (!baked->space.neighbour) SL_TRY(sli_tree_grid_make(context, &baked->space, &p->grid));
     SL_TRY(sli_slv_list_passages(context, &baked->space, &p->passages));
     SL_TRY(print_map(context, &baked->map, p, &map_bytes));
     SL_TRY(sli_slv_things_make(context, &baked->map, &p->things));
@@ -374,6 +382,7 @@ static void destroy_plan(sl_context *context, plan *p) {
     sl_free(context, p->walls);
     sl_free(context, p->stops);
     sl_free(context, p->parts);
+    sl_free(context, p->grid.starts);
     sl_free(context, p->passages);
     sl_free(context, p->map.seams);
     sli_slv_things_destroy(context, &p->things);

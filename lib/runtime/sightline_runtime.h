@@ -103,6 +103,8 @@ typedef struct sl_runtime {
     const unsigned char *row_parts; ///< which parts of the cells rows reach into; NULL: not told
     uint32_t part_shift;            ///< a part has 2^part_shift cells
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
+    const unsigned char *tree_starts;               ///< of each bucket over the tree; NULL for none
+    uint32_t tree_columns, tree_rows;
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
     const unsigned char *door_offsets, *door_bytes;     ///< NULL if no pair depends on doors
     const unsigned char *mirror_offsets, *mirror_bytes; ///< NULL without rows of mirrors
@@ -133,7 +135,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// same as sl_space_locate of the library.
 ///
 /// If all walls are axial, a point on a split line is in the cell above it (right of it or over
-/// it). A point on the upper or right border is in the cell inside. Time: the depth of the tree. In
+/// it). A point on the upper or right border is in the cell inside. Time: a few nodes of the tree
+/// (files of before 2.0: its depth). In
 /// other maps, a point on a border between cells is in the cell of the lowest number. Time: the few
 /// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
 /// all cells.
@@ -873,6 +876,8 @@ enum slrt_tag {
     SLRT_CHAN,
     SLRT_PASS,
     SLRT_PVSP,
+    SLRT_NODG,
+    SLRT_NODS,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -962,6 +967,8 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"CHAN", 4},
                           {"PASS", SLRT_PASSAGE_BYTES},
                           {"PVSP", 8},
+                          {"NODG", 8},
+                          {"NODS", 4},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -1044,6 +1051,20 @@ static bool slrt_child_is_sound(const sl_runtime *rt, int64_t parent, int32_t ch
                      : child > parent && (uint32_t)child < rt->node_count;
 }
 
+/// Where in the tree the search for the points of a bucket starts, if the file tells.
+static bool slrt_take_starts(sl_runtime *rt, const slrt_section *found) {
+    const unsigned char *size = found[SLRT_NODG].items;
+    uint64_t i;
+    if (!size || !found[SLRT_NODS].items) return !size && !found[SLRT_NODS].items;
+    if (found[SLRT_NODG].count != 1) return false;
+    rt->tree_starts = found[SLRT_NODS].items;
+    rt->tree_columns = slrt_u32(size);
+    rt->tree_rows = slrt_u32(size + 4);
+    for (i = 0; i < found[SLRT_NODS].count; i++)
+        if (!slrt_child_is_sound(rt, -1, slrt_i32(rt->tree_starts + (size_t)i * 4))) return false;
+    return i && (uint64_t)rt->tree_columns * rt->tree_rows == i;
+}
+
 /// A node splits at x (axis 0) or y (axis 1) = its position.
 static bool slrt_take_tree(sl_runtime *rt, const slrt_section *found) {
     uint32_t i;
@@ -1059,7 +1080,7 @@ static bool slrt_take_tree(sl_runtime *rt, const slrt_section *found) {
             !slrt_child_is_sound(rt, i, slrt_i32(node + 16)))
             return false;
     }
-    return true;
+    return slrt_take_starts(rt, found);
 }
 
 /// The cells of a bucket ascend.
@@ -2395,12 +2416,19 @@ static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y
     return slrt_place_in(rt, number, x, y) >= 0;
 }
 
-/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
-/// cells that only come near, so rounding changes no answer.
+/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets are made
+/// for places that only come near, too, so rounding changes no answer.
 static uint32_t slrt_step(double value, double low, double high, uint32_t count) {
     const double step = (value - low) / (high - low) * count;
     const uint32_t whole = step < count ? (uint32_t)step : count - 1;
     return whole < count ? whole : count - 1; // whatever -ffast-math makes of the line above
+}
+
+/// The bucket of a point within the bounds.
+static size_t slrt_bucket(const sl_runtime *rt, uint32_t columns, uint32_t rows, double x,
+                          double y) {
+    return (size_t)slrt_step(y, rt->min_y, rt->max_y, rows) * columns +
+           slrt_step(x, rt->min_x, rt->max_x, columns);
 }
 
 /// The first cell that holds a point and is not solid, else the first that holds it. It is among
@@ -2409,11 +2437,10 @@ static uint32_t slrt_step(double value, double low, double high, uint32_t count)
 static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     uint32_t at = 0, end = rt->cell_count, found = SL_RUNTIME_NO_CELL;
     if (rt->grid_cells) {
-        const size_t bucket =
-            (size_t)slrt_step(y, rt->min_y, rt->max_y, rt->grid_rows) * rt->grid_columns +
-            slrt_step(x, rt->min_x, rt->max_x, rt->grid_columns);
-        at = slrt_u32(rt->grid_offsets + bucket * 4);
-        end = slrt_u32(rt->grid_offsets + bucket * 4 + 4);
+        const unsigned char *bucket =
+            rt->grid_offsets + slrt_bucket(rt, rt->grid_columns, rt->grid_rows, x, y) * 4;
+        at = slrt_u32(bucket);
+        end = slrt_u32(bucket + 4);
     }
     for (; at < end; at++) {
         const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
@@ -2426,14 +2453,19 @@ static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     return found;
 }
 
-/// The cell of the tree that a point is in, or that is right of it and over it.
-static uint32_t slrt_descend(const sl_runtime *rt, double x, double y) {
-    int32_t at = rt->root;
+/// The cell below a node of the tree that a point is in, or that is right of it and over it.
+static uint32_t slrt_descend(const sl_runtime *rt, int32_t at, double x, double y) {
     while (at >= 0) {
         const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
         at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
     }
     return (uint32_t)~at;
+}
+
+/// Where in the tree the search for a point starts.
+static int32_t slrt_start(const sl_runtime *rt, double x, double y) {
+    if (!rt->tree_starts) return rt->root;
+    return slrt_i32(rt->tree_starts + slrt_bucket(rt, rt->tree_columns, rt->tree_rows, x, y) * 4);
 }
 
 /// The next smaller number: it is below the same split lines, and below one through the number.
@@ -2457,7 +2489,8 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
         const uint32_t cell =
-            slrt_descend(runtime, side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
+            slrt_descend(runtime, side ? runtime->root : slrt_start(runtime, x, y),
+                         side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
         if (!sl_runtime_is_solid(runtime, cell)) return cell;
         if (!side) first = cell;
     }

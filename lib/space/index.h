@@ -61,6 +61,19 @@ void sli_wall_index_destroy(sl_context *context, sli_wall_index *index); ///< an
 /// that are a little farther may be among them.
 sl_status sli_walls_near(sl_context *context, sli_wall_index *index, sl_segment at, double reach);
 
+// --- a grid over the tree
+
+/// For each bucket, row by row, where the ways from the root of the tree to its points part: a node
+/// or a cell, coded as a child. The bucket of a point is as sli_cell_grid_step; also if that is
+/// rounded otherwise.
+typedef struct sli_tree_grid {
+    uint32_t columns, rows;
+    int32_t *starts; ///< end with sl_free
+} sli_tree_grid;
+
+/// Makes the grid of a space with a tree and bounds. It has at most 4 buckets for each cell.
+sl_status sli_tree_grid_make(sl_context *context, const sl_space *space, sli_tree_grid *out);
+
 // --- cells in a grid
 
 /// Makes the grid of a space that has its cells, vertices and bounds. It has at most 4 buckets and

@@ -191,23 +191,34 @@ class Slv:
         require(first + cell["vertex_count"] <= len(vertices), f"cell {number}: corners")
         return [(v["x"], v["y"]) for v in vertices[first:first + cell["vertex_count"]]]
 
+    def descend(self, child, x, y):
+        """The cell below a child of a node that a point is in."""
+        nodes = self.items("NODE")
+        while child >= 0:
+            node = nodes[child]
+            coordinate = y if node["axis"] else x
+            child = node["below" if coordinate < node["position"] else "above"]
+        return -1 - child
+
+    def bucket(self, x, y, columns, rows):
+        info = self.info
+        step = [min(int((value - info["min_" + axis]) / (info["max_" + axis] - info["min_" + axis])
+                        * count), count - 1)
+                for value, axis, count in ((x, "x", columns), (y, "y", rows))]
+        return step[1] * columns + step[0]
+
     def locate(self, x, y, vertices):
         """The cell of a point within the bounds; None in a gap."""
         info = self.info
         if self.header["version"] == 1 and "BEYO" not in self.table:
-            nodes, child = self.items("NODE"), info["root"]
-            while child >= 0:
-                node = nodes[child]
-                coordinate = y if node["axis"] else x
-                child = node["below" if coordinate < node["position"] else "above"]
-            return -1 - child
+            cell = self.descend(info["root"], x, y)
+            for size in self.items("NODG"):
+                bucket = self.bucket(x, y, size["columns"], size["rows"])
+                require(self.descend(self.items("NODS")[bucket]["start"], x, y) == cell, "NODS: a start")
+            return cell
         cells = range(len(self.cells))
         if self.header["version"] == 2:
-            step = [min(int((value - info["min_" + axis]) / (info["max_" + axis] - info["min_" + axis])
-                            * count), count - 1)
-                    for value, axis, count in ((x, "x", info["grid_columns"]),
-                                               (y, "y", info["grid_rows"]))]
-            bucket = step[1] * info["grid_columns"] + step[0]
+            bucket = self.bucket(x, y, info["grid_columns"], info["grid_rows"])
             first = [item["first"] for item in self.items("GRIO")]
             cells = [item["cell"] for item in self.items("GRIC")][first[bucket]:first[bucket + 1]]
         for cell in cells:

@@ -268,6 +268,12 @@ static void tell_parts_again(parts *all) {
     sli_pvs_parts(&pvs, told->bytes);
 }
 
+/// Without a section that few changed files could be right with.
+static void leave_out(parts *all, const char *tag) {
+    part *p = find_part(all, tag);
+    if (p) *p = all->part[--all->count];
+}
+
 static void mutate_parts(parts *all, sl_random *random) {
     if (!all->count) return;
     part *chosen = &all->part[sl_random_below(random, all->count)];
@@ -296,6 +302,7 @@ static void mutate_parts(parts *all, sl_random *random) {
     }
     if (sl_random_below(random, 8)) recount_pairs(all);
     if (sl_random_below(random, 8)) tell_parts_again(all);
+    if (!sl_random_below(random, 8)) leave_out(all, "NODG"), leave_out(all, "NODS");
 }
 
 /// The file that the parts make; where they make none, what was there, mutated blindly.

@@ -150,6 +150,19 @@ static void a_lie_under_a_seal_is_refused(void **state) {
     check_lies(rooms, lies, sizeof lies / sizeof *lies);
 }
 
+static void a_lie_about_the_grid_over_the_tree_is_refused(void **state) {
+    (void)state;
+    const uint32_t none = 0, thousand = slv_u32(1000), most = UINT32_MAX;
+    const uint32_t far = slv_u32(UINT32_MAX - 1000);
+    const lie lies[] = {
+        {"NODG", 0, 4, &none, SL_RUNTIME_SPACE}, {"NODG", 0, 4, &thousand, SL_RUNTIME_SPACE},
+        {"NODG", 4, 4, &most, SL_RUNTIME_SPACE}, {"NODS", 0, 4, &thousand, SL_RUNTIME_SPACE},
+        {"NODS", 12, 4, &far, SL_RUNTIME_SPACE}, {"NODS", 0, 4, "\0\0\0\200", SL_RUNTIME_SPACE},
+        {"NODS", 0, 4, &most, SL_RUNTIME_OK}, // a cell, if another one
+    };
+    check_lies(rooms, lies, sizeof lies / sizeof *lies);
+}
+
 static void a_lie_about_the_grid_is_refused(void **state) {
     (void)state;
     const uint32_t none = 0, one = slv_u32(1), thousand = slv_u32(1000), most = UINT32_MAX;
@@ -281,9 +294,11 @@ static void a_table_that_lies_is_refused(void **state) {
     static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT",
                                        "PORT", "EXIT", "PVSO", "PVSB"};
     static const char *const grid[] = {"BEYO", "GRIO", "GRIC"};
+    static const char *const over_tree[] = {"NODG", "NODS"};
     static const char *const things[] = {"STRT", "OBJE", "MIRR", "PVSP"};
     check_table(rooms, tags, 8, SL_RUNTIME_SECTION);
     check_table(oblique, grid, 3, SL_RUNTIME_SPACE);
+    check_table(rooms, over_tree, 2, SL_RUNTIME_SPACE);
     check_table("walls 0 0 9 0 9 9 0 9 0 0\nstart 1 1 0\nobject box 1 1 2 2\nmirror 6 2 6 5\n",
                 things, 4, SL_RUNTIME_OK);
 }
@@ -399,8 +414,9 @@ static sl_runtime_status open_before_a_gap(const char *bytes, size_t size) {
 /// Each section of the file without items, and at its very end.
 static void an_empty_section_at_the_end_is_not_read(void **state) {
     (void)state;
-    static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT", "PVSO",
-                                       "PVSB", "PVSP", "VCIN", "VCEL", "VCPA", "VCRO", "VCRB"};
+    static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT",
+                                       "PVSO", "PVSB", "PVSP", "NODG", "NODS", "VCIN",
+                                       "VCEL", "VCPA", "VCRO", "VCRB"};
     sl_context *context = testing_context(NULL);
     baked_file f = baked_file_of_text(context, rooms);
     const uint32_t count = f.runtime.cell_count;
@@ -551,6 +567,7 @@ int main(void) {
         cmocka_unit_test(the_other_byte_order_is_named),
         cmocka_unit_test(every_status_has_words),
         cmocka_unit_test(a_lie_under_a_seal_is_refused),
+        cmocka_unit_test(a_lie_about_the_grid_over_the_tree_is_refused),
         cmocka_unit_test(a_lie_about_the_grid_is_refused),
         cmocka_unit_test(a_lie_about_the_things_is_refused),
         cmocka_unit_test(a_door_too_few_is_refused),

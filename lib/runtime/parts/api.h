@@ -103,6 +103,8 @@ typedef struct sl_runtime {
     const unsigned char *row_parts; ///< which parts of the cells rows reach into; NULL: not told
     uint32_t part_shift;            ///< a part has 2^part_shift cells
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
+    const unsigned char *tree_starts;               ///< of each bucket over the tree; NULL for none
+    uint32_t tree_columns, tree_rows;
     const unsigned char *neighbours; ///< across each side of each cell; NULL for no grid
     const unsigned char *door_offsets, *door_bytes;     ///< NULL if no pair depends on doors
     const unsigned char *mirror_offsets, *mirror_bytes; ///< NULL without rows of mirrors
@@ -133,7 +135,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// same as sl_space_locate of the library.
 ///
 /// If all walls are axial, a point on a split line is in the cell above it (right of it or over
-/// it). A point on the upper or right border is in the cell inside. Time: the depth of the tree. In
+/// it). A point on the upper or right border is in the cell inside. Time: a few nodes of the tree
+/// (files of before 2.0: its depth). In
 /// other maps, a point on a border between cells is in the cell of the lowest number. Time: the few
 /// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
 /// all cells.

@@ -26,12 +26,19 @@ static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y
     return slrt_place_in(rt, number, x, y) >= 0;
 }
 
-/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
-/// cells that only come near, so rounding changes no answer.
+/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets are made
+/// for places that only come near, too, so rounding changes no answer.
 static uint32_t slrt_step(double value, double low, double high, uint32_t count) {
     const double step = (value - low) / (high - low) * count;
     const uint32_t whole = step < count ? (uint32_t)step : count - 1;
     return whole < count ? whole : count - 1; // whatever -ffast-math makes of the line above
+}
+
+/// The bucket of a point within the bounds.
+static size_t slrt_bucket(const sl_runtime *rt, uint32_t columns, uint32_t rows, double x,
+                          double y) {
+    return (size_t)slrt_step(y, rt->min_y, rt->max_y, rows) * columns +
+           slrt_step(x, rt->min_x, rt->max_x, columns);
 }
 
 /// The first cell that holds a point and is not solid, else the first that holds it. It is among
@@ -40,11 +47,10 @@ static uint32_t slrt_step(double value, double low, double high, uint32_t count)
 static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     uint32_t at = 0, end = rt->cell_count, found = SL_RUNTIME_NO_CELL;
     if (rt->grid_cells) {
-        const size_t bucket =
-            (size_t)slrt_step(y, rt->min_y, rt->max_y, rt->grid_rows) * rt->grid_columns +
-            slrt_step(x, rt->min_x, rt->max_x, rt->grid_columns);
-        at = slrt_u32(rt->grid_offsets + bucket * 4);
-        end = slrt_u32(rt->grid_offsets + bucket * 4 + 4);
+        const unsigned char *bucket =
+            rt->grid_offsets + slrt_bucket(rt, rt->grid_columns, rt->grid_rows, x, y) * 4;
+        at = slrt_u32(bucket);
+        end = slrt_u32(bucket + 4);
     }
     for (; at < end; at++) {
         const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
@@ -57,14 +63,19 @@ static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     return found;
 }
 
-/// The cell of the tree that a point is in, or that is right of it and over it.
-static uint32_t slrt_descend(const sl_runtime *rt, double x, double y) {
-    int32_t at = rt->root;
+/// The cell below a node of the tree that a point is in, or that is right of it and over it.
+static uint32_t slrt_descend(const sl_runtime *rt, int32_t at, double x, double y) {
     while (at >= 0) {
         const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
         at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
     }
     return (uint32_t)~at;
+}
+
+/// Where in the tree the search for a point starts.
+static int32_t slrt_start(const sl_runtime *rt, double x, double y) {
+    if (!rt->tree_starts) return rt->root;
+    return slrt_i32(rt->tree_starts + slrt_bucket(rt, rt->tree_columns, rt->tree_rows, x, y) * 4);
 }
 
 /// The next smaller number: it is below the same split lines, and below one through the number.
@@ -88,7 +99,8 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     for (side = 0; side < 4; side++) {
         const uint32_t cell =
-            slrt_descend(runtime, side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
+            slrt_descend(runtime, side ? runtime->root : slrt_start(runtime, x, y),
+                         side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
         if (!sl_runtime_is_solid(runtime, cell)) return cell;
         if (!side) first = cell;
     }

@@ -51,6 +51,20 @@ static bool slrt_child_is_sound(const sl_runtime *rt, int64_t parent, int32_t ch
                      : child > parent && (uint32_t)child < rt->node_count;
 }
 
+/// Where in the tree the search for the points of a bucket starts, if the file tells.
+static bool slrt_take_starts(sl_runtime *rt, const slrt_section *found) {
+    const unsigned char *size = found[SLRT_NODG].items;
+    uint64_t i;
+    if (!size || !found[SLRT_NODS].items) return !size && !found[SLRT_NODS].items;
+    if (found[SLRT_NODG].count != 1) return false;
+    rt->tree_starts = found[SLRT_NODS].items;
+    rt->tree_columns = slrt_u32(size);
+    rt->tree_rows = slrt_u32(size + 4);
+    for (i = 0; i < found[SLRT_NODS].count; i++)
+        if (!slrt_child_is_sound(rt, -1, slrt_i32(rt->tree_starts + (size_t)i * 4))) return false;
+    return i && (uint64_t)rt->tree_columns * rt->tree_rows == i;
+}
+
 /// A node splits at x (axis 0) or y (axis 1) = its position.
 static bool slrt_take_tree(sl_runtime *rt, const slrt_section *found) {
     uint32_t i;
@@ -66,7 +80,7 @@ static bool slrt_take_tree(sl_runtime *rt, const slrt_section *found) {
             !slrt_child_is_sound(rt, i, slrt_i32(node + 16)))
             return false;
     }
-    return true;
+    return slrt_take_starts(rt, found);
 }
 
 /// The cells of a bucket ascend.

@@ -54,6 +54,8 @@ enum slrt_tag {
     SLRT_CHAN,
     SLRT_PASS,
     SLRT_PVSP,
+    SLRT_NODG,
+    SLRT_NODS,
     SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
@@ -143,6 +145,8 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"CHAN", 4},
                           {"PASS", SLRT_PASSAGE_BYTES},
                           {"PVSP", 8},
+                          {"NODG", 8},
+                          {"NODS", 4},
                           {"GRIO", 4},
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
