@@ -69,7 +69,8 @@ typedef struct sli_slv_part_effects {
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
 /// its walls as segments. Files of meshes alone have BEYO, what is beyond the cells' sides, and
-/// GRIO and GRIC, the offsets and cells of the grid's buckets; their NODE is empty. SEAM has the
+/// GRIO and GRIC, the offsets and cells of the grid's buckets; their NODE is empty. Files of
+/// kd-trees have NODG and NODS, columns and rows and the starts of sli_tree_grid. SEAM has the
 /// seams and SEPO the portals on them (only if there are any); PVSO and PVSB are the offsets and
 /// bytes of the visible sets, PVSP beside them as sli_pvs_parts, DBTO and DBTB those of the
 /// doubtful pairs (only if there are any), MIRO and MIRB those of what is seen by mirror, DORO and

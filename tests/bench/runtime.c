@@ -232,11 +232,13 @@ static void prepare(bench *b) {
 static void print_table(const bench *b, const char *name) {
     const sl_runtime *r = &b->runtime;
     const size_t matrix = b->stride * r->cell_count;
-    const size_t rows =
-        8 * ((size_t)r->cell_count + 1) + slrt_u64(r->row_offsets + 8 * (size_t)r->cell_count);
+    const size_t rows = 8 * ((size_t)r->cell_count + 1) +
+                        slrt_u64(r->row_offsets + 8 * (size_t)r->cell_count) +
+                        (r->row_parts ? 8 * (size_t)r->cell_count : 0);
     const size_t buckets = (size_t)r->grid_columns * r->grid_rows;
     const size_t place = r->grid_cells ? 4 * (buckets + 1 + slrt_u32(r->grid_offsets + 4 * buckets))
-                                       : (size_t)r->node_count * SLRT_NODE_BYTES;
+                                       : (size_t)r->node_count * SLRT_NODE_BYTES +
+                                             4 * (size_t)r->tree_columns * r->tree_rows;
     const struct {
         const char *what;
         question *ask;

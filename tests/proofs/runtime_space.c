@@ -34,8 +34,15 @@ void a_way_down_the_tree_ends(void) {
     unsigned char info[128];
     found[SLRT_INFO].items = info;
     ANY_SECTION(SLRT_NODE, FEW, SLRT_NODE_BYTES, 4);
+    ANY_SECTION(SLRT_NODG, 1, 8, 0);
+    ANY_SECTION(SLRT_NODS, FEW, 4, 0);
     if (!slrt_take_tree(&rt, found)) return;
     int32_t at = rt.root;
+    const uint64_t bucket = nondet_ulong();
+    if (bucket < (uint64_t)rt.tree_columns * rt.tree_rows) {
+        PROVE(bucket < SLRT_NODS_count);
+        at = slrt_i32(rt.tree_starts + (size_t)bucket * 4);
+    }
     int steps = 0;
     for (; at >= 0; steps++) {
         PROVE((uint32_t)at < rt.node_count && steps < FEW);
