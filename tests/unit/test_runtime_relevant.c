@@ -1,6 +1,6 @@
 // Which things each player may see: by the oracle no pair is missed, and few are added. On the maps
 // no pair is missed of which two points see each other.
-//   test_runtime_relevant [MAPS]    so many random maps of each kind instead of 100
+//   test_runtime_relevant [MAPS [SEED]]    so many random maps of each kind instead of 100
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
@@ -8,7 +8,7 @@
 
 enum { SIZE = 12, WALLS = 14, DOORS = 3, PLAYERS = 6, THINGS = 10, MOST = 128 };
 
-static uint64_t maps = 100;
+static uint64_t maps = 100, seed = 5;
 
 typedef struct trial {
     sl_context *context;
@@ -140,13 +140,53 @@ static void turn(sl_map *map, double c, double s) {
     }
 }
 
+static double turn_of(sl_segment s, sl_point p) {
+    return (s.b.x - s.a.x) * (p.y - s.a.y) - (s.b.y - s.a.y) * (p.x - s.a.x);
+}
+
+static bool cross(sl_segment s, sl_segment t) {
+    return turn_of(s, t.a) * turn_of(s, t.b) < 0 && turn_of(t, s.a) * turn_of(t, s.b) < 0;
+}
+
+static bool crosses_any(const sl_map *map, sl_segment s) {
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (cross((sl_segment){map->walls[i].a, map->walls[i].b}, s)) return true;
+    for (size_t i = 0; i < map->door_count; i++)
+        if (cross(map->doors[i].segment, s)) return true;
+    return false;
+}
+
+/// A room with walls and doors any way, that touch but do not cross. So cells lie any way beside
+/// boxes, and boxes are before and behind the same portals.
+static void slanted_rooms(trial *t, int walls, sl_map *map) {
+    grid_rooms(t->context, &t->random, SIZE, 0, 0, map);
+    for (int i = 0; i < walls + DOORS; i++) {
+        const char name[2] = {(char)('a' + i), 0};
+        sl_segment s;
+        do s = (sl_segment){{below(t, SIZE + 1), below(t, SIZE + 1)},
+                            {below(t, SIZE + 1), below(t, SIZE + 1)}};
+        while ((s.a.x == s.b.x && s.a.y == s.b.y) || crosses_any(map, s));
+        if (i < DOORS)
+            assert_ok(t->context, sl_map_add_door(t->context, map, name, s, true, 0));
+        else
+            assert_ok(t->context, sl_map_add_wall(t->context, map, s.a, s.b, 0));
+    }
+}
+
+/// Axial maps turned by (c, s), or slanted ones for (0, 0).
 static void check_random_maps(double c, double s) {
     unsigned char shut[DOORS];
-    trial t = {.context = testing_context(NULL), .random = {5}, .shut = shut};
+    trial t = {.context = testing_context(NULL), .random = {seed}, .shut = shut};
     for (uint64_t i = 0; i < maps; i++) {
+        const int walls = i % 2 ? WALLS : 2 * WALLS;
+        sl_map *map = &t.file.baked.map;
         t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
-        grid_rooms(t.context, &t.random, SIZE, i % 2 ? WALLS : 2 * WALLS, DOORS, &t.file.baked.map);
-        turn(&t.file.baked.map, c, s);
+        if (c == 0 && s == 0) {
+            slanted_rooms(&t, walls / 2, map);
+        } else {
+            grid_rooms(t.context, &t.random, SIZE, walls, DOORS, map);
+            turn(map, c, s);
+        }
         assert_ok(t.context, sl_map_clean(t.context, &t.file.baked.map, NULL, NULL));
         baked_file_make(t.context, &t.file, false);
         for (size_t k = 0; k < DOORS; k++) t.shut[k] = (unsigned char)sl_random_below(&t.random, 2);
@@ -171,6 +211,11 @@ static void test_turned_maps(void **state) {
     check_random_maps(10, 3);
     check_random_maps(4, 3);
     check_random_maps(1, 1);
+}
+
+static void test_slanted_maps(void **state) {
+    (void)state;
+    check_random_maps(0, 0);
 }
 
 // --- against points that see each other
@@ -345,8 +390,10 @@ static void test_large_things(void **state) {
 
 int main(int argc, char **argv) {
     if (argc > 1) maps = strtoull(argv[1], NULL, 10);
+    if (argc > 2) seed = strtoull(argv[2], NULL, 10);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_axial_maps),         cmocka_unit_test(test_turned_maps),
+        cmocka_unit_test(test_slanted_maps),
         cmocka_unit_test(test_points_of_all_maps), cmocka_unit_test(test_points_far_away),
         cmocka_unit_test(test_known_answers),      cmocka_unit_test(test_large_things),
     };
