@@ -572,10 +572,11 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
                                            sl_runtime_box *list, uint32_t count, uint32_t room,
                                            uint32_t *memory);
 
-/// Puts a box at its place, or at a new one. A box outside the bounds, one whose minimum is above
-/// its maximum and one with coordinates above 2e150 are in no cell, and never seen. Returns false
-/// if there is no room for its cells. The box then counts as seen by every eye and hides nothing,
-/// until it is moved again. Time: the cells near the box.
+/// Puts a box at its place, or at a new one. `box` must be less than `count`. A box outside the
+/// bounds, one whose minimum is above its maximum and one with NaN or a coordinate above 2e150 or
+/// below -2e150 are in no cell, never seen, and stop nothing. Returns false if there is no room for
+/// its cells. The box is then seen by every eye that stands in the map and not in solid ground. It
+/// hides and stops nothing, until it is moved again. Time: the cells near the box.
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
@@ -2711,19 +2712,24 @@ static bool slrt_put_in_cell(void *context, uint32_t cell) {
     return true;
 }
 
+/// Whether a box may be somewhere: its numbers are sound, and in order.
+static bool slrt_is_sound_box(const sl_runtime_box *box) {
+    return slrt_is_coordinate(box->min_x) && slrt_is_coordinate(box->min_y) &&
+           slrt_is_coordinate(box->max_x) && slrt_is_coordinate(box->max_y) &&
+           box->min_x <= box->max_x && box->min_y <= box->max_y;
+}
+
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
     slrt_placing placing;
-    bool usable = to->min_x <= to->max_x && to->min_y <= to->max_y;
-    int i;
     placing.boxes = boxes;
     placing.box = box;
     placing.at[0] = to->min_x, placing.at[1] = to->min_y;
     placing.at[2] = to->max_x, placing.at[3] = to->max_y;
-    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(placing.at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!usable || slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
+    if (!slrt_is_sound_box(to) ||
+        slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
         return true;
     slrt_take_out(boxes, box);
     *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
@@ -4260,7 +4266,8 @@ static void slrt_look_at_boxes(slrt_search *s) {
     const sl_runtime_boxes *boxes = s->boxes;
     uint32_t i;
     for (i = 0; i < boxes->count; i++)
-        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
+        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y) && slrt_is_sound_box(&boxes->boxes[i]))
+            s->box_marks[i] = SLRT_BOX_SEEN;
     slrt_run_search(s);
     for (i = 0; i < boxes->count && !s->gave_up; i++)
         if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;

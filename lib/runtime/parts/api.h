@@ -572,10 +572,11 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
                                            sl_runtime_box *list, uint32_t count, uint32_t room,
                                            uint32_t *memory);
 
-/// Puts a box at its place, or at a new one. A box outside the bounds, one whose minimum is above
-/// its maximum and one with coordinates above 2e150 are in no cell, and never seen. Returns false
-/// if there is no room for its cells. The box then counts as seen by every eye and hides nothing,
-/// until it is moved again. Time: the cells near the box.
+/// Puts a box at its place, or at a new one. `box` must be less than `count`. A box outside the
+/// bounds, one whose minimum is above its maximum and one with NaN or a coordinate above 2e150 or
+/// below -2e150 are in no cell, never seen, and stop nothing. Returns false if there is no room for
+/// its cells. The box is then seen by every eye that stands in the map and not in solid ground. It
+/// hides and stops nothing, until it is moved again. Time: the cells near the box.
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
