@@ -312,6 +312,8 @@ static void test_points_far_away(void **state) {
 /// Two rooms with a door between them, a pillar in the first.
 static const char rooms[] = "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
                             "door d 10 4 10 6\nsolid 4 4 6 4 6 6 4 6\n";
+/// A place nearer to the wall than numbers of maps are is on it.
+static const char split[] = "walls -10 0 10 0 10 10 -10 10 -10 0\nwall 0 0 0 10\n";
 /// One sees through the glass from the right.
 static const char glass[] = "walls 0 0 20 0 20 10 0 10 0 0\noneway 10 0 10 10\n";
 /// Only along y = 0 one sees past all walls, which end there from below, above and below.
@@ -351,6 +353,9 @@ static const struct {
     {rooms, {4.5, 4.5, 5.5, 5.5, false}, {5, 5, 5.5, 5.5, false}, 0, false, false},
     {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 5.5, 5.5, false}, 0, false, false},
     {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 6, 5.5, false}, 0, false, true}, // its side
+    {split, {-1e-210, 4, -1e-210, 4, false}, {5, 4, 6, 5, false}, 0, false, true},
+    {split, {5, 4, 6, 5, false}, {-1e-210, 4, -1e-210, 4, false}, 0, false, true},
+    {split, {-1e-190, 4, -1e-190, 4, false}, {5, 4, 6, 5, false}, 0, false, false},
     {glass, {2, 2, 3, 3, false}, {12, 2, 13, 3, false}, 0, false, false},
     {glass, {12, 2, 13, 3, false}, {2, 2, 3, 3, false}, 0, false, true},
     {glass, {9, 2, 11, 3, false}, {12, 2, 13, 3, false}, 0, false, true},
