@@ -72,3 +72,12 @@ size_t sl_map_partial_walls(const sl_map *map) {
     for (size_t i = 0; i < map->seam_count; i++) count += map->seams[i].stops != 0;
     return count;
 }
+
+bool sl_map_steps_differ(const sl_map *map) {
+    if (sl_map_channel(map) != SL_STOPS_SIGHT) return false; // asked for, for all
+    for (size_t i = 0; i < map->seam_count; i++) {
+        const uint32_t stops = map->seams[i].stops;
+        if (!(stops & SL_STOPS_SIGHT) != !(stops & SL_STOPS_STEPS)) return true;
+    }
+    return false;
+}
