@@ -4,18 +4,19 @@
 #include "map/ground.h"
 #include "sightline/support.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char *const names[] = {"sight", "steps", "sound"};
 enum { NAMES = sizeof names / sizeof *names };
 
 void sl_stops_write(uint32_t stops, char text[SL_STOPS_TEXT]) {
+    int length = 0;
     text[0] = '\0';
-    for (int i = 0; i < NAMES; i++) {
-        if (!(stops >> i & 1)) continue;
-        if (text[0]) strcat(text, ",");
-        strcat(text, names[i]);
-    }
+    for (int i = 0; i < NAMES; i++)
+        if (stops >> i & 1)
+            length += snprintf(text + length, (size_t)(SL_STOPS_TEXT - length), "%s%s",
+                               length ? "," : "", names[i]);
 }
 
 bool sl_stops_read(const char *text, size_t length, uint32_t *out) {
