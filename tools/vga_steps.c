@@ -1,19 +1,10 @@
 #include "vga_steps.h"
 
-static bool differ(const sl_map *map) {
-    if (sl_map_channel(map) != SL_STOPS_SIGHT) return false; // asked for, for all measures
-    for (size_t i = 0; i < map->seam_count; i++) {
-        const uint32_t stops = map->seams[i].stops;
-        if (!(stops & SL_STOPS_SIGHT) != !(stops & SL_STOPS_STEPS)) return true;
-    }
-    return false;
-}
-
 sl_status vga_steps_make(sl_context *context, const sl_baked *sight, const door_choice *doors,
                          vga_steps *out) {
     sl_map map = {0};
     sl_bake_options options = sl_bake_options_default();
-    if (!differ(&sight->map)) return SL_OK;
+    if (!sl_map_steps_differ(&sight->map)) return SL_OK;
     sl_status status = sl_baked_copy_map(context, sight, &map);
     map.channel = SL_STOPS_STEPS;
     if (status == SL_OK) status = sl_bake_space(context, &map, &options, &out->baked, NULL);

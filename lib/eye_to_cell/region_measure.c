@@ -106,9 +106,9 @@ static void add_drift(const sl_region *region, sl_region_measures *out) {
     }
     if (!(out->area > 0)) return;
     const sl_point drift = {pull.x / 3 / out->area, pull.y / 3 / out->area};
-    const double degrees = atan2(drift.y, drift.x) * (180 / pi);
+    const double degrees = atan2(drift.y, drift.x) * (180 / pi), turned = degrees + 360;
     out->drift_magnitude = sli_length(drift.x, drift.y);
-    out->drift_angle = degrees < 0 ? fmod(degrees + 360, 360) : degrees;
+    out->drift_angle = !(degrees < 0) ? degrees : turned < 360 ? turned : 0;
 }
 
 static void add_radials(const sl_region *region, sl_region_measures *out) {

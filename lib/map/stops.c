@@ -4,18 +4,19 @@
 #include "map/ground.h"
 #include "sightline/support.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char *const names[] = {"sight", "steps", "sound"};
 enum { NAMES = sizeof names / sizeof *names };
 
 void sl_stops_write(uint32_t stops, char text[SL_STOPS_TEXT]) {
+    int length = 0;
     text[0] = '\0';
-    for (int i = 0; i < NAMES; i++) {
-        if (!(stops >> i & 1)) continue;
-        if (text[0]) strcat(text, ",");
-        strcat(text, names[i]);
-    }
+    for (int i = 0; i < NAMES; i++)
+        if (stops >> i & 1)
+            length += snprintf(text + length, (size_t)(SL_STOPS_TEXT - length), "%s%s",
+                               length ? "," : "", names[i]);
 }
 
 bool sl_stops_read(const char *text, size_t length, uint32_t *out) {
@@ -71,4 +72,13 @@ size_t sl_map_partial_walls(const sl_map *map) {
     size_t count = 0;
     for (size_t i = 0; i < map->seam_count; i++) count += map->seams[i].stops != 0;
     return count;
+}
+
+bool sl_map_steps_differ(const sl_map *map) {
+    if (sl_map_channel(map) != SL_STOPS_SIGHT) return false; // asked for, for all
+    for (size_t i = 0; i < map->seam_count; i++) {
+        const uint32_t stops = map->seams[i].stops;
+        if (!(stops & SL_STOPS_SIGHT) != !(stops & SL_STOPS_STEPS)) return true;
+    }
+    return false;
 }

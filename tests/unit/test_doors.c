@@ -49,6 +49,8 @@ static void compare(sl_context *context, const baked_file *f, const bool *shut) 
             assert_int_equal(sees, sl_pvs_sees(&v->pvs, a, b) &&
                                        sli_door_sets_open(&v->doors, a, b, shut));
             assert_int_equal(sees, sl_runtime_can_see_past(&f->runtime, a, b, bytes));
+            assert_int_equal(sl_runtime_can_see(&f->runtime, a, b),
+                             sl_runtime_can_see_past(&f->runtime, a, b, NULL));
         }
     sl_visibility_destroy(context, &fresh);
     sl_space_destroy(context, &walled);

@@ -425,11 +425,17 @@ static void nowhere_and_everywhere(void **state) {
     assert_true(move(&s, 1, 3, 1, 2, 2, true));
     assert_true(move(&s, 2, -9, -9, -8, -8, true));
     assert_string_equal(seen(&s, 5, 5, 0), "...");
+    // Too large to be anywhere, even about the eye: it neither is seen nor hides.
+    assert_true(move(&s, 1, -1e200, -1e200, 1e200, 1e200, true));
+    assert_true(move(&s, 2, 15, 4, 16, 6, false));
+    assert_string_equal(seen(&s, 5, 5, 0), "..s");
+    assert_true(move(&s, 2, -9, -9, -8, -8, true));
     assert_true(move(&s, 0, 9, 4, 11, 6, true)); // in both rooms
     assert_string_equal(seen(&s, 5, 5, 0), "s..");
     assert_false(move(&s, 1, 15, 4, 16, 6, true)); // no room: seen always, and hides nothing
     assert_false(move(&s, 2, 15, 7, 16, 8, true));
     assert_string_equal(seen(&s, 1, 1, 0), "sss");
+    assert_string_equal(seen(&s, 21, 1, 0), "..."); // an eye outside sees nothing
     assert_true(move(&s, 0, 99, 99, 99, 99, true)); // and there is room again
     assert_true(move(&s, 1, 15, 1, 16, 2, true));
     assert_true(move(&s, 2, 15, 1, 16, 2, true));

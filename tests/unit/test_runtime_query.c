@@ -170,8 +170,7 @@ static void seen_from_is_the_union(trial *t, sl_point eye) {
     for (uint32_t to = 0; to < r->cell_count; to++) {
         bool is = false;
         for (uint32_t i = 0; i < count && !is; i++)
-            is = shut ? sl_runtime_can_see_past(r, t->cells[i], to, shut)
-                      : sl_runtime_can_see(r, t->cells[i], to);
+            is = sl_runtime_can_see_past(r, t->cells[i], to, shut);
         if (is != (bits[to / 8] >> to % 8 & 1))
             fail_msg("%s: (%.17g, %.17g): cell %u is %s", t->f->name, eye.x, eye.y, to,
                      is ? "missed" : "added");

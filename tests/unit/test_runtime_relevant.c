@@ -1,6 +1,6 @@
 // Which things each player may see: by the oracle no pair is missed, and few are added. On the maps
 // no pair is missed of which two points see each other.
-//   test_runtime_relevant [MAPS]    so many random maps of each kind instead of 100
+//   test_runtime_relevant [MAPS [SEED]]    so many random maps of each kind instead of 100
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
@@ -8,7 +8,7 @@
 
 enum { SIZE = 12, WALLS = 14, DOORS = 3, PLAYERS = 6, THINGS = 10, MOST = 128 };
 
-static uint64_t maps = 100;
+static uint64_t maps = 100, seed = 5;
 
 typedef struct trial {
     sl_context *context;
@@ -140,13 +140,54 @@ static void turn(sl_map *map, double c, double s) {
     }
 }
 
+static double turn_of(sl_segment s, sl_point p) {
+    return (s.b.x - s.a.x) * (p.y - s.a.y) - (s.b.y - s.a.y) * (p.x - s.a.x);
+}
+
+static bool cross(sl_segment s, sl_segment t) {
+    return turn_of(s, t.a) * turn_of(s, t.b) < 0 && turn_of(t, s.a) * turn_of(t, s.b) < 0;
+}
+
+static bool crosses_any(const sl_map *map, sl_segment s) {
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (cross((sl_segment){map->walls[i].a, map->walls[i].b}, s)) return true;
+    for (size_t i = 0; i < map->door_count; i++)
+        if (cross(map->doors[i].segment, s)) return true;
+    return false;
+}
+
+/// A room with walls and doors any way, that touch but do not cross. So cells lie any way beside
+/// boxes, and boxes are before and behind the same portals.
+static void slanted_rooms(trial *t, int walls, sl_map *map) {
+    grid_rooms(t->context, &t->random, SIZE, 0, 0, map);
+    for (int i = 0; i < walls + DOORS; i++) {
+        const char name[2] = {(char)('a' + i), 0};
+        sl_segment s;
+        do
+            s = (sl_segment){{below(t, SIZE + 1), below(t, SIZE + 1)},
+                             {below(t, SIZE + 1), below(t, SIZE + 1)}};
+        while ((s.a.x == s.b.x && s.a.y == s.b.y) || crosses_any(map, s));
+        if (i < DOORS)
+            assert_ok(t->context, sl_map_add_door(t->context, map, name, s, true, 0));
+        else
+            assert_ok(t->context, sl_map_add_wall(t->context, map, s.a, s.b, 0));
+    }
+}
+
+/// Axial maps turned by (c, s), or slanted ones for (0, 0).
 static void check_random_maps(double c, double s) {
     unsigned char shut[DOORS];
-    trial t = {.context = testing_context(NULL), .random = {5}, .shut = shut};
+    trial t = {.context = testing_context(NULL), .random = {seed}, .shut = shut};
     for (uint64_t i = 0; i < maps; i++) {
+        const int walls = i % 2 ? WALLS : 2 * WALLS;
+        sl_map *map = &t.file.baked.map;
         t.file = (baked_file){.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
-        grid_rooms(t.context, &t.random, SIZE, i % 2 ? WALLS : 2 * WALLS, DOORS, &t.file.baked.map);
-        turn(&t.file.baked.map, c, s);
+        if (c == 0 && s == 0) {
+            slanted_rooms(&t, walls / 2, map);
+        } else {
+            grid_rooms(t.context, &t.random, SIZE, walls, DOORS, map);
+            turn(map, c, s);
+        }
         assert_ok(t.context, sl_map_clean(t.context, &t.file.baked.map, NULL, NULL));
         baked_file_make(t.context, &t.file, false);
         for (size_t k = 0; k < DOORS; k++) t.shut[k] = (unsigned char)sl_random_below(&t.random, 2);
@@ -171,6 +212,11 @@ static void test_turned_maps(void **state) {
     check_random_maps(10, 3);
     check_random_maps(4, 3);
     check_random_maps(1, 1);
+}
+
+static void test_slanted_maps(void **state) {
+    (void)state;
+    check_random_maps(0, 0);
 }
 
 // --- against points that see each other
@@ -266,11 +312,28 @@ static void test_points_far_away(void **state) {
 /// Two rooms with a door between them, a pillar in the first.
 static const char rooms[] = "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
                             "door d 10 4 10 6\nsolid 4 4 6 4 6 6 4 6\n";
+/// A place nearer to the wall than numbers of maps are is on it.
+static const char split[] = "walls -10 0 10 0 10 10 -10 10 -10 0\nwall 0 0 0 10\n";
 /// One sees through the glass from the right.
 static const char glass[] = "walls 0 0 20 0 20 10 0 10 0 0\noneway 10 0 10 10\n";
 /// Only along y = 0 one sees past all walls, which end there from below, above and below.
 static const char comb[] = "walls 0 -5 20 -5 20 5 0 5 0 -5\nwall 5 -5 5 0\nwall 8 0 8 5\n"
                            "wall 11 -5 11 0\n";
+/// A corner of the box is behind the slanted door, and beside its room.
+static const char slanted[] = "walls 1 1 -5 -5 5 -5 5 5 1 5 1 1\ndoor a 1 1 5 5\n";
+/// Around the end of the wall from 0 2 to 6 0 one looks through the doors a, b and c. The line from
+/// the lower right of the box to the left end of a comes back through c the other way.
+static const char around[] = "walls -5 12 -5 -2 6 -2 6 0 0 2\nwalls -5 12 10 12 10 0 6 0\n"
+                             "door a -5 2 0 2\ndoor b 0 2 0 12\ndoor c 6 0 6 12\n";
+static const char around_left[] = "walls 5 12 5 -2 -6 -2 -6 0 0 2\nwalls 5 12 -10 12 -10 0 -6 0\n"
+                                  "door a 5 2 0 2\ndoor b 0 2 0 12\ndoor c -6 0 -6 12\n";
+/// Two combs, one on the other: one sees through them only along y = 0 and y = 3. Both lines come
+/// through the door e.
+static const char combs[] = "walls 0 -5 -20 -5 -20 5 0 5 0 -5\nwall -5 1.5 -11 1.5\n"
+                            "wall -5 -5 -5 0\nwall -8 0 -8 1.5\nwall -11 -5 -11 0\n"
+                            "wall -5 5 -5 3\nwall -8 3 -8 1.5\nwall -11 5 -11 3\n"
+                            "door a -5 0 -5 1.5\ndoor b -5 1.5 -5 3\n"
+                            "door c -11 0 -11 1.5\ndoor d -11 1.5 -11 3\ndoor e -13 -5 -13 5\n";
 
 static const struct {
     const char *map;
@@ -290,6 +353,9 @@ static const struct {
     {rooms, {4.5, 4.5, 5.5, 5.5, false}, {5, 5, 5.5, 5.5, false}, 0, false, false},
     {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 5.5, 5.5, false}, 0, false, false},
     {rooms, {7, 4.5, 8, 5.5, false}, {4.5, 4.5, 6, 5.5, false}, 0, false, true}, // its side
+    {split, {-1e-210, 4, -1e-210, 4, false}, {5, 4, 6, 5, false}, 0, false, true},
+    {split, {5, 4, 6, 5, false}, {-1e-210, 4, -1e-210, 4, false}, 0, false, true},
+    {split, {-1e-190, 4, -1e-190, 4, false}, {5, 4, 6, 5, false}, 0, false, false},
     {glass, {2, 2, 3, 3, false}, {12, 2, 13, 3, false}, 0, false, false},
     {glass, {12, 2, 13, 3, false}, {2, 2, 3, 3, false}, 0, false, true},
     {glass, {9, 2, 11, 3, false}, {12, 2, 13, 3, false}, 0, false, true},
@@ -299,6 +365,17 @@ static const struct {
     {comb, {1, 0, 3, 0, false}, {12, 0.1, 13, 1, false}, 0, false, false},
     {comb, {1, 0, 3, 0, false}, {12, -1, 13, -0.5, false}, 0, false, false},
     {comb, {1, -2, 3, 0, false}, {12, -1, 13, -0.5, false}, 0, false, false},
+    {slanted, {-3, -3, 0, -1, false}, {3, 3.2, 3.1, 3.3, false}, 0, false, true},
+    {slanted, {-3, -3, 0, -1, false}, {3, 3.2, 3.1, 3.3, false}, 0, true, false},
+    {around, {-1, 0, 2.9, 1, false}, {7, 10.5, 8, 11.5, false}, 0, false, true},
+    {around, {-1, 0, 2.9, 1, false}, {7, 0, 8, 5, false}, 0, false, false},
+    {around, {-1, 0, 2.9, 1, false}, {0.5, 6, 0.6, 6.1, false}, 0, false, true},
+    {around_left, {-2.9, 0, 1, 1, false}, {-8, 10.5, -7, 11.5, false}, 0, false, true},
+    {around_left, {-2.9, 0, 1, 1, false}, {-8, 0, -7, 5, false}, 0, false, false},
+    {around_left, {-2.9, 0, 1, 1, false}, {-0.6, 6, -0.5, 6.1, false}, 0, false, true},
+    {combs, {-3, 0, -1, 3, false}, {-16, -1, -15, 0, false}, 0, false, true},
+    {combs, {-3, 0, -1, 3, false}, {-16, 3, -15, 4, false}, 0, false, true},
+    {combs, {-3, 0.1, -1, 2.9, false}, {-16, -1, -15, 4, false}, 0, false, false},
 };
 
 static void test_known_answers(void **state) {
@@ -307,10 +384,10 @@ static void test_known_answers(void **state) {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         baked_file f = baked_file_of_text(context, known[i].map);
         trial t = {.file = f, .range = known[i].range};
-        unsigned char shut = known[i].shut;
+        unsigned char shut[5] = {known[i].shut};
         for (size_t k = 0; k < PLAYERS; k++) t.players[k] = known[i].from;
         for (size_t k = 0; k < THINGS; k++) t.things[k] = known[i].to;
-        t.shut = &shut;
+        t.shut = shut;
         ask(&t);
         if (says(&t, PLAYERS - 1, THINGS - 1) != known[i].sees)
             fail_msg("known answer %zu: sees is %d", i, !known[i].sees);
@@ -345,10 +422,12 @@ static void test_large_things(void **state) {
 
 int main(int argc, char **argv) {
     if (argc > 1) maps = strtoull(argv[1], NULL, 10);
+    if (argc > 2) seed = strtoull(argv[2], NULL, 10);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axial_maps),         cmocka_unit_test(test_turned_maps),
-        cmocka_unit_test(test_points_of_all_maps), cmocka_unit_test(test_points_far_away),
-        cmocka_unit_test(test_known_answers),      cmocka_unit_test(test_large_things),
+        cmocka_unit_test(test_axial_maps),      cmocka_unit_test(test_turned_maps),
+        cmocka_unit_test(test_slanted_maps),    cmocka_unit_test(test_points_of_all_maps),
+        cmocka_unit_test(test_points_far_away), cmocka_unit_test(test_known_answers),
+        cmocka_unit_test(test_large_things),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

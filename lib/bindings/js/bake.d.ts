@@ -8,15 +8,19 @@ export { SightlineError }
 type Line = Segment | number[] | { segment: Segment | number[] }
 type Polygon = number[] | [number, number][]
 
+/** What walls stop; by default all. Windows are seen through, curtains are walked through. */
+type Stopped = 'sight' | 'steps' | 'sound'
+type Stops = { stops?: Stopped | Stopped[] }
+
 /** A map as an object. All members may be left out but for walls. */
 export interface MapObject {
-  walls: (Line & { solid?: boolean })[]
+  walls: (Line & { solid?: boolean } & Stops)[]
   doors?: { name: string; segment: Segment | number[]; open?: boolean }[]
   mirrors?: (Line & { oneSided?: boolean })[]
   /** Seen through from the right to the left, going from the first end to the second. */
   oneway?: Line[]
   seams?: Line[]
-  solid?: Polygon[]
+  solid?: (Polygon | ({ points: Polygon } & Stops))[]
   open?: Polygon[]
   starts?: (Start | { x: number; y: number } | number[])[]
   paths?: { name: string; points: Polygon }[]

@@ -29,6 +29,13 @@ function flag(value, item, name, otherwise) {
   throw new SightlineError(`${item}: ${name}: true or false is needed`, { item })
 }
 
+/** What walls stop that do not stop all, checked. The library knows the names. */
+function stopped({ stops }, item) {
+  if ((stops ?? null) === null) return ''
+  if (/^[a-z]+(,[a-z]+)*$/.test(stops)) return ` stops ${stops}`
+  throw new SightlineError(`${item}: stops: sight, steps, sound or a list of these is needed`, { item })
+}
+
 const segment = (thing, item) => numbers(thing.segment ?? thing, item, 4).join(' ')
 
 function name(thing, item) {
@@ -38,13 +45,13 @@ function name(thing, item) {
 
 /** The statement of one item, by the member that it is in. */
 const statements = {
-  walls: (wall, item) => `wall ${segment(wall, item)}${flag(wall.solid, item, 'solid', false) ? ' solid' : ''}`,
+  walls: (wall, item) => `wall ${segment(wall, item)}${flag(wall.solid, item, 'solid', false) ? ' solid' : ''}${stopped(wall, item)}`,
   doors: (door, item) =>
     `door ${name(door, item)} ${segment(door, item)} ${flag(door.open, item, 'open', true) ? 'open' : 'shut'}`,
   mirrors: (mirror, item) => `mirror ${segment(mirror, item)}${flag(mirror.oneSided, item, 'oneSided', false) ? ' one' : ''}`,
   oneway: (glass, item) => `oneway ${segment(glass, item)}`,
   seams: (seam, item) => `seam ${segment(seam, item)}`,
-  solid: (polygon, item) => `solid ${numbers(polygon, item, 6, true).join(' ')}`,
+  solid: (polygon, item) => `solid ${numbers(polygon.points ?? polygon, item, 6, true).join(' ')}${stopped(polygon, item)}`,
   open: (polygon, item) => `open ${numbers(polygon, item, 6, true).join(' ')}`,
   starts: (start, item) => {
     const [x, y, heading = 0] = Array.isArray(start) ? start : [start.x, start.y, start.heading]

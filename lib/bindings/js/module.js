@@ -41,6 +41,7 @@ export class Module {
         progress: (stage, done, total) => this.#progress(stage, done, total),
         cancelled: () => (this.watch?.stop() ? 1 : 0),
         log: Math.log,
+        log10: Math.log10,
         asinh: Math.asinh,
         atan2: Math.atan2,
         number: (at) => this.#numberAt(at),

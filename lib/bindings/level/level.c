@@ -151,9 +151,9 @@ void sl_level_use_coordinates(sl_level *level, double origin_x, double origin_y,
     level->transform = (sl_runtime_transform){origin_x, origin_y, scale, y_down != 0};
 }
 
-/// A heading, there or in the map.
+/// A heading, there or in the map; 0 has no sign.
 static double turned(const sl_level *level, double heading) {
-    return level->transform.y_down ? -heading : heading;
+    return level->transform.y_down ? 0 - heading : heading;
 }
 
 /// Turns the ends of a box, min x, min y, max x, max y, around where y points the other way.

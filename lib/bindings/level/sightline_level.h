@@ -89,7 +89,7 @@ SL_LEVEL_API const double *sl_level_door_segments(sl_level *level, int32_t door,
 /// The cell that holds a point; -1 for none.
 SL_LEVEL_API int32_t sl_level_locate(const sl_level *level, double x, double y);
 /// 1 if anything in one cell can be seen from anywhere in the other, past the doors as they stand.
-/// Boxes do not count. Mirrors do.
+/// Boxes do not count. What mirrors show does, here alone: to all other questions they are walls.
 SL_LEVEL_API int32_t sl_level_can_see(const sl_level *level, int32_t from, int32_t to);
 /// 1 if an eye at a point sees another point.
 SL_LEVEL_API int32_t sl_level_sees(sl_level *level, double x0, double y0, double x1, double y1);

@@ -244,6 +244,9 @@ SL_API sl_status sl_map_walls_stop(sl_context *context, sl_map *map, size_t firs
 SL_API sl_status sl_map_settle_stops(sl_context *context, sl_map *map, size_t *left_out);
 /// How many walls do not stop all.
 SL_API size_t sl_map_partial_walls(const sl_map *map);
+/// Whether, in a map whose space is one of sight, some walls stop steps and not sight, or sight and
+/// not steps. Paths then need a space of their own: that of a copy with the channel SL_STOPS_STEPS.
+SL_API bool sl_map_steps_differ(const sl_map *map);
 
 /// Room for what sl_stops_write writes.
 #define SL_STOPS_TEXT 24

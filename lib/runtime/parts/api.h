@@ -14,8 +14,8 @@
 ///
 /// An open sl_runtime is only read, so any number of threads may use it.
 ///
-/// It needs IEEE doubles. Compiled with -ffast-math, or for x87, it is still safe, but
-/// sl_runtime_look is then exact only up to rounding.
+/// It needs IEEE doubles. Compiled with -ffast-math, or for x87, it is still safe, but answers are
+/// then exact only up to rounding.
 #ifndef SIGHTLINE_RUNTIME_H
 #define SIGHTLINE_RUNTIME_H
 
@@ -163,9 +163,10 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
 SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to);
 
 /// As sl_runtime_can_see while some doors are shut. `shut` has door_count bytes, not 0 for a shut
-/// door. The game keeps it, and a change costs nothing. As exact as the bake: a pair is seen if
-/// some sightline passes no shut door. (Some pairs need more sets of doors than a bake keeps. The
-/// bake reports them, and they always count as seen.) Time: the lengths of the rows.
+/// door; NULL if none is shut. The game keeps it, and a change costs nothing. As exact as the bake:
+/// a pair is seen if some sightline passes no shut door. (Some pairs need more sets of doors than a
+/// bake keeps. The bake reports them, and they always count as seen.) Time: the lengths of the
+/// rows.
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
@@ -290,7 +291,7 @@ SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell
 
 /// What can be seen directly from anywhere in some cells: the cells that at least one sees. As
 /// bits, as sl_runtime_row_bits does for one cell; returns how many there are. `shut` is as for
-/// sl_runtime_can_see_past, or NULL for none. Numbers that are no cells are left out.
+/// sl_runtime_can_see_past. Numbers that are no cells are left out.
 ///
 /// Ask it with what an eye sees (sl_runtime_look) to find what to wake up: all that anything in
 /// view could see. The set is conservative if the bake is: nothing outside of it is seen from any
@@ -342,7 +343,7 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
                                                       double direction_y, double tan_half);
 
-/// The size of the scratch memory for sl_runtime_look and sl_runtime_visible_polygon, in uint32_t.
+/// The size of `scratch`, in uint32_t, for all calls that take it.
 SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 
 /// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
@@ -369,8 +370,8 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room);
 
-/// As sl_runtime_look, with shut doors and a view range. `shut` is as for sl_runtime_can_see_past,
-/// or NULL for none. `range` is above 0, or 0 for the map's own. The smaller one of both holds.
+/// As sl_runtime_look, with shut doors and a view range. `shut` is as for sl_runtime_can_see_past.
+/// Of `range` and the map's own, the smaller one holds. 0, less than 0 and NaN stand for the map's.
 ///
 /// Doors are exact: a line must reach a cell through portals that are on no shut door. For the
 /// range, the distance to the nearest place that the eye sees of a cell counts. No cell within the
@@ -388,9 +389,9 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// `scratch` are as for sl_runtime_look_past. A guard sees the player by this, and may see him,
 /// somewhere in his cell, by sl_runtime_can_see_past.
 ///
-/// Exact, and as sli_sees of the library: open portals that the line touches, ends included, lead
-/// from a cell that the eye stands in to a cell that touches the point. So it may graze walls on
-/// either side. (A line that grazes walls on both sides leads sl_runtime_look to no cell: such a
+/// Exact, and as sl_query_sees of the library: open portals that the line touches, ends included,
+/// lead from a cell that the eye stands in to a cell that touches the point. So it may graze walls
+/// on either side. (A line that grazes walls on both sides leads sl_runtime_look to no cell: such a
 /// point may be seen though none of its cells is listed.) A point on a wall or on a shut door is
 /// seen from both sides, but an eye there sees one. Each of two points sees the other or none does,
 /// unless one of them is where walls or shut doors part what is around it, or one-way glass is
@@ -427,7 +428,7 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
 
 /// Whether one may walk straight from one point to another: no point of the way, ends included, is
 /// on a wall that stops steps, a mirror, one-way glass or a shut door, in solid ground or outside
-/// the map. `shut` is as for sl_runtime_can_see_past, or NULL for none. Exact, and the same both
+/// the map. `shut` is as for sl_runtime_can_see_past. Exact, and the same both
 /// ways. Sight may touch walls, so a step that is only seen could end in a wall and leave it on its
 /// other side. Who is put exactly on a wall cannot leave it: put him beside it. False for a file
 /// that has no walls. Time: the portals of the cells along the step. A step that touches ends of
@@ -447,7 +448,7 @@ SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, do
 SL_RUNTIME_API sl_runtime_run sl_runtime_mirrored_row(const sl_runtime *runtime, uint32_t cell);
 
 /// Whether anything in cell `to` can be seen from anywhere in cell `from`, directly or by mirror.
-/// `shut` is as for sl_runtime_can_see_past, or NULL for none. True for all cells if the bake did
+/// `shut` is as for sl_runtime_can_see_past. True for all cells if the bake did
 /// not look into the map's mirrors.
 SL_RUNTIME_API bool sl_runtime_can_see_mirrored(const sl_runtime *runtime, uint32_t from,
                                                 uint32_t to, const unsigned char *shut);
@@ -486,7 +487,7 @@ SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,
 /// most 1/3000 of the range. Between arcs, points are where the circle meets a wall or a line of
 /// sight.
 ///
-/// As sli_region_make of the library: no sign comes from a rounded number. Points are corners of
+/// As sl_query_region of the library: no sign comes from a rounded number. Points are corners of
 /// the map or meets of a ray with a wall, rounded to a few units in the last place. What is seen in
 /// a single direction only is not part of it. Where walls part what is around the eye, it is a
 /// point of the polygon. Returns 0 for a loose file, and if the search takes very long, which a
@@ -568,7 +569,8 @@ typedef struct sl_runtime_boxes {
 } sl_runtime_boxes;
 
 /// The size of the memory for boxes, in uint32_t. `room`: how many pairs of a box and a cell that
-/// it lies in the memory is to hold. Four for each box do if boxes are smaller than rooms.
+/// it lies in the memory is to hold. Rooms have several cells: a box of 1 m is in 1.6 of an office
+/// on average, and one of 4 m in 3.6. Eight for each box leave room for crowds.
 SL_RUNTIME_API size_t sl_runtime_boxes_count(const sl_runtime *runtime, uint32_t count,
                                              uint32_t room);
 
@@ -578,15 +580,16 @@ SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runti
                                            sl_runtime_box *list, uint32_t count, uint32_t room,
                                            uint32_t *memory);
 
-/// Puts a box at its place, or at a new one. A box outside the bounds, one whose minimum is above
-/// its maximum and one with coordinates above 2e150 are in no cell, and never seen. Returns false
-/// if there is no room for its cells. The box then counts as seen by every eye and hides nothing,
-/// until it is moved again. Time: the cells near the box.
+/// Puts a box at its place, or at a new one. `box` must be less than `count`. A box outside the
+/// bounds, one whose minimum is above its maximum and one with NaN or a coordinate above 2e150 or
+/// below -2e150 are in no cell, never seen, and stop nothing. Returns false if there is no room for
+/// its cells. The box is then seen by every eye that stands in the map and not in solid ground. It
+/// hides and stops nothing, until it is moved again. Time: the cells near the box.
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to);
 
 /// The size of `boxes_scratch` for the calls below, in uint32_t: the scratch memory of the calls
-/// without boxes, and 370 bytes for each box.
+/// without boxes, 1,600 bytes, and 370 bytes for each box.
 SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *boxes);
 
 /// Finds which boxes an eye sees: sets seen[i] to 1 or 0, and returns how many are seen. `view`,
@@ -642,8 +645,9 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_past_boxes(const sl_runtime_b
 /// As sl_runtime_sees, past boxes that block: false if the line passes the inside of one of them.
 /// Exact. A line may touch boxes and run along their sides, also between two that touch each other.
 /// It passes a flat box where it crosses that between its ends, and never one that is a point. An
-/// eye or a point on a side is outside. If one of both is inside a box and the other one in it or
-/// on its side, that box does not come between them. Boxes that had no room hide nothing.
+/// eye or a point on a side is outside, and sees to both sides of it. (The polygon has one.) If one
+/// of both is inside a box and the other one in it or on its side, that box does not come between
+/// them. Boxes that had no room hide nothing.
 ///
 /// sl_query_sees of the library differs where a line only touches boxes: it sees nothing along a
 /// line that boxes and walls touch from both sides, and has the cell of an eye on a side decide
@@ -662,8 +666,8 @@ SL_RUNTIME_API bool sl_runtime_can_walk_past_boxes(const sl_runtime_boxes *boxes
 
 /// A disc that walks, and what stops it beside walls, mirrors and one-way glass.
 typedef struct sl_runtime_walker {
-    double radius;                 ///< 0 or less for a point
-    const unsigned char *shut;     ///< as for sl_runtime_can_see_past; NULL for no shut door
+    double radius;                 ///< 0, less and NaN for a point
+    const unsigned char *shut;     ///< as for sl_runtime_can_see_past
     const sl_runtime_boxes *boxes; ///< those that block stop it; NULL for none
     uint32_t own_box;              ///< one that does not, or SL_RUNTIME_NO_BOX
 } sl_runtime_walker;
@@ -682,7 +686,8 @@ SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
 
 /// Moves a disc from (x0, y0) toward (x1, y1), and puts where it comes to into `x` and `y`. True if
 /// it comes to (x1, y1). At what stops it, it slides along: it goes on by what is left of the way,
-/// without the part toward the obstacle, up to 3 times. It stays where it may not move.
+/// without the part toward the obstacle, up to 3 times. It stays where it may not move, and if it
+/// is to go to NaN or farther than 2e150.
 ///
 /// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
 /// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already

@@ -138,19 +138,24 @@ static bool slrt_put_in_cell(void *context, uint32_t cell) {
     return true;
 }
 
+/// Whether a box may be somewhere: its numbers are sound, and in order.
+static bool slrt_is_sound_box(const sl_runtime_box *box) {
+    return slrt_is_coordinate(box->min_x) && slrt_is_coordinate(box->min_y) &&
+           slrt_is_coordinate(box->max_x) && slrt_is_coordinate(box->max_y) &&
+           box->min_x <= box->max_x && box->min_y <= box->max_y;
+}
+
 SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
                                           const sl_runtime_box *to) {
     slrt_placing placing;
-    bool usable = to->min_x <= to->max_x && to->min_y <= to->max_y;
-    int i;
     placing.boxes = boxes;
     placing.box = box;
     placing.at[0] = to->min_x, placing.at[1] = to->min_y;
     placing.at[2] = to->max_x, placing.at[3] = to->max_y;
-    for (i = 0; i < 4; i++) usable = usable && slrt_is_coordinate(placing.at[i]);
     boxes->boxes[box] = *to;
     slrt_take_out(boxes, box);
-    if (!usable || slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
+    if (!slrt_is_sound_box(to) ||
+        slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
         return true;
     slrt_take_out(boxes, box);
     *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;

@@ -59,7 +59,8 @@ static void slrt_look_at_boxes(slrt_search *s) {
     const sl_runtime_boxes *boxes = s->boxes;
     uint32_t i;
     for (i = 0; i < boxes->count; i++)
-        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y)) s->box_marks[i] = SLRT_BOX_SEEN;
+        if (slrt_box_holds(&boxes->boxes[i], s->x, s->y) && slrt_is_sound_box(&boxes->boxes[i]))
+            s->box_marks[i] = SLRT_BOX_SEEN;
     slrt_run_search(s);
     for (i = 0; i < boxes->count && !s->gave_up; i++)
         if (s->box_marks[i] && boxes->boxes[i].blocks) s->blockers[s->blocker_count++] = i;

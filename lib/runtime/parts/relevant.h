@@ -1,10 +1,12 @@
 /// Whole servers: which players may see which things.
 
-/// The part of a box, with a margin around it, within the bounds of the map. False for none.
+/// The part of a box, with a margin around it, within the bounds of the map. False for none. It is
+/// where the points of the box are for sl_runtime_sees, too, by slrt_no_dust.
 static bool slrt_box_in_map(const sl_runtime *rt, const sl_runtime_box *of, double margin,
                             double box[4]) {
-    const double low_x = of->min_x - margin, low_y = of->min_y - margin;
-    const double high_x = of->max_x + margin, high_y = of->max_y + margin;
+    const double low_x = slrt_no_dust(of->min_x - margin), low_y = slrt_no_dust(of->min_y - margin);
+    const double high_x = slrt_no_dust(of->max_x + margin);
+    const double high_y = slrt_no_dust(of->max_y + margin);
     box[0] = low_x > rt->min_x ? low_x : rt->min_x;
     box[1] = low_y > rt->min_y ? low_y : rt->min_y;
     box[2] = high_x < rt->max_x ? high_x : rt->max_x;

@@ -88,12 +88,9 @@ SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t 
                                             const unsigned char *shut) {
     slrt_door_pairs pairs;
     if (!sl_runtime_can_see(runtime, from, to)) return false;
+    if (!shut) return true;
     pairs = slrt_door_pairs_of(runtime, from);
     return slrt_pair_is_open(&pairs, to, shut);
-}
-
-static bool slrt_sees(const sl_runtime *rt, uint32_t from, uint32_t to, const unsigned char *shut) {
-    return shut ? sl_runtime_can_see_past(rt, from, to, shut) : sl_runtime_can_see(rt, from, to);
 }
 
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell) {
@@ -167,10 +164,10 @@ SL_RUNTIME_API bool sl_runtime_can_see_mirrored(const sl_runtime *runtime, uint3
     sl_runtime rows;
     if (runtime->mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED)
         return from < runtime->cell_count && to < runtime->cell_count;
-    if (slrt_sees(runtime, from, to, shut)) return true;
+    if (sl_runtime_can_see_past(runtime, from, to, shut)) return true;
     if (!runtime->mirrors) return false;
     rows = slrt_mirrored(runtime);
-    return slrt_sees(&rows, from, to, shut);
+    return sl_runtime_can_see_past(&rows, from, to, shut);
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_seen_from_mirrored(const sl_runtime *runtime,

@@ -14,12 +14,18 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct graph {
+/// One of the two spaces of a map.
+typedef struct plan {
     sl_baked baked; ///< its space alone, where it comes from a map
     sl_query *query;
     const sl_outline *outline; ///< of the query
-    sl_vga_grid grid;
     sl_vga_graph graph;
+} plan;
+
+typedef struct graph {
+    plan sight;
+    plan steps; ///< for the grid and for paths; empty where steps go as sight does
+    sl_vga_grid grid;
     sl_vga_measures *measures; ///< by point, of the last group
     sl_vga_depths *depths;     ///< by point
 } graph;
@@ -28,51 +34,74 @@ static sl_context *context(void) {
     return sli_module.context;
 }
 
+static void close_plan(plan *p) {
+    sl_vga_graph_destroy(context(), &p->graph);
+    sl_query_destroy(context(), p->query);
+    sl_baked_destroy(context(), &p->baked);
+}
+
 SLI_EXPORT(void, graph_close, graph *g) {
     if (!g) return;
     sl_free(context(), g->measures);
     sl_free(context(), g->depths);
-    sl_vga_graph_destroy(context(), &g->graph);
     sl_vga_grid_destroy(context(), &g->grid);
-    sl_query_destroy(context(), g->query);
-    sl_baked_destroy(context(), &g->baked);
+    close_plan(&g->steps);
+    close_plan(&g->sight);
     sl_free(context(), g);
 }
 
 // --- the map
 
 /// The first half of a bake: no more is needed, and no method.
-static sl_status subdivide(graph *g, sl_map *map) {
+static sl_status subdivide(plan *p, sl_map *map) {
     const sl_clean_options clean = sl_clean_options_default();
     const sl_subdivide_options rules = sl_subdivide_options_default();
     sl_clean_account account = {0};
     SL_TRY(sl_map_clean(context(), map, &clean, &account));
     SL_TRY(sl_map_find_inside(context(), map, &clean, &account));
-    SL_TRY(sl_subdivision_for(map)->subdivide(context(), map, &rules, &g->baked.space));
-    if (g->baked.space.neighbour) SL_TRY(sl_space_check(context(), &g->baked.space));
-    g->baked.map = *map;
+    SL_TRY(sl_subdivision_for(map)->subdivide(context(), map, &rules, &p->baked.space));
+    if (p->baked.space.neighbour) SL_TRY(sl_space_check(context(), &p->baked.space));
+    p->baked.map = *map;
     *map = (sl_map){0};
     return SL_OK;
 }
 
-static sl_status make_space(graph *g, const char *name, const char *text, size_t size,
+static sl_status make_space(plan *p, const char *name, const char *text, size_t size,
                             double entrance) {
     const sl_import_options import = {.entrance = entrance};
     sl_map map = {0};
     sl_status status = sl_map_parse(context(), name, text, size, &import, &map);
-    if (status == SL_OK) status = subdivide(g, &map);
+    if (status == SL_OK) status = subdivide(p, &map);
     sl_map_destroy(context(), &map);
     return status;
 }
 
+static sl_status make_query(plan *p) {
+    return sl_query_over(context(), &p->baked.space, &p->baked.map, NULL, &p->query);
+}
+
+/// As `sightline vga`: the grid and paths go by steps, all else by sight.
+static sl_status make_steps(graph *g, int baked) {
+    const sl_baked *sight = &g->sight.baked;
+    sl_map map = {0};
+    if (!sl_map_steps_differ(&sight->map)) return SL_OK;
+    SL_TRY(baked ? sl_baked_copy_map(context(), sight, &map)
+                 : sl_map_copy(context(), &sight->map, &map));
+    map.channel = SL_STOPS_STEPS;
+    const sl_status status = subdivide(&g->steps, &map);
+    sl_map_destroy(context(), &map);
+    return status == SL_OK ? make_query(&g->steps) : status;
+}
+
 static sl_status open_map(graph *g, const char *name, const char *bytes, size_t size, int baked,
                           double entrance) {
-    SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &g->baked)
-                 : make_space(g, name, bytes, size, entrance));
-    const sl_map *map = &g->baked.map;
-    SL_TRY(sl_effects_check(context(), map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
+    plan *sight = &g->sight;
+    SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &sight->baked)
+                 : make_space(sight, name, bytes, size, entrance));
+    SL_TRY(sl_effects_check(context(), &sight->baked.map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
                             "steps and paths lead straight to points, not to mirror images"));
-    return sl_query_over(context(), &g->baked.space, map, NULL, &g->query);
+    SL_TRY(make_query(sight));
+    return make_steps(g, baked);
 }
 
 /// Reads a map, or with `baked` a baked file. `entrance` is the width of entrances; 0: as the map
@@ -87,7 +116,8 @@ SLI_EXPORT(graph *, graph_open, const char *name, const char *bytes, size_t size
 
 /// Before graph_make(): opens or shuts a door.
 SLI_EXPORT(int, graph_set_door, graph *g, const char *name, int open) {
-    sli_done(sl_query_set_door(context(), g->query, name, open));
+    if (sli_done(sl_query_set_door(context(), g->sight.query, name, open)) && g->steps.query)
+        sli_done(sl_query_set_door(context(), g->steps.query, name, open));
     return (int)sli_module.status;
 }
 
@@ -101,14 +131,15 @@ static sl_status refuse_step(double step, double points, double most) {
 
 /// The area is asked first: a grid that is far too large is not filled.
 static sl_status fill(graph *g, double step, double most) {
-    const sl_space *space = &g->baked.space;
+    const sl_space *space = &g->sight.baked.space;
+    const sl_outline *outline = g->steps.query ? g->steps.outline : g->sight.outline;
     double area = 0;
     if (!(step > 0) || isinf(step))
         return sl_fail(context(), SL_BAD_ARGUMENT, "grid: a step over 0 is needed");
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (space->cells[c].inside) area += sl_space_area(space, c);
     if (area / step / step > 2 * most) return refuse_step(step, area / step / step, most);
-    SL_TRY(sl_vga_grid_make(context(), g->outline, step, NULL, 0, &g->grid));
+    SL_TRY(sl_vga_grid_make(context(), outline, step, NULL, 0, &g->grid));
     if (g->grid.count > most) return refuse_step(step, g->grid.count, most);
     if (g->grid.count) return SL_OK;
     return sl_fail(context(), SL_BAD_ARGUMENT,
@@ -117,10 +148,12 @@ static sl_status fill(graph *g, double step, double most) {
 }
 
 static sl_status make(graph *g, double step, double range, double most) {
-    SL_TRY(sl_query_outline(context(), g->query, &g->outline));
+    plan *sight = &g->sight, *steps = &g->steps;
+    SL_TRY(sl_query_outline(context(), sight->query, &sight->outline));
+    if (steps->query) SL_TRY(sl_query_outline(context(), steps->query, &steps->outline));
     SL_TRY(fill(g, step, most));
-    return sl_vga_graph_make(context(), g->outline, &g->grid,
-                             range < 0 ? g->baked.map.range : range, 1, &g->graph);
+    return sl_vga_graph_make(context(), sight->outline, &g->grid,
+                             range < 0 ? sight->baked.map.range : range, 1, &sight->graph);
 }
 
 /// Makes the graph, of no more than `most` points. A range below 0 is the map's own. integers:
@@ -134,9 +167,9 @@ SLI_EXPORT(int, graph_make, graph *g, double step, double range, double most) {
                               grid->columns,
                               grid->rows,
                               (uint32_t)(uintptr_t)grid->squares,
-                              (uint32_t)(uintptr_t)g->graph.rows,
-                              (uint32_t)(2 * g->graph.words),
-                              g->baked.map.oneway_count > 0};
+                              (uint32_t)(uintptr_t)g->sight.graph.rows,
+                              (uint32_t)(2 * g->sight.graph.words),
+                              g->sight.baked.map.oneway_count > 0};
     memcpy(sli_module.integers, table, sizeof table);
     sli_module.numbers[0] = (double)grid->left;
     sli_module.numbers[1] = (double)grid->bottom;
@@ -162,15 +195,31 @@ SLI_EXPORT(const char *, depth_rows, void) {
 static const uint8_t graph_parts[] = {SL_GRAPH_MEASURES(PART) SL_GRAPH_COUNTS(PART)};
 static const uint8_t depth_parts[] = {SL_DEPTH_MEASURES(PART)};
 
-/// Measures the group of a measure, by its row. integers[0]: the place of the sl_vga_measures.
-SLI_EXPORT(int, graph_measure, graph *g, size_t row) {
+/// The plan by which a group is measured, with its graph.
+static sl_status choose(graph *g, unsigned part, plan **out) {
+    plan *steps = &g->steps;
+    *out = &g->sight;
+    if (!steps->query || !(part & (SL_VGA_METRIC | SL_VGA_ANGULAR))) return SL_OK;
+    *out = steps;
+    return steps->graph.rows
+               ? SL_OK
+               : sl_vga_graph_make(context(), steps->outline, &g->grid, 0, 1, &steps->graph);
+}
+
+static sl_status measure(graph *g, unsigned part) {
     sl_vga_options options = sl_vga_options_default();
-    options.parts = graph_parts[row];
+    plan *p;
+    options.parts = part;
     options.threads = 1;
     if (!g->measures) g->measures = sl_alloc_array(context(), g->grid.count, sizeof *g->measures);
-    sli_done(!g->measures ? SL_NO_MEMORY
-                          : sl_vga_measure(context(), g->outline, &g->grid, &g->graph, &options,
-                                           g->measures));
+    if (!g->measures) return SL_NO_MEMORY;
+    SL_TRY(choose(g, part, &p));
+    return sl_vga_measure(context(), p->outline, &g->grid, &p->graph, &options, g->measures);
+}
+
+/// Measures the group of a measure, by its row. integers[0]: the place of the sl_vga_measures.
+SLI_EXPORT(int, graph_measure, graph *g, size_t row) {
+    sli_done(measure(g, graph_parts[row]));
     sli_module.integers[0] = (uint32_t)(uintptr_t)g->measures;
     return (int)sli_module.status;
 }
@@ -180,13 +229,19 @@ SLI_EXPORT(uint32_t, graph_find, const graph *g, double x, double y) {
     return sl_vga_grid_find(&g->grid, (sl_point){x, y});
 }
 
+static sl_status find_depths(graph *g, unsigned part, uint32_t from) {
+    plan *p;
+    if (!g->depths) g->depths = sl_alloc_array(context(), g->grid.count, sizeof *g->depths);
+    if (!g->depths) return SL_NO_MEMORY;
+    SL_TRY(choose(g, part, &p));
+    return sl_vga_depth(context(), p->outline, &g->grid, &p->graph, NULL, 0, part, &from, 1,
+                        g->depths);
+}
+
 /// Depths of all points from one, of the group of a row. integers[0]: the place of the
 /// sl_vga_depths.
 SLI_EXPORT(int, graph_depth, graph *g, size_t row, uint32_t from) {
-    if (!g->depths) g->depths = sl_alloc_array(context(), g->grid.count, sizeof *g->depths);
-    sli_done(!g->depths ? SL_NO_MEMORY
-                        : sl_vga_depth(context(), g->outline, &g->grid, &g->graph, NULL, 0,
-                                       depth_parts[row], &from, 1, g->depths));
+    sli_done(find_depths(g, depth_parts[row], from));
     sli_module.integers[0] = (uint32_t)(uintptr_t)g->depths;
     return (int)sli_module.status;
 }

@@ -72,6 +72,24 @@ test('an object is its map text', async () => {
   scene.close()
 })
 
+test('walls of an object stop what they say', () => {
+  const map = {
+    walls: [[0, 0, 20, 0], [20, 0, 20, 10], [20, 10, 0, 10], [0, 10, 0, 0],
+      { segment: [10, 0, 10, 4], stops: 'sight' }, { segment: [10, 4, 10, 10], stops: ['steps', 'sound'] }],
+    solid: [{ points: [2, 2, 4, 2, 4, 4], stops: 'steps' }, [[6, 2], [8, 2], [8, 4]]], starts: [[5, 5, 0]],
+  }
+  assert.match(mapText(map), /^wall 10 0 10 4 stops sight\nwall 10 4 10 10 stops steps,sound$/m)
+  assert.match(mapText(map), /^solid 2 2 4 2 4 4 stops steps\nsolid 6 2 8 2 8 4$/m)
+  const path = place('stops.map')
+  writeFileSync(path, mapText(map))
+  assert.ok(nativeBake(path).bytes.equals(core.bake(map)))
+  const scene = core.open(map)
+  assert.equal(scene.canSee([5, 7], [15, 7]), true)
+  assert.equal(scene.canSee([5, 1], [15, 1]), false)
+  assert.equal(scene.canSee([1, 3], [5, 3]), true)
+  scene.close()
+})
+
 test('the width of entrances says what is inside', () => {
   const path = place('house.map')
   writeFileSync(path, house)

@@ -26,6 +26,10 @@ test('errors name the line or the item', async () => {
   assert.match(error.message, /^map:2: expected 'wall x0 y0 x1 y1/)
   assert.equal(thrown(() => core.bake({ walls: [[0, 0, 1, 0], [0, NaN, 1, 1]] })).item, 'walls[1]')
   assert.equal(thrown(() => core.bake({ ...room, solid: [[0, 0, 1, 1, 2, 2]] })).item, 'solid[0]')
+  for (const stops of ['', [], 'light', ['steps', 'steps'], 'steps ', true, 7, {}]) {
+    assert.equal(thrown(() => core.bake({ walls: [...room.walls, { segment: [1, 1, 2, 1], stops }] })).item, 'walls[4]')
+    assert.equal(thrown(() => core.bake({ ...room, solid: [{ points: [1, 1, 2, 1, 2, 2], stops }] })).item, 'solid[0]')
+  }
   await assert.rejects(bake('nothing'), SightlineError)
   for (const call of [
     () => core.bake(room, { method: 'magic' }), () => core.bake(room, { metod: 'dfs' }),

@@ -103,6 +103,27 @@ test('doors, glass, a range and depths are those of the command', () => {
   }
 })
 
+test('the grid and paths go by steps, and the rest by sight, also of a baked file', () => {
+  const text = 'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4 stops sight\nwall 10 6 10 10 stops steps\n' +
+    'door middle 10 4 10 6 shut\nsolid 2.25 2.25 4.25 2.25 4.25 4.25 stops steps\nstart 6 5 0\n'
+  const path = place2(text), slv = place('stops.slv')
+  command('bake', path, '-o', slv)
+  const lengths = []
+  for (const [doors, words] of [[{}, []], [{ middle: true }, ['--open', 'middle']]])
+    for (const [map, file] of [[text, path], [readFileSync(slv), slv]]) {
+      const made = core.graph(map, { grid: 1, doors })
+      compare(made, native(file, 1, '--measures', 'visual,through,metric,angular', ...words), file)
+      const { names, rows } = native(file, 1, '--measures', 'metric,angular', '--from', '6,5', ...words)
+      for (const name of depths) assert.deepEqual([...made.depth(6, 5, name)], rows.map((row) => row[names.indexOf(name)]), name)
+      assert.equal(made.find(4, 3), -1)
+      assert.equal(made.sees(made.find(6, 2), made.find(14, 2)), false)
+      assert.equal(made.sees(made.find(6, 8), made.find(14, 8)), true)
+      lengths.push(made.depth(6, 8, 'metric_step_shortest_path_length')[made.find(14, 8)])
+      made.close()
+    }
+  assert.ok(lengths[0] > lengths[2] && lengths[2] > 8, String(lengths))
+})
+
 function place2(text) {
   const path = place('given.map')
   writeFileSync(path, text)
