@@ -5281,7 +5281,8 @@ typedef struct slrt_disc {
 } slrt_disc;
 
 /// The square of the distance from a point to the segment from a to b. `away` leads to the point
-/// from the nearest place.
+/// from the nearest place: right across the segment, but at its ends. Its direction is exact but
+/// for rounding even where it is short, so that small discs slide along walls and not into them.
 static double slrt_away_from(const double *point, const double *a, const double *b, double *away) {
     const double side[2] = {b[0] - a[0], b[1] - a[1]};
     const double to[2] = {point[0] - a[0], point[1] - a[1]};
@@ -5291,6 +5292,11 @@ static double slrt_away_from(const double *point, const double *a, const double 
     if (!(square > 0)) at = 0;
     away[0] = to[0] - at * side[0];
     away[1] = to[1] - at * side[1];
+    if (at > 0 && at < 1) {
+        const double across = (side[0] * to[1] - side[1] * to[0]) / square;
+        away[0] = -across * side[1];
+        away[1] = across * side[0];
+    }
     return slrt_dot(away, away);
 }
 

@@ -122,6 +122,9 @@ static sl_point try_walk(trial *t, const obstacles *o, const sl_runtime_walker *
     if (arrives && !testing_same_point(at, q)) complain(t, p, q, "it is somewhere else");
     if (w->radius > 0 && !(after >= fminl(before, w->radius)))
         complain(t, p, q, "it is nearer than its radius");
+    if (sl_runtime_can_walk_wide(r, w, p.x, p.y, p.x, p.y, t->scratch) &&
+        !sl_runtime_can_walk_wide(r, w, at.x, at.y, at.x, at.y, t->scratch))
+        complain(t, p, q, "it rests where it may not stand");
     if (hypot(at.x - p.x, at.y - p.y) > hypot(q.x - p.x, q.y - p.y) + 1e-12 * o->size)
         complain(t, p, q, "it goes too far");
     if (!testing_same_point(p, at)) {
@@ -146,7 +149,8 @@ static void discs(void **state) {
             set_state(&t);
             const bool boxes = state_of % 2;
             const uint32_t own = (uint32_t)sl_random_below(&t.random, 2 * BOXES);
-            const sl_runtime_walker w = {state_of ? below(&t, 60) / 8 : 0, t.shut,
+            const double unit = state_of % 3 == 2 ? 1e-4 : 0.125; // small ones slide on for long
+            const sl_runtime_walker w = {state_of ? unit * below(&t, 60) : 0, t.shut,
                                          boxes ? &t.placed : NULL, own};
             find_obstacles(&t.file, t.shut, &o);
             for (uint32_t i = 0; i < BOXES && boxes; i++)
@@ -208,6 +212,17 @@ static void discs_slide(void **state) {
     comes_to(&f, 0.5, (sl_point){9.8, 2}, (sl_point){12, 2}, 9.8, 2); // nearer than it may
     comes_to(&f, 0.5, (sl_point){9.8, 2}, (sl_point){8, 2}, 8, 2);
     comes_to(&f, 0.5, (sl_point){9.8, 2}, (sl_point){9.8, 3}, 9.8, 3);
+    // A small one goes on for long, and into a corner: beside both walls, and free to stand there.
+    for (int i = 1; i < 100; i++) {
+        const double radius = 1e-5 * i;
+        uint32_t room[512];
+        const sl_runtime_walker small = {radius, NULL, NULL, SL_RUNTIME_NO_BOX};
+        const sl_point rest = walked(&f, radius, (sl_point){13 + 0.07 * i, 0.1}, (sl_point){7, -6});
+        assert_true(rest.x >= radius + 10 && rest.y >= radius);
+        assert_true(rest.x < radius + 10 + 2e-12 && rest.y < radius + 2e-12);
+        assert_true(
+            sl_runtime_can_walk_wide(&f.runtime, &small, rest.x, rest.y, rest.x, rest.y, room));
+    }
     comes_to(&f, 0.5, (sl_point){30, 2}, (sl_point){12, 2}, 30, 2);
     comes_to(&f, 0.5, (sl_point){2, 2}, (sl_point){NAN, 2}, 2, 2);
     comes_to(&f, NAN, (sl_point){2, 2}, (sl_point){3, 2}, 3, 2);
