@@ -85,8 +85,8 @@ double fma(double a, double b, double minus_product) {
         __builtin_memcpy(&upper[i], &bits, sizeof bits);
         lower[i] = given[i] - upper[i];
     }
-    return lower[0] * lower[1] + (((minus_product + upper[0] * upper[1]) + lower[0] * upper[1]) +
-                                  upper[0] * lower[1]);
+    return lower[0] * lower[1] +
+           (((minus_product + upper[0] * upper[1]) + lower[0] * upper[1]) + upper[0] * lower[1]);
 }
 
 static void exchange(char *a, char *b, size_t size) {
