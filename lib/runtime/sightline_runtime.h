@@ -934,7 +934,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                             slrt_section *found) {
     static const struct {
         char tag[5];
-        uint32_t item_bytes;
+        unsigned char item_bytes;
     } known[SLRT_TAGS] = {{"INFO", 128},
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},
@@ -3867,6 +3867,20 @@ static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, dou
     return slrt_side_of_line(left + 16, left, x, y);
 }
 
+/// Whether a line passes between two places of the file (SLRT_ARRIVES), or touches one of them.
+static slrt_finding slrt_passes(const slrt_search *s, const slrt_arm *way,
+                                const unsigned char *right, const unsigned char *left) {
+    const slrt_arm p = slrt_make_arm(s->x, s->y, slrt_f64(right), slrt_f64(right + 8));
+    const int side = slrt_side(way, &p);
+    slrt_arm q;
+    int other;
+    if (side > 0) return SLRT_STOPS;
+    q = slrt_make_arm(s->x, s->y, slrt_f64(left), slrt_f64(left + 8));
+    other = slrt_side(way, &q);
+    if (other < 0) return SLRT_STOPS;
+    return side && other ? SLRT_ARRIVES : SLRT_TOUCHES;
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -3875,11 +3889,10 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
     uint32_t i;
     *touches = false;
     for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
-        const int right = slrt_side(way, &p), left = right > 0 ? -1 : slrt_side(way, &q);
-        if (left < 0) continue;
-        if (left && right) return i;
-        *touches = true;
+        const unsigned char *portal = s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES;
+        const slrt_finding found = slrt_passes(s, way, portal + 24, portal + 8);
+        if (found == SLRT_ARRIVES) return i;
+        if (found == SLRT_TOUCHES) *touches = true;
     }
     return SLRT_NONE;
 }
@@ -3898,18 +3911,13 @@ static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t
     uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
     for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
         const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
-        slrt_arm p, q;
-        int right, left;
+        slrt_finding found;
         out->right = slrt_passage_end(rt, i, 0);
         out->left = slrt_passage_end(rt, i, 1);
-        p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
-        q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
-        right = slrt_side(way, &p);
-        left = slrt_side(way, &q);
-        if (right > 0 || left < 0) continue;
-        if (left && right) out->cell = slrt_u32(at + 8);
-        if (left && right) return;
-        *touches = true;
+        found = slrt_passes(s, way, out->right, out->left);
+        if (found == SLRT_ARRIVES) out->cell = slrt_u32(at + 8);
+        if (found == SLRT_ARRIVES) return;
+        if (found == SLRT_TOUCHES) *touches = true;
     }
 }
 
@@ -4151,28 +4159,33 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
     return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
 }
 
-/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
-/// through a directed portal is one sector. All round from within a cell, each directed portal is
-/// such a piece.
-static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+/// Cuts the view cone into pieces of less than 180 degrees between the arms of `cone`. 0 for a view
+/// all round; `last` is the arm where the last piece ends.
+static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
     const double *right = s->view->right, *left = s->view->left;
-    uint32_t i, pieces = 3, last = 3;
-    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (s->own_count == 1) {
-            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-            return;
-        }
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) return 0;
+    s->cone[0] = slrt_direction(right[0], right[1]);
+    s->cone[1] = slrt_direction(-right[1], right[0]);
+    s->cone[2] = slrt_direction(-right[0], -right[1]);
+    s->cone[3] = slrt_direction(left[0], left[1]);
+    *last = 3;
+    return slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]) ? 1
+                                                                                              : 3;
+}
+
+/// Looks within the view cone, in pieces. The part of a piece that leaves through a directed portal
+/// is one sector. All round from within a cell, each directed portal is such a piece.
+static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+    uint32_t i, last = 0, pieces = slrt_cut_cone(s, &last);
+    if (!pieces && s->own_count == 1) {
+        slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+        return;
+    }
+    if (!pieces) {
         s->cone[0] = slrt_direction(1, 0);
         s->cone[1] = slrt_direction(-1, 1);
         s->cone[2] = slrt_direction(-1, -1);
-        last = 0;
-    } else {
-        s->cone[0] = slrt_direction(right[0], right[1]);
-        s->cone[1] = slrt_direction(-right[1], right[0]);
-        s->cone[2] = slrt_direction(-right[0], -right[1]);
-        s->cone[3] = slrt_direction(left[0], left[1]);
-        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
-            pieces = 1;
+        pieces = 3;
     }
     for (i = 0; i < pieces; i++)
         slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
@@ -5171,20 +5184,6 @@ static void slrt_see_fan(slrt_polygon *p) {
     }
 }
 
-/// Cuts the view cone into sectors of up to 180 degrees between the arms of `cone`, as
-/// slrt_search_cone does. 0 for a view all round; `last` is the arm where the last sector ends.
-static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
-    const double *right = s->view->right, *left = s->view->left;
-    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) return 0;
-    s->cone[0] = slrt_direction(right[0], right[1]);
-    s->cone[1] = slrt_direction(-right[1], right[0]);
-    s->cone[2] = slrt_direction(-right[0], -right[1]);
-    s->cone[3] = slrt_direction(left[0], left[1]);
-    *last = 3;
-    return slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]) ? 1
-                                                                                              : 3;
-}
-
 /// Sees what is in a sector of less than 180 degrees.
 static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
     const slrt_arm a = slrt_border(&p->s, right), b = slrt_border(&p->s, left);
@@ -5204,23 +5203,16 @@ static bool slrt_start_polygon(slrt_polygon *p, const sl_runtime *rt, const sl_r
                                double *points, uint32_t room) {
     // So that no number in units of the range overflows.
     const double least = 1e-100 * (rt->max_x - rt->min_x) + 1e-100 * (rt->max_y - rt->min_y);
+    bool sees;
     memset(p, 0, sizeof *p);
-    p->s.rt = rt;
-    p->s.view = view;
-    p->s.shut = shut;
-    p->s.range = slrt_range(rt, range);
+    sees = slrt_start_search(&p->s, rt, view, shut, range, scratch);
     if (p->s.range > 0 && p->s.range < least) p->s.range = least;
-    p->s.x = slrt_no_dust(view->x);
-    p->s.y = slrt_no_dust(view->y);
-    p->s.eye_cell = sl_runtime_locate(rt, p->s.x, p->s.y);
-    p->s.path = scratch;
     p->s.patience =
         (uint64_t)SLRT_PATIENCE * 16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
     p->fan_last = UINT32_MAX;
     p->points = points;
     p->room = room;
-    return !rt->loose && p->s.eye_cell != SL_RUNTIME_NO_CELL &&
-           !sl_runtime_is_solid(rt, p->s.eye_cell);
+    return sees && !rt->loose;
 }
 
 /// Makes the polygon, after slrt_find_fan. Returns the number of its points.

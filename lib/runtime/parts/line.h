@@ -40,6 +40,20 @@ static int slrt_side_of_portal_line(const sl_runtime *rt, uint32_t directed, dou
     return slrt_side_of_line(left + 16, left, x, y);
 }
 
+/// Whether a line passes between two places of the file (SLRT_ARRIVES), or touches one of them.
+static slrt_finding slrt_passes(const slrt_search *s, const slrt_arm *way,
+                                const unsigned char *right, const unsigned char *left) {
+    const slrt_arm p = slrt_make_arm(s->x, s->y, slrt_f64(right), slrt_f64(right + 8));
+    const int side = slrt_side(way, &p);
+    slrt_arm q;
+    int other;
+    if (side > 0) return SLRT_STOPS;
+    q = slrt_make_arm(s->x, s->y, slrt_f64(left), slrt_f64(left + 8));
+    other = slrt_side(way, &q);
+    if (other < 0) return SLRT_STOPS;
+    return side && other ? SLRT_ARRIVES : SLRT_TOUCHES;
+}
+
 /// The directed portal between whose ends a line leaves a cell, which it has entered likewise;
 /// SLRT_NONE for none. `touches` is set if it then leaves at the end of one.
 static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
@@ -48,11 +62,10 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
     uint32_t i;
     *touches = false;
     for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
-        const int right = slrt_side(way, &p), left = right > 0 ? -1 : slrt_side(way, &q);
-        if (left < 0) continue;
-        if (left && right) return i;
-        *touches = true;
+        const unsigned char *portal = s->rt->directed + (size_t)i * SLRT_DIRECTED_BYTES;
+        const slrt_finding found = slrt_passes(s, way, portal + 24, portal + 8);
+        if (found == SLRT_ARRIVES) return i;
+        if (found == SLRT_TOUCHES) *touches = true;
     }
     return SLRT_NONE;
 }
@@ -71,18 +84,13 @@ static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t
     uint32_t i = slrt_next_way(rt, cell, slrt_first_passage(rt, cell));
     for (; i < rt->passage_count; i = slrt_next_way(rt, cell, i + 1)) {
         const unsigned char *at = rt->passages + (size_t)i * SLRT_PASSAGE_BYTES;
-        slrt_arm p, q;
-        int right, left;
+        slrt_finding found;
         out->right = slrt_passage_end(rt, i, 0);
         out->left = slrt_passage_end(rt, i, 1);
-        p = slrt_make_arm(s->x, s->y, slrt_f64(out->right), slrt_f64(out->right + 8));
-        q = slrt_make_arm(s->x, s->y, slrt_f64(out->left), slrt_f64(out->left + 8));
-        right = slrt_side(way, &p);
-        left = slrt_side(way, &q);
-        if (right > 0 || left < 0) continue;
-        if (left && right) out->cell = slrt_u32(at + 8);
-        if (left && right) return;
-        *touches = true;
+        found = slrt_passes(s, way, out->right, out->left);
+        if (found == SLRT_ARRIVES) out->cell = slrt_u32(at + 8);
+        if (found == SLRT_ARRIVES) return;
+        if (found == SLRT_TOUCHES) *touches = true;
     }
 }
 

@@ -241,20 +241,6 @@ static void slrt_see_fan(slrt_polygon *p) {
     }
 }
 
-/// Cuts the view cone into sectors of up to 180 degrees between the arms of `cone`, as
-/// slrt_search_cone does. 0 for a view all round; `last` is the arm where the last sector ends.
-static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
-    const double *right = s->view->right, *left = s->view->left;
-    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) return 0;
-    s->cone[0] = slrt_direction(right[0], right[1]);
-    s->cone[1] = slrt_direction(-right[1], right[0]);
-    s->cone[2] = slrt_direction(-right[0], -right[1]);
-    s->cone[3] = slrt_direction(left[0], left[1]);
-    *last = 3;
-    return slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]) ? 1
-                                                                                              : 3;
-}
-
 /// Sees what is in a sector of less than 180 degrees.
 static void slrt_see_sector(slrt_polygon *p, uint32_t right, uint32_t left) {
     const slrt_arm a = slrt_border(&p->s, right), b = slrt_border(&p->s, left);
@@ -274,23 +260,16 @@ static bool slrt_start_polygon(slrt_polygon *p, const sl_runtime *rt, const sl_r
                                double *points, uint32_t room) {
     // So that no number in units of the range overflows.
     const double least = 1e-100 * (rt->max_x - rt->min_x) + 1e-100 * (rt->max_y - rt->min_y);
+    bool sees;
     memset(p, 0, sizeof *p);
-    p->s.rt = rt;
-    p->s.view = view;
-    p->s.shut = shut;
-    p->s.range = slrt_range(rt, range);
+    sees = slrt_start_search(&p->s, rt, view, shut, range, scratch);
     if (p->s.range > 0 && p->s.range < least) p->s.range = least;
-    p->s.x = slrt_no_dust(view->x);
-    p->s.y = slrt_no_dust(view->y);
-    p->s.eye_cell = sl_runtime_locate(rt, p->s.x, p->s.y);
-    p->s.path = scratch;
     p->s.patience =
         (uint64_t)SLRT_PATIENCE * 16 * ((uint64_t)rt->directed_count + rt->vertex_count + 16);
     p->fan_last = UINT32_MAX;
     p->points = points;
     p->room = room;
-    return !rt->loose && p->s.eye_cell != SL_RUNTIME_NO_CELL &&
-           !sl_runtime_is_solid(rt, p->s.eye_cell);
+    return sees && !rt->loose;
 }
 
 /// Makes the polygon, after slrt_find_fan. Returns the number of its points.

@@ -102,28 +102,33 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
     return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
 }
 
-/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
-/// through a directed portal is one sector. All round from within a cell, each directed portal is
-/// such a piece.
-static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+/// Cuts the view cone into pieces of less than 180 degrees between the arms of `cone`. 0 for a view
+/// all round; `last` is the arm where the last piece ends.
+static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
     const double *right = s->view->right, *left = s->view->left;
-    uint32_t i, pieces = 3, last = 3;
-    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (s->own_count == 1) {
-            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-            return;
-        }
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) return 0;
+    s->cone[0] = slrt_direction(right[0], right[1]);
+    s->cone[1] = slrt_direction(-right[1], right[0]);
+    s->cone[2] = slrt_direction(-right[0], -right[1]);
+    s->cone[3] = slrt_direction(left[0], left[1]);
+    *last = 3;
+    return slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]) ? 1
+                                                                                              : 3;
+}
+
+/// Looks within the view cone, in pieces. The part of a piece that leaves through a directed portal
+/// is one sector. All round from within a cell, each directed portal is such a piece.
+static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+    uint32_t i, last = 0, pieces = slrt_cut_cone(s, &last);
+    if (!pieces && s->own_count == 1) {
+        slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+        return;
+    }
+    if (!pieces) {
         s->cone[0] = slrt_direction(1, 0);
         s->cone[1] = slrt_direction(-1, 1);
         s->cone[2] = slrt_direction(-1, -1);
-        last = 0;
-    } else {
-        s->cone[0] = slrt_direction(right[0], right[1]);
-        s->cone[1] = slrt_direction(-right[1], right[0]);
-        s->cone[2] = slrt_direction(-right[0], -right[1]);
-        s->cone[3] = slrt_direction(left[0], left[1]);
-        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
-            pieces = 1;
+        pieces = 3;
     }
     for (i = 0; i < pieces; i++)
         slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));

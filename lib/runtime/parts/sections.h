@@ -107,7 +107,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                             slrt_section *found) {
     static const struct {
         char tag[5];
-        uint32_t item_bytes;
+        unsigned char item_bytes;
     } known[SLRT_TAGS] = {{"INFO", 128},
                           {"NODE", SLRT_NODE_BYTES},
                           {"CELL", SLRT_CELL_BYTES},

@@ -11,9 +11,9 @@ const size = (...names) =>
 
 const said = (bytes) => `${bytes} bytes, by zlib ${process.versions.zlib}`
 
-test('the runtime is at most 20 kB', () => {
+test('the runtime is at most 21.5 kB', () => {
   const bytes = size('sightline.js', 'arguments.js', 'host.js', 'level.wasm')
-  assert.ok(bytes <= 20000, said(bytes))
+  assert.ok(bytes <= 21500, said(bytes))
 })
 
 test('the whole library is at most 200 kB', () => {
