@@ -336,7 +336,7 @@ const unsigned char *sl_level_relevant(sl_level *level, const double *players, i
     sl_runtime_box *from = boxes_of(level, players, player_count);
     sl_runtime_box *to = boxes_of(level, things, thing_count);
     uint32_t *scratch = room_for(sl_runtime_relevant_count(&level->runtime, seen), sizeof *scratch);
-    unsigned char *bits = room_for(lookers, ((size_t)seen + 7) / 8);
+    unsigned char *bits = room_for(lookers * (((size_t)seen + 7) / 8), 1);
     const bool fits = from && to && scratch && bits;
     if (fits)
         sl_runtime_relevant(&level->runtime, from, lookers, margin / level->transform.scale, to,
