@@ -154,7 +154,7 @@ void *memchr(const void *bytes, int wanted, size_t count) {
 
 char *__strchrnul(const char *text, int wanted);
 
-/// What strchr() and printf() search by.
+/// strchr() and formatted output search by this.
 char *__strchrnul(const char *text, int wanted) {
     union {
         const char *given;
