@@ -159,6 +159,10 @@ static sl_status begin(app_state *app) {
     SL_TRY(sl_effects_check(app->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
                             "steps and paths lead straight to points, not to mirror "
                             "images"));
+    if (sl_map_steps_differ(map))
+        sl_note(app->context,
+                "some walls stop steps and not sight, or sight and not steps: the heat map goes "
+                "by sight in all measures; 'sightline vga' has paths by steps");
     SL_TRY(sl_query_copy(app->context, app->view.present.query, &layer->graph.query));
     return start(app, layer);
 }

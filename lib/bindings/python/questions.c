@@ -410,6 +410,9 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
     slp_level_forget(level);
     SL_TRY(sl_effects_check(context, &level->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
                             "steps and paths lead straight to points, not to mirror images"));
+    if (sl_map_steps_differ(&level->baked.map))
+        sl_note(context, "some walls stop steps and not sight, or sight and not steps: vga() goes "
+                         "by sight in all measures; 'sightline vga' has paths by steps");
     SL_TRY(slp_level_queries(level, 1));
     SL_TRY(sl_query_outline(context, level->queries.items[0], &outline));
     return fill_and_measure(level, outline, given, seeds, seed_count, from, from_count);
