@@ -85,7 +85,7 @@ EXPORT(int, may_mirror, double x, double y, uint32_t to, const unsigned char *sh
     memset(s.marks, 0, level.cell_count);
     slrt_follow(&s, NULL);
     for (uint32_t i = 0; i < s.own_count; i++)
-        if (slrt_sees(&rows, s.path[i], to, shut)) return true;
+        if (sl_runtime_can_see_past(&rows, s.path[i], to, shut)) return true;
     return false;
 }
 

@@ -11,14 +11,14 @@ const size = (...names) =>
 
 const said = (bytes) => `${bytes} bytes, by zlib ${process.versions.zlib}`
 
-test('the runtime is at most 21.5 kB', () => {
+test('the runtime is at most 22 kB', () => {
   const bytes = size('sightline.js', 'arguments.js', 'host.js', 'level.wasm')
-  assert.ok(bytes <= 21500, said(bytes))
+  assert.ok(bytes <= 22000, said(bytes))
 })
 
-test('the whole library is at most 200 kB', () => {
+test('the whole library is at most 200.5 kB', () => {
   const bytes = size('bake.js', 'arguments.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
-  assert.ok(bytes <= 200000, said(bytes))
+  assert.ok(bytes <= 200500, said(bytes))
 })
 
 test('visibility graph analysis is at most 130 kB', () => {
