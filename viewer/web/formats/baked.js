@@ -8,6 +8,12 @@ export function readBaked(file) {
         special.add(key(points)).add(key([...points.slice(2), ...points.slice(0, 2)]));
         items.push({ kind: 'mirror', points, ...(oneSided.has(i) ? { state: 'one' } : {}) });
     });
+    for (const { segment: p, stops, solid } of file.partial_walls ?? []) {
+        const turned = [...p.slice(2), ...p.slice(0, 2)];
+        special.add(key(p)).add(key(turned)); // those that stop what the bake was for are walls, too
+        items.push({ kind: 'wall', points: solid === 'right' ? turned : p, stops: stops.join(','),
+            ...(solid ? { state: 'solid' } : {}) });
+    }
     const left = new Set(file.solid_walls?.left), right = new Set(file.solid_walls?.right);
     (file.walls ?? []).forEach((p, i) => {
         if (special.has(key(p)) || (left.has(i) && right.has(i))) return;

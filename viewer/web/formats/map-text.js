@@ -9,6 +9,7 @@
  * @property {number[]} points x, y, x, y ...
  * @property {string} [name] of a door, a path or an object
  * @property {string} [state] the word at the end: open, shut, solid, one, both
+ * @property {string} [stops] of a wall: what it stops, such as 'sight,steps'; without it, all
  * @property {number} [heading] of a start @property {number} [value] of range, snap and precision
  * @property {string} [text] of comments and notes
  */
@@ -23,11 +24,14 @@ export class FormatError extends Error {
     }
 }
 
-/** name: a word comes first; points: at least and at most that many; words: what may end it. */
+/**
+ * name: a word comes first; points: at least and at most that many; words: what may end it; stops: before
+ * what it stops, which the core checks.
+ */
 const statements = {
-    wall: { points: [2, 2], words: ['solid'] },
-    walls: { points: [2, Infinity] },
-    solid: { points: [3, Infinity] },
+    wall: { points: [2, 2], words: ['solid'], stops: true },
+    walls: { points: [2, Infinity], stops: true },
+    solid: { points: [3, Infinity], stops: true },
     open: { points: [3, Infinity] },
     door: { name: true, points: [2, 2], words: ['open', 'shut'] },
     mirror: { points: [2, 2], words: ['one', 'both'] },
@@ -59,6 +63,7 @@ function readStatement(words, line) {
     /** @type {Item} */
     const item = { kind, points: [] };
     if (form.name) item.name = rest.shift();
+    if (form.stops && rest[rest.length - 2] === 'stops') item.stops = rest.splice(-2)[1];
     if (form.words?.includes(rest[rest.length - 1])) item.state = rest.pop();
     const numbers = rest.map((word) => readNumber(word, line));
     const wrong = () => new FormatError(`'${kind}' has the wrong number of values`, line);
@@ -105,7 +110,8 @@ export function writeItem(item) {
     for (const value of item.points) text += ` ${value}`;
     if (item.heading !== undefined) text += ` ${item.heading}`;
     if (item.value !== undefined) text += ` ${item.value}`;
-    return item.state ? `${text} ${item.state}` : text;
+    if (item.state) text += ` ${item.state}`;
+    return item.stops ? `${text} stops ${item.stops}` : text;
 }
 
 /** Item i is on line i + 2. @param {Item[]} items @returns {string} */
