@@ -480,9 +480,9 @@ class Lives(unittest.TestCase):
             gc.collect()
             return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
 
-        use()
-        before = use()
-        self.assertLess(use() - before, 1 << 20)
+        # What is lost is lost each time; what the allocator keeps for its threads comes now and then.
+        uses = [use() for _ in range(5)]
+        self.assertLess(min(after - before for before, after in zip(uses, uses[1:])), 1 << 18)
 
     def test_threads_share_one_level(self):
         plan = sightline.Plan.from_file(support.MAPS / "office.map")
