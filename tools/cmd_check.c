@@ -48,7 +48,14 @@ static sl_status examine(sl_context *context, const check_plan *plan, double gap
         return sl_find_faults(context, &c->map, &c->baked.space, &options, &c->faults);
     SL_TRY(sl_map_copy(context, &c->map, &c->counted));
     SL_TRY(sl_map_settle_stops(context, &c->counted, NULL));
-    return sl_find_faults(context, &c->counted, &c->baked.space, &options, &c->faults);
+    SL_TRY(sl_find_faults(context, &c->counted, &c->baked.space, &options, &c->faults));
+    for (uint32_t i = 0; i < c->faults.count;
+         i++) { // snapping moves no wall that does not stop all
+        sl_fault *fault = &c->faults.items[i];
+        for (int k = 0; k < 2 && fault->kind == SL_FAULT_GAP; k++)
+            fault->stays |= fault->walls[k] != UINT32_MAX && fault->walls[k] >= c->map.wall_count;
+    }
+    return SL_OK;
 }
 
 /// Mends a copy of the map as read, and looks at what is left.

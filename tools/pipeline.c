@@ -187,7 +187,10 @@ sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl
     if (pipeline->bake.subdivision && !pipeline->bake.subdivision->takes_cells)
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
-    map->channel = pipeline->stops_text ? UINT32_C(1) << pipeline->stops : pipeline->channel;
+    if (pipeline->stops_text)
+        map->channel = UINT32_C(1) << pipeline->stops;
+    else if (pipeline->channel)
+        map->channel = pipeline->channel;
     sl_effects_leave_out(context, map, pipeline->without);
     return pipeline->settles_doors ? sl_effects_settle_doors(context, map) : SL_OK;
 }
@@ -228,6 +231,9 @@ static sl_status read_map_or_baked(sl_context *context, const map_pipeline *pipe
     SL_TRY(sl_file_read(context, path, &bytes));
     *is_baked = input_is_baked(path, &bytes);
     sl_status status = *is_baked ? input_refuse_options(context, path, input) : SL_OK;
+    if (status == SL_OK && *is_baked && pipeline->stops_text)
+        status = sl_fail(context, SL_BAD_ARGUMENT,
+                         "--stops: %s is baked; the option is for reading a map", path);
     if (status == SL_OK && *is_baked)
         status = input_parse_baked(context, path, &bytes, baked);
     else if (status == SL_OK)

@@ -71,12 +71,6 @@ static void take_note(void *data, const char *message) {
         snprintf(job->notes + used, sizeof job->notes - used, "%s%s", used ? "\n" : "", message);
 }
 
-/// Replaces the walls of a map.
-static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
-    map->wall_count = 0;
-    return sl_map_add_walls(context, map, walls, count);
-}
-
 /// Makes what the plan, the lessons and the eye need of the space.
 static sl_status measure_space(sl_context *context, bake_job *job) {
     const sl_space *space = &job->baked->space;
@@ -93,8 +87,7 @@ static sl_status measure_space(sl_context *context, bake_job *job) {
 /// A baked file has all but the map as drawn: the walls of its space take its place.
 static sl_status read_baked(sl_context *context, bake_job *job) {
     SL_TRY(sl_baked_read(context, job->source.path, job->baked));
-    SL_TRY(sl_map_copy(context, &job->baked->map, &job->map));
-    SL_TRY(set_walls(context, &job->map, job->baked->space.walls, job->baked->space.wall_count));
+    SL_TRY(sl_baked_copy_map(context, job->baked, &job->map));
     job->visibility = job->baked->visibility;
     job->baked->visibility = (sl_visibility){0};
     SL_TRY(measure_space(context, job));

@@ -107,7 +107,8 @@ sl_status sli_slv_things_check_again(sl_context *context, const char *name, cons
     if (status == SL_OK) status = sli_slv_things_make(context, again, &other);
     for (size_t i = 0; i < SLI_SLV_MAP_PARTS && status == SL_OK; i++) {
         const sli_slv_part_of_map *a = &one.parts[i], *b = &other.parts[i];
-        if (a->count != b->count || memcmp(a->items, b->items, (size_t)a->count * a->item_bytes))
+        if (a->count != b->count ||
+            memcmp(a->items, b->items, (size_t)a->count * a->item_bytes) != 0)
             status = sl_fail_at(context, name, 0, "section %s is not that of the map", a->tag);
     }
     sli_slv_things_destroy(context, &one);

@@ -26,9 +26,13 @@ static const struct {
     {"NODG", "44"},
     {"PART", "4444"},
     {"PAEF", "4444"},
+    {"MAPI", "88888"},
     {"DOOR", "444"},
+    {"STRT", "888"},
     {"OBJE", "448888"},
     {"PATH", "4444"},
+    {"PAPO", "88"},
+    {"MIRR", "88888"},
 };
 
 bool sli_slv_is_native(void) {

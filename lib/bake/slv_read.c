@@ -9,6 +9,7 @@
 #include "map/scan.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
+#include "space/walled.h"
 
 #include <math.h>
 #include <string.h>
@@ -520,6 +521,19 @@ static sl_status load_map(const reader *r) {
     return load_things(r);
 }
 
+/// No portal is on a wall that stops what the file is for, and the walls of passages do.
+static sl_status check_channel(const reader *r) {
+    const sl_map *map = &r->out->map;
+    const sl_space *s = &r->out->space;
+    bool sound = !s->passage_count || sl_map_partial_walls(map);
+    for (uint32_t i = 0; i < s->portal_count; i++)
+        sound &= !(sli_portal_stops(map, s, i) & sl_map_channel(map));
+    for (uint32_t i = 0; i < s->passage_count; i++)
+        sound &= (s->passages[i].stops & sl_map_channel(map)) != 0;
+    return sound ? SL_OK
+                 : fail_file(r, "damaged: sections STOP, PASS and CHAN contradict each other");
+}
+
 // --- what is not finished
 
 static bool bits_beyond_are_clear(const sl_partial *partial) {
@@ -658,7 +672,8 @@ static sl_status load_all(reader *r) {
     SL_TRY(check_partial_effects(r));
     SL_TRY(check_seams(r));
     SL_TRY(load_stops(r));
-    return load_channel(r);
+    SL_TRY(load_channel(r));
+    return check_channel(r);
 }
 
 static sl_status parse(sl_context *context, const char *name, const void *bytes, size_t size,

@@ -75,7 +75,8 @@ sli_layer sli_layer_of(sli_word name, sli_word *rest) {
         found = (sli_layer)i;
         longest = length;
     }
-    if (says_stops(name) && !sli_layer_stops(found)) return SLI_LAYER_WRONG;
+    if (says_stops(name) && (!sli_layer_stops(found) || name.length > longest))
+        return SLI_LAYER_WRONG; // such layers have no name behind
     if (rest && found) {
         const size_t behind = longest + (name.length > longest);
         *rest = (sli_word){name.at + behind, name.length - behind};

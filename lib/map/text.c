@@ -654,9 +654,17 @@ static sl_status check_cancelled(text_writer *writer) {
     return ++writer->walls % 1024 ? SL_OK : sl_check_cancelled(writer->context);
 }
 
+static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line);
+
+/// Open ground in walls that do not stop all has no statement: its walls are written one by one.
 static sl_status print_polygon(void *user, const sl_point *corners, size_t count, bool solid,
                                uint32_t line) {
     text_writer *writer = user;
+    if (writer->stops && !solid) {
+        for (size_t i = 0; i < count; i++)
+            SL_TRY(print_solid_wall(user, corners[i], corners[(i + 1) % count], line));
+        return SL_OK;
+    }
     begin(writer, line, solid ? "solid" : "open");
     for (size_t i = 0; i < count; i++) print_point(writer->stream, corners[i]);
     end(writer, line);

@@ -14,8 +14,8 @@
 ///
 /// An open sl_runtime is only read, so any number of threads may use it.
 ///
-/// It needs IEEE doubles. Compiled with -ffast-math, or for x87, it is still safe, but answers are
-/// then exact only up to rounding.
+/// It needs IEEE doubles. Compiled with -ffast-math it is still safe, but answers are then exact
+/// only up to rounding. For x87 it does not compile.
 #ifndef SIGHTLINE_RUNTIME_H
 #define SIGHTLINE_RUNTIME_H
 
@@ -600,7 +600,7 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
 /// box that only touches a wall from behind is not seen through it. A flat box that lies along a
 /// wall or a shut door in part counts as if it stood before it. (The signs are of the third degree.
 /// They are exact if no coordinate but 0 is 1e70 times smaller than another one.) With a range, a
-/// seen box counts if any of its points is within range.
+/// seen box counts if any of its points is within range, or beyond it by at most 1e-12 of it.
 ///
 /// Boxes that block hide each other, as a line may touch a box but not pass its inside. That is
 /// exact too if no two boxes overlap. No box hides another one that it overlaps, which may then
@@ -692,8 +692,9 @@ SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
 /// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
 /// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
 /// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
-/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
-/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight,
+/// and each comes to where it is. Sliding needs coordinates above 1e-130. Otherwise, as of
+/// sl_runtime_can_walk_wide; time: up to 4 times its.
 SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
                                     double x0, double y0, double x1, double y1, uint32_t *scratch,
                                     double *x, double *y);
@@ -1967,8 +1968,9 @@ SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
 
 SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
                                       sl_runtime_name *name, sl_runtime_segment *box) {
-    const unsigned char *item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
+    const unsigned char *item;
     if (object >= runtime->object_count) return false;
+    item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
     *name = slrt_name(runtime, item);
     *box = slrt_segment(item + 8);
     return true;
@@ -1976,8 +1978,9 @@ SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object
 
 SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
                                     uint32_t *point_count) {
-    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    const unsigned char *item;
     if (path >= runtime->path_count) return false;
+    item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
     *name = slrt_name(runtime, item);
     *point_count = slrt_u32(item + 12);
     return true;
@@ -1985,18 +1988,19 @@ SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl
 
 SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
                                            double *points) {
-    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
-    const unsigned char *at = runtime->path_points;
+    const unsigned char *item, *at;
     uint32_t i;
     if (path >= runtime->path_count) return;
-    at += (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
+    item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    at = runtime->path_points + (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
     for (i = 0; i < 2 * slrt_u32(item + 12); i++) points[i] = slrt_f64(at + (size_t)i * 8);
 }
 
 SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
                                       sl_runtime_segment *segment, bool *one_sided) {
-    const unsigned char *item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
+    const unsigned char *item;
     if (mirror >= runtime->mirror_count) return false;
+    item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
     *segment = slrt_segment(item);
     *one_sided = slrt_u64(item + 32) != 0;
     return true;
@@ -2567,9 +2571,9 @@ static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_v
                                void *context) {
     enum { MOST = 128 };
     int32_t stack[MOST];
-    uint32_t count = 1;
+    uint32_t count = 1, steps = 2 * rt->node_count + 1; // no more than a tree has
     stack[0] = rt->root;
-    while (count && count < MOST - 1) {
+    while (count && count < MOST - 1 && steps--) {
         const int32_t child = stack[--count];
         const unsigned char *node;
         int axis;
@@ -2582,7 +2586,7 @@ static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_v
         if (box[axis] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
         if (box[2 + axis] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
     }
-    return !count || slrt_visit_all(rt, visit, context); // the tree is too deep
+    return !count || slrt_visit_all(rt, visit, context); // too deep, or no tree
 }
 
 /// Visits all cells that a box touches, and some that are near: by the grid or the tree, or all if
@@ -2638,170 +2642,6 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
             }
     }
     return count;
-}
-
-// --- Boxes that move: the cells that they lie in
-
-// Memory: the first free entry, the first entry of each cell, the first entry of each box, and the
-// entries. An entry is four numbers: a cell, a box in it, the cell's next entry, the box's next.
-
-#define SLRT_NO_ENTRY   UINT32_MAX
-#define SLRT_EVERYWHERE (UINT32_MAX - 1) ///< in place of a box's first entry: there was no room
-
-enum { SLRT_ENTRY_CELL, SLRT_ENTRY_BOX, SLRT_ENTRY_IN_CELL, SLRT_ENTRY_OF_BOX, SLRT_ENTRY };
-
-static uint32_t *slrt_first_entry(const sl_runtime_boxes *boxes, uint32_t cell) {
-    return boxes->memory + 1 + cell;
-}
-
-static uint32_t *slrt_own_entry(const sl_runtime_boxes *boxes, uint32_t box) {
-    return boxes->memory + 1 + (size_t)boxes->runtime->cell_count + box;
-}
-
-static uint32_t *slrt_entry(const sl_runtime_boxes *boxes, uint32_t entry) {
-    return boxes->memory + 1 + (size_t)boxes->runtime->cell_count + boxes->count +
-           (size_t)SLRT_ENTRY * entry;
-}
-
-SL_RUNTIME_API size_t sl_runtime_boxes_count(const sl_runtime *runtime, uint32_t count,
-                                             uint32_t room) {
-    return 1 + (size_t)runtime->cell_count + count + (size_t)SLRT_ENTRY * room;
-}
-
-SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runtime *runtime,
-                                           sl_runtime_box *list, uint32_t count, uint32_t room,
-                                           uint32_t *memory) {
-    uint32_t i;
-    if (room >= SLRT_EVERYWHERE) room = SLRT_EVERYWHERE - 1;
-    out->runtime = runtime;
-    out->count = count;
-    out->room = room;
-    out->boxes = list;
-    out->memory = memory;
-    memset(memory, 0xff, (1 + (size_t)runtime->cell_count + count) * sizeof *memory);
-    memory[0] = room ? 0 : SLRT_NO_ENTRY;
-    for (i = 0; i < room; i++)
-        slrt_entry(out, i)[SLRT_ENTRY_OF_BOX] = i + 1 < room ? i + 1 : SLRT_NO_ENTRY;
-    for (i = 0; i < count; i++) {
-        memset(&list[i], 0, sizeof list[i]);
-        list[i].min_x = list[i].min_y = 1; // it is nowhere
-    }
-}
-
-/// Takes a box out of its cells.
-static void slrt_take_out(sl_runtime_boxes *boxes, uint32_t box) {
-    uint32_t *own = slrt_own_entry(boxes, box);
-    uint32_t at = *own == SLRT_EVERYWHERE ? SLRT_NO_ENTRY : *own;
-    *own = SLRT_NO_ENTRY;
-    while (at != SLRT_NO_ENTRY) {
-        uint32_t *entry = slrt_entry(boxes, at);
-        uint32_t *link = slrt_first_entry(boxes, entry[SLRT_ENTRY_CELL]);
-        const uint32_t next = entry[SLRT_ENTRY_OF_BOX];
-        while (*link != at) link = &slrt_entry(boxes, *link)[SLRT_ENTRY_IN_CELL];
-        *link = entry[SLRT_ENTRY_IN_CELL];
-        entry[SLRT_ENTRY_OF_BOX] = boxes->memory[0];
-        boxes->memory[0] = at;
-        at = next;
-    }
-}
-
-/// Whether a box without width or height lies on a portal of a cell: not just an end of it.
-static bool slrt_lies_on_portal(const sl_runtime *rt, const sl_runtime_cell *cell,
-                                const double box[4]) {
-    const int axis = box[0] == box[2] ? 0 : 1; // which coordinate is the same in all of the box
-    uint32_t i;
-    if (box[0] == box[2] && box[1] == box[3]) return true;
-    for (i = cell->first_directed; i < cell->first_directed + cell->directed_count; i++) {
-        const sl_runtime_directed_portal portal = sl_runtime_get_directed_portal(rt, i);
-        const double *a = portal.left, *b = portal.right;
-        const double low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
-        const double high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
-        if (a[axis] == box[axis] && b[axis] == box[axis] && low < box[2 + !axis] &&
-            box[!axis] < high)
-            return true;
-    }
-    return false;
-}
-
-/// Whether a box has points within a cell, or lies on one of its portals. To touch a cell is not
-/// enough: a box at a wall is not seen from the wall's other side.
-static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const double box[4]) {
-    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
-    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
-    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
-    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
-    bool left = true, right = true, under = true, over = true, touches = false;
-    if (slrt_is_beside_box(rt, &cell, box)) return false;
-    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
-        const double x = slrt_f64(corner), y = slrt_f64(corner + 8);
-        int k, most = -1;
-        for (k = 0; k < 4 && most <= 0; k++) {
-            const int side =
-                slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]);
-            if (side > most) most = side;
-        }
-        if (most < 0) return false;
-        touches = touches || !most;
-        left = left && x <= box[0];
-        under = under && y <= box[1];
-        right = right && x >= box[2];
-        over = over && y >= box[3];
-    }
-    if (!touches && !left && !right && !under && !over) return true;
-    return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
-}
-
-/// A box that is put into its cells.
-typedef struct slrt_placing {
-    sl_runtime_boxes *boxes;
-    uint32_t box;
-    double at[4];
-} slrt_placing;
-
-/// Puts a box into a cell, if it reaches into it. False if there is no room.
-static bool slrt_put_in_cell(void *context, uint32_t cell) {
-    const slrt_placing *placing = (const slrt_placing *)context;
-    sl_runtime_boxes *boxes = placing->boxes;
-    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, placing->box);
-    const uint32_t free = boxes->memory[0];
-    uint32_t *entry;
-    // The last box that came to a cell is the first in its list: a second bucket has the cell too.
-    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == placing->box)
-        return true;
-    if (!slrt_reaches_into(boxes->runtime, cell, placing->at)) return true;
-    if (free == SLRT_NO_ENTRY) return false;
-    entry = slrt_entry(boxes, free);
-    boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
-    entry[SLRT_ENTRY_CELL] = cell;
-    entry[SLRT_ENTRY_BOX] = placing->box;
-    entry[SLRT_ENTRY_IN_CELL] = *first;
-    entry[SLRT_ENTRY_OF_BOX] = *own;
-    *first = *own = free;
-    return true;
-}
-
-/// Whether a box may be somewhere: its numbers are sound, and in order.
-static bool slrt_is_sound_box(const sl_runtime_box *box) {
-    return slrt_is_coordinate(box->min_x) && slrt_is_coordinate(box->min_y) &&
-           slrt_is_coordinate(box->max_x) && slrt_is_coordinate(box->max_y) &&
-           box->min_x <= box->max_x && box->min_y <= box->max_y;
-}
-
-SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
-                                          const sl_runtime_box *to) {
-    slrt_placing placing;
-    placing.boxes = boxes;
-    placing.box = box;
-    placing.at[0] = to->min_x, placing.at[1] = to->min_y;
-    placing.at[2] = to->max_x, placing.at[3] = to->max_y;
-    boxes->boxes[box] = *to;
-    slrt_take_out(boxes, box);
-    if (!slrt_is_sound_box(to) ||
-        slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
-        return true;
-    slrt_take_out(boxes, box);
-    *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
-    return false;
 }
 
 // --- Portals on seams, and what walls stop that do not stop all
@@ -2904,6 +2744,179 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
         slrt_read_passage(runtime, i, passages[count].right, passages[count].left);
     }
     return count;
+}
+
+// --- Boxes that move: the cells that they lie in
+
+// Memory: the first free entry, the first entry of each cell, the first entry of each box, and the
+// entries. An entry is four numbers: a cell, a box in it, the cell's next entry, the box's next.
+
+#define SLRT_NO_ENTRY   UINT32_MAX
+#define SLRT_EVERYWHERE (UINT32_MAX - 1) ///< in place of a box's first entry: there was no room
+
+enum { SLRT_ENTRY_CELL, SLRT_ENTRY_BOX, SLRT_ENTRY_IN_CELL, SLRT_ENTRY_OF_BOX, SLRT_ENTRY };
+
+static uint32_t *slrt_first_entry(const sl_runtime_boxes *boxes, uint32_t cell) {
+    return boxes->memory + 1 + cell;
+}
+
+static uint32_t *slrt_own_entry(const sl_runtime_boxes *boxes, uint32_t box) {
+    return boxes->memory + 1 + (size_t)boxes->runtime->cell_count + box;
+}
+
+static uint32_t *slrt_entry(const sl_runtime_boxes *boxes, uint32_t entry) {
+    return boxes->memory + 1 + (size_t)boxes->runtime->cell_count + boxes->count +
+           (size_t)SLRT_ENTRY * entry;
+}
+
+SL_RUNTIME_API size_t sl_runtime_boxes_count(const sl_runtime *runtime, uint32_t count,
+                                             uint32_t room) {
+    return 1 + (size_t)runtime->cell_count + count + (size_t)SLRT_ENTRY * room;
+}
+
+SL_RUNTIME_API void sl_runtime_boxes_start(sl_runtime_boxes *out, const sl_runtime *runtime,
+                                           sl_runtime_box *list, uint32_t count, uint32_t room,
+                                           uint32_t *memory) {
+    uint32_t i;
+    if (room >= SLRT_EVERYWHERE) room = SLRT_EVERYWHERE - 1;
+    out->runtime = runtime;
+    out->count = count;
+    out->room = room;
+    out->boxes = list;
+    out->memory = memory;
+    memset(memory, 0xff, (1 + (size_t)runtime->cell_count + count) * sizeof *memory);
+    memory[0] = room ? 0 : SLRT_NO_ENTRY;
+    for (i = 0; i < room; i++)
+        slrt_entry(out, i)[SLRT_ENTRY_OF_BOX] = i + 1 < room ? i + 1 : SLRT_NO_ENTRY;
+    for (i = 0; i < count; i++) {
+        memset(&list[i], 0, sizeof list[i]);
+        list[i].min_x = list[i].min_y = 1; // it is nowhere
+    }
+}
+
+/// Takes a box out of its cells.
+static void slrt_take_out(sl_runtime_boxes *boxes, uint32_t box) {
+    uint32_t *own = slrt_own_entry(boxes, box);
+    uint32_t at = *own == SLRT_EVERYWHERE ? SLRT_NO_ENTRY : *own;
+    *own = SLRT_NO_ENTRY;
+    while (at != SLRT_NO_ENTRY) {
+        uint32_t *entry = slrt_entry(boxes, at);
+        uint32_t *link = slrt_first_entry(boxes, entry[SLRT_ENTRY_CELL]);
+        const uint32_t next = entry[SLRT_ENTRY_OF_BOX];
+        while (*link != at) link = &slrt_entry(boxes, *link)[SLRT_ENTRY_IN_CELL];
+        *link = entry[SLRT_ENTRY_IN_CELL];
+        entry[SLRT_ENTRY_OF_BOX] = boxes->memory[0];
+        boxes->memory[0] = at;
+        at = next;
+    }
+}
+
+/// Whether a box without width or height lies along the segment from a to b: not just on an end.
+static bool slrt_lies_along(const double box[4], const double *a, const double *b) {
+    const int axis = box[0] == box[2] ? 0 : 1; // which coordinate is the same in all of the box
+    const double low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
+    const double high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
+    return a[axis] == box[axis] && b[axis] == box[axis] && low < box[2 + !axis] &&
+           box[!axis] < high;
+}
+
+/// Whether a box without width or height lies on a portal of a cell, or on a wall that steps pass.
+static bool slrt_lies_on_way(const sl_runtime *rt, uint32_t number, const sl_runtime_cell *cell,
+                             const double box[4]) {
+    uint32_t i;
+    if (box[0] == box[2] && box[1] == box[3]) return true;
+    for (i = cell->first_directed; i < cell->first_directed + cell->directed_count; i++) {
+        const sl_runtime_directed_portal portal = sl_runtime_get_directed_portal(rt, i);
+        if (slrt_lies_along(box, portal.left, portal.right)) return true;
+    }
+    i = slrt_next_way(rt, number, slrt_first_passage(rt, number));
+    for (; i < rt->passage_count; i = slrt_next_way(rt, number, i + 1)) {
+        double right[2], left[2];
+        slrt_read_passage(rt, i, right, left);
+        if (slrt_lies_along(box, right, left)) return true;
+    }
+    return false;
+}
+
+/// Whether a box has points within a cell, or lies on one of its portals. To touch a cell is not
+/// enough: a box at a wall is not seen from the wall's other side.
+static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const double box[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
+    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
+    bool left = true, right = true, under = true, over = true, touches = false;
+    if (slrt_is_beside_box(rt, &cell, box)) return false;
+    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
+        const double x = slrt_f64(corner), y = slrt_f64(corner + 8);
+        int k, most = -1;
+        for (k = 0; k < 4 && most <= 0; k++) {
+            const int side =
+                slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]);
+            if (side > most) most = side;
+        }
+        if (most < 0) return false;
+        touches = touches || !most;
+        left = left && x <= box[0];
+        under = under && y <= box[1];
+        right = right && x >= box[2];
+        over = over && y >= box[3];
+    }
+    if (!touches && !left && !right && !under && !over) return true;
+    return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_way(rt, number, &cell, box);
+}
+
+/// A box that is put into its cells.
+typedef struct slrt_placing {
+    sl_runtime_boxes *boxes;
+    uint32_t box;
+    double at[4];
+} slrt_placing;
+
+/// Puts a box into a cell, if it reaches into it. False if there is no room.
+static bool slrt_put_in_cell(void *context, uint32_t cell) {
+    const slrt_placing *placing = (const slrt_placing *)context;
+    sl_runtime_boxes *boxes = placing->boxes;
+    uint32_t *first = slrt_first_entry(boxes, cell), *own = slrt_own_entry(boxes, placing->box);
+    const uint32_t free = boxes->memory[0];
+    uint32_t *entry;
+    // The last box that came to a cell is the first in its list: a second bucket has the cell too.
+    if (*first != SLRT_NO_ENTRY && slrt_entry(boxes, *first)[SLRT_ENTRY_BOX] == placing->box)
+        return true;
+    if (!slrt_reaches_into(boxes->runtime, cell, placing->at)) return true;
+    if (free == SLRT_NO_ENTRY) return false;
+    entry = slrt_entry(boxes, free);
+    boxes->memory[0] = entry[SLRT_ENTRY_OF_BOX];
+    entry[SLRT_ENTRY_CELL] = cell;
+    entry[SLRT_ENTRY_BOX] = placing->box;
+    entry[SLRT_ENTRY_IN_CELL] = *first;
+    entry[SLRT_ENTRY_OF_BOX] = *own;
+    *first = *own = free;
+    return true;
+}
+
+/// Whether a box may be somewhere: its numbers are sound, and in order.
+static bool slrt_is_sound_box(const sl_runtime_box *box) {
+    return slrt_is_coordinate(box->min_x) && slrt_is_coordinate(box->min_y) &&
+           slrt_is_coordinate(box->max_x) && slrt_is_coordinate(box->max_y) &&
+           box->min_x <= box->max_x && box->min_y <= box->max_y;
+}
+
+SL_RUNTIME_API bool sl_runtime_boxes_move(sl_runtime_boxes *boxes, uint32_t box,
+                                          const sl_runtime_box *to) {
+    slrt_placing placing;
+    placing.boxes = boxes;
+    placing.box = box;
+    placing.at[0] = to->min_x, placing.at[1] = to->min_y;
+    placing.at[2] = to->max_x, placing.at[3] = to->max_y;
+    boxes->boxes[box] = *to;
+    slrt_take_out(boxes, box);
+    if (!slrt_is_sound_box(to) ||
+        slrt_visit_near(boxes->runtime, placing.at, slrt_put_in_cell, &placing))
+        return true;
+    slrt_take_out(boxes, box);
+    *slrt_own_entry(boxes, box) = SLRT_EVERYWHERE;
+    return false;
 }
 
 // --- Eye-to-cell: sectors of directions, and how a portal narrows them
@@ -4377,8 +4390,10 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
     s.chosen = s.blockers + boxes->count;
     slrt_look_at_boxes(&s);
     wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
-    for (i = 0; i < boxes->count; i++)
-        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
+    for (i = 0; i < boxes->count; i++) {
+        const uint32_t own = *slrt_own_entry(boxes, i);
+        seen[i] = seen[i] & wanted || own == SLRT_EVERYWHERE || (s.gave_up && own != SLRT_NO_ENTRY);
+    }
     return s.count;
 }
 
@@ -5319,7 +5334,7 @@ static void slrt_stop_at(slrt_disc *d, const double *a, const double *b) {
     int i;
     if (!slrt_is_near(d, a, b, d->radius + 2 * d->slack)) return;
     d->is_near = true;
-    for (i = 0; i < 16; i++) {
+    for (i = 0; i < 40; i++) { // slow where the way grazes an end
         place[0] = d->from[0] + at * d->along[0];
         place[1] = d->from[1] + at * d->along[1];
         distance = slrt_root(slrt_away_from(place, a, b, away));

@@ -806,8 +806,11 @@ static void forget(sl_context *context, sl_map *map) {
     size_t kept = 0;
     sl_free(context, map->interior.places);
     map->interior = (sl_interior){.roomiest = NOWHERE};
-    for (size_t i = 0; i < map->seam_count; i++)
-        if (!map->seams[i].entrance) map->seams[kept++] = map->seams[i];
+    for (size_t i = 0; i < map->seam_count; i++) {
+        if (map->seams[i].entrance && !map->seams[i].stops) continue;
+        map->seams[kept] = map->seams[i];
+        map->seams[kept++].entrance = false;
+    }
     map->seam_count = kept;
 }
 

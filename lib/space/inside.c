@@ -506,7 +506,10 @@ static sl_status leave_out_fenced(const inside *m, uint32_t *reached, bool value
         m->stack[count++] = cell;
     }
     flood(m, fenced, count, BY_STEPS);
+    bool left = false; // else a start is on such ground, or no outline closes it
     for (uint32_t i = 0; i < s->cell_count; i++)
+        left |= !fenced[i] && !m->solid_by[i] && (reached[i] != 0) == value;
+    for (uint32_t i = 0; i < s->cell_count && left; i++)
         if (fenced[i]) reached[i] = !value;
     sl_free(m->context, fenced);
     return SL_OK;

@@ -44,6 +44,11 @@ sl_status sli_check_has_walls(sl_context *context, const sl_map *map) {
     if (map->wall_count) return SL_OK;
     for (size_t i = 0; i < map->seam_count; i++)
         if (map->seams[i].stops & sl_map_channel(map)) return SL_OK;
+    char stops[SL_STOPS_TEXT];
+    sl_stops_write(sl_map_channel(map), stops);
+    if (sl_map_partial_walls(map))
+        return sl_fail_at(context, sli_map_name(map), 0, "no wall stops %s: nothing to subdivide",
+                          stops);
     return sl_fail_at(context, sli_map_name(map), 0, "the map has no walls: nothing to subdivide");
 }
 

@@ -395,6 +395,31 @@ static void a_search_without_end_is_given_up(void **state) {
     sl_context_destroy(context);
 }
 
+/// Both children of each node are the next one: a graph with two to the power of its depth ways.
+static void a_tree_that_is_none_ends(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of(context, SIGHTLINE_SOURCE_DIR "/maps/maze.map");
+    const sl_runtime *r = &f.runtime;
+    assert_true(r->node_count > 100);
+    char *nodes = slv_items(f.bytes, "NODE"), *starts = slv_items(f.bytes, "NODS");
+    for (uint32_t i = 0; i < r->node_count; i++) {
+        const uint32_t next = slv_u32(i + 1 < r->node_count ? i + 1 : UINT32_MAX);
+        for (int k = 0; k < 2; k++) memcpy(nodes + 24 * (size_t)i + 12 + 4 * k, &next, sizeof next);
+    }
+    memset(slv_items(f.bytes, "INFO") + 32, 0, 4);
+    for (size_t i = 0; i < (size_t)r->grid_columns * r->grid_rows; i++)
+        memset(starts + 4 * i, 0, 4);
+    slv_seal(f.bytes, f.size);
+    baked_file_open(&f);
+    uint32_t cells[4];
+    const uint32_t found =
+        sl_runtime_box_cells(r, r->min_x, r->min_y, r->max_x, r->max_y, cells, 4);
+    assert_int_equal(found, r->cell_count);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 /// The file at the end of a page, with none behind it: who reads on ends there, in every build.
 static sl_runtime_status open_before_a_gap(const char *bytes, size_t size) {
     const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (size / page + 1) * page;
@@ -576,6 +601,7 @@ int main(void) {
         cmocka_unit_test(the_version_says_what_locates_points),
         cmocka_unit_test(unknown_sections_are_passed_over),
         cmocka_unit_test(a_search_without_end_is_given_up),
+        cmocka_unit_test(a_tree_that_is_none_ends),
         cmocka_unit_test(an_empty_section_at_the_end_is_not_read),
         cmocka_unit_test(what_is_told_of_rows_changes_no_answer),
         cmocka_unit_test(no_polygon_has_a_point_that_is_no_number),

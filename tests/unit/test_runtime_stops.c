@@ -249,6 +249,39 @@ static void test_long_way(void **state) {
 }
 
 /// Each field of the sections with values that make no sense, with the checksum right.
+/// A flat box in a curtain stops who walks through it, at any angle.
+static void test_box_in_curtain(void **state) {
+    (void)state;
+    static const char *const rooms[] = {
+        "walls 0 0 10 0 10 10 0 10 0 0\nwall 5 0 5 10 stops sight\n",
+        "walls 0 0 10 0 10 10 1 9 0 0\nwall 5 0 5 9 stops sight\n"};
+    for (int i = 0; i < 2; i++) {
+        sl_context *context = testing_context(NULL);
+        baked_file f = baked_file_of_text(context, rooms[i]);
+        sl_runtime_box list[1], box = {5, 4, 5, 6, true};
+        sl_runtime_boxes boxes;
+        const size_t size = sl_runtime_boxes_count(&f.runtime, 1, 8);
+        uint32_t *memory = malloc(size * sizeof *memory);
+        uint32_t *scratch = malloc(sl_runtime_scratch_count(&f.runtime) * sizeof *scratch);
+        assert_true(memory && scratch);
+        sl_runtime_boxes_start(&boxes, &f.runtime, list, 1, 8, memory);
+        const sl_runtime_walker walker = {0, NULL, &boxes, SL_RUNTIME_NO_BOX};
+        for (int here = 0; here < 2; here++) {
+            assert_int_equal(
+                sl_runtime_can_walk_past_boxes(&boxes, 2, 5, 8, 5, NULL, SL_RUNTIME_NO_BOX), !here);
+            assert_int_equal(sl_runtime_can_walk_wide(&f.runtime, &walker, 2, 5, 8, 5, scratch),
+                             !here);
+            assert_true(
+                sl_runtime_can_walk_past_boxes(&boxes, 2, 3, 8, 3, NULL, SL_RUNTIME_NO_BOX));
+            assert_true(sl_runtime_boxes_move(&boxes, 0, &box));
+        }
+        free(memory);
+        free(scratch);
+        baked_file_destroy(context, &f);
+        sl_context_destroy(context);
+    }
+}
+
 static void test_damaged(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -302,9 +335,8 @@ static void test_damaged(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axial),
-        cmocka_unit_test(test_oblique),
-        cmocka_unit_test(test_long_way),
+        cmocka_unit_test(test_axial),    cmocka_unit_test(test_oblique),
+        cmocka_unit_test(test_long_way), cmocka_unit_test(test_box_in_curtain),
         cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

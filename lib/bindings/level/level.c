@@ -88,7 +88,6 @@ static sl_level *open_own(unsigned char *bytes, size_t size) {
     level->bytes = bytes;
     const sl_runtime_status status = sl_runtime_open(bytes, size, &level->runtime);
     if (status != SL_RUNTIME_OK) {
-        level->runtime.door_count = 0;
         sl_level_close(level);
         return fail(sl_runtime_status_text(status));
     }
@@ -103,8 +102,8 @@ static sl_level *open_own(unsigned char *bytes, size_t size) {
 sl_level *sl_level_open(const void *bytes, size_t size) {
     unsigned char *copy = room_for(size, 1);
     if (!copy) return fail("out of memory");
-    if (size) memcpy(copy, bytes, size);
-    return open_own(copy, size);
+    if (bytes && size) memcpy(copy, bytes, size);
+    return open_own(copy, bytes ? size : 0);
 }
 
 /// Reads a file to its end, for pipes too.
@@ -119,9 +118,10 @@ static unsigned char *read_file(FILE *file, size_t *size) {
         if (!more) free(bytes);
         bytes = more;
     }
-    if (bytes && !ferror(file)) return bytes;
+    if (!bytes) return fail("out of memory");
+    if (!ferror(file)) return bytes;
     free(bytes);
-    return fail(bytes ? "cannot be read" : "out of memory");
+    return fail("cannot be read");
 }
 
 sl_level *sl_level_open_file(const char *name) {
@@ -336,7 +336,7 @@ const unsigned char *sl_level_relevant(sl_level *level, const double *players, i
     sl_runtime_box *from = boxes_of(level, players, player_count);
     sl_runtime_box *to = boxes_of(level, things, thing_count);
     uint32_t *scratch = room_for(sl_runtime_relevant_count(&level->runtime, seen), sizeof *scratch);
-    unsigned char *bits = room_for(lookers * (((size_t)seen + 7) / 8), 1);
+    unsigned char *bits = room_for(lookers, (size_t)seen / 8 + 1);
     const bool fits = from && to && scratch && bits;
     if (fits)
         sl_runtime_relevant(&level->runtime, from, lookers, margin / level->transform.scale, to,

@@ -14,8 +14,8 @@
 ///
 /// An open sl_runtime is only read, so any number of threads may use it.
 ///
-/// It needs IEEE doubles. Compiled with -ffast-math, or for x87, it is still safe, but answers are
-/// then exact only up to rounding.
+/// It needs IEEE doubles. Compiled with -ffast-math it is still safe, but answers are then exact
+/// only up to rounding. For x87 it does not compile.
 #ifndef SIGHTLINE_RUNTIME_H
 #define SIGHTLINE_RUNTIME_H
 
@@ -600,7 +600,7 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
 /// box that only touches a wall from behind is not seen through it. A flat box that lies along a
 /// wall or a shut door in part counts as if it stood before it. (The signs are of the third degree.
 /// They are exact if no coordinate but 0 is 1e70 times smaller than another one.) With a range, a
-/// seen box counts if any of its points is within range.
+/// seen box counts if any of its points is within range, or beyond it by at most 1e-12 of it.
 ///
 /// Boxes that block hide each other, as a line may touch a box but not pass its inside. That is
 /// exact too if no two boxes overlap. No box hides another one that it overlaps, which may then
@@ -692,8 +692,9 @@ SL_RUNTIME_API bool sl_runtime_can_walk_wide(const sl_runtime *runtime,
 /// It never passes what stops it, and passes nothing nearer than the radius. It comes to rest at
 /// most 6e-14 of the map's largest coordinates, x plus y, and the radius farther off. Who already
 /// stands nearer to something may move away from it or along it, not nearer. Who stands on a wall,
-/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight.
-/// Otherwise, as of sl_runtime_can_walk_wide; time: up to 4 times its.
+/// or on or in a box, stays. A point (radius 0) comes to each place that it can walk to straight,
+/// and each comes to where it is. Sliding needs coordinates above 1e-130. Otherwise, as of
+/// sl_runtime_can_walk_wide; time: up to 4 times its.
 SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_walker *walker,
                                     double x0, double y0, double x1, double y1, uint32_t *scratch,
                                     double *x, double *y);

@@ -63,20 +63,29 @@ static void slrt_take_out(sl_runtime_boxes *boxes, uint32_t box) {
     }
 }
 
-/// Whether a box without width or height lies on a portal of a cell: not just an end of it.
-static bool slrt_lies_on_portal(const sl_runtime *rt, const sl_runtime_cell *cell,
-                                const double box[4]) {
+/// Whether a box without width or height lies along the segment from a to b: not just on an end.
+static bool slrt_lies_along(const double box[4], const double *a, const double *b) {
     const int axis = box[0] == box[2] ? 0 : 1; // which coordinate is the same in all of the box
+    const double low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
+    const double high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
+    return a[axis] == box[axis] && b[axis] == box[axis] && low < box[2 + !axis] &&
+           box[!axis] < high;
+}
+
+/// Whether a box without width or height lies on a portal of a cell, or on a wall that steps pass.
+static bool slrt_lies_on_way(const sl_runtime *rt, uint32_t number, const sl_runtime_cell *cell,
+                             const double box[4]) {
     uint32_t i;
     if (box[0] == box[2] && box[1] == box[3]) return true;
     for (i = cell->first_directed; i < cell->first_directed + cell->directed_count; i++) {
         const sl_runtime_directed_portal portal = sl_runtime_get_directed_portal(rt, i);
-        const double *a = portal.left, *b = portal.right;
-        const double low = a[!axis] < b[!axis] ? a[!axis] : b[!axis];
-        const double high = a[!axis] < b[!axis] ? b[!axis] : a[!axis];
-        if (a[axis] == box[axis] && b[axis] == box[axis] && low < box[2 + !axis] &&
-            box[!axis] < high)
-            return true;
+        if (slrt_lies_along(box, portal.left, portal.right)) return true;
+    }
+    i = slrt_next_way(rt, number, slrt_first_passage(rt, number));
+    for (; i < rt->passage_count; i = slrt_next_way(rt, number, i + 1)) {
+        double right[2], left[2];
+        slrt_read_passage(rt, i, right, left);
+        if (slrt_lies_along(box, right, left)) return true;
     }
     return false;
 }
@@ -106,7 +115,7 @@ static bool slrt_reaches_into(const sl_runtime *rt, uint32_t number, const doubl
         over = over && y >= box[3];
     }
     if (!touches && !left && !right && !under && !over) return true;
-    return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_portal(rt, &cell, box);
+    return (box[0] == box[2] || box[1] == box[3]) && slrt_lies_on_way(rt, number, &cell, box);
 }
 
 /// A box that is put into its cells.

@@ -75,7 +75,7 @@ static void slrt_stop_at(slrt_disc *d, const double *a, const double *b) {
     int i;
     if (!slrt_is_near(d, a, b, d->radius + 2 * d->slack)) return;
     d->is_near = true;
-    for (i = 0; i < 16; i++) {
+    for (i = 0; i < 40; i++) { // slow where the way grazes an end
         place[0] = d->from[0] + at * d->along[0];
         place[1] = d->from[1] + at * d->along[1];
         distance = slrt_root(slrt_away_from(place, a, b, away));

@@ -175,9 +175,9 @@ static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_v
                                void *context) {
     enum { MOST = 128 };
     int32_t stack[MOST];
-    uint32_t count = 1;
+    uint32_t count = 1, steps = 2 * rt->node_count + 1; // no more than a tree has
     stack[0] = rt->root;
-    while (count && count < MOST - 1) {
+    while (count && count < MOST - 1 && steps--) {
         const int32_t child = stack[--count];
         const unsigned char *node;
         int axis;
@@ -190,7 +190,7 @@ static bool slrt_visit_by_tree(const sl_runtime *rt, const double box[4], slrt_v
         if (box[axis] <= slrt_f64(node)) stack[count++] = slrt_i32(node + 12);
         if (box[2 + axis] >= slrt_f64(node)) stack[count++] = slrt_i32(node + 16);
     }
-    return !count || slrt_visit_all(rt, visit, context); // the tree is too deep
+    return !count || slrt_visit_all(rt, visit, context); // too deep, or no tree
 }
 
 /// Visits all cells that a box touches, and some that are near: by the grid or the tree, or all if

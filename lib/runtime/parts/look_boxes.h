@@ -89,8 +89,10 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
     s.chosen = s.blockers + boxes->count;
     slrt_look_at_boxes(&s);
     wanted = s.is_hidden ? SLRT_BOX_SEEN : SLRT_BOX_SEEN | SLRT_BOX_PAST_WALLS;
-    for (i = 0; i < boxes->count; i++)
-        seen[i] = s.gave_up || seen[i] & wanted || *slrt_own_entry(boxes, i) == SLRT_EVERYWHERE;
+    for (i = 0; i < boxes->count; i++) {
+        const uint32_t own = *slrt_own_entry(boxes, i);
+        seen[i] = seen[i] & wanted || own == SLRT_EVERYWHERE || (s.gave_up && own != SLRT_NO_ENTRY);
+    }
     return s.count;
 }
 

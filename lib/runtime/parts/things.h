@@ -83,8 +83,9 @@ SL_RUNTIME_API bool sl_runtime_start(const sl_runtime *runtime, uint32_t start,
 
 SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object,
                                       sl_runtime_name *name, sl_runtime_segment *box) {
-    const unsigned char *item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
+    const unsigned char *item;
     if (object >= runtime->object_count) return false;
+    item = runtime->objects + (size_t)object * SLRT_OBJECT_BYTES;
     *name = slrt_name(runtime, item);
     *box = slrt_segment(item + 8);
     return true;
@@ -92,8 +93,9 @@ SL_RUNTIME_API bool sl_runtime_object(const sl_runtime *runtime, uint32_t object
 
 SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl_runtime_name *name,
                                     uint32_t *point_count) {
-    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    const unsigned char *item;
     if (path >= runtime->path_count) return false;
+    item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
     *name = slrt_name(runtime, item);
     *point_count = slrt_u32(item + 12);
     return true;
@@ -101,18 +103,19 @@ SL_RUNTIME_API bool sl_runtime_path(const sl_runtime *runtime, uint32_t path, sl
 
 SL_RUNTIME_API void sl_runtime_path_points(const sl_runtime *runtime, uint32_t path,
                                            double *points) {
-    const unsigned char *item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
-    const unsigned char *at = runtime->path_points;
+    const unsigned char *item, *at;
     uint32_t i;
     if (path >= runtime->path_count) return;
-    at += (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
+    item = runtime->paths + (size_t)path * SLRT_PATH_BYTES;
+    at = runtime->path_points + (size_t)slrt_u32(item + 8) * SLRT_VERTEX_BYTES;
     for (i = 0; i < 2 * slrt_u32(item + 12); i++) points[i] = slrt_f64(at + (size_t)i * 8);
 }
 
 SL_RUNTIME_API bool sl_runtime_mirror(const sl_runtime *runtime, uint32_t mirror,
                                       sl_runtime_segment *segment, bool *one_sided) {
-    const unsigned char *item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
+    const unsigned char *item;
     if (mirror >= runtime->mirror_count) return false;
+    item = runtime->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES;
     *segment = slrt_segment(item);
     *one_sided = slrt_u64(item + 32) != 0;
     return true;

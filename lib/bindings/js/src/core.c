@@ -200,6 +200,8 @@ SLI_EXPORT(int, map_check, const char *name, const char *text, size_t size, doub
     sl_baked baked = {0};
     sl_faults faults = {0};
     sl_status status = read_map(name, text, size, &map);
+    map.channel = SL_STOPS_STEPS; // a window keeps a room closed, a curtain does not
+    if (status == SL_OK) status = sl_map_settle_stops(sli_module.context, &map, NULL);
     if (status == SL_OK) status = check_map(&map, &baked, &copy, &faults, gap, thin);
     sl_faults_destroy(sli_module.context, &faults);
     sl_baked_destroy(sli_module.context, &baked);
