@@ -2,7 +2,7 @@
 #define SIGHTLINE_LEVEL_BUILDS
 #include "sightline_level.h"
 
-#define SL_RUNTIME_API static
+#define SL_RUNTIME_API static inline // some calls are not asked here
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
