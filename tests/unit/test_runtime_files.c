@@ -522,6 +522,7 @@ static void make_rows(sl_context *context, sl_random *random, uint32_t cells, to
     memcpy(t->offsets, t->pvs.offsets, (cells + 1) * sizeof *t->offsets);
     sli_slv_order("PVSO", 8, t->offsets, cells + 1);
     sli_slv_order("PVSP", 8, t->parts, cells);
+    free(rows);
     free(set);
     t->runtime.cell_count = cells;
     t->runtime.row_offsets = (unsigned char *)t->offsets;
